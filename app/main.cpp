@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "app/command.h"
+
+#include <cstdio>
+#include <exception>
+
+namespace limn {
+
+Exit failed(const std::string& message) {
+    std::fprintf(stderr, "limn: %s\n", message.c_str());
+    return Exit::Failed;
+}
+
+static int runLimn(int argc, char** argv) {
+    CLI::App app("Limn, an editor for light", "limn");
+    app.require_subcommand(1);
+    Run run;
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? int(Exit::Done) : int(Exit::Usage);
+    }
+    return int(run());
+}
+
+} // namespace limn
+
+int main(int argc, char** argv) {
+    try {
+        return limn::runLimn(argc, argv);
+    } catch (const std::exception& e) { // device lost, out of memory
+        return int(limn::failed(e.what()));
+    }
+}

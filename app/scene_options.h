@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/scene/gltf_import.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// SCENE|PROJECT and the flags that bake, render and reference share for lights and sky.
+struct SceneOptions {
+    std::string scene;
+    std::vector<std::string> lights;
+    std::string sky;
+};
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// Imports, adds the lights and the sky, logs the repairs.
+Result<ImportedScene> openScene(const SceneOptions& options);
+
+struct CameraOptions {
+    std::optional<std::string> name;
+    std::vector<float> eye, target; ///< x,y,z
+    std::optional<float> fovDegrees; ///< vertical
+    std::uint32_t width = 1280, height = 720;
+};
+void addCameraOptions(CLI::App& command, CameraOptions& options);
+
+/// Fails when the named camera does not exist.
+Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options);
+
+/// The folder of sample projects: $LIMN_PROJECTS, else beside the executable's source tree.
+std::string projectsFolder();
+
+} // namespace limn

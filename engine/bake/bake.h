@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/lightmap_layout.h"
+#include "engine/core/progress.h"
+#include "engine/core/result.h"
+#include "engine/scene/scene.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace limn {
+
+/// Sample points of the static surfaces that stand for all bounced light. Structure of arrays, world space.
+struct Surfels {
+    std::vector<glm::vec3> position;
+    std::vector<glm::vec3> normal;       ///< unit; the side it stands for
+    std::vector<float> area;             ///< [m^2], > 0; they sum to the area of the lit sides
+    std::vector<std::uint32_t> instance; ///< index into Scene::instances
+    std::vector<std::uint32_t> triangle; ///< of the instance's mesh
+    std::vector<glm::vec2> barycentric;  ///< (u, v), weights (1-u-v, u, v)
+    /// Where it reads bounced light: four caches with bilinear weights; ~0: none.
+    std::vector<glm::uvec4> cache;
+    std::vector<glm::vec4> cacheWeight;
+
+    std::size_t size() const { return position.size(); }
+    bool operator==(const Surfels&) const = default;
+};
+
+/// The senders as one binary forest-free tree. Nodes [0, surfels) are the surfels, then [surfels, surfels + sky)
+/// the sky cells, then inner nodes, every parent after its children; the last node is the root.
+struct ClusterTree {
+    std::uint32_t surfels = 0, skyCells = 0;
+    std::vector<std::uint32_t> left, right; ///< per inner node, children; index - (surfels + skyCells)
+    std::vector<float> leftWeight;          ///< A_left / (A_left + A_right)
+    std::vector<std::uint32_t> parent;      ///< per node; the root's is ~0
+    std::vector<glm::vec3> skyDirection;    ///< unit, per sky cell
+
+    std::uint32_t leaves() const { return surfels + skyCells; }
+    std::uint32_t size() const { return leaves() + std::uint32_t(left.size()); }
+    bool operator==(const ClusterTree&) const = default;
+};
+
+/// One link, runtime projection: `node` sends its radiosity B to the cache through a cone.
+/// The cache's SH grow by B * transport * cone(u, direction) / (cone's solid angle).
+struct Link {
+    std::uint32_t node;
+    std::uint16_t octX, octY;  ///< direction to the sender, octahedral, 16-bit snorm
+    std::uint16_t u;           ///< half: 1 - cos of the cone's half-angle
+    std::uint16_t transport;   ///< half: visible solid angle / pi [1]
+
+    bool operator==(const Link&) const = default;
+};
+static_assert(sizeof(Link) == 12);
+
+/// Where radiance is gathered: texels of the lightmap first, then cells of the grid.
+struct Caches {
+    std::uint32_t lightmapCount = 0;
+    std::vector<glm::vec3> position; ///< world
+    std::vector<glm::vec3> normal;   ///< unit; of the hemisphere seen. Sphere caches: 0
+    std::vector<std::uint32_t> texel; ///< lightmap: y * width + x; grid: cell index
+    std::vector<std::uint32_t> linkBegin; ///< size()+1 offsets into `links`
+    std::vector<Link> links;
+    /// An invalid cache has no links and copies these valid ones, weights summing to 1; fillBegin has size()+1 offsets.
+    std::vector<std::uint32_t> fillBegin;
+    std::vector<std::uint32_t> fillSource;
+    std::vector<float> fillWeight;
+
+    std::size_t size() const { return position.size(); }
+    bool operator==(const Caches&) const = default;
+};
+
+struct BakeCounts {
+    std::uint64_t triangles = 0, surfels = 0, clusters = 0, caches = 0, invalidCaches = 0, links = 0, rays = 0;
+    bool operator==(const BakeCounts&) const = default;
+};
+
+/// Everything relighting needs. Same document, same bytes, at any number of threads.
+struct Bake {
+    BakeSettings settings;
+    std::uint64_t sceneHash = 0; ///< bakeInputHash of what it was made from
+    LightmapLayout lightmap;
+    glm::uvec3 gridSize{0};
+    Bounds gridBounds;
+    Surfels surfels;
+    ClusterTree tree;
+    Caches caches;
+    BakeCounts counts;
+    std::vector<std::pair<std::string, double>> seconds; ///< per stage in order; not part of the hash
+
+    /// Of everything but `seconds`.
+    std::uint64_t hash() const;
+};
+
+struct BakeBytes {
+    std::uint64_t surfels = 0, clusters = 0, links = 0, caches = 0;
+    std::uint64_t total() const { return surfels + clusters + links + caches; }
+};
+BakeBytes bytesOf(const Bake& bake);
+
+/// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Not lights, albedo, emission.
+std::uint64_t bakeInputHash(const Scene& scene);
+
+/// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").
+/// Stages reported: charts, surfels, clusters, caches, trace, cut.
+Result<Bake> bake(const TraceScene& trace, const Progress& progress = {});
+
+} // namespace limn

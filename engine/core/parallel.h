@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+
+#include <cstddef>
+#include <functional>
+
+namespace limn {
+
+/// Calls body(begin, end) over disjoint ranges that cover [0, count), on oneTBB's threads.
+/// `grain` is the smallest range worth a task. Bodies write only to their own range, so results do
+/// not depend on the number of threads.
+void parallelRanges(std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// The same with progress of `stage` and cancellation between ranges of `grain` items.
+/// Returns false when cancelled; the work is then incomplete.
+bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progress,
+                    const char* stage,
+                    const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Limits oneTBB to `threads` (0: all of the machine's) for as long as the object lives.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(int threads);
+    ~ThreadLimit();
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+private:
+    struct Control;
+    Control* m_control;
+};
+
+} // namespace limn

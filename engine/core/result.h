@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <tl/expected.hpp>
+
+namespace limn {
+
+/// A failure the caller is expected to handle. The message names the file and the field at fault.
+struct Error {
+    std::string message;
+};
+
+/// A value, or the reason there is none.
+template <class T> using Result = tl::expected<T, Error>;
+
+/// `return fail("cannot open {}", path)` is written `return fail(fmt::format(...))`.
+inline tl::unexpected<Error> fail(std::string message) {
+    return tl::make_unexpected(Error{std::move(message)});
+}
+
+} // namespace limn

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/lightmap_layout.h"
+#include "engine/core/result.h"
+#include "engine/relight/indirect_field.h"
+#include "engine/scene/view.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+namespace limn {
+
+namespace gpu {
+class Device;
+}
+
+struct ViewportOptions {
+    View view = View::Lit;
+    Camera camera;
+    std::uint32_t width = 1280, height = 720;
+    Tonemap tonemap = Tonemap::Aces;
+    float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
+};
+
+struct ViewportStats {
+    double uploadMs = 0, shadowMs = 0, shadeMs = 0, totalMs = 0; ///< of the last frame, wall clock
+    std::uint32_t shadowMapsDrawn = 0;                           ///< 0 when no light or object changed
+    std::uint64_t gpuBytes = 0;
+};
+
+/// The Vulkan viewport, headless and windowed alike: it renders into its own images.
+/// Uploads only what changed since the last call.
+class Viewport {
+public:
+    explicit Viewport(gpu::Device& device);
+    ~Viewport();
+
+    /// Geometry, textures, instance transforms. `layout` null: no bake yet, so no lightmap (indirect light is 0).
+    /// Cheap when assets and layout pointers are those of the last call and only transforms differ.
+    void setScene(const Scene& scene, std::shared_ptr<const LightmapLayout> layout);
+
+    /// Lights, materials' factors and sky: cheap, every frame if need be.
+    void setLighting(const Scene& scene);
+
+    /// Indirect light; uploads only if `field.version` is new.
+    void setIndirect(const IndirectField& field);
+
+    /// Records and submits one frame to the viewport's own colour target, tone-mapped 8-bit sRGB-encoded.
+    void render(const ViewportOptions& options);
+
+    /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL, for ImGui::Image.
+    VkImageView colorView() const;
+
+    /// The linear, scene-referred result of the last render(). Waits for the GPU.
+    ImageF readLinear();
+    /// The tone-mapped result, RGBA8, as on screen. Waits for the GPU.
+    Image readTonemapped();
+
+    const ViewportStats& stats() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace limn

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// A perspective camera in world space.
+struct Camera {
+    std::string name = "Camera";
+    glm::vec3 eye{0, 1, 3};
+    glm::vec3 target{0};   ///< a point on the optical axis
+    glm::vec3 up{0, 1, 0}; ///< unit
+    float fovY = 0.9f;     ///< vertical field of view [rad]
+
+    bool operator==(const Camera&) const = default;
+};
+
+/// World to view; the view looks down -Z. Robust when `up` is parallel to the view direction.
+glm::mat4 viewMatrix(const Camera& camera);
+
+/// Reverse-free projection, depth [0, 1], y up in clip space (Vulkan callers flip the viewport).
+glm::mat4 projectionMatrix(const Camera& camera, float aspect, float zNear, float zFar);
+
+/// Unnormalised world direction through the pixel-plane point ndc in [-1, 1]^2, y up.
+glm::vec3 rayDirection(const Camera& camera, float aspect, float ndcX, float ndcY);
+
+} // namespace limn

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/bake_settings.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/light.h"
+#include "engine/scene/material.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+using ObjectId = std::uint32_t; ///< Never reused within a document; 0: none.
+
+struct Transform {
+    glm::vec3 translation{0};
+    glm::quat rotation{1, 0, 0, 0}; ///< w, x, y, z; unit
+    glm::vec3 scale{1};             ///< may be negative, not 0
+
+    bool operator==(const Transform&) const = default;
+};
+
+glm::mat4 matrix(const Transform& t);
+
+/// A node of the tree; carries meshes when it is an instance.
+struct Node {
+    std::string name;
+    ObjectId parent = 0; ///< 0: a root. The tree has no cycles.
+    Transform transform; ///< to the parent's space
+    std::vector<std::uint32_t> meshes; ///< indices into Assets::meshes
+    bool visible = true;
+    bool dynamic = false; ///< lit from the grid, sends no bounced light
+
+    bool operator==(const Node&) const = default;
+};
+
+/// A material object. Mesh::material names Material objects by their order of id.
+/// (Material itself is in material.h.)
+
+/// Constant sky. One per document.
+struct Sky {
+    glm::vec3 radiance{0}; ///< [nits], linear
+
+    bool operator==(const Sky&) const = default;
+};
+
+using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings>;
+
+/// Everything a user can edit. A plain value; heavy, immutable data is in Assets.
+struct Document {
+    std::string scenePath; ///< glTF file, as opened; the project file stores it relative to itself
+    std::uint64_t sceneHash = 0; ///< of the glTF's content (main file and buffers)
+    std::map<ObjectId, Object> objects;
+    ObjectId nextId = 1;
+
+    bool operator==(const Document&) const = default;
+};
+
+/// Adds `object` under a fresh id.
+ObjectId addObject(Document& document, Object object);
+
+/// The single object of type T (Sky, BakeSettings), or T's defaults where the document has none.
+template <class T> T singleton(const Document& document) {
+    for (const auto& [id, object] : document.objects)
+        if (const T* t = std::get_if<T>(&object))
+            return *t;
+    return {};
+}
+
+/// The display name; "Sky" and "Bake settings" for those without one.
+std::string objectName(const Object& object);
+
+} // namespace limn

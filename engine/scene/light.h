@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+enum class LightKind : std::uint8_t { Directional, Point, Spot };
+
+/// A light in world space. Photometric numbers are used as radiometric ones, without a 683 factor.
+struct Light {
+    std::string name = "Light";
+    LightKind kind = LightKind::Point;
+    bool enabled = true;
+    glm::vec3 position{0};         ///< [m]; ignored by Directional
+    glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels; ignored by Point
+    glm::vec3 color{1};            ///< linear Rec. 709, >= 0
+    float strength = 100;          ///< Directional: irradiance [lux]. Point, Spot: intensity [cd]. >= 0
+    float range = 0;               ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of KHR_lights_punctual
+    float innerAngle = 0;          ///< Spot: half-angle of full strength [rad]
+    float outerAngle = 0.7853982f; ///< Spot: half-angle where it ends [rad], (innerAngle, pi/2]
+
+    bool operator==(const Light&) const = default;
+};
+
+/// What a light sends to a point, without shadow.
+struct LightSample {
+    glm::vec3 irradiance{0}; ///< on a plane facing the light [W m^-2]; multiply by cos
+    glm::vec3 toLight{0};    ///< unit
+    float distance = 0;      ///< [m]; infinity for Directional
+};
+
+/// Strength of `light` at world point `p`. Zero irradiance when out of range, off, outside the cone, or at d = 0.
+LightSample sampleLight(const Light& light, glm::vec3 p);
+
+} // namespace limn

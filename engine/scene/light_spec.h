@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/scene/document.h"
+
+#include <string_view>
+
+namespace limn {
+
+/// `sun dir=x,y,z lux=E`, `point pos=x,y,z cd=I`, `spot pos= dir= cd= inner=DEG outer=DEG`,
+/// each with optional `color=r,g,b` and `name=`. Fails naming the word it did not understand.
+Result<Light> parseLight(std::string_view spec);
+
+/// `r,g,b` [nits].
+Result<Sky> parseSky(std::string_view spec);
+
+} // namespace limn

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/document.h"
+#include "engine/scene/image.h"
+#include "engine/scene/mesh.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace limn {
+
+/// What a glTF file brings that nobody edits. Shared and immutable after import.
+struct Assets {
+    std::vector<Mesh> meshes;
+    std::vector<Image> images;
+};
+
+/// One mesh placed in the world.
+struct Instance {
+    std::uint32_t mesh = 0;     ///< index into Assets::meshes
+    std::uint32_t material = 0; ///< index into Scene::materials
+    ObjectId node = 0;          ///< the node it came from
+    bool dynamic = false;
+    glm::mat4 toWorld{1};
+    glm::mat3 normalToWorld{1}; ///< cofactor matrix, keeps normals outward under mirroring; not normalised
+};
+
+struct Bounds {
+    glm::vec3 lower{0}, upper{0};
+
+    glm::vec3 size() const { return upper - lower; }
+    glm::vec3 centre() const { return (lower + upper) * 0.5f; }
+};
+
+/// The document flattened: what the tracer, baker, reference and viewport read.
+struct Scene {
+    std::shared_ptr<const Assets> assets;
+    std::vector<Instance> instances; ///< visible ones, ordered by node id, then mesh
+    std::vector<Material> materials;
+    std::vector<Light> lights; ///< enabled or not, ordered by id
+    std::vector<Camera> cameras;
+    Sky sky;
+    BakeSettings bake;
+    Bounds bounds; ///< world space, of all instances; 0 for an empty scene
+
+    const Mesh& meshOf(const Instance& i) const { return assets->meshes[i.mesh]; }
+    const Material& materialOf(const Instance& i) const { return materials[i.material]; }
+};
+
+Scene flatten(const Document& document, std::shared_ptr<const Assets> assets);
+
+/// `camera name`d, or the first, or one that shows the whole scene from a corner.
+Camera chooseCamera(const Scene& scene, const std::optional<std::string>& name);
+
+/// Bilinear lookups that follow the glTF rules (wrap, texture transform, sRGB decoding).
+/// `uv` is the mesh's coordinate before the texture transform. Without an image: white.
+glm::vec4 sampleTexture(const Assets& assets, const TextureRef& texture, glm::vec2 uv, bool srgb);
+
+/// What a surface point is made of.
+struct SurfaceMaterial {
+    glm::vec3 albedo{0};   ///< diffuse reflectance, <= 0.99
+    glm::vec3 emission{0}; ///< [nits]
+    float alpha = 1;       ///< after MASK: 0 or 1
+};
+
+/// At barycentrics (u, v) of `triangle` (weights 1-u-v, u, v).
+SurfaceMaterial surfaceMaterial(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u, float v);
+
+} // namespace limn

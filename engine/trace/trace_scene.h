@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+namespace limn {
+
+struct Ray {
+    glm::vec3 origin{0};
+    glm::vec3 direction{0}; ///< unit
+    float tNear = 0;        ///< [m]
+    float tFar = std::numeric_limits<float>::infinity();
+};
+
+/// Closest surface along a ray. Alpha-masked texels are passed through.
+struct Hit {
+    std::uint32_t instance = ~0u; ///< index into Scene::instances; ~0: nothing was hit
+    std::uint32_t triangle = 0;
+    float u = 0, v = 0; ///< barycentrics, weights (1-u-v, u, v)
+    float t = 0;        ///< [m]
+    glm::vec3 position{0};
+    glm::vec3 geometricNormal{0}; ///< unit, world, of the counter-clockwise front; not turned to the ray
+    bool frontFace = true;        ///< the ray met the front
+
+    explicit operator bool() const { return instance != ~0u; }
+};
+
+/// Which surfaces a query may meet.
+enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3 };
+
+/// Embree's acceleration structure over a Scene: one per mesh, instanced. Immutable, thread-safe to query.
+/// Holds a copy of the instance table and shares the assets; the Scene may die or change meanwhile.
+class TraceScene {
+public:
+    /// Builds it. O(triangles); uses oneTBB.
+    explicit TraceScene(const Scene& scene);
+    ~TraceScene();
+    TraceScene(const TraceScene&) = delete;
+    TraceScene& operator=(const TraceScene&) = delete;
+
+    Hit closestHit(const Ray& ray, TraceMask mask = TraceMask::All) const;
+
+    /// True if anything opaque lies in (tNear, tFar).
+    bool occluded(const Ray& ray, TraceMask mask = TraceMask::All) const;
+
+    /// True if the straight way between two surface points is blocked. Both ends are kept clear of their own surface.
+    bool blocked(glm::vec3 from, glm::vec3 to, TraceMask mask = TraceMask::All) const;
+
+    /// Offset that clears a surface at `p` of float rounding [m]; grows with |p|.
+    float epsilonAt(glm::vec3 p) const;
+
+    const Scene& scene() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace limn
