@@ -57,6 +57,9 @@ public:
 
     /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL, for ImGui::Image.
     VkImageView colorView() const;
+    /// Its image, of the size of the last ViewportOptions, in the same layout; the window blits from it
+    /// (created with VK_IMAGE_USAGE_TRANSFER_SRC_BIT). ImGui 1.86's backend draws no textures but its font.
+    VkImage colorImage() const;
 
     /// The linear, scene-referred result of the last render(). Waits for the GPU.
     ImageF readLinear();
