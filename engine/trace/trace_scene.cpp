@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "engine/trace/trace_scene.h"
+
+#include "engine/core/log.h"
+#include "engine/core/parallel.h"
+#include "engine/trace/alpha_mask.h"
+#include "engine/trace/embree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <tbb/task_arena.h>
+
+namespace limn {
+
+namespace {
+
+/// What one acceleration structure of triangles is made from. Instances with equal keys share it.
+struct BlasKey {
+    std::uint32_t mesh = 0;
+    std::uint32_t maskMaterial = ~0u;  ///< material with alpha mask; ~0: opaque
+    std::uint32_t worldInstance = ~0u; ///< its matrix is baked into the vertices; ~0: object space
+
+    auto operator<=>(const BlasKey&) const = default;
+};
+
+struct Blas {
+    RTCScene scene = nullptr;
+    AlphaMask mask;
+};
+
+/// Per instance, what a hit needs.
+struct HitFrame {
+    glm::mat4 toWorld{1};
+    float winding = 1; ///< -1: the matrix mirrors, glTF flips the front
+};
+
+void passThroughMask(const RTCFilterFunctionNArguments* args) {
+    const AlphaMask& mask = *static_cast<const AlphaMask*>(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i)
+        if (args->valid[i] != 0 &&
+            !opaqueAt(mask, RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
+                      RTCHitN_v(args->hit, args->N, i)))
+            args->valid[i] = 0;
+}
+
+bool isFinite(const glm::mat4& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (!std::isfinite(m[c][r]))
+                return false;
+    return true;
+}
+
+double determinant3(const glm::mat4& m) {
+    return glm::determinant(glm::dmat3(glm::mat3(m)));
+}
+
+// Embree inverts instance matrices in floats. A flattened object has no inverse, a nearly flat one
+// no accurate one: its vertices are taken to world space instead.
+bool invertsWell(const glm::mat4& m) {
+    const glm::dmat3 a(glm::mat3{m});
+    const double size = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
+    return size > 0 && std::abs(glm::determinant(a)) > 1e-4 * size * size * size;
+}
+
+} // namespace
+
+struct TraceScene::Impl {
+    Scene scene;
+    RTCDevice device = nullptr;
+    RTCScene top = nullptr;
+    std::map<BlasKey, Blas> blas; ///< nodes stay where they are: Embree points at the masks
+    std::vector<HitFrame> frames; ///< per instance
+    float magnitude = 0;          ///< largest coordinate of the scene [m]
+
+    Impl(const Scene& s);
+    ~Impl();
+    BlasKey keyOf(std::uint32_t instance) const;
+    void buildBlas(const BlasKey& key, Blas& blas) const;
+    void setPositions(RTCGeometry geometry, const BlasKey& key) const;
+    void buildTop();
+};
+
+TraceScene::Impl::Impl(const Scene& s) : scene(s) {
+    if (!scene.assets)
+        scene.assets = std::make_shared<const Assets>();
+    device = rtcNewDevice(nullptr);
+    if (!device)
+        throw std::runtime_error("Embree: no device");
+    rtcSetDeviceErrorFunction(
+        device, [](void*, RTCError, const char* text) { logError(std::string("Embree: ") + text); },
+        nullptr);
+
+    AlphaImages images;
+    frames.resize(scene.instances.size());
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        frames[i] = {instance.toWorld, determinant3(instance.toWorld) < 0 ? -1.f : 1.f};
+        if (scene.meshOf(instance).indices.empty() || !isFinite(instance.toWorld))
+            continue;
+        const BlasKey key = keyOf(i);
+        const auto [entry, isNew] = blas.try_emplace(key);
+        if (isNew && key.maskMaterial != ~0u)
+            entry->second.mask = makeAlphaMask(*scene.assets, scene.meshOf(instance),
+                                               scene.materials[key.maskMaterial], images);
+    }
+    std::vector<std::pair<const BlasKey, Blas>*> work;
+    for (auto& entry : blas)
+        work.push_back(&entry);
+    parallelRanges(work.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            buildBlas(work[i]->first, work[i]->second);
+    });
+    buildTop();
+}
+
+TraceScene::Impl::~Impl() {
+    rtcReleaseScene(top);
+    for (auto& [key, b] : blas)
+        rtcReleaseScene(b.scene);
+    rtcReleaseDevice(device);
+}
+
+BlasKey TraceScene::Impl::keyOf(std::uint32_t i) const {
+    const Instance& instance = scene.instances[i];
+    BlasKey key;
+    key.mesh = instance.mesh;
+    if (scene.materialOf(instance).alphaMode == AlphaMode::Mask)
+        key.maskMaterial = instance.material;
+    if (!invertsWell(instance.toWorld))
+        key.worldInstance = i;
+    return key;
+}
+
+void TraceScene::Impl::setPositions(RTCGeometry geometry, const BlasKey& key) const {
+    const std::vector<glm::vec3>& positions = scene.assets->meshes[key.mesh].positions;
+    // Embree loads 16 bytes at each vertex: the last one may be shared only where memory follows.
+    if (key.worldInstance == ~0u && positions.capacity() > positions.size()) {
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   positions.data(), 0, sizeof(glm::vec3), positions.size());
+        return;
+    }
+    auto* copy = static_cast<glm::vec3*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(glm::vec3), positions.size()));
+    if (!copy)
+        throw std::runtime_error("Embree: out of memory");
+    if (key.worldInstance == ~0u) {
+        std::copy(positions.begin(), positions.end(), copy);
+        return;
+    }
+    const glm::mat4& toWorld = scene.instances[key.worldInstance].toWorld;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        copy[i] = glm::vec3(toWorld * glm::vec4(positions[i], 1));
+}
+
+// One thread per structure, several structures at once: the tree, and with it which of two coplanar
+// triangles is met first, does not depend on the number of threads.
+void TraceScene::Impl::buildBlas(const BlasKey& key, Blas& b) const {
+    const Mesh& mesh = scene.assets->meshes[key.mesh];
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    setPositions(geometry, key);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.indices.data(), 0, 3 * sizeof(std::uint32_t),
+                               mesh.triangleCount());
+    if (key.maskMaterial != ~0u) {
+        rtcSetGeometryUserData(geometry, const_cast<AlphaMask*>(&b.mask));
+        rtcSetGeometryIntersectFilterFunction(geometry, passThroughMask);
+        rtcSetGeometryOccludedFilterFunction(geometry, passThroughMask);
+    }
+    rtcSetGeometryMask(geometry, ~0u);
+    rtcCommitGeometry(geometry);
+    b.scene = rtcNewScene(device);
+    rtcSetSceneFlags(b.scene, RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(b.scene, geometry);
+    rtcReleaseGeometry(geometry);
+    tbb::task_arena(1).execute([&] { rtcCommitScene(b.scene); });
+}
+
+void TraceScene::Impl::buildTop() {
+    top = rtcNewScene(device);
+    rtcSetSceneFlags(top, RTC_SCENE_FLAG_ROBUST);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (scene.meshOf(instance).indices.empty() || !isFinite(instance.toWorld))
+            continue;
+        const BlasKey key = keyOf(i);
+        const glm::mat4 toWorld = key.worldInstance == ~0u ? instance.toWorld : glm::mat4(1);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, blas.at(key).scene);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &toWorld);
+        rtcSetGeometryMask(geometry,
+                           unsigned(instance.dynamic ? TraceMask::Dynamic : TraceMask::Static));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(top, geometry, i);
+        rtcReleaseGeometry(geometry);
+    }
+    tbb::task_arena(1).execute([&] { rtcCommitScene(top); });
+    if (blas.empty())
+        return;
+    RTCBounds b;
+    rtcGetSceneBounds(top, &b);
+    magnitude = std::max({std::abs(b.lower_x), std::abs(b.lower_y), std::abs(b.lower_z),
+                          std::abs(b.upper_x), std::abs(b.upper_y), std::abs(b.upper_z)});
+}
+
+TraceScene::TraceScene(const Scene& scene) : m_impl(std::make_unique<Impl>(scene)) {}
+
+TraceScene::~TraceScene() = default;
+
+const Scene& TraceScene::scene() const {
+    return m_impl->scene;
+}
+
+static RTCRay embreeRay(const Ray& ray, TraceMask mask) {
+    RTCRay r{};
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.tnear = ray.tNear;
+    r.tfar = ray.tFar;
+    r.mask = unsigned(mask);
+    return r;
+}
+
+// Position and normal come from the triangle itself: the position is exact to a few roundings of
+// the vertices however far the ray came from.
+Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
+    RTCRayHit rh{};
+    rh.ray = embreeRay(ray, mask);
+    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embreeIntersect(m_impl->top, rh);
+    Hit hit;
+    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return hit;
+    hit.instance = rh.hit.instID[0];
+    hit.triangle = rh.hit.primID;
+    hit.u = rh.hit.u;
+    hit.v = rh.hit.v;
+    hit.t = rh.ray.tfar;
+    const HitFrame& frame = m_impl->frames[hit.instance];
+    const Mesh& mesh = m_impl->scene.meshOf(m_impl->scene.instances[hit.instance]);
+    const std::array<std::uint32_t, 3> k = mesh.triangle(hit.triangle);
+    const glm::vec3 a = mesh.positions[k[0]];
+    const glm::mat3 linear(frame.toWorld);
+    const glm::vec3 e1 = mesh.positions[k[1]] - a, e2 = mesh.positions[k[2]] - a;
+    hit.position = glm::vec3(frame.toWorld * glm::vec4(a + hit.u * e1 + hit.v * e2, 1));
+    const glm::vec3 n = glm::cross(linear * e1, linear * e2) * frame.winding;
+    const float length = glm::length(n);
+    hit.geometricNormal = length > 0 ? n / length : -ray.direction;
+    hit.frontFace = glm::dot(hit.geometricNormal, ray.direction) < 0;
+    return hit;
+}
+
+bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
+    RTCRay r = embreeRay(ray, mask);
+    embreeOccluded(m_impl->top, r);
+    return r.tfar < 0;
+}
+
+bool TraceScene::blocked(glm::vec3 from, glm::vec3 to, TraceMask mask) const {
+    const glm::vec3 way = to - from;
+    const float distance = glm::length(way);
+    Ray ray;
+    ray.origin = from;
+    ray.tNear = epsilonAt(from);
+    ray.tFar = distance - epsilonAt(to);
+    if (!(ray.tNear < ray.tFar))
+        return false;
+    ray.direction = way / distance;
+    return occluded(ray, mask);
+}
+
+// A hit's position is off by a few 2^-24 of its coordinates; the matrix of an instance and the test
+// of a large triangle add a few 2^-24 of the scene's.
+float TraceScene::epsilonAt(glm::vec3 p) const {
+    const float coordinate = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return 0x1p-19f * coordinate + 0x1p-20f * m_impl->magnitude;
+}
+
+} // namespace limn
