@@ -3,7 +3,8 @@
 add_library(limn_options INTERFACE)
 target_include_directories(limn_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_definitions(limn_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_ENABLE_EXPERIMENTAL)
-target_compile_options(limn_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion)
+target_compile_options(limn_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                       -Wno-missing-field-initializers) # designated initialisers name what differs from the default
 # Results must not depend on whether the compiler found a fused multiply-add.
 target_compile_options(limn_options INTERFACE -ffp-contract=off)
 if(LIMN_WERROR)
@@ -30,5 +31,37 @@ function(limn_test name)
   target_link_libraries(${name} PRIVATE ${TEST_DEPENDS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE LIMN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 600)
+  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 600
+    ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0")
+endfunction()
+
+# limn_shaders(limn_render shade.vert shade.frag): compiles shaders/NAME to SPIR-V and embeds it, as
+# `const std::uint32_t kShadeFrag[]` of the generated header "shaders/shade.frag.h".
+# Each is compiled again when any header of shaders/shared changes.
+find_program(GLSLANG_VALIDATOR glslangValidator)
+function(limn_shaders target)
+  if(NOT GLSLANG_VALIDATOR)
+    message(FATAL_ERROR "glslangValidator is missing (Debian: glslang-tools)")
+  endif()
+  file(GLOB shared CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h)
+  set(folder ${CMAKE_BINARY_DIR}/generated/shaders)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(shader ${ARGN})
+    string(REGEX REPLACE "[._]" ";" words ${shader})
+    set(variable k)
+    foreach(word ${words})
+      string(SUBSTRING ${word} 0 1 head)
+      string(SUBSTRING ${word} 1 -1 tail)
+      string(TOUPPER ${head} head)
+      string(APPEND variable ${head}${tail})
+    endforeach()
+    add_custom_command(
+      OUTPUT ${folder}/${shader}.h
+      COMMAND ${GLSLANG_VALIDATOR} -V --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR} --vn ${variable}
+              -o ${folder}/${shader}.h ${CMAKE_SOURCE_DIR}/shaders/${shader}
+      DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${shader} ${shared}
+      VERBATIM)
+    target_sources(${target} PRIVATE ${folder}/${shader}.h)
+  endforeach()
+  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
 endfunction()

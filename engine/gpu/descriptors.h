@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/handle.h"
+
+#include <span>
+
+namespace limn::gpu {
+
+struct SamplerDesc {
+    VkFilter filter = VK_FILTER_LINEAR;
+    VkSamplerMipmapMode mipmaps = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    VkSamplerAddressMode wrapV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    bool compare = false; ///< depth comparison LESS_OR_EQUAL, border 1
+};
+Sampler createSampler(Device& device, const SamplerDesc& desc);
+
+/// Binding i is types[i], one descriptor each, visible to every stage.
+DescriptorSetLayout createSetLayout(Device& device, std::span<const VkDescriptorType> types);
+
+/// A pool for `sets` sets of that many descriptors of each type in `types`.
+DescriptorPool createDescriptorPool(Device& device, std::uint32_t sets,
+                                    std::span<const VkDescriptorType> types);
+VkDescriptorSet allocateSet(Device& device, const DescriptorPool& pool,
+                            const DescriptorSetLayout& layout);
+
+void writeBuffer(Device& device, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
+                 VkBuffer buffer, VkDeviceSize offset = 0, VkDeviceSize range = VK_WHOLE_SIZE);
+/// A combined image sampler, the image in SHADER_READ_ONLY_OPTIMAL.
+void writeTexture(Device& device, VkDescriptorSet set, std::uint32_t binding, VkImageView view,
+                  VkSampler sampler);
+
+} // namespace limn::gpu

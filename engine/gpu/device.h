@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/memory.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+namespace limn::gpu {
+
+struct DeviceDesc {
+    /// Part of the device's name, in any case ("llvmpipe"); empty: the best kind there is.
+    std::string name;
+    /// For surfaces, as the window library names them. Not empty: VK_KHR_swapchain is enabled too.
+    std::vector<std::string> instanceExtensions;
+    /// Whether this queue family can present. Null: nothing is presented.
+    std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t queueFamily)> canPresent;
+    /// Validation and synchronisation validation; without the layer it stays off
+    /// (Device::validating).
+    bool validation = false;
+};
+
+/// What a submission waits for and signals besides the device's own timeline.
+struct SubmitDesc {
+    VkSemaphore wait = VK_NULL_HANDLE;
+    VkPipelineStageFlags2 waitStage = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    VkSemaphore signal = VK_NULL_HANDLE;
+};
+
+/// A Vulkan 1.3 device with one queue for graphics, compute and transfer. One thread uses it.
+/// Submissions are numbered 1, 2, …; a resource dropped now is destroyed once every submission that
+/// may read it has completed. Outlives everything made from it.
+class Device {
+public:
+    ~Device(); ///< Waits for the GPU.
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queueFamily = 0;
+    VkPhysicalDeviceProperties properties{};
+    bool softwareRasteriser = false; ///< the "GPU" is the CPU
+    bool anisotropy = false;         ///< samplerAnisotropy is enabled
+    bool validating = false;
+    MemoryBlocks memory;
+
+    /// A command buffer that is recording; it must be submitted. `name` is shown by captures.
+    VkCommandBuffer begin(const char* name);
+    /// Ends and submits. Returns the submission's number.
+    std::uint64_t submit(VkCommandBuffer cmd, const SubmitDesc& desc = {});
+    /// Records, submits and waits.
+    void immediate(const char* name, const std::function<void(VkCommandBuffer)>& record);
+
+    std::uint64_t submitted() const { return m_submitted; } ///< number of the last submission
+    std::uint64_t completed() const;                        ///< all up to this number are done
+    void wait(std::uint64_t submission);
+    void waitIdle() { wait(m_submitted); }
+
+    /// Calls `destroy` when no submission made so far, nor one being recorded, can still need it.
+    void retire(std::function<void()> destroy);
+    /// Destroys what is due. submit() does it too.
+    void collect();
+
+    /// Names a handle for validation messages and captures.
+    void setName(VkObjectType type, std::uint64_t objectHandle, const char* name);
+
+    /// Validation warnings and errors so far, oldest first. Any thread's.
+    std::vector<std::string> validationMessages() const;
+
+private:
+    friend Result<std::unique_ptr<Device>> createDevice(const DeviceDesc& desc);
+    struct Impl;
+    Device();
+    void watchValidation();
+    std::unique_ptr<Impl> m_impl;
+    std::uint64_t m_submitted = 0;
+};
+
+/// Fails when there is no driver, no device of that name, or none with what we need (the reason
+/// says which).
+Result<std::unique_ptr<Device>> createDevice(const DeviceDesc& desc);
+
+/// Names of all Vulkan devices, best first. Empty without a driver.
+std::vector<std::string> deviceNames();
+
+} // namespace limn::gpu

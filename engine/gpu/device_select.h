@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+
+namespace limn::gpu {
+
+/// A device that has what we need, and the queue family to use.
+struct SelectedDevice {
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    std::uint32_t queueFamily = 0;
+};
+
+/// The best device of `instance` whose name contains `desc.name`. Fails saying what is there and
+/// what it lacks.
+Result<SelectedDevice> selectDevice(VkInstance instance, const DeviceDesc& desc);
+
+/// All devices of `instance`, best kind first: discrete, integrated, virtual, CPU.
+std::vector<VkPhysicalDevice> rankedDevices(VkInstance instance);
+
+} // namespace limn::gpu

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/image.h"
+
+#include "engine/gpu/barrier.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/vulkan_error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace limn::gpu {
+
+ImageDesc ImageDesc::renderTarget(std::uint32_t width, std::uint32_t height, VkFormat format,
+                                  const char* name) {
+    const bool depth = aspectOf(format) == VK_IMAGE_ASPECT_DEPTH_BIT;
+    return {.width = width,
+            .height = height,
+            .format = format,
+            .usage = VkImageUsageFlags(depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                             : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) |
+                     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+            .name = name};
+}
+
+ImageDesc ImageDesc::texture(std::uint32_t width, std::uint32_t height, VkFormat format,
+                             std::uint32_t mips, const char* name) {
+    return {.width = width,
+            .height = height,
+            .mips = mips,
+            .format = format,
+            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+            .name = name};
+}
+
+VkImageAspectFlags aspectOf(VkFormat format) {
+    return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM
+               ? VK_IMAGE_ASPECT_DEPTH_BIT
+               : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+std::uint32_t mipCount(std::uint32_t width, std::uint32_t height) {
+    return std::uint32_t(std::bit_width(std::max({width, height, 1u})));
+}
+
+static VkImageView createView(Device& device, const Image& image, VkImageViewType type,
+                              std::uint32_t baseLayer, std::uint32_t layers) {
+    const VkImageViewCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .image = image.handle,
+        .viewType = type,
+        .format = image.format,
+        .components = {},
+        .subresourceRange = {aspectOf(image.format), 0, image.mips, baseLayer, layers}};
+    VkImageView view = VK_NULL_HANDLE;
+    VK_CHECK(vkCreateImageView(device.device, &info, nullptr, &view));
+    return view;
+}
+
+Image::Image(Device& device, const ImageDesc& desc)
+    : width(desc.width), height(desc.height), layers(desc.layers), mips(desc.mips),
+      format(desc.format), m_device(&device) {
+    assert(width > 0 && height > 0 && layers > 0 && mips > 0);
+    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .pNext = nullptr,
+                                 .flags = 0,
+                                 .imageType = VK_IMAGE_TYPE_2D,
+                                 .format = format,
+                                 .extent = {width, height, 1},
+                                 .mipLevels = mips,
+                                 .arrayLayers = layers,
+                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                 .usage = desc.usage,
+                                 .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                 .queueFamilyIndexCount = 0,
+                                 .pQueueFamilyIndices = nullptr,
+                                 .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    VK_CHECK(vkCreateImage(device.device, &info, nullptr, &handle));
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(device.device, handle, &requirements);
+    try {
+        m_memory = device.memory.allocate(requirements, MemoryKind::Gpu, true);
+    } catch (...) {
+        vkDestroyImage(device.device, handle, nullptr);
+        throw;
+    }
+    VK_CHECK(vkBindImageMemory(device.device, handle, m_memory.memory, m_memory.offset));
+    device.setName(VK_OBJECT_TYPE_IMAGE, std::uint64_t(handle), desc.name);
+    const bool array = desc.array || layers > 1;
+    view = createView(device, *this, array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D, 0,
+                      layers);
+    for (std::uint32_t i = 0; desc.layerViews && i < layers; ++i)
+        layerViews.push_back(createView(device, *this, VK_IMAGE_VIEW_TYPE_2D, i, 1));
+}
+
+Image::~Image() {
+    if (!handle)
+        return;
+    m_device->retire(
+        [d = m_device, h = handle, v = view, views = std::move(layerViews), memory = m_memory] {
+            for (VkImageView layer : views)
+                vkDestroyImageView(d->device, layer, nullptr);
+            vkDestroyImageView(d->device, v, nullptr);
+            vkDestroyImage(d->device, h, nullptr);
+            d->memory.free(memory);
+        });
+}
+
+void Image::swap(Image& other) noexcept {
+    std::swap(handle, other.handle);
+    std::swap(view, other.view);
+    std::swap(layerViews, other.layerViews);
+    std::swap(width, other.width);
+    std::swap(height, other.height);
+    std::swap(layers, other.layers);
+    std::swap(mips, other.mips);
+    std::swap(format, other.format);
+    std::swap(m_memory, other.m_memory);
+    std::swap(m_device, other.m_device);
+}
+
+static VkDeviceSize texelBytes(VkFormat format) {
+    switch (int(format)) {
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_R32_SFLOAT:
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_D32_SFLOAT:
+        return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+        return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return 16;
+    }
+    assert(!"a format nobody copies yet");
+    return 0;
+}
+
+void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
+                 std::span<const std::byte> bytes) {
+    const Buffer staging(device, {.size = bytes.size(),
+                                  .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                  .memory = MemoryKind::Upload,
+                                  .name = "staging"});
+    std::memcpy(staging.mapped, bytes.data(), bytes.size());
+    const VkImageAspectFlags aspect = aspectOf(image.format);
+    imageBarrier(cmd, image.handle, aspect, kUndefined, kTransferWrite);
+    VkDeviceSize offset = 0;
+    for (std::uint32_t mip = 0; mip < image.mips; ++mip) {
+        const std::uint32_t w = std::max(image.width >> mip, 1u);
+        const std::uint32_t h = std::max(image.height >> mip, 1u);
+        const VkBufferImageCopy region{.bufferOffset = offset,
+                                       .bufferRowLength = 0,
+                                       .bufferImageHeight = 0,
+                                       .imageSubresource = {aspect, mip, 0, image.layers},
+                                       .imageOffset = {},
+                                       .imageExtent = {w, h, 1}};
+        vkCmdCopyBufferToImage(cmd, staging.handle, image.handle,
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        offset += VkDeviceSize(w) * h * image.layers * texelBytes(image.format);
+    }
+    assert(offset == bytes.size());
+    imageBarrier(cmd, image.handle, aspect, kTransferWrite, kFragmentRead);
+}
+
+void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
+               std::uint32_t height, std::span<std::byte> out) {
+    assert(width <= image.width && height <= image.height);
+    assert(out.size() == VkDeviceSize(width) * height * texelBytes(image.format));
+    const Buffer staging(device, {.size = out.size(),
+                                  .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                  .memory = MemoryKind::Readback,
+                                  .name = "read-back"});
+    const VkImageAspectFlags aspect = aspectOf(image.format);
+    Access outside = kAllWrites;
+    outside.access |= VK_ACCESS_2_MEMORY_READ_BIT;
+    outside.layout = layout;
+    device.immediate("read image", [&](VkCommandBuffer cmd) {
+        imageBarrier(cmd, image.handle, aspect, outside, kTransferRead);
+        const VkBufferImageCopy region{.bufferOffset = 0,
+                                       .bufferRowLength = 0,
+                                       .bufferImageHeight = 0,
+                                       .imageSubresource = {aspect, 0, 0, 1},
+                                       .imageOffset = {},
+                                       .imageExtent = {width, height, 1}};
+        vkCmdCopyImageToBuffer(cmd, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                               staging.handle, 1, &region);
+        imageBarrier(cmd, image.handle, aspect, kTransferRead, outside);
+        memoryBarrier(cmd, kTransferWrite, kHostRead);
+    });
+    std::memcpy(out.data(), staging.mapped, out.size());
+}
+
+} // namespace limn::gpu

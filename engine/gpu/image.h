@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/device.h"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace limn::gpu {
+
+struct ImageDesc {
+    std::uint32_t width = 1, height = 1; ///< texels, > 0
+    std::uint32_t layers = 1;
+    std::uint32_t mips = 1;
+    VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    bool array = false;      ///< the view is a 2D array even with one layer
+    bool layerViews = false; ///< one 2D view per layer too, to draw into
+    const char* name = "";
+
+    /// Drawn into, sampled and read back.
+    static ImageDesc renderTarget(std::uint32_t width, std::uint32_t height, VkFormat format,
+                                  const char* name);
+    /// Sampled; filled by uploadTexture().
+    static ImageDesc texture(std::uint32_t width, std::uint32_t height, VkFormat format,
+                             std::uint32_t mips, const char* name);
+};
+
+/// Owns a VkImage, its memory and its views. Move-only; empty after a move; retires like Buffer.
+class Image {
+public:
+    Image() = default;
+    Image(Device& device, const ImageDesc& desc); ///< Throws VulkanError when out of memory.
+    ~Image();
+    Image(Image&& other) noexcept { swap(other); }
+    Image& operator=(Image other) noexcept {
+        swap(other);
+        return *this;
+    }
+    explicit operator bool() const { return handle != VK_NULL_HANDLE; }
+
+    VkImage handle = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;   ///< all mips and layers
+    std::vector<VkImageView> layerViews; ///< one per layer when asked for
+    std::uint32_t width = 0, height = 0, layers = 0, mips = 0;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+
+private:
+    void swap(Image& other) noexcept;
+
+    Allocation m_memory;
+    Device* m_device = nullptr;
+};
+
+VkImageAspectFlags aspectOf(VkFormat format);
+
+/// Mips of a full chain down to 1x1.
+std::uint32_t mipCount(std::uint32_t width, std::uint32_t height);
+
+/// Fills every mip and layer of `image` from `bytes`: mip after mip, in each layer after layer,
+/// rows tightly packed. Leaves it in SHADER_READ_ONLY_OPTIMAL for fragment shaders. The image must
+/// be unused before (contents are dropped).
+void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
+                 std::span<const std::byte> bytes);
+
+/// Copies the corner (0, 0, width, height) of mip 0, layer 0 to the CPU, rows tightly packed. The
+/// image is in `layout` before and after. Waits.
+void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
+               std::uint32_t height, std::span<std::byte> out);
+
+} // namespace limn::gpu

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/handle.h"
+
+#include <span>
+#include <vector>
+
+namespace limn::gpu {
+
+/// SPIR-V words, as the build embeds them.
+using Spirv = std::span<const std::uint32_t>;
+
+PipelineLayout createPipelineLayout(Device& device,
+                                    std::span<const VkDescriptorSetLayout> setLayouts,
+                                    std::uint32_t pushConstantBytes, const char* name);
+
+struct GraphicsPipelineDesc {
+    Spirv vertex;
+    Spirv fragment; ///< empty: depth only
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    std::vector<VkVertexInputBindingDescription> bindings;
+    std::vector<VkVertexInputAttributeDescription> attributes;
+    std::vector<VkFormat> colorFormats;
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED; ///< UNDEFINED: no depth test
+    VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
+    bool depthWrite = true;
+    bool depthBias = false; ///< set with vkCmdSetDepthBias
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkCullModeFlags cull = VK_CULL_MODE_NONE; ///< counter-clockwise on screen is the front
+    /// Specialisation constants: word i is constant_id i of both stages.
+    std::vector<std::uint32_t> constants;
+    const char* name = "";
+};
+
+/// Viewport, scissor and, if the desc says so, depth bias are dynamic.
+Pipeline createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc);
+
+Pipeline createComputePipeline(Device& device, Spirv shader, VkPipelineLayout layout,
+                               std::span<const std::uint32_t> constants, const char* name);
+
+} // namespace limn::gpu
