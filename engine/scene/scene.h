@@ -27,7 +27,10 @@ struct Instance {
     ObjectId node = 0;          ///< the node it came from
     bool dynamic = false;
     glm::mat4 toWorld{1};
-    glm::mat3 normalToWorld{1}; ///< cofactor matrix, keeps normals outward under mirroring; not normalised
+    /// sign(det) * cofactor matrix of toWorld; not normalised. As in glTF, a mirrored instance (negative
+    /// determinant) has its front on the clockwise side, so the world's front normal of a triangle is
+    /// normalToWorld * cross(p1 - p0, p2 - p0) with the object's positions, never the cross of world edges.
+    glm::mat3 normalToWorld{1};
 };
 
 struct Bounds {
@@ -41,7 +44,7 @@ struct Bounds {
 struct Scene {
     std::shared_ptr<const Assets> assets;
     std::vector<Instance> instances; ///< visible ones, ordered by node id, then mesh
-    std::vector<Material> materials;
+    std::vector<Material> materials; ///< in id order; a plain one last if a mesh names none of them
     std::vector<Light> lights; ///< enabled or not, ordered by id
     std::vector<Camera> cameras;
     Sky sky;
@@ -61,11 +64,20 @@ Camera chooseCamera(const Scene& scene, const std::optional<std::string>& name);
 /// `uv` is the mesh's coordinate before the texture transform. Without an image: white.
 glm::vec4 sampleTexture(const Assets& assets, const TextureRef& texture, glm::vec2 uv, bool srgb);
 
+/// Alpha from which a Blend texel counts as solid: transport knows no partial cover.
+inline constexpr float kBlendCutoff = 0.5f;
+
+/// Whether the surface may have holes that rays pass: Mask, and Blend treated as Mask at kBlendCutoff.
+bool isCutout(const Material& material);
+
+/// Only the alpha of surfaceMaterial, 0 or 1; cheap where the material is opaque.
+float surfaceAlpha(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u, float v);
+
 /// What a surface point is made of.
 struct SurfaceMaterial {
     glm::vec3 albedo{0};   ///< diffuse reflectance, <= 0.99
     glm::vec3 emission{0}; ///< [nits]
-    float alpha = 1;       ///< after MASK: 0 or 1
+    float alpha = 1;       ///< after the cutoff of Mask and Blend: 0 or 1
 };
 
 /// At barycentrics (u, v) of `triangle` (weights 1-u-v, u, v).

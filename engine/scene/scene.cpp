@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/scene.h"
+
+#include "engine/core/parallel.h"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace limn {
+
+namespace {
+
+/// What a node inherits from its ancestors.
+struct Placement {
+    glm::mat4 toWorld{1};
+    bool visible = true;
+    bool dynamic = false;
+};
+
+/// Placements of nodes, each computed once. Iterative: a chain of nodes may be very long.
+class Placements {
+public:
+    explicit Placements(const Document& document) : m_document(document) {}
+
+    Placement of(ObjectId id) {
+        std::vector<ObjectId> chain;
+        Placement at;
+        for (; id != 0; id = node(id)->parent) {
+            const auto known = m_known.find(id);
+            if (known != m_known.end()) {
+                at = known->second;
+                break;
+            }
+            // A missing parent makes a root; a cycle, which documents must not have, is cut.
+            if (!node(id) || chain.size() > m_document.objects.size())
+                break;
+            chain.push_back(id);
+        }
+        for (auto child = chain.rbegin(); child != chain.rend(); ++child) {
+            const Node& n = *node(*child);
+            at.toWorld = at.toWorld * matrix(n.transform);
+            at.visible = at.visible && n.visible;
+            at.dynamic = at.dynamic || n.dynamic;
+            m_known.emplace(*child, at);
+        }
+        return at;
+    }
+
+private:
+    const Node* node(ObjectId id) const {
+        const auto found = m_document.objects.find(id);
+        return found == m_document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
+    }
+
+    const Document& m_document;
+    std::unordered_map<ObjectId, Placement> m_known;
+};
+
+} // namespace
+
+static glm::mat3 normalMatrix(const glm::mat4& m) {
+    const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
+    const glm::mat3 cofactor(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
+    return glm::dot(x, cofactor[0]) < 0 ? -cofactor : cofactor;
+}
+
+static void addInstances(Scene& scene, const Node& node, ObjectId id, const Placement& at) {
+    for (const std::uint32_t mesh : node.meshes) {
+        if (mesh >= scene.assets->meshes.size())
+            continue; // the scene file lost it since the project was saved
+        Instance instance;
+        instance.mesh = mesh;
+        instance.material = scene.assets->meshes[mesh].material;
+        instance.node = id;
+        instance.dynamic = at.dynamic;
+        instance.toWorld = at.toWorld;
+        instance.normalToWorld = normalMatrix(at.toWorld);
+        scene.instances.push_back(instance);
+    }
+}
+
+static Bounds boundsOf(const Scene& scene) {
+    const float inf = std::numeric_limits<float>::infinity();
+    std::vector<Bounds> each(scene.instances.size(), {glm::vec3(inf), glm::vec3(-inf)});
+    parallelRanges(scene.instances.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Instance& instance = scene.instances[i];
+            const glm::mat4x3 toWorld(instance.toWorld);
+            for (const glm::vec3& p : scene.meshOf(instance).positions) {
+                const glm::vec3 world = toWorld * glm::vec4(p, 1);
+                each[i].lower = glm::min(each[i].lower, world);
+                each[i].upper = glm::max(each[i].upper, world);
+            }
+        }
+    });
+    Bounds all{glm::vec3(inf), glm::vec3(-inf)};
+    for (const Bounds& b : each) {
+        all.lower = glm::min(all.lower, b.lower);
+        all.upper = glm::max(all.upper, b.upper);
+    }
+    return all.lower.x <= all.upper.x ? all : Bounds{};
+}
+
+Scene flatten(const Document& document, std::shared_ptr<const Assets> assets) {
+    Scene scene;
+    scene.assets = assets ? std::move(assets) : std::make_shared<const Assets>();
+    Placements placements(document);
+    for (const auto& [id, object] : document.objects) {
+        if (const Node* node = std::get_if<Node>(&object)) {
+            if (node->meshes.empty())
+                continue;
+            if (const Placement at = placements.of(id); at.visible)
+                addInstances(scene, *node, id, at);
+        } else if (const Material* material = std::get_if<Material>(&object)) {
+            scene.materials.push_back(*material);
+        } else if (const Light* light = std::get_if<Light>(&object)) {
+            scene.lights.push_back(*light);
+        } else if (const Camera* camera = std::get_if<Camera>(&object)) {
+            scene.cameras.push_back(*camera);
+        }
+    }
+    const auto named = std::uint32_t(scene.materials.size());
+    for (Instance& instance : scene.instances)
+        if (instance.material >= named) {
+            scene.materials.resize(named + 1);
+            instance.material = named;
+        }
+    scene.sky = singleton<Sky>(document);
+    scene.bake = singleton<BakeSettings>(document);
+    scene.bounds = boundsOf(scene);
+    return scene;
+}
+
+} // namespace limn
