@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "projects/atrium/atrium.h"
+
+namespace limn::atrium {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+constexpr unsigned kInward = NegativeX | NegativeZ, kOutward = PositiveX | PositiveZ;
+constexpr dvec2 kBuried = kWall + dvec2(0.1); ///< where floors end, inside the walls
+
+void addPart(GltfFile& file, int group, GltfMesh mesh, double textureSize = 0) {
+    if (textureSize > 0)
+        projectUvs(mesh, textureSize);
+    place(file, group, addMesh(file, std::move(mesh)), dvec3(0));
+}
+
+void addFloors(GltfFile& file, int group) {
+    GltfMesh court{.name = "Court paving", .material = Paving};
+    const dvec2 edge = kColumns - dvec2(0.45), under = edge + dvec2(0.1);
+    addQuad(court, {-under.x, 0, under.y}, {under.x, 0, under.y}, {under.x, 0, -under.y},
+            {-under.x, 0, -under.y});
+    addPart(file, group, std::move(court), 2);
+
+    GltfMesh gallery{.name = "Arcade paving", .material = Paving};
+    addRing(gallery, edge, kBuried, kGroundFloor, kGroundFloor, PositiveY);
+    addPart(file, group, std::move(gallery), 2);
+    GltfMesh step{.name = "Step", .material = Limestone};
+    addRing(step, edge, kBuried, -0.05, kGroundFloor, kInward);
+    addPart(file, group, std::move(step));
+}
+
+void addSlabs(GltfFile& file, int group) {
+    const dvec2 edge = kColumns - dvec2(0.34);
+    GltfMesh tiles{.name = "Gallery tiles", .material = Terracotta};
+    addRing(tiles, edge, kBuried, kUpperFloor, kUpperFloor, PositiveY);
+    addPart(file, group, std::move(tiles));
+    GltfMesh slab{.name = "Gallery slab", .material = Limestone};
+    addRing(slab, edge, kBuried, kSlabLower, kUpperFloor, kInward | NegativeY);
+    addRing(slab, kColumns - dvec2(0.3), kColumns - dvec2(0.1), kSlabLower - 0.14,
+            kSlabLower + 0.02, kInward | NegativeY);
+    addPart(file, group, std::move(slab));
+
+    GltfMesh roof{.name = "Roof", .material = Limestone};
+    addRing(roof, kColumns - dvec2(0.52), kBuried, kRoofLower, kRoofUpper,
+            kInward | PositiveY | NegativeY);
+    addRing(roof, kColumns - dvec2(0.38), kColumns - dvec2(0.1), kRoofLower - 0.16,
+            kRoofLower + 0.02, kInward | NegativeY);
+    addRing(roof, kColumns - dvec2(0.2), kColumns + dvec2(0.1), kRoofUpper - 0.02, 10.2,
+            kInward | kOutward);
+    addRing(roof, kColumns - dvec2(0.26), kColumns + dvec2(0.16), 10.18, 10.3);
+    addPart(file, group, std::move(roof));
+}
+
+void addWalls(GltfFile& file, int group) {
+    GltfMesh walls{.name = "Outer walls", .material = Stone};
+    addRing(walls, kWall, kWall + dvec2(kWallThickness), -0.3, kWallTop, kInward | kOutward);
+    addPart(file, group, std::move(walls), 2.4);
+    GltfMesh coping{.name = "Coping", .material = Limestone};
+    addRing(coping, kWall - dvec2(0.06), kWall + dvec2(kWallThickness + 0.06), kWallTop - 0.02,
+            kWallTop + 0.12);
+    addPart(file, group, std::move(coping));
+
+    GltfMesh skirting{.name = "Skirting", .material = Limestone};
+    addRing(skirting, kWall - dvec2(0.05), kBuried, kGroundFloor - 0.02, 0.6, kInward | PositiveY);
+    addRing(skirting, kWall - dvec2(0.04), kBuried, kUpperFloor - 0.02, kUpperFloor + 0.3,
+            kInward | PositiveY);
+    addPart(file, group, std::move(skirting));
+}
+
+} // namespace
+
+void addShell(GltfFile& file) {
+    const int group = addGroup(file, "Shell");
+    addFloors(file, group);
+    addSlabs(file, group);
+    addWalls(file, group);
+}
+
+} // namespace limn::atrium
