@@ -119,7 +119,13 @@ void addSheet(GltfMesh& mesh, int nu, int nv, bool closed,
 
 void addTurned(GltfMesh& mesh, dvec3 centre, const Profile& profile, int sides, int flutes,
                double depth) {
+    Profile whole; // the pieces, and between two that do not meet the flat that joins them
     for (const std::vector<dvec2>& piece : profile) {
+        if (!whole.empty() && whole.back().back() != piece.front())
+            whole.push_back({whole.back().back(), piece.front()});
+        whole.push_back(piece);
+    }
+    for (const std::vector<dvec2>& piece : whole) {
         addSheet(mesh, sides, int(piece.size()) - 1, true, [&](double u, double v) {
             const dvec2 p = piece[std::size_t(std::lround(v * double(piece.size() - 1)))];
             const double angle = -2 * kPi * u;

@@ -98,7 +98,8 @@ void addFountain(GltfFile& file, int group) {
     addTurned(stone, dvec3(0), stem, 40);
     place(file, group, addMesh(file, std::move(stone)), dvec3(0));
     GltfMesh water{.name = "Water", .material = Water};
-    addTurned(water, dvec3(0), {{{0.9, 0.38}, {0, 0.38}}, {{0.46, 1.215}, {0, 1.215}}}, 40);
+    addTurned(water, dvec3(0), {{{0.9, 0.38}, {0, 0.38}}}, 40);
+    addTurned(water, dvec3(0), {{{0.46, 1.215}, {0, 1.215}}}, 40);
     place(file, group, addMesh(file, std::move(water)), dvec3(0));
 }
 

@@ -61,7 +61,7 @@ GltfFile atriumFile() {
     addGroundStorey(file);
     addUpperStorey(file);
     addFurnishing(file);
-    file.suns.push_back({.name = "Sun", .color = {1, 0.93, 0.82}, .lux = 16});
+    file.suns.push_back({.name = "Sun", .color = {1, 0.93, 0.82}, .lux = 10});
     file.nodes.push_back({.name = "Sun",
                           .sun = 0,
                           .translation = {0, 14, 0},
