@@ -8,7 +8,8 @@
 
 namespace limn {
 
-/// 32-bit float RGB EXR, linear, row 0 at the top. Any EXR or .hdr with R, G, B channels can be read.
+/// 32-bit float RGB EXR, linear, row 0 at the top. Any EXR or .hdr with R, G, B channels can be
+/// read.
 Result<void> writeExr(const std::string& path, const ImageF& image);
 Result<ImageF> readFloatImage(const std::string& path);
 

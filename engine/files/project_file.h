@@ -8,19 +8,22 @@
 
 namespace limn {
 
-/// Document <-> JSON, schema version 1. Missing fields take defaults; unknown fields and wrong types are errors
-/// that name the path of the field ("objects[3].light.color[1]: not a number").
+/// Document <-> JSON, schema version 1. Missing fields take defaults; unknown fields and wrong
+/// types are errors that name the path of the field ("objects[3].light.color[1]: not a number").
 std::string documentToJson(const Document& document);
 Result<Document> documentFromJson(const std::string& json);
 
-/// Writes a temporary file beside `path`, syncs, renames. The scene path is stored relative to the project.
+/// Writes a temporary file beside `path`, syncs, renames. The scene path is stored relative to the
+/// project.
 Result<void> saveProject(const std::string& path, const Document& document);
 
-/// Reads the project and its glTF. Objects of the project replace those of the import. A scene whose content
-/// changed since the save is imported and reported in `repairs`.
+/// Reads the project and its glTF. Objects of the project replace those of the import. A scene
+/// whose content changed since the save is imported and reported in `repairs`.
 Result<ImportedScene> loadProject(const std::string& path, const Progress& progress = {});
 
-/// A .gltf/.glb, a .limn, or the name of a sample project ("cornell"), looked for in `projectsFolder`.
-Result<ImportedScene> openAny(const std::string& what, const std::string& projectsFolder, const Progress& progress = {});
+/// A .gltf/.glb, a .limn, or the name of a sample project ("cornell"), looked for in
+/// `projectsFolder`.
+Result<ImportedScene> openAny(const std::string& what, const std::string& projectsFolder,
+                              const Progress& progress = {});
 
 } // namespace limn

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/document_json.h"
+
+#include "engine/core/hash.h"
+#include "engine/files/document_fields.h"
+#include "engine/files/project_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// Numbers are floats, written with as many digits as bring the same float back.
+using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
+                                  std::int64_t, std::uint64_t, float>;
+
+namespace {
+
+/// Fields into a JSON object.
+struct FieldWriter {
+    Json& out;
+
+    template <class T, class... Limits>
+    void operator()(const char* name, const T& value, const Limits&... limits) {
+        if constexpr (std::is_enum_v<T>)
+            nameOf(name, value, limits...);
+        else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string> ||
+                           std::is_same_v<T, std::vector<std::uint32_t>>)
+            out[name] = value;
+        else if constexpr (std::is_same_v<T, glm::quat>)
+            out[name] = {value.x, value.y, value.z, value.w};
+        else
+            for (int c = 0; c < T::length(); ++c)
+                out[name].push_back(value[c]);
+    }
+    template <class T, class Describe>
+    void object(const char* name, const T& value, const Describe& describe) {
+        FieldWriter inner{out[name] = Json::object()};
+        describe(inner, value);
+    }
+
+private:
+    template <class T, class Names>
+    void nameOf(const char* name, T value, const Names& names) {
+        out[name] = std::string(names[std::size_t(value)]);
+    }
+};
+
+/// Fields out of a JSON object. The first problem stays in `problem` and nothing more is read.
+class FieldReader {
+public:
+    FieldReader(const Json& in, std::string path, std::string& problem)
+        : m_in(in), m_path(std::move(path)), m_problem(problem) {
+        if (!in.is_object())
+            report("", "not an object");
+    }
+
+    template <class T, class... Limits>
+    void operator()(const char* name, T& value, const Limits&... limits) {
+        if (const Json* json = take(name))
+            read(*json, name, value, limits...);
+    }
+    template <class T, class Describe>
+    void object(const char* name, T& value, const Describe& describe) {
+        if (const Json* json = take(name)) {
+            FieldReader inner(*json, at(name), m_problem);
+            describe(inner, value);
+            inner.finish();
+        }
+    }
+    /// Reports what was not asked for.
+    void finish() {
+        if (m_problem.empty())
+            for (const auto& [key, value] : m_in.items())
+                if (std::ranges::find(m_known, key) == m_known.end())
+                    return report(key, "unknown field");
+    }
+
+private:
+    std::string at(const std::string& name) const {
+        return m_path.empty() || name.empty() ? m_path + name : m_path + "." + name;
+    }
+    void report(const std::string& name, const std::string& reason) {
+        if (m_problem.empty())
+            m_problem = fmt::format("{}: {}", at(name).empty() ? "JSON" : at(name), reason);
+    }
+    const Json* take(const char* name) {
+        m_known.emplace_back(name);
+        if (!m_problem.empty() || !m_in.is_object())
+            return nullptr;
+        const auto found = m_in.find(name);
+        return found == m_in.end() ? nullptr : &*found;
+    }
+
+    void read(const Json& json, const std::string& name, float& value, FieldRange range = {}) {
+        if (!json.is_number() || !std::isfinite(json.get<float>()))
+            return report(name, "not a number");
+        value = json.get<float>();
+        checkRange(name, double(value), range);
+    }
+    template <class T>
+    requires std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::int32_t>
+    void read(const Json& json, const std::string& name, T& value, FieldRange range = {}) {
+        const auto wide = json.is_number_integer() ? json.get<std::int64_t>() : 0;
+        if (!json.is_number_integer() || std::int64_t(T(wide)) != wide)
+            return report(name, std::is_signed_v<T> ? "not an integer" : "not an integer >= 0");
+        value = T(wide);
+        checkRange(name, double(value), range);
+    }
+    void read(const Json& json, const std::string& name, bool& value) {
+        if (!json.is_boolean())
+            return report(name, "not true or false");
+        value = json.get<bool>();
+    }
+    void read(const Json& json, const std::string& name, std::string& value) {
+        if (!json.is_string())
+            return report(name, "not a string");
+        value = json.get<std::string>();
+    }
+    template <class T, std::size_t N>
+    requires std::is_enum_v<T>
+    void read(const Json& json, const std::string& name, T& value,
+              const std::array<std::string_view, N>& names) {
+        const std::string text = json.is_string() ? json.get<std::string>() : "";
+        const auto found = std::ranges::find(names, text);
+        if (found == names.end())
+            return report(name, fmt::format("not one of {}", fmt::join(names, ", ")));
+        value = T(found - names.begin());
+    }
+    void read(const Json& json, const std::string& name, std::vector<std::uint32_t>& value) {
+        if (!json.is_array())
+            return report(name, "not an array");
+        value.assign(json.size(), 0);
+        for (std::size_t i = 0; i < json.size() && m_problem.empty(); ++i)
+            read(json[i], fmt::format("{}[{}]", name, i), value[i]);
+    }
+    /// Vectors and quaternions; the latter as x, y, z, w.
+    template <class V>
+    requires requires { V::length(); }
+    void read(const Json& json, const std::string& name, V& value, FieldRange range = {}) {
+        if (!json.is_array() || json.size() != std::size_t(V::length()))
+            return report(name, fmt::format("not {} numbers", int(V::length())));
+        for (int c = 0; c < V::length() && m_problem.empty(); ++c) {
+            typename V::value_type number{};
+            read(json[std::size_t(c)], fmt::format("{}[{}]", name, c), number, range);
+            if constexpr (std::is_same_v<V, glm::quat>)
+                (c == 0 ? value.x : c == 1 ? value.y : c == 2 ? value.z : value.w) = number;
+            else
+                value[c] = number;
+        }
+    }
+    void checkRange(const std::string& name, double value, FieldRange range) {
+        if (value < range.lower)
+            report(name, fmt::format("less than {}", range.lower));
+        else if (value > range.upper)
+            report(name, fmt::format("more than {}", range.upper));
+    }
+
+    const Json& m_in;
+    std::string m_path;
+    std::string& m_problem;
+    std::vector<std::string> m_known;
+};
+
+} // namespace
+
+static bool isUnit(double squaredLength) {
+    return std::abs(squaredLength - 1) < 2e-3;
+}
+
+template <class V>
+static bool isUnitVector(const V& v) {
+    double sum = 0;
+    for (int c = 0; c < V::length(); ++c)
+        sum += double(v[c]) * double(v[c]);
+    return isUnit(sum);
+}
+
+/// What no single field's range can say.
+static std::string invariantOf(const Object& object) {
+    if (const Node* node = std::get_if<Node>(&object)) {
+        if (!isUnitVector(node->transform.rotation))
+            return ".transform.rotation: not of unit length";
+        for (int c = 0; c < 3; ++c)
+            if (node->transform.scale[c] == 0)
+                return fmt::format(".transform.scale[{}]: may not be 0", c);
+    } else if (const Light* light = std::get_if<Light>(&object)) {
+        if (!isUnitVector(light->direction))
+            return ".direction: not of unit length";
+        if (light->kind == LightKind::Spot && !(light->innerAngle < light->outerAngle))
+            return ".innerAngle: not less than outerAngle";
+    } else if (const Camera* camera = std::get_if<Camera>(&object)) {
+        if (!isUnitVector(camera->up))
+            return ".up: not of unit length";
+        if (camera->eye == camera->target)
+            return ".target: may not be the eye";
+    }
+    return {};
+}
+
+/// The object under whichever kind's name `json` has.
+static Result<Object> readObject(const Json& json, const std::string& path) {
+    static const std::array<Object, 6> kinds = {Node{},   Material{}, Light{},
+                                                Camera{}, Sky{},      BakeSettings{}};
+    Result<Object> result = fail(path + ": no node, material, light, camera, sky or bakeSettings");
+    for (const Object& kind : kinds)
+        describeObject(kind, [&](const char* name, auto object, const auto& describe) {
+            const auto found = json.find(name);
+            if (found == json.end() || (!result && result.error().message.starts_with(path + ".")))
+                return;
+            std::string problem;
+            FieldReader fields(*found, path + "." + name, problem);
+            describe(fields, object);
+            fields.finish();
+            if (problem.empty()) {
+                result = object;
+                if (const std::string broken = invariantOf(*result); !broken.empty())
+                    problem = path + "." + name + broken;
+            }
+            if (!problem.empty())
+                result = fail(problem);
+        });
+    return result;
+}
+
+static Result<void> readEntry(const Json& json, const std::string& path, Document& document) {
+    if (!json.is_object())
+        return fail(path + ": not an object");
+    const auto id = json.find("id");
+    if (id == json.end() || !id->is_number_unsigned() || id->get<std::uint64_t>() == 0 ||
+        id->get<std::uint64_t>() >= ~ObjectId(0))
+        return fail(path + ".id: not a positive integer");
+    Result<Object> object = readObject(json, path);
+    if (!object)
+        return tl::make_unexpected(object.error());
+    if (json.size() != 2) {
+        const auto known = [&](const std::string& key) {
+            bool same = key == "id";
+            describeObject(*object, [&](const char* name, const auto&, const auto&) {
+                same = same || key == name;
+            });
+            return same;
+        };
+        for (const auto& [key, value] : json.items())
+            if (!known(key))
+                return fail(fmt::format("{}.{}: unknown field", path, key));
+    }
+    if (!document.objects.emplace(id->get<ObjectId>(), std::move(*object)).second)
+        return fail(fmt::format("{}.id: {} is there twice", path, id->get<ObjectId>()));
+    return {};
+}
+
+/// Parents exist, are nodes, and lead to a root.
+static Result<void> checkTree(const Document& document) {
+    std::map<ObjectId, ObjectId> walk; // node -> the walk that met it first
+    for (const auto& [id, object] : document.objects) {
+        ObjectId at = id;
+        while (at != 0) {
+            const auto found = document.objects.find(at);
+            const Node* node =
+                found == document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
+            if (!node && at == id)
+                break; // not a node
+            if (!node)
+                return fail(fmt::format("object {}.node.parent: {} is no node", id, at));
+            const auto [met, first] = walk.emplace(at, id);
+            if (!first && met->second == id)
+                return fail(fmt::format("object {}.node.parent: the node is its own ancestor", at));
+            if (!first)
+                break;
+            at = node->parent;
+        }
+    }
+    return {};
+}
+
+static Result<void> checkVersion(const Json& json) {
+    const auto version = json.find("version");
+    if (version == json.end())
+        return fail("version: missing; this is no Limn project");
+    if (!version->is_number_integer())
+        return fail("version: not an integer");
+    if (version->get<std::int64_t>() != kProjectVersion)
+        return fail(fmt::format("version: {} is unknown, this Limn reads {}",
+                                version->get<std::int64_t>(), kProjectVersion));
+    return {};
+}
+
+static Result<void> readHead(const Json& json, Document& document) {
+    std::string problem, hash = hexHash(0);
+    std::int32_t version = 0;
+    std::uint32_t nextId = 0;
+    {
+        Json rest = json;
+        rest.erase("objects");
+        FieldReader fields(rest, "", problem);
+        fields("version", version);
+        fields("scene", document.scenePath);
+        fields("sceneHash", hash);
+        fields("nextId", nextId);
+        fields.finish();
+    }
+    if (!problem.empty())
+        return fail(problem);
+    const auto [end, error] =
+        std::from_chars(hash.data(), hash.data() + hash.size(), document.sceneHash, 16);
+    if (error != std::errc() || end != hash.data() + hash.size() || hash.size() != 16)
+        return fail("sceneHash: not 16 hexadecimal digits");
+    document.nextId = std::max<ObjectId>(nextId, 1);
+    return {};
+}
+
+static Result<ProjectText> readProject(const Json& json) {
+    if (!json.is_object())
+        return fail("JSON: not an object");
+    if (Result<void> version = checkVersion(json); !version)
+        return tl::make_unexpected(version.error());
+    ProjectText project;
+    if (Result<void> head = readHead(json, project.document); !head)
+        return tl::make_unexpected(head.error());
+    const auto objects = json.find("objects");
+    project.hasObjects = objects != json.end();
+    if (!project.hasObjects)
+        return project;
+    if (!objects->is_array())
+        return fail("objects: not an array");
+    for (std::size_t i = 0; i < objects->size(); ++i)
+        if (Result<void> read =
+                readEntry((*objects)[i], fmt::format("objects[{}]", i), project.document);
+            !read)
+            return tl::make_unexpected(read.error());
+    if (!project.document.objects.empty()) {
+        const ObjectId last = project.document.objects.rbegin()->first;
+        if (!json.contains("nextId"))
+            project.document.nextId = last + 1;
+        if (project.document.nextId <= last)
+            return fail(fmt::format("nextId: object {} exists", last));
+    }
+    if (Result<void> tree = checkTree(project.document); !tree)
+        return tl::make_unexpected(tree.error());
+    return project;
+}
+
+Result<ProjectText> readProjectText(const std::string& json) {
+    // Deeper than any project; nlohmann builds values without recursion, but copies them with it.
+    constexpr int kMaxDepth = 16;
+    bool tooDeep = false;
+    const auto limit = [&](int depth, Json::parse_event_t, Json&) {
+        tooDeep = tooDeep || depth > kMaxDepth;
+        return depth <= kMaxDepth;
+    };
+    try {
+        const Json parsed = Json::parse(json, limit);
+        return tooDeep ? fail("JSON: nested too deeply") : readProject(parsed);
+    } catch (const Json::exception& e) {
+        const std::string_view what = e.what();
+        return fail(
+            fmt::format("JSON: {}", what.substr(std::min(what.find(']') + 2, what.size()))));
+    }
+}
+
+std::string documentToJson(const Document& document) {
+    Json json;
+    json["version"] = kProjectVersion;
+    json["scene"] = document.scenePath;
+    json["sceneHash"] = hexHash(document.sceneHash);
+    json["nextId"] = document.nextId;
+    json["objects"] = Json::array();
+    for (const auto& [id, object] : document.objects) {
+        Json entry;
+        entry["id"] = id;
+        describeObject(object, [&](const char* name, const auto& value, const auto& describe) {
+            FieldWriter fields{entry[name] = Json::object()};
+            describe(fields, value);
+        });
+        json["objects"].push_back(std::move(entry));
+    }
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<Document> documentFromJson(const std::string& json) {
+    Result<ProjectText> project = readProjectText(json);
+    if (!project)
+        return tl::make_unexpected(project.error());
+    return std::move(project->document);
+}
+
+} // namespace limn

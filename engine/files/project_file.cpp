@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/project_file.h"
+
+#include "engine/files/document_json.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace limn {
+
+namespace fs = std::filesystem;
+
+/// `path` of the scene as seen from the project's folder.
+static Result<std::string> relativeScene(const std::string& scene, const std::string& project) {
+    if (scene.empty())
+        return std::string();
+    std::error_code error;
+    const fs::path folder = fs::absolute(project, error).parent_path();
+    const fs::path relative = error ? fs::path() : fs::relative(fs::absolute(scene), folder, error);
+    if (error || relative.empty())
+        return fail(fmt::format("scene: cannot express {} relative to {}", scene, folder.string()));
+    return relative.generic_string();
+}
+
+static bool writeAndSync(int file, const std::string& text) {
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t count = write(file, text.data() + done, text.size() - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return false;
+        done += std::size_t(count);
+    }
+    return fsync(file) == 0;
+}
+
+static void syncFolder(const fs::path& folder) {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor >= 0) {
+        fsync(descriptor); // the rename itself; a file system that cannot has nothing better
+        close(descriptor);
+    }
+}
+
+/// Either the old file or the new one is there, whenever the machine stops.
+static Result<void> replaceFile(const std::string& path, const std::string& text) {
+    std::error_code error;
+    const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+    const std::string temporary = fmt::format("{}.{}.tmp", target.string(), getpid());
+    const auto failure = [&](const char* what) {
+        const int reason = errno;
+        unlink(temporary.c_str());
+        return fail(fmt::format("{}: cannot {}: {}", path, what, std::strerror(reason)));
+    };
+    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0)
+        return failure("create");
+    if (!writeAndSync(file, text)) {
+        const int reason = errno;
+        close(file);
+        errno = reason;
+        return failure("write");
+    }
+    if (close(file) != 0)
+        return failure("write");
+    if (std::rename(temporary.c_str(), target.c_str()) != 0)
+        return failure("replace");
+    syncFolder(fs::absolute(target, error).parent_path());
+    return {};
+}
+
+Result<void> saveProject(const std::string& path, const Document& document) {
+    const Result<std::string> scene = relativeScene(document.scenePath, path);
+    if (!scene)
+        return fail(fmt::format("{}: {}", path, scene.error().message));
+    Document stored = document;
+    stored.scenePath = *scene;
+    // What would not load again must not replace what does.
+    const std::string text = documentToJson(stored);
+    const Result<Document> again = documentFromJson(text);
+    if (!again)
+        return fail(fmt::format("{}: not saved: {}", path, again.error().message));
+    if (!(*again == stored))
+        return fail(fmt::format("{}: not saved: a name or path is not UTF-8", path));
+    return replaceFile(path, text);
+}
+
+/// Drops meshes and images that the scene no longer has.
+static void dropLost(ImportedScene& scene) {
+    std::size_t meshes = 0, images = 0;
+    const auto lose = [&](TextureRef& texture) {
+        if (texture.image >= 0 && std::size_t(texture.image) >= scene.assets->images.size()) {
+            texture.image = -1;
+            ++images;
+        }
+    };
+    for (auto& [id, object] : scene.document.objects) {
+        if (Node* node = std::get_if<Node>(&object))
+            meshes += std::erase_if(node->meshes, [&](std::uint32_t mesh) {
+                return mesh >= scene.assets->meshes.size();
+            });
+        if (Material* material = std::get_if<Material>(&object))
+            for (TextureRef* texture :
+                 {&material->baseColorTexture, &material->metallicRoughnessTexture,
+                  &material->normalTexture, &material->emissiveTexture})
+                lose(*texture);
+    }
+    if (meshes)
+        scene.repairs.push_back(fmt::format("{} meshes are no longer in the scene file", meshes));
+    if (images)
+        scene.repairs.push_back(fmt::format("{} images are no longer in the scene file", images));
+}
+
+Result<ImportedScene> loadProject(const std::string& path, const Progress& progress) {
+    std::error_code error;
+    if (!fs::exists(path, error))
+        return fail(fmt::format("{}: no such file", path));
+    std::ifstream file(path, std::ios::binary);
+    if (!fs::is_regular_file(path, error) || !file)
+        return fail(fmt::format("{}: cannot read", path));
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    Result<ProjectText> project = readProjectText(text);
+    if (!project)
+        return fail(fmt::format("{}: {}", path, project.error().message));
+    Document& document = project->document;
+
+    ImportedScene scene;
+    scene.assets = std::make_shared<const Assets>();
+    if (!document.scenePath.empty()) {
+        const fs::path folder = fs::path(path).parent_path();
+        document.scenePath = (folder / document.scenePath).lexically_normal().string();
+        Result<ImportedScene> imported = importGltf(document.scenePath, progress);
+        if (!imported)
+            return fail(fmt::format("{}: scene: {}", path, imported.error().message));
+        scene = std::move(*imported);
+    }
+    if (!project->hasObjects)
+        return scene;
+    if (document.sceneHash != scene.document.sceneHash)
+        scene.repairs.push_back(
+            "the scene file changed since the project was saved; its new geometry is used");
+    document.sceneHash = scene.document.sceneHash;
+    scene.document = std::move(document);
+    dropLost(scene);
+    return scene;
+}
+
+Result<ImportedScene> openAny(const std::string& what, const std::string& projectsFolder,
+                              const Progress& progress) {
+    std::error_code error;
+    const std::string extension = fs::path(what).extension().string();
+    if (extension == ".limn")
+        return loadProject(what, progress);
+    if (extension == ".gltf" || extension == ".glb" || fs::is_regular_file(what, error))
+        return importGltf(what, progress);
+    const fs::path folder(projectsFolder);
+    // A name is a name: no way out of the folder.
+    if (!what.empty() && what.find('/') == std::string::npos && what[0] != '.')
+        for (const fs::path& base : {folder / what, folder})
+            for (const char* end : {".limn", ".gltf", ".glb"})
+                if (const fs::path path = base / (what + end); fs::is_regular_file(path, error))
+                    return openAny(path.string(), projectsFolder, progress);
+    return fail(fmt::format("{}: neither a .gltf, .glb or .limn file nor a project in {}", what,
+                            projectsFolder));
+}
+
+} // namespace limn
