@@ -15,6 +15,7 @@ static int runLimn(int argc, char** argv) {
     CLI::App app("Limn, an editor for light", "limn");
     app.require_subcommand(1);
     Run run;
+    addInfoCommand(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

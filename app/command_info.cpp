@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "app/command.h"
+#include "app/scene_options.h"
+
+#include "engine/core/hash.h"
+#include "engine/files/image_file.h"
+#include "engine/files/project_file.h"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+static std::uint64_t bytesOf(const Mesh& mesh) {
+    const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
+    return bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.uv0) +
+           bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
+}
+
+static Json toJson(glm::vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
+static Json describe(const ImportedScene& imported) {
+    const Scene scene = flatten(imported.document, imported.assets);
+    std::uint64_t triangles = 0, vertices = 0, geometry = 0, images = 0, nodes = 0;
+    for (const Instance& instance : scene.instances)
+        triangles += scene.meshOf(instance).triangleCount();
+    for (const Mesh& mesh : imported.assets->meshes) {
+        vertices += mesh.positions.size();
+        geometry += bytesOf(mesh);
+    }
+    for (const Image& image : imported.assets->images)
+        images += image.rgba.size();
+    for (const auto& [id, object] : imported.document.objects)
+        nodes += std::holds_alternative<Node>(object);
+    Json json;
+    json["kind"] = "scene";
+    json["scene"] = imported.document.scenePath;
+    json["hash"] = hexHash(imported.document.sceneHash);
+    json["nodes"] = nodes;
+    json["instances"] = scene.instances.size();
+    json["meshes"] = imported.assets->meshes.size();
+    json["triangles"] = triangles; // as instanced
+    json["vertices"] = vertices;
+    json["materials"] = scene.materials.size();
+    json["images"] = imported.assets->images.size();
+    json["lights"] = scene.lights.size();
+    json["cameras"] = scene.cameras.size();
+    json["bounds"] = {{"lower", toJson(scene.bounds.lower)}, {"upper", toJson(scene.bounds.upper)}};
+    json["bytes"] = {{"geometry", geometry}, {"images", images}, {"total", geometry + images}};
+    json["repairs"] = imported.repairs;
+    return json;
+}
+
+static Json describe(const ImageF& image) {
+    std::uint64_t invalid = 0;
+    float least = image.rgb[0].x, most = least;
+    double sum = 0;
+    for (const glm::vec3& p : image.rgb)
+        for (int c = 0; c < 3; ++c) {
+            if (!std::isfinite(p[c])) {
+                ++invalid;
+                continue;
+            }
+            least = std::min(least, p[c]);
+            most = std::max(most, p[c]);
+            sum += double(p[c]);
+        }
+    Json json;
+    json["kind"] = "float image";
+    json["width"] = image.width;
+    json["height"] = image.height;
+    json["minimum"] = least;
+    json["maximum"] = most;
+    json["mean"] = sum / double(std::max<std::uint64_t>(image.rgb.size() * 3 - invalid, 1));
+    json["invalid_numbers"] = invalid;
+    return json;
+}
+
+static Json describe(const Image& image) {
+    Json json;
+    json["kind"] = "image";
+    json["width"] = image.width;
+    json["height"] = image.height;
+    return json;
+}
+
+template <class T>
+static Result<Json> describeResult(const Result<T>& read) {
+    if (!read)
+        return tl::make_unexpected(read.error());
+    return describe(*read);
+}
+
+/// What a file holds, by its extension; anything without one of ours is opened as a scene.
+static Result<Json> describeFile(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".exr" || extension == ".hdr")
+        return describeResult(readFloatImage(file));
+    if (extension == ".png")
+        return describeResult(readPng(file));
+    return describeResult(openAny(file, projectsFolder()));
+}
+
+static std::string valueText(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+static void printForPeople(const Json& json) {
+    for (const auto& [key, value] : json.items()) {
+        if (value.is_object()) {
+            for (const auto& [inner, number] : value.items())
+                fmt::print("{:<12} {} {}\n", key, inner, valueText(number));
+        } else if (value.is_array()) {
+            for (const Json& line : value)
+                fmt::print("{:<12} {}\n", key, valueText(line));
+        } else {
+            fmt::print("{:<12} {}\n", key, valueText(value));
+        }
+    }
+}
+
+void addInfoCommand(CLI::App& app, Run& run) {
+    struct Options {
+        std::string file;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("info", "Says what a scene, project or image holds");
+    command->add_option("file", options->file, "the file, or the name of a project")->required();
+    command->add_flag("--json", options->json, "one JSON object on stdout");
+    command->callback([options, &run] {
+        run = [options] {
+            const Result<Json> json = describeFile(options->file);
+            if (!json)
+                return failed(json.error().message);
+            if (options->json)
+                fmt::print("{}\n", json->dump(-1, ' ', false, Json::error_handler_t::replace));
+            else
+                printForPeople(*json);
+            return Exit::Done;
+        };
+    });
+}
+
+} // namespace limn

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "app/scene_options.h"
+
+#include "engine/core/log.h"
+#include "engine/files/project_file.h"
+#include "engine/scene/light_spec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+namespace limn {
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("scene", options.scene, ".gltf, .glb or .limn file, or the name of a project")
+        ->required();
+    command
+        .add_option("--light", options.lights,
+                    "adds a light: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
+                    "inner=DEG outer=DEG; each with color=r,g,b, name=; may be repeated")
+        ->allow_extra_args(false)
+        ->take_all();
+    command.add_option("--sky", options.sky, "constant sky r,g,b [nits]; replaces the scene's");
+}
+
+static void setSky(Document& document, const Sky& sky) {
+    for (auto& [id, object] : document.objects)
+        if (Sky* known = std::get_if<Sky>(&object)) {
+            *known = sky;
+            return;
+        }
+    addObject(document, sky);
+}
+
+Result<ImportedScene> openScene(const SceneOptions& options) {
+    std::vector<Light> lights; // before the import: a wrong flag should not cost seconds
+    for (const std::string& spec : options.lights) {
+        Result<Light> light = parseLight(spec);
+        if (!light)
+            return tl::make_unexpected(light.error());
+        lights.push_back(std::move(*light));
+    }
+    std::optional<Sky> sky;
+    if (!options.sky.empty()) {
+        const Result<Sky> parsed = parseSky(options.sky);
+        if (!parsed)
+            return tl::make_unexpected(parsed.error());
+        sky = *parsed;
+    }
+    Result<ImportedScene> scene = openAny(options.scene, projectsFolder());
+    if (!scene)
+        return scene;
+    for (Light& light : lights)
+        addObject(scene->document, std::move(light));
+    if (sky)
+        setSky(scene->document, *sky);
+    for (const std::string& repair : scene->repairs)
+        logWarning(fmt::format("{}: {}", options.scene, repair));
+    return scene;
+}
+
+void addCameraOptions(CLI::App& command, CameraOptions& options) {
+    CLI::Option* name = command.add_option("--camera", options.name, "name of a camera");
+    CLI::Option* eye =
+        command.add_option("--eye", options.eye, "x,y,z [m]")->delimiter(',')->expected(3);
+    CLI::Option* target =
+        command.add_option("--target", options.target, "x,y,z [m]")->delimiter(',')->expected(3);
+    eye->needs(target)->excludes(name);
+    target->needs(eye);
+    command.add_option("--fov", options.fovDegrees, "vertical field of view [degrees]")
+        ->check(CLI::Range(0.1, 179.0));
+    command.add_option("--width", options.width, "[pixels]")->check(CLI::Range(1, 16384));
+    command.add_option("--height", options.height, "[pixels]")->check(CLI::Range(1, 16384));
+}
+
+Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {
+    if (options.name && std::ranges::none_of(scene.cameras, [&](const Camera& c) {
+            return c.name == *options.name;
+        })) {
+        std::string names;
+        for (const Camera& c : scene.cameras)
+            names += (names.empty() ? "" : ", ") + c.name;
+        return fail(fmt::format("--camera: there is no '{}'; there is: {}", *options.name,
+                                names.empty() ? "none" : names));
+    }
+    Camera camera = chooseCamera(scene, options.name);
+    if (options.eye.size() == 3 && options.target.size() == 3) {
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!std::isfinite(options.eye[c]) || !std::isfinite(options.target[c]))
+                return fail("--eye, --target: not finite");
+        camera = Camera{};
+        camera.eye = {options.eye[0], options.eye[1], options.eye[2]};
+        camera.target = {options.target[0], options.target[1], options.target[2]};
+        if (camera.eye == camera.target)
+            return fail("--target: may not be the eye");
+    }
+    if (options.fovDegrees)
+        camera.fovY = glm::radians(*options.fovDegrees);
+    return camera;
+}
+
+std::string projectsFolder() {
+    const char* folder = std::getenv("LIMN_PROJECTS");
+    return folder && *folder ? folder : LIMN_SOURCE_DIR "/projects";
+}
+
+} // namespace limn
