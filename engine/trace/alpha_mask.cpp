@@ -23,7 +23,7 @@ AlphaMask makeAlphaMask(const Assets& assets, const Mesh& mesh, const Material& 
     mask.mesh = &mesh;
     mask.texture = material.baseColorTexture;
     mask.factor = material.baseColor.w;
-    mask.cutoff = material.alphaCutoff;
+    mask.cutoff = material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : kBlendCutoff;
     const std::int32_t i = mask.texture.image;
     const std::vector<glm::vec2>& uv = mask.texture.texCoord == 1 ? mesh.uv1 : mesh.uv0;
     if (i < 0 || std::size_t(i) >= assets.images.size() ||
@@ -67,8 +67,10 @@ static float sampleAlpha(const AlphaImage& image, const TextureRef& texture, glm
         uv = {c * uv.x + s * uv.y, c * uv.y - s * uv.x};
     }
     uv += texture.offset;
-    // Coordinates beyond a million repeats have no fraction left; they must still not overflow int.
-    uv = glm::clamp(uv, glm::vec2(-1e6f), glm::vec2(1e6f));
+    // Coordinates beyond a thousand repeats have little fraction left; they must still not overflow
+    // int, nor may NaN.
+    uv.x = std::abs(uv.x) < 1e4f ? uv.x : 0;
+    uv.y = std::abs(uv.y) < 1e4f ? uv.y : 0;
     if (texture.wrapU == Wrap::Repeat)
         uv.x -= std::floor(uv.x);
     if (texture.wrapV == Wrap::Repeat)

@@ -16,8 +16,8 @@ struct AlphaImage {
     std::vector<std::uint8_t> alpha; ///< width * height
 };
 
-/// The alpha test of one mesh with one AlphaMode::Mask material, cheap enough for every ray.
-/// Agrees with surfaceMaterial(). Points into the mesh, which must outlive it.
+/// The alpha test of one mesh with one cut-out material, cheap enough for every ray.
+/// Agrees with surfaceAlpha(). Points into the mesh, which must outlive it.
 struct AlphaMask {
     const Mesh* mesh = nullptr;
     const std::vector<glm::vec2>* uv = nullptr; ///< null: no texture or no coordinates
@@ -30,7 +30,7 @@ struct AlphaMask {
 /// Alpha channels taken out of Assets::images so far, by image index.
 using AlphaImages = std::map<std::int32_t, std::shared_ptr<const AlphaImage>>;
 
-/// `material` must be AlphaMode::Mask.
+/// `material` must satisfy isCutout().
 AlphaMask makeAlphaMask(const Assets& assets, const Mesh& mesh, const Material& material,
                         AlphaImages& images);
 

@@ -26,7 +26,7 @@ namespace {
 /// What one acceleration structure of triangles is made from. Instances with equal keys share it.
 struct BlasKey {
     std::uint32_t mesh = 0;
-    std::uint32_t maskMaterial = ~0u;  ///< material with alpha mask; ~0: opaque
+    std::uint32_t maskMaterial = ~0u;  ///< material with holes; ~0: opaque
     std::uint32_t worldInstance = ~0u; ///< its matrix is baked into the vertices; ~0: object space
 
     auto operator<=>(const BlasKey&) const = default;
@@ -134,7 +134,7 @@ BlasKey TraceScene::Impl::keyOf(std::uint32_t i) const {
     const Instance& instance = scene.instances[i];
     BlasKey key;
     key.mesh = instance.mesh;
-    if (scene.materialOf(instance).alphaMode == AlphaMode::Mask)
+    if (isCutout(scene.materialOf(instance)))
         key.maskMaterial = instance.material;
     if (!invertsWell(instance.toWorld))
         key.worldInstance = i;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/reference/emitters.h"
+#include "engine/reference/sampler.h"
+#include "engine/reference/surface_point.h"
+
+#include <cstdint>
+
+namespace limn {
+
+/// What all paths of a render share.
+struct PathContext {
+    const TraceScene& trace;
+    const Emitters& emitters;
+    std::uint32_t maxBounces = 64;
+};
+
+/// Dimensions of the Sampler that a caller may use itself; paths take those from here on.
+inline constexpr std::uint32_t kFirstPathDimension = 2;
+
+/// One unbiased estimate of the irradiance that reaches `first` by any way but straight from
+/// directional, point and spot lights [W m^-2]: bounces, emissive surfaces, sky.
+glm::vec3 sampleIndirectIrradiance(const PathContext& context, const SurfacePoint& first,
+                                   const Sampler& sampler, std::uint64_t& rays);
+
+} // namespace limn
