@@ -1,11 +1,16 @@
-# Runs PROGRAM into an empty folder SCRATCH and fails unless each file of OUTPUT equals the one in COMMITTED.
+# Runs PROGRAM and then SAVE with SETTINGS into an empty folder SCRATCH, and fails unless each file of OUTPUT and
+# NAME.limn equal those in COMMITTED.
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
 execute_process(COMMAND ${PROGRAM} ${SCRATCH} RESULT_VARIABLE code)
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} failed: ${code}")
 endif()
-foreach(file ${OUTPUT})
+execute_process(COMMAND ${SAVE} ${SCRATCH}/${NAME}.gltf ${SCRATCH}/${NAME}.limn ${SETTINGS} RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "${SAVE} failed: ${code}")
+endif()
+foreach(file ${OUTPUT} ${NAME}.limn)
   file(SHA256 ${SCRATCH}/${file} again)
   file(SHA256 ${COMMITTED}/${file} committed)
   if(NOT again STREQUAL committed)

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] [--caches N]: writes the project
+// of a sample scene.
+#include "engine/files/project_file.h"
+#include "engine/scene/light_spec.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+using namespace limn;
+
+Result<void> saveSample(int argc, char** argv) {
+    Result<ImportedScene> scene = importGltf(argv[1]);
+    if (!scene)
+        return tl::make_unexpected(scene.error());
+    Document& document = scene->document;
+    Sky sky = singleton<Sky>(document);
+    BakeSettings bake = singleton<BakeSettings>(document);
+    for (int i = 3; i + 1 < argc; i += 2) {
+        const std::string flag = argv[i];
+        if (flag == "--sky") {
+            const Result<Sky> parsed = parseSky(argv[i + 1]);
+            if (!parsed)
+                return tl::make_unexpected(parsed.error());
+            sky = *parsed;
+        } else if (flag == "--surfels") {
+            bake.surfels = std::uint32_t(std::strtoul(argv[i + 1], nullptr, 10));
+        } else if (flag == "--caches") {
+            bake.lightmapCaches = std::uint32_t(std::strtoul(argv[i + 1], nullptr, 10));
+        } else {
+            return fail("unknown flag " + flag);
+        }
+    }
+    std::erase_if(document.objects, [](const auto& object) {
+        return std::holds_alternative<Sky>(object.second) ||
+               std::holds_alternative<BakeSettings>(object.second);
+    });
+    addObject(document, sky);
+    addObject(document, bake);
+    return saveProject(argv[2], document);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 3 || argc % 2 == 0) {
+        std::fputs("usage: save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] "
+                   "[--caches N]\n",
+                   stderr);
+        return 2;
+    }
+    if (const Result<void> saved = saveSample(argc, argv); !saved) {
+        std::fprintf(stderr, "save_project: %s\n", saved.error().message.c_str());
+        return 1;
+    }
+}
