@@ -18,7 +18,8 @@
 
 namespace limn {
 
-/// Sample points of the static surfaces that stand for all bounced light. Structure of arrays, world space.
+/// Sample points of the static surfaces that stand for all bounced light. Structure of arrays,
+/// world space.
 struct Surfels {
     std::vector<glm::vec3> position;
     std::vector<glm::vec3> normal;       ///< unit; the side it stands for
@@ -34,14 +35,16 @@ struct Surfels {
     bool operator==(const Surfels&) const = default;
 };
 
-/// The senders as one binary forest-free tree. Nodes [0, surfels) are the surfels, then [surfels, surfels + sky)
-/// the sky cells, then inner nodes, every parent after its children; the last node is the root.
+/// The senders as one binary tree. Nodes [0, surfels) are the surfels, then [surfels, surfels +
+/// sky) the sky cells, then inner nodes, every parent after its children; the last node is the
+/// root.
 struct ClusterTree {
     std::uint32_t surfels = 0, skyCells = 0;
-    std::vector<std::uint32_t> left, right; ///< per inner node, children; index - (surfels + skyCells)
-    std::vector<float> leftWeight;          ///< A_left / (A_left + A_right)
-    std::vector<std::uint32_t> parent;      ///< per node; the root's is ~0
-    std::vector<glm::vec3> skyDirection;    ///< unit, per sky cell
+    std::vector<std::uint32_t> left,
+        right;                           ///< per inner node, children; index - (surfels + skyCells)
+    std::vector<float> leftWeight;       ///< A_left / (A_left + A_right)
+    std::vector<std::uint32_t> parent;   ///< per node; the root's is ~0
+    std::vector<glm::vec3> skyDirection; ///< unit, per sky cell
 
     std::uint32_t leaves() const { return surfels + skyCells; }
     std::uint32_t size() const { return leaves() + std::uint32_t(left.size()); }
@@ -52,23 +55,29 @@ struct ClusterTree {
 /// The cache's SH grow by B * transport * cone(u, direction) / (cone's solid angle).
 struct Link {
     std::uint32_t node;
-    std::uint16_t octX, octY;  ///< direction to the sender, octahedral, 16-bit snorm
-    std::uint16_t u;           ///< half: 1 - cos of the cone's half-angle
-    std::uint16_t transport;   ///< half: visible solid angle / pi [1]
+    std::uint16_t octX, octY; ///< direction to the sender, octahedral, 16-bit snorm
+    std::uint16_t u;          ///< half: 1 - cos of the cone's half-angle
+    std::uint16_t transport;  ///< half: visible solid angle / pi [1]
 
     bool operator==(const Link&) const = default;
 };
 static_assert(sizeof(Link) == 12);
 
+/// What a cache sees. TwoSided: a surface that shows both sides; the front half-space from its
+/// front, the rest from its back. Grid: everything around a point in the air.
+enum class CacheKind : std::uint8_t { Hemisphere, TwoSided, Grid };
+
 /// Where radiance is gathered: texels of the lightmap first, then cells of the grid.
 struct Caches {
     std::uint32_t lightmapCount = 0;
-    std::vector<glm::vec3> position; ///< world
-    std::vector<glm::vec3> normal;   ///< unit; of the hemisphere seen. Sphere caches: 0
-    std::vector<std::uint32_t> texel; ///< lightmap: y * width + x; grid: cell index
+    std::vector<CacheKind> kind;
+    std::vector<glm::vec3> position;      ///< world
+    std::vector<glm::vec3> normal;        ///< unit geometric normal of the front; 0 for Grid
+    std::vector<std::uint32_t> texel;     ///< lightmap: y * width + x; grid: cell index
     std::vector<std::uint32_t> linkBegin; ///< size()+1 offsets into `links`
     std::vector<Link> links;
-    /// An invalid cache has no links and copies these valid ones, weights summing to 1; fillBegin has size()+1 offsets.
+    /// An invalid cache has no links and copies these valid ones, weights summing to 1 (none where
+    /// no cache is valid); fillBegin has size()+1 offsets. Valid caches have none.
     std::vector<std::uint32_t> fillBegin;
     std::vector<std::uint32_t> fillSource;
     std::vector<float> fillWeight;
@@ -78,7 +87,8 @@ struct Caches {
 };
 
 struct BakeCounts {
-    std::uint64_t triangles = 0, surfels = 0, clusters = 0, caches = 0, invalidCaches = 0, links = 0, rays = 0;
+    std::uint64_t triangles = 0, surfels = 0, clusters = 0, caches = 0, invalidCaches = 0,
+                  links = 0, rays = 0;
     bool operator==(const BakeCounts&) const = default;
 };
 
@@ -93,7 +103,8 @@ struct Bake {
     ClusterTree tree;
     Caches caches;
     BakeCounts counts;
-    std::vector<std::pair<std::string, double>> seconds; ///< per stage in order; not part of the hash
+    std::vector<std::pair<std::string, double>>
+        seconds; ///< per stage in order; not part of the hash
 
     /// Of everything but `seconds`.
     std::uint64_t hash() const;
@@ -105,7 +116,8 @@ struct BakeBytes {
 };
 BakeBytes bytesOf(const Bake& bake);
 
-/// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Not lights, albedo, emission.
+/// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Not
+/// lights, albedo, emission.
 std::uint64_t bakeInputHash(const Scene& scene);
 
 /// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").

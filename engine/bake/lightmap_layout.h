@@ -8,13 +8,14 @@
 
 namespace limn {
 
-/// A mesh's vertices after cutting it along chart borders: vertex k copies sourceVertex[k] of the mesh.
-/// Triangle t of the mesh is still triangle t here.
+/// A mesh's vertices after cutting it along chart borders: vertex k copies sourceVertex[k] of the
+/// mesh. Triangle t of the mesh is still triangle t here.
 struct MeshCharts {
     std::vector<std::uint32_t> sourceVertex;
     std::vector<std::uint32_t> indices; ///< into sourceVertex; as long as Mesh::indices
     std::vector<std::uint32_t> chartOfTriangle;
-    std::vector<glm::vec2> chartUv; ///< per vertex: position in its chart's plane, object units; lower corner 0
+    std::vector<glm::vec2>
+        chartUv; ///< per vertex: position in its chart's plane, object units; lower corner 0
     std::vector<glm::vec2> chartSize; ///< per chart: extent in the same units
 
     bool operator==(const MeshCharts&) const = default;
@@ -22,8 +23,9 @@ struct MeshCharts {
 
 /// Where an instance's vertices lie in the atlas.
 struct InstanceLightmap {
-    /// Per vertex of MeshCharts, normalised atlas coordinates [0, 1], v down; a bilinear lookup anywhere inside
-    /// a triangle reads only texels of its own chart. Empty: the instance is lit from the grid.
+    /// Per vertex of MeshCharts, normalised atlas coordinates [0, 1], v down; a bilinear lookup
+    /// anywhere inside a triangle reads only texels of its own chart. Empty: the instance is lit
+    /// from the grid.
     std::vector<glm::vec2> uv;
 
     bool operator==(const InstanceLightmap&) const = default;
@@ -32,7 +34,8 @@ struct InstanceLightmap {
 /// The lightmap's geometry: charts per mesh, places per instance.
 struct LightmapLayout {
     std::uint32_t width = 0, height = 0; ///< atlas texels
-    std::vector<MeshCharts> meshes;      ///< as Assets::meshes; empty entries for meshes without lightmap
+    std::vector<MeshCharts>
+        meshes; ///< as Assets::meshes; empty entries for meshes without lightmap
     std::vector<InstanceLightmap> instances; ///< as Scene::instances
 
     bool operator==(const LightmapLayout&) const = default;

@@ -11,9 +11,10 @@
 
 namespace limn {
 
-/// Real-time indirect light, as the viewport samples it: spherical harmonics of incident radiance, 3 bands.
-/// Coefficient (l, m) is number i = l(l+1)+m in 0..8; real, orthonormal, no Condon-Shortley sign.
-/// E(n) = max(0, sum A_l c_i Y_i(n)), A = {pi, 2pi/3, pi/4} [W m^-2]; exitant radiance is albedo E / pi.
+/// Real-time indirect light, as the viewport samples it: spherical harmonics of incident radiance,
+/// 3 bands. Coefficient (l, m) is number i = l(l+1)+m in 0..8; real, orthonormal, no
+/// Condon-Shortley sign. E(n) = max(0, sum A_l c_i Y_i(n)), A = {pi, 2pi/3, pi/4} [W m^-2]; exitant
+/// radiance is albedo E / pi.
 struct IndirectField {
     static constexpr std::uint32_t kCoefficients = 9;
 
@@ -24,8 +25,9 @@ struct IndirectField {
 
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;      ///< cell c's centre is lower + (c + 0.5) / gridSize * size
-    std::vector<glm::vec4> grid; ///< grid[((i * sz + z) * sy + y) * sx + x]; invalid cells are filled
-    std::uint64_t version = 0;   ///< grows with every change of the numbers above
+    std::vector<glm::vec4>
+        grid;                  ///< grid[((i * sz + z) * sy + y) * sx + x]; invalid cells are filled
+    std::uint64_t version = 0; ///< grows with every change of the numbers above
 
     bool operator==(const IndirectField&) const = default;
 };

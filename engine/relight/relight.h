@@ -12,10 +12,12 @@ namespace limn {
 /// Milliseconds and counters of one relight() call, for the statistics panel and --json.
 struct RelightStats {
     double surfelLightMs = 0, pullMs = 0, cacheLightMs = 0, totalMs = 0;
-    std::uint32_t bounces = 0;       ///< iterations run by this call
+    std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint32_t shadowRays = 0;
-    bool converged = false;          ///< the flux changes by less than epsilon per bounce
-    bool directSkipped = false;      ///< no light or dynamic object changed
+    bool converged =
+        false; ///< the radiosity's total changed by less than 1e-4 of itself in the last bounce
+    std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
+    bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 
 /// The live runtime on the CPU. Keeps what did not change since the last call.
@@ -26,24 +28,31 @@ public:
     explicit Relighter(std::shared_ptr<const Bake> bake);
     ~Relighter();
 
-    /// Brings the field up to date with the lights, materials and sky of `scene`, by at most `bounces` iterations of
-    /// B = albedo (E_direct + E_indirect(B)) + pi L_e. Call again to converge further. `trace` answers the shadow rays.
-    /// Cancelled calls leave a valid field.
+    /// Brings the field up to date with the lights, materials and sky of `scene`, by at most
+    /// `bounces` iterations of B = albedo (E_direct + E_indirect(B)) + pi L_e. Call again to
+    /// converge further. `trace` answers the shadow rays. Cancelled calls leave a valid field.
     RelightStats relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
                          const Progress& progress = {});
 
     const IndirectField& field() const;
     const Bake& bake() const;
 
+    /// Radiosity of the tree's nodes [W m^-2], one per node; valid after relight().
+    const std::vector<glm::vec3>& radiosity() const;
+
+    /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
+    /// the bake's settings.
+    const std::vector<glm::vec3>& cacheSh() const;
+
 private:
     struct State;
     std::unique_ptr<State> m_state;
 };
 
-/// Irradiance [W m^-2] from the lightmap at a surface point with unit normal `n`; from the grid where the instance
-/// has no lightmap. (u, v) are barycentrics of `triangle`.
-glm::vec3 sampleIrradiance(const IndirectField& field, const LightmapLayout& layout, const Scene& scene,
-                           std::uint32_t instance, std::uint32_t triangle, float u, float v,
-                           glm::vec3 position, glm::vec3 n);
+/// Irradiance [W m^-2] from the lightmap at a surface point with unit normal `n`; from the grid
+/// where the instance has no lightmap. (u, v) are barycentrics of `triangle`.
+glm::vec3 sampleIrradiance(const IndirectField& field, const LightmapLayout& layout,
+                           const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
+                           float u, float v, glm::vec3 position, glm::vec3 n);
 
 } // namespace limn

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/lightmap_layout.h"
+#include "engine/core/progress.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// A texel that a bilinear lookup can meet, and the surface point it stands for.
+struct AtlasTexel {
+    std::uint32_t texel;    ///< y * width + x
+    std::uint32_t instance; ///< index into Scene::instances
+    std::uint32_t triangle;
+    glm::vec2 barycentric; ///< (u, v), weights (1-u-v, u, v)
+};
+
+struct Atlas {
+    LightmapLayout layout;
+    std::vector<AtlasTexel> texels; ///< ordered by texel; each texel once
+    float texelsPerMetre = 0;       ///< world density used
+};
+
+/// Places every static instance's charts in one atlas. A chart of extent e metres gets round(e *
+/// density) + 1 texels a side, its borders on texel centres, so bilinear lookups stay inside
+/// without padding; a side under half a texel becomes one texel; charts smaller than that in both
+/// share a texel with their neighbours of like orientation. The density is settings.texelsPerMetre,
+/// or found by bisection so that about settings.lightmapCaches texels are met. `charts` per mesh,
+/// as Assets::meshes.
+Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings);
+
+/// The four texels and weights of a bilinear lookup at normalised `uv`; indices y * width + x,
+/// clamped to the atlas.
+struct Bilinear {
+    std::uint32_t texel[4];
+    float weight[4];
+};
+Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv);
+
+/// Normalised atlas coordinate at barycentrics (u, v) of a triangle. Precondition: the instance has
+/// a lightmap.
+glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
+                     std::uint32_t triangle, float u, float v);
+
+} // namespace limn

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/bake.h"
+
+#include "engine/bake/atlas.h"
+#include "engine/bake/cache_points.h"
+#include "engine/bake/charts.h"
+#include "engine/bake/cluster_tree.h"
+#include "engine/bake/cut.h"
+#include "engine/bake/gather.h"
+#include "engine/bake/surfels.h"
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+class StageClock {
+public:
+    explicit StageClock(std::vector<std::pair<std::string, double>>& seconds)
+        : m_seconds(seconds) {}
+    void finish(const char* stage) {
+        const auto now = std::chrono::steady_clock::now();
+        m_seconds.emplace_back(stage, std::chrono::duration<double>(now - m_last).count());
+        m_last = now;
+    }
+
+private:
+    std::vector<std::pair<std::string, double>>& m_seconds;
+    std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
+};
+
+std::string settingsDefect(const BakeSettings& s) {
+    const auto outside = [](std::uint32_t v, std::uint32_t low, std::uint32_t high) {
+        return v < low || v > high;
+    };
+    if (outside(s.surfels, 64, 1U << 20))
+        return fmt::format("bake settings: surfels {} is outside [64, 1048576]", s.surfels);
+    if (outside(s.links, 1, 4096))
+        return fmt::format("bake settings: links {} is outside [1, 4096]", s.links);
+    if (outside(s.bands, 2, 8))
+        return fmt::format("bake settings: bands {} is outside [2, 8]", s.bands);
+    if (outside(s.rays, 16, 65536))
+        return fmt::format("bake settings: rays {} is outside [16, 65536]", s.rays);
+    if (!(s.texelsPerMetre >= 0 && s.texelsPerMetre < 1e6f))
+        return fmt::format("bake settings: texelsPerMetre {} is outside [0, 1e6)",
+                           s.texelsPerMetre);
+    if (s.texelsPerMetre == 0 && outside(s.lightmapCaches, 1, 1U << 24))
+        return fmt::format("bake settings: lightmapCaches {} is outside [1, 16777216]",
+                           s.lightmapCaches);
+    if (s.grid != glm::uvec3(0) &&
+        (outside(s.grid.x, 1, 256) || outside(s.grid.y, 1, 256) || outside(s.grid.z, 1, 256)))
+        return fmt::format("bake settings: grid {}x{}x{} is outside 1 to 256 a side", s.grid.x,
+                           s.grid.y, s.grid.z);
+    return {};
+}
+
+/// Charts of every mesh that a static instance uses. Returns false when cancelled.
+bool chartMeshes(const Scene& scene, const Progress& progress, std::vector<MeshCharts>& charts) {
+    charts.assign(scene.assets->meshes.size(), {});
+    std::vector<bool> used(charts.size());
+    for (const Instance& i : scene.instances)
+        used[i.mesh] = used[i.mesh] || !i.dynamic;
+    return parallelRanges(charts.size(), 1, progress, "charts",
+                          [&](std::size_t begin, std::size_t end) {
+                              for (std::size_t m = begin; m < end; ++m)
+                                  if (used[m])
+                                      charts[m] = buildCharts(scene.assets->meshes[m]);
+                          });
+}
+
+BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
+    BakeCounts counts;
+    for (const Instance& i : scene.instances)
+        counts.triangles += scene.meshOf(i).triangleCount();
+    counts.surfels = bake.surfels.size();
+    counts.clusters = bake.tree.left.size();
+    counts.caches = bake.caches.size();
+    counts.links = bake.caches.links.size();
+    counts.rays = rays;
+    return counts;
+}
+
+} // namespace
+
+Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
+    const Scene& scene = trace.scene();
+    if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
+        return fail(defect);
+    const auto cancelled = [] { return fail("cancelled"); };
+    Bake result;
+    result.settings = scene.bake;
+    result.sceneHash = bakeInputHash(scene);
+    StageClock clock(result.seconds);
+
+    std::vector<MeshCharts> charts;
+    if (!chartMeshes(scene, progress, charts))
+        return cancelled();
+    Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
+    clock.finish("charts");
+    if (progress.cancelled())
+        return cancelled();
+
+    progress.at("surfels", 0);
+    SurfelSet set = placeSurfels(scene, scene.bake.surfels);
+    if (set.surfels.size() == 0)
+        return fail("nothing to bake: the scene has no static triangles");
+    clock.finish("surfels");
+    if (progress.cancelled())
+        return cancelled();
+
+    progress.at("clusters", 0);
+    result.tree = buildClusterTree(scene, set);
+    clock.finish("clusters");
+
+    result.gridBounds = gridBoundsOf(scene);
+    result.gridSize = chooseGridSize(scene, atlas.layout, scene.bake);
+    result.caches = placeCaches(scene, atlas, result.gridSize, result.gridBounds);
+    connectSurfels(scene, atlas.layout, result.caches, set.surfels);
+    clock.finish("caches");
+
+    GatherHits hits;
+    if (!gather(trace, set, result.caches, scene.bake.rays, progress, hits))
+        return cancelled();
+    clock.finish("trace");
+    if (!buildLinks(result.tree, hits, scene.bake.links, int(scene.bake.bands), progress,
+                    result.caches))
+        return cancelled();
+    const std::uint32_t invalid = fillInvalid(result.caches);
+    clock.finish("cut");
+
+    result.lightmap = std::move(atlas.layout);
+    result.surfels = std::move(set.surfels);
+    result.counts = countOf(scene, result, std::uint64_t(hits.sender.size()));
+    result.counts.invalidCaches = invalid;
+    return result;
+}
+
+BakeBytes bytesOf(const Bake& bake) {
+    const auto bytes = [](const auto& v) { return std::uint64_t(v.size() * sizeof v[0]); };
+    BakeBytes b;
+    const Surfels& s = bake.surfels;
+    b.surfels = bytes(s.position) + bytes(s.normal) + bytes(s.area) + bytes(s.instance) +
+                bytes(s.triangle) + bytes(s.barycentric) + bytes(s.cache) + bytes(s.cacheWeight);
+    const ClusterTree& t = bake.tree;
+    b.clusters = bytes(t.left) + bytes(t.right) + bytes(t.leftWeight) + bytes(t.parent) +
+                 bytes(t.skyDirection);
+    const Caches& c = bake.caches;
+    b.links = bytes(c.links) + bytes(c.linkBegin);
+    b.caches = bytes(c.kind) + bytes(c.position) + bytes(c.normal) + bytes(c.texel) +
+               bytes(c.fillBegin) + bytes(c.fillSource) + bytes(c.fillWeight);
+    return b;
+}
+
+} // namespace limn

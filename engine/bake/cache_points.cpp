@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/cache_points.h"
+
+#include "engine/bake/surfels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+void addLightmapCache(const Scene& scene, const AtlasTexel& t, Caches& out) {
+    const Instance& instance = scene.instances[t.instance];
+    const Mesh& mesh = scene.meshOf(instance);
+    const auto [a, b, c] = mesh.triangle(t.triangle);
+    const glm::vec3 pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
+    const glm::vec3 p =
+        pa * (1 - t.barycentric.x - t.barycentric.y) + pb * t.barycentric.x + pc * t.barycentric.y;
+    const glm::vec3 n = instance.normalToWorld * glm::cross(pb - pa, pc - pa);
+    const float length = glm::length(n);
+    out.kind.push_back(isTwoSided(scene.materialOf(instance)) ? CacheKind::TwoSided
+                                                              : CacheKind::Hemisphere);
+    out.position.push_back(instance.toWorld * glm::vec4(p, 1));
+    out.normal.push_back(length > 0 ? n / length : glm::vec3(0, 1, 0));
+    out.texel.push_back(t.texel);
+}
+
+} // namespace
+
+Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
+                   const Bounds& gridBounds) {
+    Caches caches;
+    for (const AtlasTexel& t : atlas.texels)
+        addLightmapCache(scene, t, caches);
+    caches.lightmapCount = std::uint32_t(caches.size());
+    const glm::vec3 cell = gridBounds.size() / glm::vec3(glm::max(gridSize, glm::uvec3(1)));
+    std::uint32_t index = 0;
+    for (std::uint32_t z = 0; z < gridSize.z; ++z)
+        for (std::uint32_t y = 0; y < gridSize.y; ++y)
+            for (std::uint32_t x = 0; x < gridSize.x; ++x) {
+                caches.kind.push_back(CacheKind::Grid);
+                caches.position.push_back(gridBounds.lower + (glm::vec3(x, y, z) + 0.5f) * cell);
+                caches.normal.emplace_back(0);
+                caches.texel.push_back(index++);
+            }
+    return caches;
+}
+
+Bounds gridBoundsOf(const Scene& scene) {
+    Bounds bounds = scene.bounds;
+    const float least = std::max(1e-3f * glm::length(bounds.size()), 1e-6f);
+    const glm::vec3 missing = glm::max(glm::vec3(0), glm::vec3(least) - bounds.size()) * 0.5f;
+    bounds.lower -= missing;
+    bounds.upper += missing;
+    return bounds;
+}
+
+glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,
+                          const BakeSettings& settings) {
+    if (settings.grid != glm::uvec3(0))
+        return glm::max(settings.grid, glm::uvec3(1));
+    const bool needed = std::any_of(layout.instances.begin(), layout.instances.end(),
+                                    [](const InstanceLightmap& i) { return i.uv.empty(); });
+    if (!needed)
+        return glm::uvec3(0);
+    const glm::vec3 size = gridBoundsOf(scene).size();
+    const float cell = std::max({size.x, size.y, size.z}) / 12;
+    return glm::clamp(glm::uvec3(glm::round(size / cell)), glm::uvec3(2), glm::uvec3(32));
+}
+
+void connectSurfels(const Scene& scene, const LightmapLayout& layout, const Caches& caches,
+                    Surfels& surfels) {
+    std::vector<std::uint32_t> cacheOfTexel(std::size_t(layout.width) * layout.height, ~0U);
+    for (std::uint32_t i = 0; i < caches.lightmapCount; ++i)
+        cacheOfTexel[caches.texel[i]] = i;
+    surfels.cache.assign(surfels.size(), glm::uvec4(~0U));
+    surfels.cacheWeight.assign(surfels.size(), glm::vec4(0));
+    for (std::size_t s = 0; s < surfels.size(); ++s) {
+        if (layout.instances[surfels.instance[s]].uv.empty())
+            continue;
+        const glm::vec2 uv =
+            lightmapUv(layout, surfels.instance[s], scene.instances[surfels.instance[s]].mesh,
+                       surfels.triangle[s], surfels.barycentric[s].x, surfels.barycentric[s].y);
+        const Bilinear lookup = bilinearAt(layout, uv);
+        float sum = 0;
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t cache = cacheOfTexel[lookup.texel[k]];
+            if (cache == ~0U || !(lookup.weight[k] > 0))
+                continue;
+            surfels.cache[s][k] = cache;
+            surfels.cacheWeight[s][k] = lookup.weight[k];
+            sum += lookup.weight[k];
+        }
+        if (sum > 0) // rounding may give a texel beyond the chart a weight of 1e-6
+            surfels.cacheWeight[s] /= sum;
+    }
+}
+
+} // namespace limn

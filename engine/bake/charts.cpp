@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/charts.h"
+
+#include "engine/bake/planar_set.h"
+#include "engine/math/sampling.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+/// Two triangles belong together when they share an edge of equal end points.
+struct EdgeKey {
+    std::uint32_t a, b;
+    bool operator==(const EdgeKey&) const = default;
+};
+struct EdgeHash {
+    std::size_t operator()(const EdgeKey& e) const {
+        return mixBits(e.a) * std::size_t(0x9e3779b97f4a7c15ULL) + mixBits(e.b);
+    }
+};
+
+struct PointHash {
+    std::size_t operator()(const std::array<std::uint32_t, 5>& p) const {
+        std::size_t h = 0;
+        for (const std::uint32_t v : p)
+            h = (h ^ mixBits(v)) * std::size_t(0x9e3779b97f4a7c15ULL);
+        return h;
+    }
+};
+
+std::uint32_t floatKey(float f) {
+    return std::bit_cast<std::uint32_t>(f + 0.f);
+} // -0 joins 0
+
+/// Number of each vertex after joining those at equal position (and equal uv1 when asked).
+std::vector<std::uint32_t> weld(const Mesh& mesh, bool byUv1) {
+    std::unordered_map<std::array<std::uint32_t, 5>, std::uint32_t, PointHash> ids;
+    ids.reserve(mesh.positions.size());
+    std::vector<std::uint32_t> result(mesh.positions.size());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const glm::vec3 p = mesh.positions[i];
+        const glm::vec2 uv = byUv1 ? mesh.uv1[i] : glm::vec2(0);
+        const std::array<std::uint32_t, 5> key = {floatKey(p.x), floatKey(p.y), floatKey(p.z),
+                                                  floatKey(uv.x), floatKey(uv.y)};
+        result[i] = ids.try_emplace(key, std::uint32_t(ids.size())).first->second;
+    }
+    return result;
+}
+
+/// neighbours[begin[t] … begin[t+1]) share an edge with triangle t.
+struct Adjacency {
+    std::vector<std::uint32_t> begin, neighbours;
+};
+
+Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& point) {
+    const std::size_t count = mesh.triangleCount();
+    std::unordered_map<EdgeKey, std::vector<std::uint32_t>, EdgeHash> edges;
+    edges.reserve(count * 2);
+    const auto edge = [&](std::size_t t, std::size_t k) {
+        const std::uint32_t a = point[mesh.indices[3 * t + k]],
+                            b = point[mesh.indices[3 * t + (k + 1) % 3]];
+        return EdgeKey{std::min(a, b), std::max(a, b)};
+    };
+    for (std::size_t t = 0; t < count; ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            edges[edge(t, k)].push_back(std::uint32_t(t));
+    Adjacency result;
+    result.begin.reserve(count + 1);
+    for (std::size_t t = 0; t < count; ++t) {
+        result.begin.push_back(std::uint32_t(result.neighbours.size()));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& sharing = edges[edge(t, k)];
+            if (sharing.size() >
+                8) // a fan of many sheets: no neighbourhood worth the quadratic walk
+                continue;
+            for (const std::uint32_t other : sharing)
+                if (other != t)
+                    result.neighbours.push_back(other);
+        }
+    }
+    result.begin.push_back(std::uint32_t(result.neighbours.size()));
+    return result;
+}
+
+struct Geometry {
+    std::vector<glm::vec3> normal; ///< unit, per triangle
+    std::vector<float> area;
+};
+
+Geometry triangleGeometry(const Mesh& mesh) {
+    Geometry g;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const auto [a, b, c] = mesh.triangle(t);
+        const glm::vec3 n = glm::cross(mesh.positions[b] - mesh.positions[a],
+                                       mesh.positions[c] - mesh.positions[a]);
+        const float length = glm::length(n);
+        g.normal.push_back(length > 0 ? n / length : glm::vec3(0, 1, 0));
+        g.area.push_back(length / 2);
+    }
+    return g;
+}
+
+/// Grows one chart from `seed`; fills chartOf and the corners' plane coordinates.
+class ChartGrower {
+public:
+    ChartGrower(const Mesh& mesh, const Geometry& geometry, const Adjacency& adjacency)
+        : m_mesh(mesh), m_geometry(geometry), m_adjacency(adjacency),
+          chartOf(mesh.triangleCount(), ~0U), corner(mesh.indices.size()) {}
+
+    void grow(std::uint32_t seed, std::uint32_t chart) {
+        constexpr float kCosLimit = 0.5f; // 60 degrees: areas shrink to half at most
+        const glm::vec3 axis = m_geometry.normal[seed];
+        const glm::mat3 basis = basisAround(axis);
+        PlanarSet placed(std::sqrt(std::max(m_geometry.area[seed], 1e-30f)) * 2);
+        std::vector<std::uint32_t> queue;
+        tryAdd(seed, chart, basis, placed, queue);
+        for (std::size_t next = 0; next < queue.size(); ++next)
+            for (std::uint32_t i = m_adjacency.begin[queue[next]];
+                 i < m_adjacency.begin[queue[next] + 1]; ++i) {
+                const std::uint32_t other = m_adjacency.neighbours[i];
+                if (chartOf[other] == ~0U && glm::dot(m_geometry.normal[other], axis) > kCosLimit)
+                    tryAdd(other, chart, basis, placed, queue);
+            }
+    }
+
+private:
+    void tryAdd(std::uint32_t t, std::uint32_t chart, const glm::mat3& basis, PlanarSet& placed,
+                std::vector<std::uint32_t>& queue) {
+        Triangle2 flat;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::vec3 p = m_mesh.positions[m_mesh.indices[3 * t + k]];
+            flat[k] = {glm::dot(basis[0], p), glm::dot(basis[1], p)};
+        }
+        if (!queue.empty() && placed.overlaps(flat))
+            return;
+        placed.insert(flat);
+        for (std::size_t k = 0; k < 3; ++k)
+            corner[3 * t + k] = flat[k];
+        chartOf[t] = chart;
+        queue.push_back(t);
+    }
+
+    const Mesh& m_mesh;
+    const Geometry& m_geometry;
+    const Adjacency& m_adjacency;
+
+public:
+    std::vector<std::uint32_t> chartOf; ///< per triangle
+    std::vector<glm::vec2> corner;      ///< per index
+};
+
+/// Islands of TEXCOORD_1, to the scale of the surface.
+void useAuthoredUv(const Mesh& mesh, const Geometry& geometry, ChartGrower& out) {
+    const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, true));
+    double surface = 0, plane = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const auto [a, b, c] = mesh.triangle(t);
+        const glm::vec2 e1 = mesh.uv1[b] - mesh.uv1[a], e2 = mesh.uv1[c] - mesh.uv1[a];
+        surface += geometry.area[t];
+        plane += std::abs(e1.x * e2.y - e1.y * e2.x) / 2;
+    }
+    const float scale = float(std::sqrt(surface / plane));
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        out.corner[i] = mesh.uv1[mesh.indices[i]] * scale;
+    std::uint32_t charts = 0;
+    for (std::uint32_t seed = 0; seed < mesh.triangleCount(); ++seed) {
+        if (out.chartOf[seed] != ~0U)
+            continue;
+        std::vector<std::uint32_t> stack = {seed};
+        out.chartOf[seed] = charts;
+        while (!stack.empty()) {
+            const std::uint32_t t = stack.back();
+            stack.pop_back();
+            for (std::uint32_t i = adjacency.begin[t]; i < adjacency.begin[t + 1]; ++i)
+                if (const std::uint32_t other = adjacency.neighbours[i];
+                    out.chartOf[other] == ~0U) {
+                    out.chartOf[other] = charts;
+                    stack.push_back(other);
+                }
+        }
+        ++charts;
+    }
+}
+
+void unwrap(const Geometry& geometry, ChartGrower& out) {
+    std::vector<std::uint32_t> seeds(geometry.area.size());
+    std::iota(seeds.begin(), seeds.end(), 0U);
+    std::stable_sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return geometry.area[a] > geometry.area[b];
+    });
+    std::uint32_t charts = 0;
+    for (const std::uint32_t seed : seeds)
+        if (out.chartOf[seed] == ~0U)
+            out.grow(seed, charts++);
+}
+
+/// One vertex per (mesh vertex, chart); the plane coordinates shifted so that each chart starts at
+/// 0.
+MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
+    MeshCharts result;
+    result.chartOfTriangle = grown.chartOf;
+    const std::uint32_t charts =
+        grown.chartOf.empty() ? 0
+                              : *std::max_element(grown.chartOf.begin(), grown.chartOf.end()) + 1;
+    std::vector<glm::vec2> lower(charts, glm::vec2(1e30f)), upper(charts, glm::vec2(-1e30f));
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t chart = grown.chartOf[i / 3];
+        lower[chart] = glm::min(lower[chart], grown.corner[i]);
+        upper[chart] = glm::max(upper[chart], grown.corner[i]);
+    }
+    std::unordered_map<EdgeKey, std::uint32_t, EdgeHash> vertexOf;
+    vertexOf.reserve(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t chart = grown.chartOf[i / 3];
+        const auto [it, fresh] = vertexOf.try_emplace({mesh.indices[i], chart},
+                                                      std::uint32_t(result.sourceVertex.size()));
+        if (fresh) {
+            result.sourceVertex.push_back(mesh.indices[i]);
+            result.chartUv.push_back(grown.corner[i] - lower[chart]);
+        }
+        result.indices.push_back(it->second);
+    }
+    for (std::uint32_t c = 0; c < charts; ++c)
+        result.chartSize.push_back(upper[c] - lower[c]);
+    return result;
+}
+
+} // namespace
+
+std::string lightmapUvDefect(const Mesh& mesh) {
+    if (mesh.uv1.empty())
+        return "no TEXCOORD_1";
+    double total = 0;
+    for (const glm::vec2 uv : mesh.uv1)
+        if (!(uv.x >= -1e-4f && uv.y >= -1e-4f && uv.x <= 1.0001f && uv.y <= 1.0001f))
+            return "TEXCOORD_1 outside [0, 1]";
+    PlanarSet placed(1 / std::sqrt(float(mesh.triangleCount()) + 1));
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const auto [a, b, c] = mesh.triangle(t);
+        const Triangle2 flat = {mesh.uv1[a], mesh.uv1[b], mesh.uv1[c]};
+        const glm::vec2 e1 = flat[1] - flat[0], e2 = flat[2] - flat[0];
+        const float area = std::abs(e1.x * e2.y - e1.y * e2.x) / 2;
+        if (!(area > 1e-12f))
+            return "TEXCOORD_1 has triangles without area";
+        if (placed.overlaps(flat))
+            return "TEXCOORD_1 overlaps itself";
+        placed.insert(flat);
+        total += area;
+    }
+    return total > 0 ? "" : "TEXCOORD_1 has no area";
+}
+
+MeshCharts buildCharts(const Mesh& mesh) {
+    const Geometry geometry = triangleGeometry(mesh);
+    if (lightmapUvDefect(mesh).empty()) {
+        const Adjacency none;
+        ChartGrower grown(mesh, geometry, none);
+        useAuthoredUv(mesh, geometry, grown);
+        return collectVertices(mesh, grown);
+    }
+    const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, false));
+    ChartGrower grown(mesh, geometry, adjacency);
+    unwrap(geometry, grown);
+    return collectVertices(mesh, grown);
+}
+
+} // namespace limn

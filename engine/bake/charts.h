@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/lightmap_layout.h"
+#include "engine/scene/mesh.h"
+
+#include <string>
+
+namespace limn {
+
+/// Cuts a mesh into charts: pieces that lie flat, without overlap, in a plane. Uses TEXCOORD_1
+/// where it is valid (within [0, 1], no two triangles overlapping, no degenerate ones), one chart
+/// per island; else projects connected triangles along the normal of a seed, within 60 degrees of
+/// it. Deterministic. chartUv is in object units, to scale.
+MeshCharts buildCharts(const Mesh& mesh);
+
+/// Whether TEXCOORD_1 can serve as lightmap coordinates; else why not, for the report. Empty:
+/// valid.
+std::string lightmapUvDefect(const Mesh& mesh);
+
+} // namespace limn

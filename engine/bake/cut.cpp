@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/cut.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/cone.h"
+#include "engine/math/packing.h"
+#include "engine/math/sh.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace limn {
+
+namespace {
+
+/// A link before packing.
+struct Cone {
+    std::uint32_t node;
+    glm::vec3 direction; ///< unit
+    float u;             ///< 1 - cos(half-angle)
+    float transport;     ///< visible solid angle / pi
+};
+
+Link pack(const Cone& cone) {
+    const Oct16 d = packOct(cone.direction);
+    return {cone.node, d.x, d.y, floatToHalf(cone.u), floatToHalf(cone.transport)};
+}
+
+/// Sums over the part of the tree that one cache sees. Dense over all nodes; only touched ones are
+/// reset.
+class VisibleTree {
+public:
+    explicit VisibleTree(const ClusterTree& tree)
+        : m_tree(tree), m_weight(tree.size()), m_moment(tree.size()) {}
+
+    /// `weight`: solid angle / pi seen along `direction`.
+    void add(std::uint32_t leaf, float weight, glm::vec3 direction) {
+        if (m_weight[leaf] == 0)
+            m_touched.push_back(leaf);
+        m_weight[leaf] += weight;
+        m_moment[leaf] += direction * weight;
+    }
+
+    /// Carries the leaves' sums up to the root: children come before parents.
+    void pull() {
+        const std::size_t leaves = m_touched.size();
+        for (std::size_t i = 0; i < leaves; ++i)
+            for (std::uint32_t node = m_tree.parent[m_touched[i]];
+                 node != ~0U && m_weight[node] == 0; node = m_tree.parent[node]) {
+                m_weight[node] = kMarked;
+                m_touched.push_back(node);
+            }
+        std::sort(m_touched.begin(), m_touched.end());
+        for (const std::uint32_t node : m_touched)
+            if (const std::uint32_t parent = m_tree.parent[node]; parent != ~0U) {
+                m_weight[parent] += m_weight[node];
+                m_moment[parent] += m_moment[node];
+            }
+    }
+
+    void clear() {
+        for (const std::uint32_t node : m_touched) {
+            m_weight[node] = 0;
+            m_moment[node] = glm::vec3(0);
+        }
+        m_touched.clear();
+    }
+
+    void cut(std::uint32_t maxLinks, float rayWeight, std::vector<Cone>& cones);
+
+private:
+    /// Far below any ray's weight, far above 0: says that an inner node was reached.
+    static constexpr float kMarked = 1e-20f;
+
+    Cone makeCone(std::uint32_t node, float rayWeight) const {
+        const float weight = m_weight[node], length = glm::length(m_moment[node]);
+        // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; a
+        // single ray has its own solid angle: rayWeight pi = 2 pi u.
+        const float u = std::clamp(2 * (1 - length / weight), std::min(rayWeight / 2, 2.f), 2.f);
+        return {node, length > 0 ? m_moment[node] / length : glm::vec3(0, 0, 1), u, weight};
+    }
+
+    const ClusterTree& m_tree;
+    std::vector<float> m_weight;
+    std::vector<glm::vec3> m_moment;
+    std::vector<std::uint32_t> m_touched;
+    std::vector<std::pair<float, std::uint32_t>> m_heap;
+};
+
+void VisibleTree::cut(std::uint32_t maxLinks, float rayWeight, std::vector<Cone>& cones) {
+    cones.clear();
+    m_heap.clear();
+    const std::uint32_t root = m_tree.size() - 1;
+    std::uint32_t count = 0;
+    const auto put = [&](std::uint32_t node) {
+        if (m_weight[node] == 0)
+            return;
+        ++count;
+        if (node < m_tree.leaves()) {
+            cones.push_back(makeCone(node, rayWeight));
+            return;
+        }
+        m_heap.emplace_back(m_weight[node], ~node); // equal weights: the lower node first
+        std::push_heap(m_heap.begin(), m_heap.end());
+    };
+    put(root);
+    while (!m_heap.empty()) {
+        std::pop_heap(m_heap.begin(), m_heap.end());
+        const std::uint32_t node = ~m_heap.back().second, inner = node - m_tree.leaves();
+        m_heap.pop_back();
+        const std::uint32_t l = m_tree.left[inner], r = m_tree.right[inner];
+        const std::uint32_t children = (m_weight[l] > 0) + (m_weight[r] > 0);
+        if (count - 1 + children > maxLinks) {
+            cones.push_back(makeCone(node, rayWeight));
+            continue;
+        }
+        --count;
+        put(l);
+        put(r);
+    }
+    std::sort(cones.begin(), cones.end(),
+              [](const Cone& a, const Cone& b) { return a.node < b.node; });
+}
+
+/// Scales a surface cache's cones so that senders of equal radiosity give, through the SH, exactly
+/// the cosine-weighted irradiance of its rays. A cone is round where a cluster may be flat, seen
+/// along the surface above all: its second band then errs to one side, by half a per cent of the
+/// irradiance at 64 links, and bounces multiply that.
+void calibrate(int bands, glm::vec3 normal, float cosineSum, std::vector<Cone>& cones) {
+    const auto factors = irradianceFactors();
+    float axis[kMaxCoefficients], y[kMaxCoefficients], g[kMaxBands];
+    shBasis(bands, normal, axis);
+    double sum = 0;
+    for (const Cone& cone : cones) {
+        shBasis(bands, cone.direction, y);
+        coneFactors(bands, cone.u, g);
+        for (int l = 0, i = 0; l < bands; ++l)
+            for (; i < (l + 1) * (l + 1); ++i)
+                sum += double(cone.transport * factors[std::size_t(l)] * g[l] * y[i] * axis[i]);
+    }
+    // Caches that see little, and that along the surface, have no meaningful ratio.
+    if (!(sum > 0.5 * double(cosineSum) && sum < 2 * double(cosineSum)))
+        return;
+    for (Cone& cone : cones)
+        cone.transport *= float(double(cosineSum) / sum);
+}
+
+/// One thread's working space for linking caches.
+struct Linker {
+    const ClusterTree& tree;
+    const GatherHits& hits;
+    std::uint32_t maxLinks;
+    int bands;
+    VisibleTree seen{tree};
+    std::vector<Cone> cones;
+
+    void link(const Caches& caches, std::uint32_t cache, std::vector<Link>& links) {
+        const CacheRays rays = raysOf(caches, cache, hits.rays);
+        const float weight = rays.local.solidAngle() / std::numbers::pi_v<float>;
+        const std::uint32_t* sender = hits.sender.data() + std::size_t(cache) * hits.rays;
+        if (2 * std::count(sender, sender + hits.rays, GatherHits::kBackFace) > hits.rays)
+            return;
+        double cosineSum = 0;
+        for (std::uint32_t r = 0; r < hits.rays; ++r) {
+            if (sender[r] == GatherHits::kBackFace)
+                continue;
+            const glm::vec3 local = rays.local[r];
+            seen.add(sender[r], weight, rays.toWorld * local);
+            cosineSum += double(weight * local.z);
+        }
+        seen.pull();
+        seen.cut(maxLinks, weight, cones);
+        seen.clear();
+        if (caches.kind[cache] == CacheKind::Hemisphere)
+            calibrate(bands, caches.normal[cache], float(cosineSum), cones);
+        for (const Cone& cone : cones)
+            links.push_back(pack(cone));
+    }
+};
+
+} // namespace
+
+bool buildLinks(const ClusterTree& tree, const GatherHits& hits, std::uint32_t maxLinks, int bands,
+                const Progress& progress, Caches& caches) {
+    std::vector<std::vector<Link>> links(caches.size());
+    tbb::enumerable_thread_specific<Linker> scratch([&] {
+        return Linker{tree, hits, maxLinks, bands};
+    });
+    const bool done =
+        parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
+            Linker& linker = scratch.local();
+            for (std::size_t c = begin; c < end; ++c)
+                linker.link(caches, std::uint32_t(c), links[c]);
+        });
+    if (!done)
+        return false;
+    caches.linkBegin = {0};
+    caches.links.clear();
+    for (const std::vector<Link>& l : links) {
+        caches.links.insert(caches.links.end(), l.begin(), l.end());
+        caches.linkBegin.push_back(std::uint32_t(caches.links.size()));
+    }
+    return true;
+}
+
+std::uint32_t fillInvalid(Caches& caches) {
+    constexpr std::size_t kSources = 4;
+    std::uint32_t invalid = 0;
+    const auto valid = [&](std::uint32_t c) {
+        return caches.linkBegin[c] < caches.linkBegin[c + 1];
+    };
+    std::vector<std::uint32_t> candidates;
+    for (std::uint32_t c = 0; c < caches.size(); ++c)
+        if (valid(c))
+            candidates.push_back(c);
+    std::vector<std::vector<std::pair<float, std::uint32_t>>> sources(caches.size());
+    parallelRanges(caches.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            if (valid(std::uint32_t(c)))
+                continue;
+            auto& best = sources[c];
+            for (const std::uint32_t other : candidates) {
+                if ((caches.kind[other] == CacheKind::Grid) != (caches.kind[c] == CacheKind::Grid))
+                    continue;
+                const glm::vec3 d = caches.position[other] - caches.position[c];
+                // Normals apart count as a longer way: eight times at right angles and beyond.
+                const float agree =
+                    caches.kind[c] == CacheKind::Grid
+                        ? 1.f
+                        : std::max(glm::dot(caches.normal[other], caches.normal[c]), 1.f / 64);
+                const std::pair<float, std::uint32_t> entry{glm::dot(d, d) / agree, other};
+                if (best.size() == kSources && !(entry < best.back()))
+                    continue;
+                best.insert(std::upper_bound(best.begin(), best.end(), entry), entry);
+                if (best.size() > kSources)
+                    best.pop_back();
+            }
+        }
+    });
+    caches.fillBegin = {0};
+    for (std::uint32_t c = 0; c < caches.size(); ++c) {
+        invalid += valid(c) ? 0 : 1;
+        double sum = 0;
+        const double nearest = sources[c].empty() ? 1 : std::max(sources[c][0].first, 1e-30f);
+        for (const auto& [distance2, source] : sources[c])
+            sum += nearest / std::max(double(distance2), nearest);
+        for (const auto& [distance2, source] : sources[c]) {
+            caches.fillSource.push_back(source);
+            caches.fillWeight.push_back(
+                float(nearest / std::max(double(distance2), nearest) / sum));
+        }
+        caches.fillBegin.push_back(std::uint32_t(caches.fillSource.size()));
+    }
+    return invalid;
+}
+
+} // namespace limn

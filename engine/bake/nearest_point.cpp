@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/nearest_point.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+struct NearestPoint::Query {
+    glm::vec3 p, normal;
+    float best = std::numeric_limits<float>::infinity();
+    std::uint32_t index = ~0U;
+};
+
+NearestPoint::NearestPoint(std::span<const glm::vec3> points, std::span<const glm::vec3> normals,
+                           float spacing)
+    : m_points(points), m_normals(normals), m_orientationWeight(16 * spacing * spacing),
+      m_order(points.size()), m_axis(points.size()) {
+    std::iota(m_order.begin(), m_order.end(), 0U);
+    build(0, std::uint32_t(m_order.size()));
+}
+
+void NearestPoint::build(std::uint32_t begin, std::uint32_t end) {
+    if (end - begin < 2)
+        return;
+    glm::vec3 lower(1e30f), upper(-1e30f);
+    for (std::uint32_t i = begin; i < end; ++i) {
+        lower = glm::min(lower, m_points[m_order[i]]);
+        upper = glm::max(upper, m_points[m_order[i]]);
+    }
+    const glm::vec3 size = upper - lower;
+    const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(m_order.begin() + begin, m_order.begin() + middle, m_order.begin() + end,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         return m_points[a][axis] != m_points[b][axis]
+                                    ? m_points[a][axis] < m_points[b][axis]
+                                    : a < b;
+                     });
+    m_axis[middle] = std::uint8_t(axis);
+    build(begin, middle);
+    build(middle + 1, end);
+}
+
+void NearestPoint::search(std::uint32_t begin, std::uint32_t end, Query& q) const {
+    if (begin >= end)
+        return;
+    const std::uint32_t middle = begin + (end - begin) / 2, candidate = m_order[middle];
+    const glm::vec3 d = m_points[candidate] - q.p;
+    const float cost =
+        glm::dot(d, d) + m_orientationWeight * (1 - glm::dot(m_normals[candidate], q.normal));
+    if (cost < q.best || (cost == q.best && candidate < q.index)) {
+        q.best = cost;
+        q.index = candidate;
+    }
+    if (end - begin == 1)
+        return;
+    const float side = -d[m_axis[middle]];
+    const bool lowerFirst = side <= 0;
+    lowerFirst ? search(begin, middle, q) : search(middle + 1, end, q);
+    if (side * side <= q.best)
+        lowerFirst ? search(middle + 1, end, q) : search(begin, middle, q);
+}
+
+std::uint32_t NearestPoint::find(glm::vec3 p, glm::vec3 normal) const {
+    Query query{p, normal};
+    search(0, std::uint32_t(m_order.size()), query);
+    return query.index == ~0U ? 0 : query.index;
+}
+
+} // namespace limn

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Finds, among points with normals, the one nearest to a query in |dx|^2 + 16 spacing^2 (1 - n.m):
+/// points of another orientation count as further off, four spacings at right angles. A kd-tree;
+/// deterministic, ties go to the lower index.
+class NearestPoint {
+public:
+    /// Spans must outlive the object, be of equal length and not empty.
+    NearestPoint(std::span<const glm::vec3> points, std::span<const glm::vec3> normals,
+                 float spacing);
+
+    std::uint32_t find(glm::vec3 p, glm::vec3 normal) const;
+
+private:
+    struct Query;
+    void build(std::uint32_t begin, std::uint32_t end);
+    void search(std::uint32_t begin, std::uint32_t end, Query& query) const;
+
+    std::span<const glm::vec3> m_points, m_normals;
+    float m_orientationWeight;          ///< 16 spacing^2
+    std::vector<std::uint32_t> m_order; ///< kd-tree in place: the middle of a range splits it
+    std::vector<std::uint8_t> m_axis;
+};
+
+} // namespace limn

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace limn {
+
+using Triangle2 = std::array<glm::vec2, 3>;
+
+/// True if the interiors overlap by more than rounding (sharing edges or corners does not count).
+/// Either winding.
+bool trianglesOverlap(const Triangle2& a, const Triangle2& b);
+
+/// Triangles in a plane, with a hash grid to ask whether a further one would overlap them.
+class PlanarSet {
+public:
+    /// `cellSize` > 0, about the size of a typical triangle.
+    explicit PlanarSet(float cellSize) : m_cellSize(cellSize) {}
+
+    bool overlaps(const Triangle2& t) const;
+    void insert(const Triangle2& t);
+
+private:
+    template <class F>
+    void forCells(const Triangle2& t, F visit) const;
+
+    /// Triangles over more cells than this are kept in a list that every query walks.
+    static constexpr int kMaxCells = 256;
+
+    float m_cellSize;
+    std::vector<Triangle2> m_triangles;
+    std::vector<std::uint32_t> m_large;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> m_cells;
+};
+
+} // namespace limn

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/surfels.h"
+
+#include "engine/bake/nearest_point.h"
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+float triangleArea(const Mesh& mesh, std::size_t t) {
+    const auto [a, b, c] = mesh.triangle(t);
+    return glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
+                                  mesh.positions[c] - mesh.positions[a])) /
+           2;
+}
+
+glm::vec3 triangleNormal(const Mesh& mesh, std::size_t t) {
+    const auto [a, b, c] = mesh.triangle(t);
+    const glm::vec3 n =
+        glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    const float length = glm::length(n);
+    return length > 0 ? n / length : glm::vec3(0, 1, 0);
+}
+
+glm::vec3 pointOn(const Mesh& mesh, std::size_t t, glm::vec2 uv) {
+    const auto [a, b, c] = mesh.triangle(t);
+    return mesh.positions[a] * (1 - uv.x - uv.y) + mesh.positions[b] * uv.x +
+           mesh.positions[c] * uv.y;
+}
+
+double worldArea(const Scene& scene, const Instance& instance) {
+    const Mesh& mesh = scene.meshOf(instance);
+    const glm::mat3 m(instance.toWorld);
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const auto [a, b, c] = mesh.triangle(t);
+        area += glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),
+                                       m * (mesh.positions[c] - mesh.positions[a]))) /
+                2;
+    }
+    return area;
+}
+
+bool sendsLight(const Scene& scene, const Instance& instance) {
+    return !instance.dynamic && scene.meshOf(instance).triangleCount() > 0;
+}
+
+/// Counts per mesh from the areas of its instances.
+std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, std::uint32_t target) {
+    std::vector<double> area(scene.instances.size());
+    parallelRanges(area.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (sendsLight(scene, scene.instances[i]))
+                area[i] = worldArea(scene, scene.instances[i]) *
+                          (isTwoSided(scene.materialOf(scene.instances[i])) ? 2 : 1);
+    });
+    double total = 0;
+    for (const double a : area)
+        total += a;
+    std::vector<double> sum(scene.assets->meshes.size());
+    std::vector<std::uint32_t> users(sum.size()), counts(sum.size());
+    for (std::size_t i = 0; i < area.size(); ++i)
+        if (area[i] > 0) {
+            sum[scene.instances[i].mesh] += area[i];
+            ++users[scene.instances[i].mesh];
+        }
+    for (std::size_t m = 0; m < sum.size(); ++m)
+        if (users[m] > 0) {
+            const bool two = isTwoSided(scene.materials[scene.assets->meshes[m].material]);
+            const double mean = sum[m] / users[m] / (two ? 2 : 1);
+            counts[m] = std::max(1U, std::uint32_t(std::lround(target * mean / total)));
+        }
+    return counts;
+}
+
+void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& local,
+                    Surfels& out) {
+    const Instance& instance = scene.instances[index];
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        const glm::vec3 n = instance.normalToWorld * local.normal[i];
+        const float stretch =
+            glm::length(n); // cofactor matrix: area of a unit patch after the transform
+        out.position.push_back(instance.toWorld * glm::vec4(local.position[i], 1));
+        out.normal.push_back(stretch > 0 ? n / stretch : glm::vec3(0, 1, 0));
+        out.area.push_back(std::max(local.area * stretch, 1e-30f));
+        out.instance.push_back(index);
+        out.triangle.push_back(local.triangle[i]);
+        out.barycentric.push_back(local.barycentric[i]);
+    }
+}
+
+} // namespace
+
+bool isTwoSided(const Material& material) {
+    return material.doubleSided;
+}
+
+MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided) {
+    assert(count >= 1 && mesh.triangleCount() >= 1);
+    double total = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
+        total += triangleArea(mesh, t);
+    MeshSurfels result;
+    result.frontCount = count;
+    result.area = float(total / count);
+    double passed = triangleArea(mesh, 0);
+    std::size_t t = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double wanted = (i + 0.5) / count * total;
+        while (passed < wanted && t + 1 < mesh.triangleCount())
+            passed += triangleArea(mesh, ++t);
+        const glm::vec2 uv = sampleTriangle({radicalInverse(i + 1, 2), radicalInverse(i + 1, 3)});
+        result.position.push_back(pointOn(mesh, t, uv));
+        result.normal.push_back(triangleNormal(mesh, t));
+        result.triangle.push_back(std::uint32_t(t));
+        result.barycentric.push_back(uv);
+    }
+    for (std::uint32_t i = 0; twoSided && i < count; ++i) {
+        result.position.push_back(result.position[i]);
+        result.normal.push_back(-result.normal[i]);
+        result.triangle.push_back(result.triangle[i]);
+        result.barycentric.push_back(result.barycentric[i]);
+    }
+    return result;
+}
+
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target) {
+    SurfelSet result;
+    const std::vector<std::uint32_t> counts = surfelsPerMesh(scene, target);
+    result.meshes.resize(counts.size());
+    parallelRanges(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            if (counts[m] > 0)
+                result.meshes[m] =
+                    placeSurfels(scene.assets->meshes[m], counts[m],
+                                 isTwoSided(scene.materials[scene.assets->meshes[m].material]));
+    });
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
+        if (sendsLight(scene, scene.instances[i]))
+            appendInstance(scene, i, result.meshes[scene.instances[i].mesh], result.surfels);
+    }
+    result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
+    return result;
+}
+
+SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels)
+    : m_frontCount(surfels.frontCount) {
+    // Cells of a third of the surfels' spacing: the border between two owners is off by a sixth of
+    // it at most.
+    const float spacing = std::sqrt(std::max(surfels.area, 1e-30f));
+    constexpr float kCellsPerSpacing = 3, kMostCells = 1024;
+    std::uint32_t cells = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const auto [a, b, c] = mesh.triangle(t);
+        const float longest = std::max(glm::length(mesh.positions[b] - mesh.positions[a]),
+                                       glm::length(mesh.positions[c] - mesh.positions[a]));
+        const float n =
+            std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMostCells);
+        m_resolution.push_back(std::uint16_t(n));
+        m_begin.push_back(cells);
+        cells += std::uint32_t(n) * std::uint32_t(n);
+    }
+    m_owner.resize(cells);
+    const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);
+    const NearestPoint nearest(points, std::span(surfels.normal.data(), surfels.frontCount),
+                               spacing);
+    parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const std::uint32_t n = m_resolution[t];
+            const glm::vec3 normal = triangleNormal(mesh, t);
+            for (std::uint32_t j = 0; j < n; ++j)
+                for (std::uint32_t i = 0; i < n; ++i) {
+                    glm::vec2 uv = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
+                    if (i + j >= n) { // outside: only rounding asks here
+                        m_owner[m_begin[t] + j * n + i] = m_owner[m_begin[t] + (n - 1 - i) * n + i];
+                        continue;
+                    }
+                    if (uv.x + uv.y > 1)
+                        uv /= uv.x + uv.y;
+                    m_owner[m_begin[t] + j * n + i] = nearest.find(pointOn(mesh, t, uv), normal);
+                }
+        }
+    });
+}
+
+} // namespace limn

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Sample points of one mesh in object space, front sides first; a two-sided mesh repeats them with
+/// the normal turned.
+struct MeshSurfels {
+    std::vector<glm::vec3> position;
+    std::vector<glm::vec3> normal; ///< unit, object space, of the side it stands for
+    std::vector<std::uint32_t> triangle;
+    std::vector<glm::vec2> barycentric;
+    std::uint32_t frontCount = 0; ///< size() or, two-sided, half of it
+    float area = 0; ///< of each surfel in object space; frontCount * area is the mesh's area
+
+    std::size_t size() const { return position.size(); }
+};
+
+/// `count` >= 1 points, area-proportional: point i lies in the triangle at (i + 1/2)/count of the
+/// mesh's summed area, so the areas of small triangles carry over to their neighbours, at a Halton
+/// point (bases 2, 3) of that triangle. Halton. On the Efficiency of Certain Quasi-Random Sequences
+/// of Points in Evaluating Multi-Dimensional Integrals. 1960
+MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided);
+
+/// Surfels of every static instance of a scene.
+struct SurfelSet {
+    std::vector<MeshSurfels> meshes; ///< as Assets::meshes; empty where no static instance uses one
+    std::vector<std::uint32_t>
+        instanceBegin; ///< per instance (+1): first surfel; empty range for dynamic ones
+    Surfels surfels;   ///< world space; cache links not filled yet
+};
+
+/// About `target` surfels spread over the static instances by world area, at least one per mesh
+/// side. Instances of a mesh share its points. World areas include the local stretch of the
+/// transform.
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target);
+
+/// Light leaves both sides of such a surface.
+bool isTwoSided(const Material& material);
+
+/// Which surfel stands for a point of a mesh: tables of triangle cells, built with the nearest
+/// surfel of like normal.
+class SurfelOwners {
+public:
+    SurfelOwners() = default;
+    SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels);
+
+    /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
+    /// ones.
+    std::uint32_t at(std::uint32_t triangle, float u, float v, bool back) const {
+        const std::uint32_t n = m_resolution[triangle];
+        const std::uint32_t i = std::min(std::uint32_t(u * float(n)), n - 1);
+        const std::uint32_t j = std::min(std::uint32_t(v * float(n)), n - 1);
+        return m_owner[m_begin[triangle] + j * n + i] + (back ? m_frontCount : 0);
+    }
+
+private:
+    std::uint32_t m_frontCount = 0;
+    std::vector<std::uint16_t> m_resolution; ///< per triangle: cells along u and v
+    std::vector<std::uint32_t> m_begin;
+    std::vector<std::uint32_t> m_owner; ///< front surfel per cell
+};
+
+} // namespace limn

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "engine/math/packing.h"
+
+#include <algorithm>
+
+namespace limn {
+
+std::uint16_t floatToHalf(float value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const auto sign = std::uint16_t((bits >> 16) & 0x8000U);
+    const float magnitude = std::abs(value);
+    if (!(magnitude < 65520.f)) // rounds up to infinity; NaN becomes infinity too
+        return std::uint16_t(sign | 0x7c00U);
+    if (magnitude < 0x1p-14f) // denormal: a multiple of 2^-24
+        return std::uint16_t(sign | std::uint16_t(std::nearbyint(magnitude * 0x1p24f)));
+    const std::uint32_t m = bits & 0x7fffffffU;
+    const std::uint32_t rounded = m + 0xfffU + ((m >> 13) & 1U);
+    return std::uint16_t(sign | std::uint16_t((rounded >> 13) - (112U << 10)));
+}
+
+Oct16 packOct(glm::vec3 d) {
+    const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    glm::vec2 p = sum > 0 ? glm::vec2(d.x, d.y) / sum : glm::vec2(0);
+    if (d.z < 0)
+        p = {std::copysign(1 - std::abs(p.y), d.x), std::copysign(1 - std::abs(p.x), d.y)};
+    const auto snorm = [](float v) {
+        return std::uint16_t(std::int16_t(std::lround(std::clamp(v, -1.f, 1.f) * 32767.f)));
+    };
+    return {snorm(p.x), snorm(p.y)};
+}
+
+} // namespace limn

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// IEEE 754 binary16, rounded to nearest even; overflow gives infinity, below 2^-25 zero.
+std::uint16_t floatToHalf(float value);
+
+/// Exact, including denormals; infinity and NaN are not decoded (no writer here stores them).
+inline float halfToFloat(std::uint16_t h) {
+    // Exponent and mantissa moved into a float are 2^112 too small; denormals come out right as
+    // well.
+    const float magnitude = std::bit_cast<float>(std::uint32_t(h & 0x7fffU) << 13) * 0x1p112f;
+    return (h & 0x8000U) ? -magnitude : magnitude;
+}
+
+/// Unit vector <-> octahedron in 2 x 16-bit snorm; error below 6.5e-5 rad.
+/// Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014
+struct Oct16 {
+    std::uint16_t x, y;
+};
+Oct16 packOct(glm::vec3 d);
+
+/// Unnormalised octahedral direction; normalise it before use.
+inline glm::vec3 unpackOctUnnormalised(std::uint16_t px, std::uint16_t py) {
+    const float x = float(std::int16_t(px)) * (1 / 32767.f),
+                y = float(std::int16_t(py)) * (1 / 32767.f);
+    const float z = 1 - std::abs(x) - std::abs(y);
+    const float fold = std::fmax(-z, 0.f);
+    return {x - std::copysign(fold, x), y - std::copysign(fold, y), z};
+}
+
+inline glm::vec3 unpackOct(std::uint16_t px, std::uint16_t py) {
+    return glm::normalize(unpackOctUnnormalised(px, py));
+}
+
+} // namespace limn

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// A good 32-bit mix of 32 bits (Wellons. Prospecting for Hash Functions. 2018).
+inline std::uint32_t mixBits(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x7feb352dU;
+    x ^= x >> 15;
+    x *= 0x846ca68bU;
+    x ^= x >> 16;
+    return x;
+}
+
+/// [0, 1) from the upper 24 bits.
+inline float unitFloat(std::uint32_t bits) {
+    return float(bits >> 8) * 0x1p-24f;
+}
+
+/// Radical inverse of i in `base`, in [0, 1): the coordinate of a Halton point.
+inline float radicalInverse(std::uint32_t i, std::uint32_t base) {
+    double result = 0, digit = 1.0 / base;
+    for (; i > 0; i /= base, digit /= base)
+        result += digit * (i % base);
+    return float(result);
+}
+
+/// Columns (tangent, bitangent, n); continuous except at n = -z.
+/// Duff et al. Building an Orthonormal Basis, Revisited. 2017
+inline glm::mat3 basisAround(glm::vec3 n) {
+    const float sign = std::copysign(1.f, n.z);
+    const float a = -1 / (sign + n.z), b = n.x * n.y * a;
+    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+}
+
+/// A set of `count` directions of equal solid angle, well spread: the Fibonacci lattice about z,
+/// turned by a hash of `seed`. Heights are the middles of equal strata, so the mean of z is exact
+/// and the cosine-weighted sum of a constant has no error. sphere: all directions, else the
+/// hemisphere z > 0. Each has solid angle (sphere ? 4 pi : 2 pi) / count.
+struct DirectionSet {
+    std::uint32_t count;
+    bool sphere;
+    float turn;
+
+    DirectionSet(std::uint32_t n, bool wholeSphere, std::uint32_t seed)
+        : count(n), sphere(wholeSphere), turn(unitFloat(mixBits(seed))) {}
+
+    glm::vec3 operator[](std::uint32_t i) const {
+        const double golden = std::numbers::phi - 1;
+        const float stratum = (float(i) + 0.5f) / float(count);
+        const float z = sphere ? 1 - 2 * stratum : 1 - stratum;
+        double whole;
+        const float angle = 2 * std::numbers::pi_v<float> *
+                            float(std::modf(double(i) * golden + double(turn), &whole));
+        const float r = std::sqrt(std::fmax(0.f, 1 - z * z));
+        return {r * std::cos(angle), r * std::sin(angle), z};
+    }
+    float solidAngle() const { return (sphere ? 4 : 2) * std::numbers::pi_v<float> / float(count); }
+};
+
+/// Point of a triangle uniform in area from (x, y) in [0, 1)^2: barycentrics (u, v), weights
+/// (1-u-v, u, v). The square is folded along its diagonal, so that low discrepancy survives.
+inline glm::vec2 sampleTriangle(glm::vec2 s) {
+    if (s.x + s.y > 1)
+        s = glm::vec2(1) - s;
+    return s;
+}
+
+} // namespace limn

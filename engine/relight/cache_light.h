@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Radiosity of the inner nodes from their children's: the area-weighted mean, in one sweep.
+/// `radiosity` has one entry per node, leaves filled in.
+void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec3>& radiosity);
+
+/// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links of
+/// B transport g_l(u) Y_i(direction). Invalid caches in the range are left 0.
+void lightCaches(const Caches& caches, const std::vector<glm::vec3>& radiosity, int bands,
+                 std::uint32_t begin, std::uint32_t end, std::vector<glm::vec3>& sh);
+
+/// Fills the invalid caches of [begin, end) from the valid ones that stand in for them.
+void fillInvalidCaches(const Caches& caches, int bands, std::uint32_t begin, std::uint32_t end,
+                       std::vector<glm::vec3>& sh);
+
+} // namespace limn

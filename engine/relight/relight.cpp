@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight/relight.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/sh.h"
+#include "engine/relight/cache_light.h"
+#include "engine/relight/surfel_light.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr double kConverged = 1e-4; // of the total radiosity, per bounce
+
+class Timer {
+public:
+    /// Milliseconds since the last call, or since construction.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - m_last).count();
+        m_last = now;
+        return ms;
+    }
+
+private:
+    std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+struct Relighter::State {
+    std::shared_ptr<const Bake> bake;
+    int bands;
+    bool started = false, converged = false;
+    std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
+
+    std::vector<Material> materials; ///< that albedo and emitted belong to
+    std::vector<glm::vec3> albedo;   ///< per surfel
+    std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
+    Sky sky;
+    SurfelLight direct;
+    std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
+    std::vector<glm::vec3> radiosity; ///< per node
+    std::vector<glm::vec3> sh;        ///< bands^2 per cache
+    IndirectField field;
+
+    bool updateMaterials(const Scene& scene);
+    bool updateSky(const Scene& scene);
+    double lightSurfels();
+    void readCaches();
+    void writeField();
+};
+
+Relighter::Relighter(std::shared_ptr<const Bake> bake) : m_state(std::make_unique<State>()) {
+    State& s = *m_state;
+    s.bake = std::move(bake);
+    s.bands = int(s.bake->settings.bands);
+    s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
+    s.radiosity.assign(s.bake->tree.size(), glm::vec3(0));
+    s.sh.assign(s.bake->caches.size() * std::size_t(s.bands * s.bands), glm::vec3(0));
+    s.field.lightmapWidth = s.bake->lightmap.width;
+    s.field.lightmapHeight = s.bake->lightmap.height;
+    s.field.lightmap.assign(std::size_t(s.field.lightmapWidth) * s.field.lightmapHeight *
+                                IndirectField::kCoefficients,
+                            glm::vec4(0));
+    s.field.gridSize = s.bake->gridSize;
+    s.field.gridBounds = s.bake->gridBounds;
+    s.field.grid.assign(std::size_t(s.field.gridSize.x) * s.field.gridSize.y * s.field.gridSize.z *
+                            IndirectField::kCoefficients,
+                        glm::vec4(0));
+}
+
+Relighter::~Relighter() = default;
+const IndirectField& Relighter::field() const {
+    return m_state->field;
+}
+const Bake& Relighter::bake() const {
+    return *m_state->bake;
+}
+const std::vector<glm::vec3>& Relighter::radiosity() const {
+    return m_state->radiosity;
+}
+const std::vector<glm::vec3>& Relighter::cacheSh() const {
+    return m_state->sh;
+}
+
+bool Relighter::State::updateMaterials(const Scene& scene) {
+    if (started && materials == scene.materials)
+        return false;
+    materials = scene.materials;
+    const Surfels& s = bake->surfels;
+    albedo.resize(s.size());
+    emitted.resize(s.size());
+    parallelRanges(s.size(), 512, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const SurfaceMaterial m =
+                surfaceMaterial(scene, scene.instances[s.instance[i]], s.triangle[i],
+                                s.barycentric[i].x, s.barycentric[i].y);
+            albedo[i] = glm::min(m.albedo, glm::vec3(0.99f));
+            emitted[i] = m.emission * kPi;
+        }
+    });
+    return true;
+}
+
+bool Relighter::State::updateSky(const Scene& scene) {
+    if (started && sky == scene.sky)
+        return false;
+    sky = scene.sky;
+    const ClusterTree& tree = bake->tree;
+    std::fill_n(radiosity.begin() + tree.surfels, tree.skyCells, sky.radiance * kPi);
+    return true;
+}
+
+/// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.
+double Relighter::State::lightSurfels() {
+    const Surfels& s = bake->surfels;
+    double change = 0, total = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
+        const glm::vec3 d = glm::abs(b - radiosity[i]);
+        change += double(d.x + d.y + d.z) * s.area[i];
+        total += double(b.x + b.y + b.z) * s.area[i];
+        radiosity[i] = b;
+    }
+    return total > 0 ? change / total : (change > 0 ? 1 : 0);
+}
+
+void Relighter::State::readCaches() {
+    const Surfels& s = bake->surfels;
+    const auto coefficients = std::size_t(bands * bands);
+    parallelRanges(s.size(), 256, [&](std::size_t begin, std::size_t end) {
+        glm::vec3 mixed[kMaxCoefficients];
+        for (std::size_t i = begin; i < end; ++i) {
+            std::fill_n(mixed, coefficients, glm::vec3(0));
+            for (int k = 0; k < 4; ++k) {
+                if (s.cache[i][k] == ~0U)
+                    continue;
+                const glm::vec3* c = sh.data() + std::size_t(s.cache[i][k]) * coefficients;
+                for (std::size_t j = 0; j < coefficients; ++j)
+                    mixed[j] += c[j] * s.cacheWeight[i][k];
+            }
+            indirect[i] = glm::max(shIrradiance(bands, mixed, s.normal[i]), glm::vec3(0));
+        }
+    });
+}
+
+void Relighter::State::writeField() {
+    const Caches& caches = bake->caches;
+    const auto coefficients = std::size_t(bands * bands);
+    const auto kept = std::min<std::size_t>(coefficients, IndirectField::kCoefficients);
+    const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
+    const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        const bool lightmap = c < caches.lightmapCount;
+        std::vector<glm::vec4>& out = lightmap ? field.lightmap : field.grid;
+        const std::size_t stride = lightmap ? texels : cells;
+        for (std::size_t i = 0; i < kept; ++i)
+            out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
+    }
+    ++field.version;
+}
+
+RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
+                                const Progress& progress) {
+    State& s = *m_state;
+    RelightStats stats;
+    Timer total, timer;
+    const bool materialsChanged = s.updateMaterials(scene);
+    const bool skyChanged = s.updateSky(scene);
+    const bool directChanged = updateSurfelLight(s.bake->surfels, scene, trace, s.direct);
+    stats.lightsTraced = s.direct.lightsTraced;
+    stats.shadowRays = s.direct.raysTraced;
+    stats.surfelLightMs = timer.lap();
+    if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged) {
+        stats.converged = stats.skipped = true;
+        stats.totalMs = total.lap();
+        return stats;
+    }
+    s.started = true;
+    s.converged = false;
+    // A changed sky reaches the caches in the first round and the surfels' radiosity in the second.
+    if (skyChanged)
+        s.unseenRounds = 1;
+    const Caches& caches = s.bake->caches;
+    const auto all = std::uint32_t(caches.size());
+    for (std::uint32_t k = 0; k < bounces && !s.converged; ++k) {
+        // A changed sky alone changes no surfel before the caches have seen it: it takes two rounds
+        // to settle.
+        s.converged = s.lightSurfels() < kConverged && !(skyChanged && k < 2);
+        stats.surfelLightMs += timer.lap();
+        pullRadiosity(s.bake->tree, s.radiosity);
+        stats.pullMs += timer.lap();
+        lightCaches(caches, s.radiosity, s.bands, 0, caches.lightmapCount, s.sh);
+        fillInvalidCaches(caches, s.bands, 0, caches.lightmapCount, s.sh);
+        stats.cacheLightMs += timer.lap();
+        s.readCaches();
+        stats.surfelLightMs += timer.lap();
+        ++stats.bounces;
+        if (progress.cancelled())
+            break;
+    }
+    lightCaches(caches, s.radiosity, s.bands, caches.lightmapCount, all, s.sh);
+    fillInvalidCaches(caches, s.bands, caches.lightmapCount, all, s.sh);
+    s.writeField();
+    stats.cacheLightMs += timer.lap();
+    stats.converged = s.converged;
+    stats.totalMs = total.lap();
+    return stats;
+}
+
+} // namespace limn

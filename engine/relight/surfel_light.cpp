@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight/surfel_light.h"
+
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+bool shines(const Light& l) {
+    return l.enabled && l.strength > 0 && (l.color.x > 0 || l.color.y > 0 || l.color.z > 0);
+}
+
+/// The light with everything that moves no shadow set to one.
+Light shapeOf(Light l) {
+    l.name.clear();
+    l.color = glm::vec3(1);
+    l.strength = 1;
+    return l;
+}
+
+std::uint64_t hashOccluders(const Scene& scene) {
+    std::uint64_t h = 3;
+    for (const Instance& i : scene.instances)
+        h = hashBytes(&i.toWorld, sizeof i.toWorld, hashValue(i.mesh, h));
+    return h;
+}
+
+std::uint32_t traceLight(const Surfels& surfels, const TraceScene& trace,
+                         SurfelLight::PerLight& out) {
+    out.share.resize(surfels.size());
+    std::atomic<std::uint32_t> rays = 0;
+    parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t mine = 0;
+        for (std::size_t s = begin; s < end; ++s) {
+            out.share[s] = 0;
+            const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
+            const LightSample light = sampleLight(out.light, p);
+            const float cosTheta = glm::dot(n, light.toLight);
+            if (!(cosTheta > 0) || !(light.irradiance.x > 0))
+                continue;
+            ++mine;
+            const float epsilon = trace.epsilonAt(p);
+            const Ray ray{p + n * epsilon, light.toLight, 0, light.distance - epsilon};
+            if (!trace.occluded(ray))
+                out.share[s] = light.irradiance.x * cosTheta;
+        }
+        rays += mine;
+    });
+    return rays;
+}
+
+void sumLights(const std::vector<const Light*>& lights, std::size_t surfels, SurfelLight& state) {
+    state.irradiance.assign(surfels, glm::vec3(0));
+    parallelRanges(surfels, 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            const glm::vec3 strength = lights[l]->color * lights[l]->strength;
+            const std::vector<float>& share = state.lights[l].share;
+            for (std::size_t s = begin; s < end; ++s)
+                state.irradiance[s] += strength * share[s];
+        }
+    });
+}
+
+} // namespace
+
+bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
+                       SurfelLight& state) {
+    state.lightsTraced = state.raysTraced = 0;
+    std::vector<const Light*> lights;
+    for (const Light& l : scene.lights)
+        if (shines(l))
+            lights.push_back(&l);
+    const std::uint64_t occluders = hashOccluders(trace.scene());
+    if (occluders != state.occluders)
+        state.lights.clear();
+    state.occluders = occluders;
+
+    std::vector<SurfelLight::PerLight> next;
+    for (const Light* light : lights) {
+        const Light shape = shapeOf(*light);
+        const auto known = std::find_if(
+            state.lights.begin(), state.lights.end(),
+            [&](const SurfelLight::PerLight& l) { return l.light == shape && !l.share.empty(); });
+        if (known != state.lights.end()) {
+            next.push_back(std::move(*known));
+            known->share.clear();
+            continue;
+        }
+        next.push_back({shape, {}});
+        state.raysTraced += traceLight(surfels, trace, next.back());
+        ++state.lightsTraced;
+    }
+    state.lights = std::move(next);
+    std::vector<glm::vec3> before = std::move(state.irradiance);
+    sumLights(lights, surfels.size(), state);
+    return before != state.irradiance;
+}
+
+} // namespace limn

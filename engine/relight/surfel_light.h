@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Direct light at the surfels, remembered per light: what a unit-strength white light of the same
+/// place brings. Changing a colour or a strength traces no ray.
+struct SurfelLight {
+    struct PerLight {
+        Light light; ///< as traced
+        std::vector<float>
+            share; ///< irradiance / (color * strength) at each surfel, shadow included
+    };
+    std::vector<PerLight> lights;
+    std::uint64_t occluders = 0; ///< hash of the instances that the shadows belong to
+
+    std::vector<glm::vec3> irradiance; ///< [W m^-2] per surfel, all lights
+    std::uint32_t lightsTraced = 0;    ///< by the last update
+    std::uint32_t raysTraced = 0;      ///< by the last update
+};
+
+/// Brings `state` up to date with the scene's lights. Lights that are off, black or of no strength
+/// cost nothing. Returns true if any irradiance changed.
+bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
+                       SurfelLight& state);
+
+} // namespace limn

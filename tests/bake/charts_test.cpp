@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/atlas.h"
+#include "engine/bake/charts.h"
+#include "engine/bake/planar_set.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+/// A wavy strip with a hole, a sphere and a fan of crossing sheets: curved, open, non-manifold.
+Mesh awkwardMesh() {
+    Mesh m = sphere(1, 2, false);
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int i = 0; i < 60; ++i) { // a soup
+        const auto base = std::uint32_t(m.positions.size());
+        for (int k = 0; k < 3; ++k) {
+            m.positions.emplace_back(3 + any(rng), any(rng), any(rng));
+            m.normals.emplace_back(0, 1, 0);
+        }
+        m.indices.insert(m.indices.end(), {base, base + 1, base + 2});
+    }
+    const auto spine = std::uint32_t(m.positions.size());
+    m.positions.insert(m.positions.end(), {{0, 0, 4}, {0, 2, 4}});
+    for (int i = 0; i < 6; ++i) { // sheets sharing one edge
+        const float a = float(i);
+        m.positions.emplace_back(std::cos(a), 0, 4 + std::sin(a));
+        m.indices.insert(m.indices.end(),
+                         {spine, spine + 1, std::uint32_t(m.positions.size() - 1)});
+    }
+    m.normals.resize(m.positions.size(), {0, 1, 0});
+    return m;
+}
+
+TEST(PlanarSet, OverlapSeesInteriorsAndNotSharedEdges) {
+    const Triangle2 a = {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)};
+    EXPECT_TRUE(trianglesOverlap(a, a));
+    EXPECT_FALSE(trianglesOverlap(a, {glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}));
+    EXPECT_TRUE(trianglesOverlap(a, {glm::vec2(0.9f, 0), glm::vec2(1, 1), glm::vec2(0, 0.9f)}));
+    EXPECT_TRUE(
+        trianglesOverlap(a, {glm::vec2(0.2f, 0.2f), glm::vec2(0.2f, 0.3f), glm::vec2(0.3f, 0.2f)}));
+    EXPECT_FALSE(trianglesOverlap(a, {glm::vec2(2, 2), glm::vec2(3, 2), glm::vec2(2, 3)}));
+}
+
+TEST(Charts, EveryTriangleKeepsItsCornersAndLiesFlatToScale) {
+    const Mesh mesh = awkwardMesh();
+    const MeshCharts charts = buildCharts(mesh);
+    ASSERT_EQ(charts.indices.size(), mesh.indices.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        EXPECT_EQ(charts.sourceVertex[charts.indices[i]], mesh.indices[i]);
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const glm::vec2 a = charts.chartUv[charts.indices[3 * t]],
+                        b = charts.chartUv[charts.indices[3 * t + 1]],
+                        c = charts.chartUv[charts.indices[3 * t + 2]];
+        const auto [ia, ib, ic] = mesh.triangle(t);
+        const float flat = std::abs((b - a).x * (c - a).y - (b - a).y * (c - a).x);
+        const float real = glm::length(glm::cross(mesh.positions[ib] - mesh.positions[ia],
+                                                  mesh.positions[ic] - mesh.positions[ia]));
+        EXPECT_LE(flat, real * 1.001f);
+        EXPECT_GE(flat, real * 0.49f); // within 60 degrees of the chart's plane
+    }
+}
+
+TEST(Charts, NoTwoTrianglesOfAChartOverlap) {
+    const MeshCharts charts = buildCharts(awkwardMesh());
+    const std::size_t count = charts.chartOfTriangle.size();
+    const auto flat = [&](std::size_t t) {
+        return Triangle2{charts.chartUv[charts.indices[3 * t]],
+                         charts.chartUv[charts.indices[3 * t + 1]],
+                         charts.chartUv[charts.indices[3 * t + 2]]};
+    };
+    for (std::size_t s = 0; s < count; ++s)
+        for (std::size_t t = 0; t < s; ++t)
+            if (charts.chartOfTriangle[s] == charts.chartOfTriangle[t]) {
+                EXPECT_FALSE(trianglesOverlap(flat(s), flat(t))) << s << " " << t;
+            }
+}
+
+TEST(Charts, AuthoredUvIsUsedOnlyWhenItDoesNotOverlap) {
+    Mesh m = quad({0, 0, 0}, {2, 0, 0}, {0, 2, 0});
+    m.uv1 = {{0.1f, 0.1f}, {0.5f, 0.1f}, {0.5f, 0.5f}, {0.1f, 0.5f}};
+    EXPECT_EQ(lightmapUvDefect(m), "");
+    const MeshCharts charts = buildCharts(m);
+    ASSERT_EQ(charts.chartSize.size(), 1U);
+    EXPECT_NEAR(charts.chartSize[0].x, 2, 1e-5); // to the scale of the surface
+    m.uv1[2] = {1.5f, 0.5f};
+    EXPECT_EQ(lightmapUvDefect(m), "TEXCOORD_1 outside [0, 1]");
+    m.uv1 = {{0, 0}, {1, 0}, {1, 1}, {0.9f, 0.1f}}; // folds the second triangle over the first
+    EXPECT_EQ(lightmapUvDefect(m), "TEXCOORD_1 overlaps itself");
+    m.uv1.assign(4, {0.5f, 0.5f});
+    EXPECT_EQ(lightmapUvDefect(m), "TEXCOORD_1 has triangles without area");
+}
+
+Scene awkwardScene() {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    const std::uint32_t mesh = b.addMesh(awkwardMesh());
+    b.addInstance(mesh);
+    b.addInstance(mesh, glm::mat4(glm::vec4(0, 0, 3, 0), glm::vec4(0, -2, 0, 0),
+                                  glm::vec4(1, 0, 0, 0), glm::vec4(9, 0, 0, 1)));
+    b.add(box(glm::vec3(-5), glm::vec3(15), true));
+    return b.build();
+}
+
+Atlas atlasOf(const Scene& scene, const BakeSettings& settings) {
+    std::vector<MeshCharts> charts;
+    for (const Mesh& m : scene.assets->meshes)
+        charts.push_back(buildCharts(m));
+    return buildAtlas(scene, charts, settings);
+}
+
+TEST(Atlas, ALookupAnywhereOnASurfaceMeetsOnlyTexelsOfItsOwnChart) {
+    const Scene scene = awkwardScene();
+    BakeSettings settings;
+    settings.lightmapCaches = 3000;
+    const Atlas atlas = atlasOf(scene, settings);
+    // (instance, chart) that a texel serves. Tiny charts may share one texel, but then nothing else
+    // uses it.
+    std::vector<std::set<std::pair<std::uint32_t, std::uint32_t>>> users(
+        std::size_t(atlas.layout.width) * atlas.layout.height);
+    std::vector<bool> cached(users.size());
+    for (const AtlasTexel& t : atlas.texels)
+        cached[t.texel] = true;
+    std::mt19937 rng(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const std::uint32_t mesh = scene.instances[i].mesh;
+        const MeshCharts& charts = atlas.layout.meshes[mesh];
+        for (std::uint32_t t = 0; t < charts.chartOfTriangle.size(); ++t)
+            for (int k = 0; k < 20; ++k) {
+                glm::vec2 b(unit(rng), unit(rng));
+                if (b.x + b.y > 1)
+                    b = 1.f - b;
+                const Bilinear lookup =
+                    bilinearAt(atlas.layout, lightmapUv(atlas.layout, i, mesh, t, b.x, b.y));
+                for (int c = 0; c < 4; ++c) {
+                    if (lookup.weight[c] < 1e-3f) // rounding at a texel centre
+                        continue;
+                    EXPECT_TRUE(cached[lookup.texel[c]]);
+                    users[lookup.texel[c]].insert({i, charts.chartOfTriangle[t]});
+                }
+            }
+    }
+    std::size_t shared = 0;
+    for (const auto& u : users)
+        if (u.size() > 1) {
+            ++shared;
+            for (const auto& [instance, chart] : u) { // only charts without any texel of their own
+                const glm::vec2 size =
+                    atlas.layout.meshes[scene.instances[instance].mesh].chartSize[chart];
+                EXPECT_LT(std::max(size.x, size.y) * atlas.texelsPerMetre, 2.f);
+            }
+        }
+    EXPECT_LT(shared, atlas.texels.size() / 10);
+}
+
+TEST(Atlas, MeetsTheWantedNumberOfTexels) {
+    const Scene scene = awkwardScene();
+    for (const std::uint32_t wanted : {1000U, 5000U, 20000U}) {
+        BakeSettings settings;
+        settings.lightmapCaches = wanted;
+        const std::size_t got = atlasOf(scene, settings).texels.size();
+        EXPECT_LE(got, wanted);
+        EXPECT_GE(got, wanted * 8 / 10);
+    }
+}
+
+TEST(Atlas, TexelsAreOrderedAndEachOnce) {
+    BakeSettings settings;
+    settings.lightmapCaches = 2000;
+    const Atlas atlas = atlasOf(awkwardScene(), settings);
+    for (std::size_t i = 1; i < atlas.texels.size(); ++i)
+        EXPECT_LT(atlas.texels[i - 1].texel, atlas.texels[i].texel);
+}
+
+} // namespace
+} // namespace limn

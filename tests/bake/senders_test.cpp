@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/cluster_tree.h"
+#include "engine/bake/nearest_point.h"
+#include "engine/bake/surfels.h"
+#include "engine/math/sampling.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+Scene twoRooms() {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    Material curtain = lambert(glm::vec3(0.5f));
+    curtain.doubleSided = true;
+    b.addMaterial(curtain);
+    const std::uint32_t room = b.addMesh(box(glm::vec3(0), glm::vec3(1, 2, 3), true));
+    b.addInstance(room);
+    b.addInstance(room, glm::mat4(glm::vec4(2, 0, 0, 0), glm::vec4(0, 1, 0, 0),
+                                  glm::vec4(0, 0, 0.5f, 0), glm::vec4(7, 0, 0, 1)));
+    b.add(quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1));
+    return b.build();
+}
+
+TEST(Surfels, AreasSumToTheLitSidesExactly) {
+    const Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 5000);
+    // Rooms of 22 m^2 and 2 (2 * 2 + 2 * 1.5 + 2 * 1.5) = 20 m^2; a curtain of 1 m^2 with two
+    // sides. The second room's faces stretch differently, so its sum holds as an average over each
+    // face only.
+    std::vector<double> area(3);
+    for (std::size_t i = 0; i < set.surfels.size(); ++i)
+        area[set.surfels.instance[i]] += set.surfels.area[i];
+    EXPECT_NEAR(area[0], 22, 1e-3);
+    EXPECT_NEAR(area[1], 20, 0.1);
+    EXPECT_NEAR(area[2], 2, 1e-4);
+    EXPECT_NEAR(double(set.surfels.size()), 5000, 100);
+}
+
+TEST(Surfels, LieOnTheirTrianglesAndFaceTheirSide) {
+    const Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 2000);
+    for (std::size_t i = 0; i < set.surfels.size(); ++i) {
+        const Instance& instance = scene.instances[set.surfels.instance[i]];
+        const auto [a, b, c] = scene.meshOf(instance).triangle(set.surfels.triangle[i]);
+        const auto& p = scene.meshOf(instance).positions;
+        const glm::vec2 uv = set.surfels.barycentric[i];
+        const glm::vec3 at =
+            instance.toWorld * glm::vec4(p[a] * (1 - uv.x - uv.y) + p[b] * uv.x + p[c] * uv.y, 1);
+        EXPECT_LT(glm::length(at - set.surfels.position[i]), 1e-5f);
+        EXPECT_NEAR(glm::length(set.surfels.normal[i]), 1, 1e-5);
+    }
+}
+
+TEST(NearestPoint, AgreesWithBruteForce) {
+    std::mt19937 rng(1);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    std::vector<glm::vec3> points, normals;
+    const auto vec = [&] { return glm::vec3(unit(rng), unit(rng), unit(rng)); };
+    for (int i = 0; i < 500; ++i) {
+        points.push_back(vec());
+        normals.push_back(glm::normalize(vec()));
+    }
+    const float spacing = 0.2f;
+    const NearestPoint nearest(points, normals, spacing);
+    for (int i = 0; i < 500; ++i) {
+        const glm::vec3 p = vec(), n = glm::normalize(vec());
+        const auto cost = [&](std::uint32_t k) {
+            return glm::dot(points[k] - p, points[k] - p) +
+                   16 * spacing * spacing * (1 - glm::dot(normals[k], n));
+        };
+        float best = 1e30f;
+        for (std::uint32_t k = 0; k < points.size(); ++k)
+            best = std::min(best, cost(k));
+        EXPECT_NEAR(cost(nearest.find(p, n)), best, 1e-6);
+    }
+}
+
+TEST(SurfelOwners, GiveANearbySurfelOfTheSameFace) {
+    const Mesh mesh = box(glm::vec3(0), glm::vec3(1), true);
+    const MeshSurfels surfels = placeSurfels(mesh, 600, true);
+    const SurfelOwners owners(mesh, surfels);
+    std::mt19937 rng(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 2000; ++i) {
+        const auto t = std::uint32_t(rng() % mesh.triangleCount());
+        const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
+        const auto [a, b, c] = mesh.triangle(t);
+        const glm::vec3 p = mesh.positions[a] * (1 - uv.x - uv.y) + mesh.positions[b] * uv.x +
+                            mesh.positions[c] * uv.y;
+        const std::uint32_t front = owners.at(t, uv.x, uv.y, false),
+                            back = owners.at(t, uv.x, uv.y, true);
+        EXPECT_LT(glm::length(surfels.position[front] - p), 4 * std::sqrt(surfels.area));
+        EXPECT_GT(glm::dot(surfels.normal[front], mesh.normals[a]), 0.9f);
+        EXPECT_LT(glm::dot(surfels.normal[back], mesh.normals[a]), -0.9f);
+    }
+}
+
+TEST(ClusterTree, IsOneBinaryTreeWithParentsAfterChildren) {
+    const Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 1000);
+    const ClusterTree tree = buildClusterTree(scene, set);
+    ASSERT_EQ(tree.left.size() + 1, tree.leaves());
+    std::vector<int> parents(tree.size());
+    for (std::uint32_t k = 0; k < tree.left.size(); ++k) {
+        const std::uint32_t node = tree.leaves() + k;
+        for (const std::uint32_t child : {tree.left[k], tree.right[k]}) {
+            EXPECT_LT(child, node);
+            EXPECT_EQ(tree.parent[child], node);
+            ++parents[child];
+        }
+        EXPECT_GT(tree.leftWeight[k], 0);
+        EXPECT_LT(tree.leftWeight[k], 1);
+    }
+    for (std::uint32_t n = 0; n + 1 < tree.size(); ++n)
+        EXPECT_EQ(parents[n], 1) << n;
+    EXPECT_EQ(tree.parent[tree.size() - 1], ~0U);
+}
+
+TEST(Sky, CellsHaveEqualSolidAngleAndContainTheirDirection) {
+    const Scene scene = twoRooms();
+    const ClusterTree tree = buildClusterTree(scene, placeSurfels(scene, 100));
+    for (std::uint32_t c = 0; c < kSkyCells; ++c)
+        EXPECT_EQ(skyCellOf(tree.skyDirection[c]), c);
+    const DirectionSet set(256000, true, 9);
+    std::vector<int> hits(kSkyCells);
+    for (std::uint32_t i = 0; i < set.count; ++i)
+        ++hits[skyCellOf(set[i])];
+    for (const int h : hits)
+        EXPECT_NEAR(h, 1000, 60);
+}
+
+} // namespace
+} // namespace limn
