@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/action.h"
+#include "editor_ui/editor_state.h"
+#include "editor_ui/field.h"
+#include "editor_ui/inspector_panel.h"
+#include "editor_ui/theme.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace limn {
+
+static void countRow(FieldEdit& edit, const char* label, const char* tooltip, std::uint32_t& value,
+                     std::uint32_t lo, std::uint32_t hi, const char* edited) {
+    fieldLabel(label, tooltip);
+    ImGui::PushID(label);
+    ImGui::SliderScalar("##count", ImGuiDataType_U32, &value, &lo, &hi, "%u",
+                        ImGuiSliderFlags_AlwaysClamp |
+                            (hi > 16 ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
+    ImGui::PopID();
+    fieldEdited(edit, edited);
+}
+
+static void lightmapRows(FieldEdit& edit, BakeSettings& s) {
+    int byDensity = s.texelsPerMetre > 0;
+    fieldLabel("Lightmap size by",
+               "Total: about this many texels over the scene. Density: the same everywhere");
+    if (ImGui::Combo("##by", &byDensity, "Total texels\0Density\0")) {
+        s.texelsPerMetre = byDensity ? 4.f : 0.f;
+        s.lightmapCaches = byDensity ? 0 : BakeSettings{}.lightmapCaches;
+    }
+    fieldEdited(edit, "Lightmap size");
+    if (s.texelsPerMetre > 0) {
+        fieldLabel("Density (texels/m)", "Lightmap texels per metre of surface [1/m]");
+        ImGui::SliderFloat("##density", &s.texelsPerMetre, 0.1f, 100, "%.2f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        fieldEdited(edit, "Texel density");
+    } else {
+        countRow(edit, "Lightmap texels", "About how many texels gather light", s.lightmapCaches,
+                 256, 4u << 20, "Lightmap texels");
+    }
+}
+
+static void gridRow(FieldEdit& edit, BakeSettings& s) {
+    int cells[3] = {int(s.grid.x), int(s.grid.y), int(s.grid.z)};
+    fieldLabel(
+        "Grid (cells)",
+        "Cells along X, Y, Z that light what has no lightmap; 0 0 0: chosen from the scene's size");
+    if (ImGui::DragInt3("##grid", cells, 0.1f, 0, 128, "%d", ImGuiSliderFlags_AlwaysClamp))
+        s.grid = {unsigned(cells[0]), unsigned(cells[1]), unsigned(cells[2])};
+    fieldEdited(edit, "Grid");
+}
+
+static void bakeStateLine(EditorState& state) {
+    const BakeStatus& bake = state.bake;
+    ImGui::Spacing();
+    ImGui::PushTextWrapPos(0);
+    switch (bake.freshness) {
+    case BakeFreshness::None:
+        ImGui::TextColored(ImColor(color::kWarning),
+                           "Bake needed: nothing is baked yet, so there is no bounced light.");
+        break;
+    case BakeFreshness::Checking:
+        ImGui::TextDisabled("Comparing with the last bake...");
+        break;
+    case BakeFreshness::UpToDate:
+        ImGui::TextColored(ImColor(color::kGood), "The bake is up to date.");
+        break;
+    case BakeFreshness::Needed:
+        ImGui::TextColored(ImColor(color::kWarning),
+                           "Bake needed: objects or settings changed since the last one.");
+        break;
+    }
+    if (!bake.error.empty())
+        ImGui::TextColored(ImColor(color::kError), "Last bake: %s", bake.error.c_str());
+    ImGui::PopTextWrapPos();
+    const Action& action = actionById(bake.running ? "bake.cancel" : "bake.start");
+    ImGui::BeginDisabled(!action.enabled(state));
+    if (ImGui::Button(action.label, {-FLT_MIN, 0}))
+        runAction(state, action);
+    ImGui::EndDisabled();
+}
+
+void bakeSection(FieldEdit& edit, BakeSettings& s) {
+    countRow(edit, "Surfels (n_S)",
+             "Sample points of the surfaces that stand for all bounced light, over the whole "
+             "scene. More: finer light, longer bake, more memory",
+             s.surfels, 64, 1u << 20, "Surfels");
+    countRow(edit, "Links (n_L)",
+             "Clusters of surfels that each cache listens to. More: more accurate, "
+             "slower to relight",
+             s.links, 1, 4096, "Links");
+    countRow(edit, "SH bands",
+             "Bands of spherical harmonics per cache, l\u00b2 numbers each. 3 for diffuse light",
+             s.bands, 2, 8, "SH bands");
+    countRow(edit, "Rays per cache",
+             "Rays traced from each cache while baking. More: less noise, longer bake", s.rays, 16,
+             65536, "Rays");
+    ImGui::Separator();
+    lightmapRows(edit, s);
+    gridRow(edit, s);
+    ImGui::Separator();
+    countRow(edit, "Most bounces", "Relighting stops earlier once the light no longer changes",
+             s.maxBounces, 1, 256, "Bounces");
+    bakeStateLine(edit.state);
+}
+
+} // namespace limn

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/scene.h"
+
+namespace limn {
+
+/// Turns the eye about the target: yaw about +Y, then pitch [rad]. Pitch stops short of the poles.
+/// Positive yaw moves the eye to its right, positive pitch up.
+void orbit(Camera& camera, float yaw, float pitch);
+
+/// Shifts eye and target in the picture plane by fractions of the picture's height at the target's
+/// distance.
+void pan(Camera& camera, float right, float up);
+
+/// Multiplies the distance to the target by 0.9^steps; keeps it within [1e-3, 1e6] m.
+void zoom(Camera& camera, float steps);
+
+/// Turns the view about the eye [rad]: positive yaw looks to the right, positive pitch up.
+void look(Camera& camera, float yaw, float pitch);
+
+/// Moves eye and target along the camera's own axes [m].
+void fly(Camera& camera, float right, float up, float forward);
+
+/// Keeps the direction and places the eye so that `bounds` fills the picture. A point gets a sphere
+/// of 1 m.
+void focus(Camera& camera, const Bounds& bounds);
+
+/// The views of the numpad: where the eye stands, seen from the target.
+enum class Side { Front, Back, Right, Left, Top, Bottom };
+void lookFrom(Camera& camera, Side side);
+
+} // namespace limn

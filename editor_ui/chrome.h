@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace limn {
+
+struct EditorState;
+
+/// The menu bar over the whole width; every entry comes from the table of actions.
+void menuBar(EditorState& state);
+
+/// Tools, view, tone mapping and exposure above the picture. Draws into the current window.
+void viewBar(EditorState& state);
+
+/// One line at the bottom: what is baking, how far, how long still, Cancel; else the state in
+/// words. Draws into the current window.
+void statusBar(EditorState& state);
+
+/// The list of all actions with a filter (Ctrl-P).
+void palettePopup(EditorState& state);
+
+/// "Discard changes?" while state.confirm is set.
+void confirmDialog(EditorState& state);
+
+} // namespace limn

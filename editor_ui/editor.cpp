@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/editor.h"
+
+#include "editor_ui/action.h"
+#include "editor_ui/chrome.h"
+#include "editor_ui/editor_state.h"
+#include "editor_ui/inspector_panel.h"
+#include "editor_ui/outliner_panel.h"
+#include "editor_ui/statistics_panel.h"
+#include "editor_ui/theme.h"
+#include "editor_ui/viewport_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+struct Rect {
+    float x = 0, y = 0, w = 0, h = 0;
+};
+
+/// Where everything stands; panels tile the window.
+struct Places {
+    Rect left, right, bottom, bar, picture, status;
+};
+
+constexpr float kSplitter = 5;
+constexpr float kLeastPanel = 150, kLeastPicture = 160;
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+} // namespace
+
+/// Keeps the panels within the window, the picture never smaller than kLeastPicture where there is
+/// room.
+static LayoutState fitted(LayoutState layout, float width, float height) {
+    const float sides = std::max(width - kLeastPicture - 2 * kSplitter, 2 * 20.f);
+    layout.left = std::clamp(layout.left, std::min(kLeastPanel, sides / 2), sides / 2);
+    layout.right = std::clamp(layout.right, std::min(kLeastPanel, sides / 2), sides - layout.left);
+    const float most = std::max(height - kLeastPicture, 20.f);
+    layout.bottom = std::clamp(layout.bottom, std::min(80.f, most), most);
+    return layout;
+}
+
+static Places placesOf(const LayoutState& layout, float menuHeight) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float frame = ImGui::GetFrameHeight();
+    const float statusHeight = frame + 10, barHeight = frame + 12;
+    const float top = menuHeight, height = std::max(display.y - top - statusHeight, 1.f);
+    const float middleX = layout.left + kSplitter;
+    const float middleW = std::max(display.x - layout.left - layout.right - 2 * kSplitter, 1.f);
+    const float pictureH = std::max(height - layout.bottom - kSplitter - barHeight, 1.f);
+    Places p;
+    p.left = {0, top, layout.left, height};
+    p.right = {display.x - layout.right, top, layout.right, height};
+    p.bar = {middleX, top, middleW, barHeight};
+    p.picture = {middleX, top + barHeight, middleW, pictureH};
+    p.bottom = {middleX, top + height - layout.bottom, middleW, layout.bottom};
+    p.status = {0, top + height, display.x, statusHeight};
+    return p;
+}
+
+static bool beginFixed(const char* name, const Rect& r, ImGuiWindowFlags extra = 0) {
+    ImGui::SetNextWindowPos({r.x, r.y});
+    ImGui::SetNextWindowSize({std::max(r.w, 1.f), std::max(r.h, 1.f)});
+    return ImGui::Begin(name, nullptr, kFixed | extra);
+}
+
+/// A strip between two panels that can be dragged; returns how far [px].
+static float splitter(const char* name, const Rect& r, bool vertical) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+    beginFixed(name, r);
+    ImGui::InvisibleButton("grip", {r.w, r.h});
+    const bool held = ImGui::IsItemActive();
+    if (held || ImGui::IsItemHovered()) {
+        ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+        ImGui::GetWindowDrawList()->AddRectFilled({r.x, r.y}, {r.x + r.w, r.y + r.h},
+                                                  color::kAccent);
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(3);
+    const ImVec2 d = ImGui::GetIO().MouseDelta;
+    return held ? (vertical ? d.x : d.y) : 0.f;
+}
+
+static void splitters(LayoutState& layout, const Places& p) {
+    layout.left += splitter("split left", {p.left.w, p.left.y, kSplitter, p.left.h}, true);
+    layout.right -=
+        splitter("split right", {p.right.x - kSplitter, p.right.y, kSplitter, p.right.h}, true);
+    layout.bottom -= splitter("split bottom",
+                              {p.bottom.x, p.bottom.y - kSplitter, p.bottom.w, kSplitter}, false);
+}
+
+static void bottomPanel(EditorState& state, const Rect& place) {
+    beginFixed("bottom", place);
+    if (ImGui::BeginTabBar("tabs")) {
+        if (ImGui::BeginTabItem("Statistics")) {
+            statisticsPanel(state);
+            ImGui::EndTabItem();
+        }
+        const std::string label = fmt::format("Log ({})###log", state.log.size());
+        if (ImGui::BeginTabItem(label.c_str())) {
+            logPanel(state);
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+}
+
+static void picturePanel(EditorState& state, const Rect& place) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+    beginFixed("picture", place,
+               ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+    viewportPanel(state);
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+static void panels(EditorState& state, float menuHeight) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    state.layout =
+        fitted(state.layout, display.x, display.y - menuHeight - 2 * ImGui::GetFrameHeight() - 22);
+    const Places p = placesOf(state.layout, menuHeight);
+    constexpr ImGuiWindowFlags kNoScroll =
+        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    beginFixed("outliner", p.left);
+    outlinerPanel(state);
+    ImGui::End();
+    beginFixed("inspector", p.right);
+    inspectorPanel(state);
+    ImGui::End();
+    bottomPanel(state, p.bottom);
+    beginFixed("view bar", p.bar, kNoScroll);
+    viewBar(state);
+    ImGui::End();
+    picturePanel(state, p.picture);
+    beginFixed("status", p.status, kNoScroll);
+    statusBar(state);
+    ImGui::End();
+    splitters(state.layout, p);
+}
+
+static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
+    const bool typing = ImGui::GetIO().WantTextInput;
+    const bool flying = state.view.navigation == Navigation::Fly; // W, Q, ... steer
+    const bool modal = state.fileBrowser || state.confirm;
+    for (const Shortcut& shortcut : pressed)
+        if (!modal && !typing && !(flying && shortcut.mods == kNoMods))
+            runShortcut(state, shortcut);
+}
+
+void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {
+    shortcuts(state, pressed);
+    menuBar(state);
+    panels(state, ImGui::GetFrameHeight());
+    palettePopup(state);
+    fileBrowserDialog(state);
+    confirmDialog(state);
+    if (!ImGui::IsAnyItemActive() && !state.view.drag)
+        commitGesture(state);
+}
+
+} // namespace limn

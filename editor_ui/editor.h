@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/keys.h"
+
+#include <span>
+
+namespace limn {
+
+struct EditorState;
+
+/// One frame of the whole interface, between ImGui::NewFrame() and ImGui::Render(): shortcuts,
+/// menu, panels, dialogs. `pressed`: keys that went down, from feedInput(). Ends the gesture when
+/// nothing is held any more. What is to be done outside the interface is left in state.requests.
+void drawEditor(EditorState& state, std::span<const Shortcut> pressed);
+
+} // namespace limn

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/edit_history.h"
+#include "editor_ui/file_browser.h"
+#include "editor_ui/gesture.h"
+#include "editor_ui/gizmo_math.h"
+#include "editor_ui/keys.h"
+#include "editor_ui/statistics.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+#include "engine/trace/trace_scene.h"
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// Something a panel or an action wants done outside the UI: files, jobs, the window.
+struct Request {
+    enum class Kind { NewFromScene, Open, Save, Bake, CancelBake, Screenshot, Quit } kind;
+    std::string path; ///< of NewFromScene, Open, Save
+};
+
+enum class Tool { Select, Move };
+
+/// What the mouse does to the view camera between press and release.
+enum class Navigation { None, Orbit, Pan, Fly };
+
+struct GizmoDrag {
+    Handle handle = Handle::None;
+    glm::vec3 origin{0};
+    glm::vec2 start{0};
+    ObjectsById objects; ///< as they were at the start
+};
+
+/// The centre of the window, where the picture is.
+struct ViewState {
+    View view = View::Lit;
+    Tonemap tonemap = Tonemap::Aces;
+    float exposureEv = 0;
+    Camera camera;
+    glm::vec2 origin{0}, size{1}; ///< [px]
+    Tool tool = Tool::Move;
+    Navigation navigation = Navigation::None;
+    std::optional<GizmoDrag> drag;
+    glm::vec2 pressedAt{0};
+    bool pressed = false; ///< left button went down in the picture and may become a pick
+    bool showLights = true;
+    float flySpeed = 2;     ///< [m/s]
+    bool animating = false; ///< wants another frame although no event came
+
+    Picture picture() const { return {camera, origin, size}; }
+};
+
+/// Widths of the fixed panels [px].
+struct LayoutState {
+    float left = 270, right = 350, bottom = 210;
+};
+
+struct OutlinerState {
+    std::string filter;
+    std::set<ObjectId> collapsed;
+    ObjectId renaming = 0;
+    std::string newName;
+    bool focusName = false;
+    ObjectId anchor = 0;   ///< where a Shift-click range begins
+    ObjectId revealed = 0; ///< the last active object scrolled to
+};
+
+/// Euler angles as the user typed them, for as long as the rotation is theirs.
+struct EulerEdit {
+    ObjectId id = 0;
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 degrees{0};
+};
+
+struct LogLine {
+    enum class Level { Info, Warning, Error } level = Level::Info;
+    std::string text;
+};
+
+/// Everything the panels share. Owned by the session; no globals, no back pointers.
+struct EditorState {
+    Document document;
+    std::shared_ptr<const Assets> assets; ///< never null
+    std::vector<Bounds> meshBounds;       ///< object space, as Assets::meshes
+    std::string projectPath;              ///< empty: never saved
+    std::vector<std::string> recent;      ///< newest first
+    EditHistory history;
+    ObjectsById saved;               ///< the objects as they are in the file
+    std::vector<ObjectId> selection; ///< last element is the active object
+    std::optional<Gesture> gesture;  ///< edit in progress: in the document, not yet in history
+
+    ViewState view;
+    LayoutState layout;
+    OutlinerState outliner;
+    EulerEdit euler;
+    std::optional<FileBrowser> fileBrowser;
+    std::optional<Request> confirm; ///< waits for "discard changes?"
+    bool paletteOpen = false;
+    std::string paletteFilter;
+    bool autoBake = false;
+
+    std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
+    Bounds sceneBounds;
+    BakeStatus bake;
+    RelightStatus relight;
+    FrameStatus frame;
+    std::string loading; ///< what is being opened; empty: nothing
+    std::vector<LogLine> log;
+
+    std::vector<Request> requests; ///< taken by the session each frame
+};
+
+/// The active object's id, or 0.
+inline ObjectId activeId(const EditorState& state) {
+    return state.selection.empty() ? 0 : state.selection.back();
+}
+
+/// The object, or null.
+inline Object* findObject(EditorState& state, ObjectId id) {
+    const auto it = state.document.objects.find(id);
+    return it == state.document.objects.end() ? nullptr : &it->second;
+}
+
+/// True if the document differs from its file.
+inline bool hasUnsavedChanges(const EditorState& state) {
+    return state.document.objects != state.saved;
+}
+
+} // namespace limn

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/field.h"
+
+#include "editor_ui/editor_state.h"
+#include "editor_ui/object_rules.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+FieldEdit::FieldEdit(EditorState& editor, ObjectId object)
+    : state(editor), id(object), seen(editor.document.objects.at(object)) {}
+
+void wrappedTooltip(const char* text) {
+    if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void fieldLabel(const char* label, const char* tooltip) {
+    const float left = ImGui::GetCursorPosX();
+    const float width = std::max(ImGui::GetContentRegionAvail().x * 0.42f, 60.f);
+    ImGui::AlignTextToFramePadding();
+    elidedText(label, width - ImGui::GetStyle().ItemSpacing.x);
+    wrappedTooltip(tooltip);
+    ImGui::SameLine(left + width);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void fieldEdited(FieldEdit& edit, const char* label) {
+    Object& now = edit.state.document.objects.at(edit.id);
+    if (!isValid(now))
+        now = edit.seen;
+    trackEdit(edit.state, edit.id, edit.seen, label);
+}
+
+/// Longest prefix of whole UTF-8 characters that fits.
+static std::size_t fittingPrefix(const std::string& text, float width) {
+    const char* end = text.data() + text.size();
+    const char* cut = nullptr;
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), width, 0, text.data(), end, &cut);
+    return cut ? std::size_t(cut - text.data()) : text.size();
+}
+
+void elidedText(const std::string& text, float width) {
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (ImGui::CalcTextSize(begin, end).x <= width) {
+        ImGui::TextUnformatted(begin, end);
+        return;
+    }
+    const float dots = ImGui::CalcTextSize("...").x;
+    const std::string cut = text.substr(0, fittingPrefix(text, std::max(width - dots, 1.f)));
+    ImGui::TextUnformatted((cut + "...").c_str());
+    wrappedTooltip(text.c_str());
+}
+
+std::string groupedNumber(unsigned long long n) {
+    std::string digits = std::to_string(n), out;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0)
+            out += ' ';
+        out += digits[i];
+    }
+    return out;
+}
+
+std::string byteText(unsigned long long bytes) {
+    const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+    double value = double(bytes);
+    std::size_t unit = 0;
+    while (value >= 1024 && unit + 1 < std::size(units))
+        value /= 1024, ++unit;
+    return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} {}", value, units[unit]);
+}
+
+std::string durationText(double seconds) {
+    if (seconds <= 0)
+        return "0 s";
+    if (seconds < 1)
+        return fmt::format("{:.{}f} ms", seconds * 1e3, seconds < 0.01 ? 2 : 0);
+    if (seconds < 60)
+        return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<unsigned long long>(std::lround(seconds));
+    return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+} // namespace limn

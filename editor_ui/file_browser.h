@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace limn {
+
+struct EditorState;
+
+/// The dialog's state. `entries` is read from disk when `folder` changes, not each frame.
+struct FileBrowser {
+    enum class Purpose { NewFromScene, Open, SaveAs } purpose = Purpose::Open;
+    struct Entry {
+        std::string name;
+        bool isFolder = false;
+    };
+    std::string folder; ///< absolute
+    std::string name;   ///< chosen or typed file name
+    std::vector<Entry> entries;
+    std::string error;      ///< why the folder could not be read or the name was refused
+    bool overwrite = false; ///< the user was warned that the file exists
+};
+
+/// Opens the dialog at the folder of the current project, scene or the working directory.
+void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose);
+
+/// Reads `folder`: folders first, then files with an extension that fits the purpose, each by name.
+void readFolder(FileBrowser& browser, const std::string& folder);
+
+/// Draws the dialog while it is open; puts a Request when the user is done.
+void fileBrowserDialog(EditorState& state);
+
+} // namespace limn

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/editor_state.h"
+#include "editor_ui/field.h"
+#include "editor_ui/inspector_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace limn {
+
+static void colorAndStrength(FieldEdit& edit, glm::vec3& radiance, const char* what,
+                             const char* strengthLabel, const char* tooltip) {
+    float strength = std::max({radiance.x, radiance.y, radiance.z});
+    glm::vec3 color = strength > 0 ? radiance / strength : glm::vec3(1);
+    fieldLabel("Colour", "Linear Rec. 709, brightest component 1");
+    if (ImGui::ColorEdit3("##radianceColor", &color.x, ImGuiColorEditFlags_Float))
+        radiance = color * strength;
+    fieldEdited(edit, what);
+    fieldLabel(strengthLabel, tooltip);
+    if (ImGui::SliderFloat("##radiance", &strength, 0, 1e5f, "%.3f nits",
+                           ImGuiSliderFlags_Logarithmic))
+        radiance = color * strength;
+    fieldEdited(edit, what);
+}
+
+static void textureLine(const EditorState& state, const char* use, const TextureRef& texture) {
+    if (texture.image < 0 || std::size_t(texture.image) >= state.assets->images.size())
+        return;
+    const Image& image = state.assets->images[std::size_t(texture.image)];
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    elidedText(std::string(use) + ": " + image.name + ", " + std::to_string(image.width) +
+                   " \u00d7 " + std::to_string(image.height),
+               ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+}
+
+void materialSection(FieldEdit& edit, Material& material) {
+    fieldLabel("Base colour", "Linear; multiplies the texture. Bounced light takes its colour");
+    ImGui::ColorEdit3("##base", &material.baseColor.x, ImGuiColorEditFlags_Float);
+    fieldEdited(edit, "Base colour");
+    fieldLabel("Metallic", "0: dielectric, 1: metal; metal sends no diffuse light [0, 1]");
+    ImGui::SliderFloat("##metallic", &material.metallic, 0, 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Metallic");
+    fieldLabel("Roughness", "0: mirror, 1: matte [0, 1]");
+    ImGui::SliderFloat("##roughness", &material.roughness, 0, 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Roughness");
+    ImGui::Separator();
+    ImGui::TextDisabled("Emission");
+    colorAndStrength(edit, material.emission, "Emission", "Emission (nits)",
+                     "Radiance the surface sends out [nits]; lights the scene without a new bake");
+    ImGui::Separator();
+    fieldLabel("Double sided", "Seen and lit from both sides; changing it needs a new bake");
+    ImGui::Checkbox("##double", &material.doubleSided);
+    fieldEdited(edit, "Double sided");
+    const EditorState& state = edit.state;
+    textureLine(state, "Base colour", material.baseColorTexture);
+    textureLine(state, "Metal, roughness", material.metallicRoughnessTexture);
+    textureLine(state, "Normal", material.normalTexture);
+    textureLine(state, "Emission", material.emissiveTexture);
+}
+
+void skySection(FieldEdit& edit, Sky& sky) {
+    colorAndStrength(edit, sky.radiance, "Sky", "Radiance (nits)",
+                     "The same from every direction [nits]; lights the scene without a new bake");
+}
+
+void cameraSection(FieldEdit& edit, Camera& camera) {
+    fieldLabel("Eye (m)", "World space [m]");
+    ImGui::DragFloat3("##eye", &camera.eye.x, 0.01f, 0, 0, "%.3f");
+    fieldEdited(edit, "Camera position");
+    fieldLabel("Target (m)", "The point looked at, world space [m]");
+    ImGui::DragFloat3("##target", &camera.target.x, 0.01f, 0, 0, "%.3f");
+    fieldEdited(edit, "Camera target");
+    float degrees = glm::degrees(camera.fovY);
+    fieldLabel("Field of view (\u00b0)", "Vertical, from edge to edge [degrees]");
+    if (ImGui::SliderFloat("##fov", &degrees, 1, 150, "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
+        camera.fovY = glm::radians(degrees);
+    fieldEdited(edit, "Field of view");
+    ImGui::Spacing();
+    if (ImGui::Button("Look through it", {-FLT_MIN, 0}))
+        edit.state.view.camera = camera;
+    wrappedTooltip("Shows the picture of this camera (Numpad 0)");
+    if (ImGui::Button("Take the view's place", {-FLT_MIN, 0})) {
+        const std::string name = camera.name;
+        camera = edit.state.view.camera;
+        camera.name = name;
+    }
+    wrappedTooltip("Moves this camera to where the picture is seen from");
+    fieldEdited(edit, "Camera from view");
+}
+
+} // namespace limn

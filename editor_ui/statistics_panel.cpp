@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/statistics_panel.h"
+
+#include "editor_ui/editor_state.h"
+#include "editor_ui/field.h"
+#include "editor_ui/theme.h"
+
+#include <imgui.h>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+static void row(const char* label, const std::string& value, const char* tooltip) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    elidedText(label, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    wrappedTooltip(tooltip);
+    ImGui::TableNextColumn();
+    const float indent = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
+    if (indent > 0)
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
+    ImGui::TextUnformatted(value.c_str());
+}
+
+static bool beginTable(const char* id, const char* heading) {
+    ImGui::TextUnformatted(heading);
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_RowBg))
+        return false;
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.6f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.4f);
+    return true;
+}
+
+static std::string ms(double milliseconds) {
+    return fmt::format("{:.2f} ms", milliseconds);
+}
+
+static void timeTable(const EditorState& state) {
+    const RelightStats& r = state.relight.last;
+    const FrameStatus& f = state.frame;
+    if (!beginTable("time", "Time per step"))
+        return;
+    row("Surfel light", ms(r.surfelLightMs), "Lights onto the surfels, with shadow rays");
+    row("Pull", ms(r.pullMs), "Sums flux up the cluster tree");
+    row("Cache light", ms(r.cacheLightMs), "Gathers linked clusters into the caches");
+    row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
+    row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
+    row("Shade", ms(f.shadeMs), "The picture from caches and direct light");
+    row("UI frame", ms(f.uiMs), "The whole last frame of the window");
+    row("Longest UI frame", ms(f.longestUiMs), "Since the start");
+    row("  while relighting", ms(f.longestUiWhileRelightingMs),
+        "The window never waits for bounced light; this is the proof");
+    ImGui::EndTable();
+}
+
+static void relightTable(const EditorState& state) {
+    const RelightStatus& r = state.relight;
+    if (!beginTable("relight", "Bounced light"))
+        return;
+    row("State",
+        r.converged ? "converged"
+        : r.running ? "bouncing"
+                    : "idle",
+        "Converged: another bounce would change nothing");
+    row("Bounces", std::to_string(r.bounces), "Since the last edit");
+    row("Last update", ms(r.last.totalMs), "One call: a few bounces");
+    row("Shadow rays", groupedNumber(r.last.shadowRays), "Of the last call; 0 when no light moved");
+    row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
+    row("Bake since light edit", durationText(state.bake.secondsSinceLightEdit),
+        "Seconds of baking since a light, a material or the sky was last edited: it is 0, editing "
+        "light never bakes");
+    ImGui::EndTable();
+}
+
+static void countTable(const EditorState& state) {
+    const BakeCounts& c = state.bake.counts;
+    if (!beginTable("counts", "Counts"))
+        return;
+    row("Triangles", groupedNumber(c.triangles), "Of the baked scene");
+    row("Surfels", groupedNumber(c.surfels), "");
+    row("Clusters", groupedNumber(c.clusters), "");
+    row("Caches", groupedNumber(c.caches), "Lightmap texels and grid cells");
+    row("  invalid", groupedNumber(c.invalidCaches), "Inside walls; filled from their neighbours");
+    row("Links", groupedNumber(c.links), "");
+    row("Rays", groupedNumber(c.rays), "Traced by the last bake");
+    row("Pictures drawn", groupedNumber(state.frame.pictures),
+        "Stands still while nothing changes");
+    row("Picture", fmt::format("{} \u00d7 {}", state.frame.width, state.frame.height),
+        "Pixels; fewer while things move");
+    ImGui::EndTable();
+}
+
+static void byteTable(const EditorState& state) {
+    const BakeBytes& b = state.bake.bytes;
+    if (!beginTable("bytes", "Memory"))
+        return;
+    row("Surfels", byteText(b.surfels), "");
+    row("Clusters", byteText(b.clusters), "");
+    row("Links", byteText(b.links), "");
+    row("Caches", byteText(b.caches), "");
+    row("Bake, total", byteText(b.total()), "");
+    row("Graphics device", byteText(state.frame.gpuBytes), "Buffers and images of the viewport");
+    ImGui::EndTable();
+}
+
+static void bakeTable(const EditorState& state) {
+    if (!beginTable("bake", "Last bake"))
+        return;
+    for (const auto& [stage, seconds] : state.bake.seconds)
+        row(stage.c_str(), durationText(seconds), "");
+    row("total", durationText(state.bake.totalSeconds), "");
+    ImGui::EndTable();
+}
+
+void statisticsPanel(const EditorState& state) {
+    constexpr int kColumns = 5;
+    const float minimum = ImGui::GetFontSize() * 13;
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool wide = room >= kColumns * minimum;
+    const ImVec2 size(wide ? 0 : kColumns * minimum, 0);
+    if (!ImGui::BeginTable("columns", kColumns,
+                           ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_ScrollX |
+                               ImGuiTableFlags_ScrollY,
+                           {0, 0}, size.x))
+        return;
+    ImGui::TableNextRow();
+    for (auto* table : {timeTable, relightTable, countTable, byteTable, bakeTable}) {
+        ImGui::TableNextColumn();
+        table(state);
+    }
+    ImGui::EndTable();
+}
+
+void logPanel(const EditorState& state) {
+    if (state.log.empty()) {
+        ImGui::TextDisabled("Nothing was repaired and nothing went wrong");
+        return;
+    }
+    if (ImGui::BeginChild("lines")) {
+        ImGui::PushTextWrapPos(0);
+        for (const LogLine& line : state.log) {
+            switch (line.level) {
+            case LogLine::Level::Info:
+                ImGui::TextUnformatted(line.text.c_str());
+                break;
+            case LogLine::Level::Warning:
+                ImGui::TextColored(ImColor(color::kWarning), "Warning: %s", line.text.c_str());
+                break;
+            case LogLine::Level::Error:
+                ImGui::TextColored(ImColor(color::kError), "Error: %s", line.text.c_str());
+                break;
+            }
+        }
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::EndChild();
+}
+
+} // namespace limn

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+namespace limn {
+
+/// Colours that carry meaning; told apart by hue and lightness, and always beside words
+/// (colour-blind safe: blue, orange and light grey rather than red and green).
+namespace color {
+inline constexpr ImU32 kAccent = IM_COL32(88, 156, 235, 255);
+inline constexpr ImU32 kWarning = IM_COL32(240, 170, 70, 255);
+inline constexpr ImU32 kError = IM_COL32(255, 128, 112, 255);
+inline constexpr ImU32 kGood = IM_COL32(110, 190, 230, 255);
+inline constexpr ImU32 kDim = IM_COL32(150, 153, 160, 255);
+inline constexpr ImU32 kAxisX = IM_COL32(240, 80, 80, 255);
+inline constexpr ImU32 kAxisY = IM_COL32(110, 205, 90, 255);
+inline constexpr ImU32 kAxisZ = IM_COL32(90, 140, 255, 255);
+inline constexpr ImU32 kHandleLit = IM_COL32(255, 225, 110, 255);
+} // namespace color
+
+/// Dark, calm colours and even spacing for the current ImGui context, sized for a 15 px font.
+void applyTheme();
+
+/// Adds the interface font to the atlas: a Debian package's, or ImGui's own where none is
+/// installed. Returns the file used; empty for ImGui's own.
+const char* addFont(float pixels);
+
+} // namespace limn

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/action.h"
+
+#include "editor_ui/document_edit.h"
+#include "tests/editor_ui/headless.h"
+
+#include <functional>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+void runAllActionsOneByOne(const std::function<EditorState()>& make) {
+    for (const Action& action : actions()) {
+        SCOPED_TRACE(action.id);
+        HeadlessUi ui;
+        EditorState state = make();
+        const auto before = state.document;
+        ui.frames(state);
+        runAction(state, action);
+        ui.frames(state);
+        ui.frames(state);
+        commitGesture(state);
+        while (undoEdit(state)) {
+        }
+        EXPECT_EQ(state.document, before);
+    }
+}
+
+TEST(Actions, EveryActionCanBeCalledOnAnEmptyDocument) {
+    runAllActionsOneByOne(emptyEditor);
+}
+
+TEST(Actions, EveryActionCanBeCalledOnAFullDocumentWithEverythingSelected) {
+    runAllActionsOneByOne([] {
+        EditorState state = fullEditor();
+        for (const auto& [id, object] : state.document.objects)
+            state.selection.push_back(id);
+        return state;
+    });
+}
+
+TEST(Actions, NoTwoActionsShareAnIdOrAKey) {
+    std::set<std::string> ids;
+    std::set<std::pair<int, int>> keys;
+    for (const Action& action : actions()) {
+        EXPECT_TRUE(ids.insert(action.id).second) << action.id;
+        for (const Shortcut& s : {action.shortcut, action.alternative})
+            if (s.key != key::kNone) {
+                EXPECT_TRUE(keys.emplace(s.key, s.mods).second) << action.id;
+            }
+    }
+}
+
+TEST(Actions, KeysOfTheConventionsDoWhatTheyPromise) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    state.selection = {idNamed(state, "Lamp")};
+    const auto before = state.document.objects;
+    ui.frames(state);
+    ui.tap(key::of('D'), kCtrl);
+    ui.frames(state);
+    EXPECT_EQ(state.document.objects.size(), before.size() + 1);
+    ui.tap(key::kDelete);
+    ui.frames(state);
+    EXPECT_EQ(state.document.objects, before);
+    ui.tap(key::of('Z'), kCtrl);
+    ui.tap(key::of('Z'), kCtrl);
+    ui.frames(state);
+    EXPECT_EQ(state.document.objects, before);
+    ui.tap(key::of('Z'), kCtrl | kShift);
+    ui.frames(state);
+    EXPECT_EQ(state.document.objects.size(), before.size() + 1);
+    ui.tap(key::of('S'), kCtrl);
+    ui.frames(state);
+    EXPECT_TRUE(state.fileBrowser); // never saved: asks where
+}
+
+TEST(Actions, RenameTakesTheTypedName) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    const ObjectId id = idNamed(state, "Lamp");
+    state.selection = {id};
+    ui.frames(state);
+    ui.tap(key::kF2);
+    ui.frames(state);
+    ui.frames(state);
+    ui.frames(state);
+    for (char c : {'K', 'e', 'y'})
+        ui.input.events.push_back({.kind = InputEvent::Kind::Character, .code = c});
+    ui.frames(state);
+    ui.tap(key::kEnter);
+    ui.frames(state);
+    EXPECT_EQ(objectName(state.document.objects.at(id)), "Key");
+    ASSERT_EQ(state.history.edits.size(), 1u);
+    EXPECT_EQ(state.history.edits[0].label, "Rename Lamp");
+}
+
+TEST(Actions, UndoNamesWhatItWouldUndo) {
+    EditorState state = fullEditor();
+    EXPECT_EQ(actionLabel(state, actionById("edit.undo")), "Undo");
+    runAction(state, actionById("add.point"));
+    EXPECT_EQ(actionLabel(state, actionById("edit.undo")), "Undo Add Point light");
+    runAction(state, actionById("edit.undo"));
+    EXPECT_EQ(actionLabel(state, actionById("edit.redo")), "Redo Add Point light");
+}
+
+} // namespace
+} // namespace limn

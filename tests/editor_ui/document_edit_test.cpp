@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/document_edit.h"
+
+#include "tests/editor_ui/headless.h"
+
+#include <set>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+struct DocumentEditTest : testing::Test {
+    EditorState state = fullEditor();
+    Document before = state.document;
+
+    void select(std::initializer_list<const char*> names) {
+        state.selection.clear();
+        for (const char* name : names)
+            state.selection.push_back(idNamed(state, name));
+    }
+    template <class T>
+    T& get(const char* name) {
+        return std::get<T>(state.document.objects.at(idNamed(state, name)));
+    }
+    void expectOneUndoStep() {
+        EXPECT_EQ(state.history.edits.size(), 1u);
+        EXPECT_TRUE(undoEdit(state));
+        EXPECT_EQ(state.document, before);
+        EXPECT_TRUE(redoEdit(state));
+        EXPECT_NE(state.document, before);
+    }
+};
+
+TEST_F(DocumentEditTest, DeletingANodeDeletesWhatIsBelowIt) {
+    select({"Group"});
+    deleteSelection(state);
+    EXPECT_EQ(state.document.objects.size(), before.objects.size() - 3);
+    EXPECT_TRUE(state.selection.empty());
+    expectOneUndoStep();
+}
+
+TEST_F(DocumentEditTest, DuplicatingANodeCopiesItsTreeUnderNewIds) {
+    select({"Group"});
+    duplicateSelection(state);
+    ASSERT_EQ(state.selection.size(), 1u);
+    int below = 0;
+    for (const auto& [id, object] : state.document.objects)
+        if (const auto* node = std::get_if<Node>(&object))
+            below += node->parent == state.selection[0];
+    EXPECT_EQ(below, 2);
+    EXPECT_EQ(objectName(state.document.objects.at(state.selection[0])), "Group 2");
+    expectOneUndoStep();
+}
+
+TEST_F(DocumentEditTest, MaterialsSkyAndSettingsAreNeitherDeletedNorDuplicated) {
+    select({"Stone", "Sky", "Bake settings"});
+    deleteSelection(state);
+    duplicateSelection(state);
+    EXPECT_EQ(state.document, before);
+    EXPECT_TRUE(state.history.edits.empty());
+}
+
+TEST_F(DocumentEditTest, HidingTurnsLightsOffAndNodesInvisibleInOneStep) {
+    select({"Lamp", "Left"});
+    toggleHidden(state);
+    EXPECT_FALSE(get<Light>("Lamp").enabled);
+    EXPECT_FALSE(get<Node>("Left").visible);
+    expectOneUndoStep();
+    toggleHidden(state);
+    EXPECT_TRUE(get<Light>("Lamp").enabled);
+    toggleHidden(state);
+    showAll(state);
+    EXPECT_EQ(state.document.objects, before.objects);
+}
+
+TEST_F(DocumentEditTest, NewLightsHaveNamesOfTheirOwn) {
+    for (int i = 0; i < 4; ++i)
+        addLight(state, Light{.name = "Lamp"});
+    std::set<std::string> names;
+    for (const auto& [id, object] : state.document.objects)
+        names.insert(objectName(object));
+    EXPECT_EQ(names.size(), state.document.objects.size());
+    EXPECT_TRUE(names.contains("Lamp 5"));
+}
+
+TEST_F(DocumentEditTest, ANodeDisplacedInTheWorldMovesThatFarUnderItsScaledParent) {
+    const ObjectId id = idNamed(state, "Left");
+    const glm::vec3 d(0.3f, -0.2f, 0.7f), from = worldMatrix(state.document, id)[3];
+    state.document.objects.at(id) = displaced(state.document, state.document.objects.at(id), d);
+    const glm::vec3 to = worldMatrix(state.document, id)[3];
+    EXPECT_NEAR(glm::length(to - from - d), 0, 1e-5f);
+}
+
+TEST_F(DocumentEditTest, AChildOfASelectedNodeIsNotMovedTwice) {
+    select({"Group", "Left", "Lamp"});
+    const auto movable = movableSelection(state);
+    EXPECT_EQ(movable.size(), 2u);
+    EXPECT_FALSE(movable.contains(idNamed(state, "Left")));
+}
+
+TEST_F(DocumentEditTest, TheSelectionsBoxIsThatOfItsMeshesInTheWorld) {
+    select({"Group"}); // scaled by 2 and lifted by 1
+    const Bounds b = selectionBounds(state);
+    EXPECT_EQ(b.lower, glm::vec3(-2, -1, 0));
+    EXPECT_EQ(b.upper, glm::vec3(2, 3, 0));
+}
+
+TEST_F(DocumentEditTest, ACycleOfParentsDoesNotHang) {
+    get<Node>("Group").parent = idNamed(state, "Left");
+    worldMatrix(state.document, idNamed(state, "Right"));
+    select({"Group"});
+    deleteSelection(state);
+    SUCCEED();
+}
+
+} // namespace
+} // namespace limn

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/object_rules.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+template <class T>
+bool validWith(const std::function<void(T&)>& change) {
+    T object;
+    change(object);
+    return isValid(object);
+}
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+TEST(ObjectRules, DefaultsAreValid) {
+    EXPECT_TRUE(isValid(Node{}));
+    EXPECT_TRUE(isValid(Material{}));
+    EXPECT_TRUE(isValid(Light{}));
+    EXPECT_TRUE(isValid(Camera{}));
+    EXPECT_TRUE(isValid(Sky{}));
+    EXPECT_TRUE(isValid(BakeSettings{}));
+}
+
+TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
+    EXPECT_FALSE(validWith<Node>([](Node& n) { n.transform.scale.y = 0; }));
+    EXPECT_FALSE(validWith<Node>([](Node& n) { n.transform.translation.x = kInf; }));
+    EXPECT_FALSE(validWith<Node>([](Node& n) { n.transform.rotation = {0, 0, 0, 0}; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.strength = -1; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.strength = std::nanf(""); }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.innerAngle = l.outerAngle; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.direction = {0, 0, 0}; }));
+    EXPECT_FALSE(validWith<Material>([](Material& m) { m.baseColor.x = 1.5f; }));
+    EXPECT_FALSE(validWith<Material>([](Material& m) { m.emission.y = -0.1f; }));
+    EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.radiance.z = -1; }));
+    EXPECT_FALSE(validWith<Camera>([](Camera& c) { c.target = c.eye; }));
+    EXPECT_FALSE(validWith<BakeSettings>([](BakeSettings& b) { b.bands = 9; }));
+    EXPECT_FALSE(validWith<BakeSettings>([](BakeSettings& b) { b.surfels = 63; }));
+    EXPECT_TRUE(validWith<Node>([](Node& n) { n.transform.scale.y = -1; }));
+}
+
+} // namespace
+} // namespace limn
