@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "engine/measure/compare.h"
+
+#include "engine/measure/flip.h"
+#include "engine/measure/ssim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr double kRelMseFloor = 0.01;    ///< of mean(ref)^2
+constexpr double kRelMseDropped = 0.001; ///< share of the worst pixels
+constexpr float kMiddleGrey = 0.18f;     ///< where the reference's mean goes before tone mapping
+constexpr float kHeatmapFull = 0.5f;     ///< relative error of the darkest colours
+constexpr float kHeatmapFloor = 0.05f;   ///< of mean(ref), keeps black pixels from ruling the map
+
+bool isValid(glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+float luminance(glm::vec3 c) {
+    return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+double channelMean(glm::dvec3 c) {
+    return (c.x + c.y + c.z) / 3;
+}
+
+/// 0 / 0 is no error, x / 0 an infinite one.
+double ratio(double a, double b) {
+    if (a == 0 && b == 0)
+        return 0;
+    return b != 0 ? a / b : std::numeric_limits<double>::infinity();
+}
+
+std::vector<bool> validPixels(const ImageF& a, const ImageF& b) {
+    std::vector<bool> valid(a.rgb.size());
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        valid[i] = isValid(a.rgb[i]) && isValid(b.rgb[i]);
+    return valid;
+}
+
+double meanOfValid(const ImageF& image, const std::vector<bool>& valid) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        if (valid[i]) {
+            sum += channelMean(image.rgb[i]);
+            ++count;
+        }
+    return count > 0 ? sum / double(count) : 0;
+}
+
+double meanOfValid(const Plane& plane, const std::vector<bool>& valid, double none) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        if (valid[i]) {
+            sum += double(plane.values[i]);
+            ++count;
+        }
+    return count > 0 ? sum / double(count) : none;
+}
+
+void numericErrors(const ImageF& test, const ImageF& reference, const std::vector<bool>& valid,
+                   Comparison& c) {
+    const double meanR = meanOfValid(reference, valid), meanT = meanOfValid(test, valid);
+    std::vector<double> relative;
+    double squares = 0;
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        if (!valid[i])
+            continue;
+        const glm::dvec3 r(reference.rgb[i]), d = glm::dvec3(test.rgb[i]) - r;
+        squares += channelMean(d * d);
+        const glm::dvec3 base = r * r + kRelMseFloor * meanR * meanR;
+        relative.push_back(
+            (ratio(d.x * d.x, base.x) + ratio(d.y * d.y, base.y) + ratio(d.z * d.z, base.z)) / 3);
+    }
+    if (relative.empty())
+        return;
+    c.nrmse = ratio(std::sqrt(squares / double(relative.size())), std::abs(meanR));
+    c.bias = ratio(meanT - meanR, meanR);
+    std::sort(relative.begin(), relative.end());
+    relative.resize(relative.size() - std::size_t(kRelMseDropped * double(relative.size())));
+    for (double r : relative)
+        c.relmse += r / double(relative.size());
+}
+
+// ACES as fitted by Narkowicz, 2015. In and out linear; out in [0, 1] is what a display emits.
+glm::vec3 toneMap(glm::vec3 x) {
+    x = glm::max(x, glm::vec3(0));
+    return glm::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.f, 1.f);
+}
+
+float encodeSrgb(float x) {
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+}
+
+ImageF displayed(const ImageF& image, const std::vector<bool>& valid, float exposure) {
+    ImageF result = image;
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        result.rgb[i] = valid[i] ? toneMap(glm::min(image.rgb[i] * exposure, 1e6f)) : glm::vec3(0);
+    return result;
+}
+
+Plane displayedLuminance(const ImageF& image) {
+    Plane plane{image.width, image.height, {}};
+    for (glm::vec3 c : image.rgb)
+        plane.values.push_back(encodeSrgb(luminance(c)));
+    return plane;
+}
+
+} // namespace
+
+Result<Comparison> compareImages(const ImageF& test, const ImageF& reference) {
+    if (test.width != reference.width || test.height != reference.height)
+        return fail(fmt::format("sizes differ: {} x {} against {} x {}", test.width, test.height,
+                                reference.width, reference.height));
+    const std::vector<bool> valid = validPixels(test, reference);
+    Comparison c;
+    c.invalidPixels = std::uint64_t(std::count(valid.begin(), valid.end(), false));
+    numericErrors(test, reference, valid, c);
+    const double mean = meanOfValid(reference, valid);
+    const float exposure = mean > 0 ? float(double(kMiddleGrey) / mean) : 1;
+    const ImageF t = displayed(test, valid, exposure), r = displayed(reference, valid, exposure);
+    c.ssim = meanOfValid(ssimMap(displayedLuminance(t), displayedLuminance(r)), valid, 1);
+    c.flip = meanOfValid(flipMap(t, r), valid, 0);
+    return c;
+}
+
+// Ends of a blue to orange scale that all kinds of colour blindness tell apart, sRGB.
+Image errorHeatmap(const ImageF& test, const ImageF& reference) {
+    constexpr glm::vec3 dark(5, 48, 97), white(247), bright(179, 88, 6), invalid(255, 0, 255);
+    Image map{"error", reference.width, reference.height, {}};
+    map.rgba.reserve(reference.rgb.size() * 4);
+    const std::vector<bool> valid = validPixels(test, reference);
+    const float floor = kHeatmapFloor * float(std::abs(meanOfValid(reference, valid)));
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        glm::vec3 color = invalid;
+        if (valid[i]) {
+            const float r = luminance(reference.rgb[i]), d = luminance(test.rgb[i]) - r;
+            const float error = d == 0 ? 0 : d / (std::abs(r) + floor);
+            const float amount = std::min(std::abs(error) / kHeatmapFull, 1.f);
+            color = glm::mix(white, error < 0 ? dark : bright, amount);
+        }
+        for (int k = 0; k < 3; ++k)
+            map.rgba.push_back(std::uint8_t(std::lround(color[k])));
+        map.rgba.push_back(255);
+    }
+    return map;
+}
+
+std::uint64_t countInvalidPixels(const ImageF& image) {
+    return std::uint64_t(
+        std::count_if(image.rgb.begin(), image.rgb.end(), [](glm::vec3 p) { return !isValid(p); }));
+}
+
+} // namespace limn
