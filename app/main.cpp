@@ -15,7 +15,9 @@ static int runLimn(int argc, char** argv) {
     CLI::App app("Limn, an editor for light", "limn");
     app.require_subcommand(1);
     Run run;
+    addCompareCommand(app, run);
     addInfoCommand(app, run);
+    addReferenceCommand(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -8,9 +8,9 @@
 
 namespace limn {
 
-/// Error of a linear image against a reference of the same size; numeric metrics before any tone mapping.
-/// x / 0 is infinite, 0 / 0 is 0. For SSIM and FLIP both images are exposed so that the reference's mean becomes
-/// 0.18 and go through the ACES curve; FLIP assumes 67 pixels per degree.
+/// Error of a linear image against a reference of the same size; numeric metrics before any tone
+/// mapping. x / 0 is infinite, 0 / 0 is 0. For SSIM and FLIP both images are exposed so that the
+/// reference's mean becomes 0.18 and go through the ACES curve; FLIP assumes 67 pixels per degree.
 struct Comparison {
     double nrmse = 0;  ///< rms(test - ref) / mean(ref), over all channels
     double relmse = 0; ///< mean of (t-r)^2 / (r^2 + 0.01 mean(r)^2), worst 0.1 % of pixels dropped
@@ -23,8 +23,9 @@ struct Comparison {
 /// Fails when sizes differ, naming both.
 Result<Comparison> compareImages(const ImageF& test, const ImageF& reference);
 
-/// Signed relative error of luminance per pixel, (t - r) / (r + 0.05 mean(r)), as a diverging, colour-blind-safe
-/// map: blue too dark, orange too bright, full at 50 %; invalid pixels magenta. Sizes must be equal.
+/// Signed relative error of luminance per pixel, (t - r) / (r + 0.05 mean(r)), as a diverging,
+/// colour-blind-safe map: blue too dark, orange too bright, full at 50 %; invalid pixels magenta.
+/// Sizes must be equal.
 Image errorHeatmap(const ImageF& test, const ImageF& reference);
 
 /// NaN and Inf pixels.

@@ -23,8 +23,9 @@ struct Hit {
     float u = 0, v = 0; ///< barycentrics, weights (1-u-v, u, v)
     float t = 0;        ///< [m]
     glm::vec3 position{0};
-    glm::vec3 geometricNormal{0}; ///< unit, world, of the counter-clockwise front; not turned to the ray
-    bool frontFace = true;        ///< the ray met the front
+    glm::vec3 geometricNormal{
+        0};                ///< unit, world, of the counter-clockwise front; not turned to the ray
+    bool frontFace = true; ///< the ray met the front
 
     explicit operator bool() const { return instance != ~0u; }
 };
@@ -32,8 +33,9 @@ struct Hit {
 /// Which surfaces a query may meet.
 enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3 };
 
-/// Embree's acceleration structure over a Scene: one per mesh, instanced. Immutable, thread-safe to query.
-/// Holds a copy of the instance table and shares the assets; the Scene may die or change meanwhile.
+/// Embree's acceleration structure over a Scene: one per mesh, instanced. Immutable, thread-safe to
+/// query. Holds a copy of the instance table and shares the assets; the Scene may die or change
+/// meanwhile.
 class TraceScene {
 public:
     /// Builds it. O(triangles); uses oneTBB.
@@ -47,7 +49,8 @@ public:
     /// True if anything opaque lies in (tNear, tFar).
     bool occluded(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// True if the straight way between two surface points is blocked. Both ends are kept clear of their own surface.
+    /// True if the straight way between two surface points is blocked. Both ends are kept clear of
+    /// their own surface.
     bool blocked(glm::vec3 from, glm::vec3 to, TraceMask mask = TraceMask::All) const;
 
     /// Offset that clears a surface at `p` of float rounding [m]; grows with |p|.

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "app/command.h"
+
+#include "engine/files/image_file.h"
+#include "engine/measure/compare.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct Options {
+    std::string test, reference, heatmap;
+    bool json = false;
+};
+
+Exit runCompare(const Options& o) {
+    const Result<ImageF> test = readFloatImage(o.test);
+    if (!test)
+        return failed(test.error().message);
+    const Result<ImageF> reference = readFloatImage(o.reference);
+    if (!reference)
+        return failed(reference.error().message);
+    const Result<Comparison> c = compareImages(*test, *reference);
+    if (!c)
+        return failed(fmt::format("{}, {}: {}", o.test, o.reference, c.error().message));
+    if (!o.heatmap.empty())
+        if (const Result<void> written = writePng(o.heatmap, errorHeatmap(*test, *reference));
+            !written)
+            return failed(written.error().message);
+    nlohmann::ordered_json json;
+    json["nrmse"] = c->nrmse; // null: the reference is black
+    json["relmse"] = c->relmse;
+    json["bias"] = c->bias;
+    json["ssim"] = c->ssim;
+    json["flip"] = c->flip;
+    json["invalid_pixels"] = c->invalidPixels;
+    if (o.json)
+        fmt::print("{}\n", json.dump());
+    else
+        for (const auto& [key, value] : json.items())
+            fmt::print("{:<15} {}\n", key, value.dump());
+    return Exit::Done;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& app, Run& run) {
+    const auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("compare", "Measures the error of a render");
+    command->add_option("test", o->test, "linear .exr or .hdr")->required();
+    command->add_option("reference", o->reference, "of the same size")->required();
+    command->add_option("--heatmap", o->heatmap,
+                        "error map .png: blue too dark, orange too bright");
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return runCompare(*o); }; });
+}
+
+} // namespace limn
