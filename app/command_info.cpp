@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "app/bake_options.h"
 #include "app/command.h"
 #include "app/scene_options.h"
 
 #include "engine/core/hash.h"
+#include "engine/files/bake_file.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 
@@ -99,6 +101,23 @@ static Result<Json> describeResult(const Result<T>& read) {
     return describe(*read);
 }
 
+static Json describe(const Bake& bake) {
+    Json json;
+    json["kind"] = "bake";
+    const BakeSettings& s = bake.settings;
+    json["settings"] = {{"surfels", s.surfels},
+                        {"links", s.links},
+                        {"bands", s.bands},
+                        {"rays", s.rays},
+                        {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
+    json["lightmap"] = {{"width", bake.lightmap.width}, {"height", bake.lightmap.height}};
+    json["input"] = hexHash(bake.sceneHash);
+    const nlohmann::json summary = bakeSummary(bake);
+    for (const auto& [key, value] : summary.items())
+        json[key] = value;
+    return json;
+}
+
 /// What a file holds, by its extension; anything without one of ours is opened as a scene.
 static Result<Json> describeFile(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();
@@ -106,6 +125,8 @@ static Result<Json> describeFile(const std::string& file) {
         return describeResult(readFloatImage(file));
     if (extension == ".png")
         return describeResult(readPng(file));
+    if (extension == ".limnbake")
+        return describeResult(readBake(file));
     return describeResult(openAny(file, projectsFolder()));
 }
 
@@ -133,7 +154,8 @@ void addInfoCommand(CLI::App& app, Run& run) {
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Says what a scene, project or image holds");
+    CLI::App* command =
+        app.add_subcommand("info", "Says what a scene, project, bake or image holds");
     command->add_option("file", options->file, "the file, or the name of a project")->required();
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] {

@@ -15,6 +15,7 @@ static int runLimn(int argc, char** argv) {
     CLI::App app("Limn, an editor for light", "limn");
     app.require_subcommand(1);
     Run run;
+    addBakeCommand(app, run);
     addCompareCommand(app, run);
     addInfoCommand(app, run);
     addReferenceCommand(app, run);

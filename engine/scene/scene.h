@@ -38,6 +38,7 @@ struct Bounds {
 
     glm::vec3 size() const { return upper - lower; }
     glm::vec3 centre() const { return (lower + upper) * 0.5f; }
+    bool operator==(const Bounds&) const = default;
 };
 
 /// The document flattened: what the tracer, baker, reference and viewport read.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace limn {
+
+/// Flags that replace the document's bake settings.
+struct BakeOptions {
+    std::optional<std::uint32_t> surfels, links, bands, rays, lightmap;
+    std::optional<float> texelsPerMetre;
+    std::string grid; ///< XxYxZ; empty: the document's
+    int threads = 0;  ///< 0: all
+};
+void addBakeOptions(CLI::App& command, BakeOptions& options);
+
+/// Fails on a grid that is not XxYxZ; ranges are checked by bake().
+Result<void> applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
+
+/// {"seconds", "counts", "bytes", "hash"}.
+nlohmann::json bakeSummary(const Bake& bake);
+
+} // namespace limn

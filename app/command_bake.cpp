@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "app/bake_options.h"
+#include "app/command.h"
+#include "app/progress_line.h"
+#include "app/scene_options.h"
+
+#include "engine/core/parallel.h"
+#include "engine/files/bake_file.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct BakeCommand {
+    SceneOptions scene;
+    BakeOptions bake;
+    std::string output;
+    bool json = false;
+};
+
+void print(const Bake& bake) {
+    const nlohmann::json summary = bakeSummary(bake);
+    for (const auto& [stage, seconds] : bake.seconds)
+        fmt::print("{:<10} {:8.2f} s\n", stage, seconds);
+    fmt::print("{:<10} {:8.2f} s\n", "total", summary["seconds"]["total"].get<double>());
+    for (const auto& [name, count] : summary["counts"].items())
+        fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
+    for (const auto& [name, bytes] : summary["bytes"].items())
+        fmt::print("{:<10} {:8.2f} MiB\n", name, double(bytes.get<std::uint64_t>()) / (1 << 20));
+    fmt::print("hash {}\n", summary["hash"].get<std::string>());
+}
+
+Exit runBake(const BakeCommand& command) {
+    Result<ImportedScene> imported = openScene(command.scene);
+    if (!imported)
+        return failed(imported.error().message);
+    const ThreadLimit threads(command.bake.threads);
+    Scene scene = flatten(imported->document, imported->assets);
+    if (const Result<void> applied = applyBakeOptions(command.bake, scene.bake); !applied)
+        return failed(applied.error().message);
+    const Result<Bake> baked = bake(TraceScene(scene), progressOnStderr());
+    endProgressLine();
+    if (!baked)
+        return failed(fmt::format("{}: {}", command.scene.scene, baked.error().message));
+    if (const Result<void> written = writeBake(command.output, *baked); !written)
+        return failed(written.error().message);
+    if (command.json)
+        fmt::print("{}\n", bakeSummary(*baked).dump());
+    else
+        print(*baked);
+    return Exit::Done;
+}
+
+} // namespace
+
+void addBakeCommand(CLI::App& app, Run& run) {
+    auto command = std::make_shared<BakeCommand>();
+    CLI::App* sub = app.add_subcommand("bake", "Precompute a scene's light transport");
+    addSceneOptions(*sub, command->scene);
+    addBakeOptions(*sub, command->bake);
+    sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();
+    sub->add_flag("--json", command->json, "One JSON object on stdout");
+    sub->callback([command, &run] { run = [command] { return runBake(*command); }; });
+}
+
+} // namespace limn

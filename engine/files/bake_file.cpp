@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/bake_file.h"
+
+#include "engine/core/hash.h"
+#include "engine/files/replace_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+// File: "LIMNBAKE", u32 version, u32 chunk count, then per chunk:
+//   char[8] name, u64 bytes unpacked, u64 bytes packed, u64 XXH3 of the unpacked bytes, packed
+//   bytes (zstd).
+// Little-endian; numbers and arrays as in memory: an array is a u64 count and its elements.
+
+namespace limn {
+
+namespace {
+
+constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 36; // per chunk, unpacked: more is damage
+
+/// One list of fields serves both directions: the archive writes, or reads and checks.
+class Writer {
+public:
+    std::string bytes;
+
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void operator()(const T& value) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void operator()(const std::vector<T>& v) {
+        (*this)(std::uint64_t(v.size()));
+        bytes.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
+    }
+    void operator()(const std::string& s) {
+        (*this)(std::uint64_t(s.size()));
+        bytes += s;
+    }
+    template <class T, class F>
+    void each(std::vector<T>& v, F field) {
+        (*this)(std::uint64_t(v.size()));
+        for (T& element : v)
+            field(element);
+    }
+};
+
+class Reader {
+public:
+    explicit Reader(const std::string& source) : m_rest(source.data()), m_size(source.size()) {}
+    bool ok = true;
+    bool atEnd() const { return m_size == 0; }
+
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void operator()(T& value) { take(&value, sizeof value); }
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void operator()(std::vector<T>& v) {
+        v.resize(count(sizeof(T)));
+        take(v.data(), v.size() * sizeof(T));
+    }
+    void operator()(std::string& s) {
+        s.resize(count(1));
+        take(s.data(), s.size());
+    }
+    template <class T, class F>
+    void each(std::vector<T>& v, F field) {
+        v.resize(count(1));
+        for (T& element : v)
+            field(element);
+    }
+
+private:
+    void take(void* out, std::size_t size) {
+        if (size > m_size) {
+            ok = false;
+            m_size = 0;
+            return;
+        }
+        if (size > 0)
+            std::memcpy(out, m_rest, size);
+        m_rest += size;
+        m_size -= size;
+    }
+    /// A count of elements of at least `elementSize` bytes that the rest can hold.
+    std::size_t count(std::size_t elementSize) {
+        std::uint64_t n = 0;
+        take(&n, sizeof n);
+        if (n > m_size / elementSize) {
+            ok = false;
+            return 0;
+        }
+        return std::size_t(n);
+    }
+
+    const char* m_rest;
+    std::size_t m_size;
+};
+
+template <class A>
+void settingsFields(A& a, Bake& b) {
+    BakeSettings& s = b.settings;
+    a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
+    a(s.grid), a(s.maxBounces), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
+    BakeCounts& c = b.counts;
+    a(c.triangles), a(c.surfels), a(c.clusters), a(c.caches), a(c.invalidCaches), a(c.links),
+        a(c.rays);
+}
+
+template <class A>
+void timingFields(A& a, Bake& b) {
+    a.each(b.seconds, [&](auto& stage) { a(stage.first), a(stage.second); });
+}
+
+template <class A>
+void lightmapFields(A& a, Bake& b) {
+    LightmapLayout& l = b.lightmap;
+    a(l.width), a(l.height);
+    a.each(l.meshes, [&](MeshCharts& m) {
+        a(m.sourceVertex), a(m.indices), a(m.chartOfTriangle), a(m.chartUv), a(m.chartSize);
+    });
+    a.each(l.instances, [&](InstanceLightmap& i) { a(i.uv); });
+}
+
+template <class A>
+void surfelFields(A& a, Bake& b) {
+    Surfels& s = b.surfels;
+    a(s.position), a(s.normal), a(s.area), a(s.instance), a(s.triangle), a(s.barycentric),
+        a(s.cache);
+    a(s.cacheWeight);
+}
+
+template <class A>
+void treeFields(A& a, Bake& b) {
+    ClusterTree& t = b.tree;
+    a(t.surfels), a(t.skyCells), a(t.left), a(t.right), a(t.leftWeight), a(t.parent),
+        a(t.skyDirection);
+}
+
+template <class A>
+void cacheFields(A& a, Bake& b) {
+    Caches& c = b.caches;
+    a(c.lightmapCount), a(c.kind), a(c.position), a(c.normal), a(c.texel), a(c.linkBegin),
+        a(c.links);
+    a(c.fillBegin), a(c.fillSource), a(c.fillWeight);
+}
+
+/// Calls visit(name, fields) for every chunk; `fields` takes an archive and a Bake.
+template <class F>
+void forChunks(F visit) {
+    visit("SETTINGS", [](auto& a, Bake& b) { settingsFields(a, b); });
+    visit("TIMINGS ", [](auto& a, Bake& b) { timingFields(a, b); });
+    visit("LIGHTMAP", [](auto& a, Bake& b) { lightmapFields(a, b); });
+    visit("SURFELS ", [](auto& a, Bake& b) { surfelFields(a, b); });
+    visit("CLUSTERS", [](auto& a, Bake& b) { treeFields(a, b); });
+    visit("CACHES  ", [](auto& a, Bake& b) { cacheFields(a, b); });
+}
+
+std::string packChunk(const char* name, const std::string& plain) {
+    std::string packed(ZSTD_compressBound(plain.size()), '\0');
+    packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 3));
+    Writer out;
+    out.bytes.append(name, 8);
+    out(std::uint64_t(plain.size())), out(std::uint64_t(packed.size())),
+        out(hashBytes(plain.data(), plain.size()));
+    return out.bytes + packed;
+}
+
+/// Every index that relighting follows lies within its array.
+std::string indexDefect(const Bake& b) {
+    const Surfels& s = b.surfels;
+    const ClusterTree& t = b.tree;
+    const Caches& c = b.caches;
+    const std::size_t n = s.size(), caches = c.size(), nodes = t.size();
+    for (const std::size_t size :
+         {s.normal.size(), s.area.size(), s.instance.size(), s.triangle.size(),
+          s.barycentric.size(), s.cache.size(), s.cacheWeight.size()})
+        if (size != n)
+            return "SURFELS: arrays differ in length";
+    for (const glm::uvec4& k : s.cache)
+        for (int i = 0; i < 4; ++i)
+            if (k[i] != ~0U && k[i] >= caches)
+                return "SURFELS: cache out of range";
+    if (t.surfels != n || t.skyDirection.size() != t.skyCells || t.right.size() != t.left.size() ||
+        t.leftWeight.size() != t.left.size() || t.parent.size() != nodes || nodes == 0)
+        return "CLUSTERS: arrays differ in length";
+    for (std::size_t k = 0; k < t.left.size(); ++k)
+        if (t.left[k] >= t.leaves() + k || t.right[k] >= t.leaves() + k)
+            return "CLUSTERS: a child comes after its parent";
+    if (c.kind.size() != caches || c.normal.size() != caches || c.texel.size() != caches ||
+        c.linkBegin.size() != caches + 1 || c.fillBegin.size() != caches + 1 ||
+        c.lightmapCount > caches || c.fillWeight.size() != c.fillSource.size())
+        return "CACHES: arrays differ in length";
+    const std::uint64_t texels = std::uint64_t(b.lightmap.width) * b.lightmap.height;
+    const std::uint64_t cells = std::uint64_t(b.gridSize.x) * b.gridSize.y * b.gridSize.z;
+    for (std::size_t i = 0; i < caches; ++i) {
+        if (c.texel[i] >= (i < c.lightmapCount ? texels : cells))
+            return "CACHES: texel out of range";
+        if (c.linkBegin[i] > c.linkBegin[i + 1] || c.fillBegin[i] > c.fillBegin[i + 1])
+            return "CACHES: offsets run backwards";
+    }
+    if (c.linkBegin.front() != 0 || c.linkBegin.back() != c.links.size() ||
+        c.fillBegin.front() != 0 || c.fillBegin.back() != c.fillSource.size())
+        return "CACHES: offsets do not cover the links";
+    for (const Link& l : c.links)
+        if (l.node >= nodes)
+            return "CACHES: link out of range";
+    for (const std::uint32_t source : c.fillSource)
+        if (source >= caches)
+            return "CACHES: fill source out of range";
+    return {};
+}
+
+std::string layoutDefect(const LightmapLayout& l) {
+    for (const MeshCharts& m : l.meshes) {
+        if (m.chartUv.size() != m.sourceVertex.size() ||
+            m.chartOfTriangle.size() * 3 != m.indices.size())
+            return "LIGHTMAP: arrays differ in length";
+        for (const std::uint32_t i : m.indices)
+            if (i >= m.sourceVertex.size())
+                return "LIGHTMAP: index out of range";
+        for (const std::uint32_t chart : m.chartOfTriangle)
+            if (chart >= m.chartSize.size())
+                return "LIGHTMAP: chart out of range";
+    }
+    return {};
+}
+
+struct Chunk {
+    std::uint64_t plainSize, packedSize, hash;
+    const char* packed;
+};
+
+Result<std::map<std::string, Chunk>> listChunks(const std::string& path, const std::string& bytes) {
+    constexpr std::size_t kHeader = sizeof kMagic + 8, kChunkHeader = 8 + 3 * 8;
+    if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
+        return fail(fmt::format("{}: not a bake file", path));
+    std::uint32_t version, count;
+    std::memcpy(&version, bytes.data() + 8, 4);
+    std::memcpy(&count, bytes.data() + 12, 4);
+    if (version != kVersion)
+        return fail(fmt::format("{}: version {} is not {}: bake again", path, version, kVersion));
+    std::map<std::string, Chunk> chunks;
+    std::size_t at = kHeader;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (bytes.size() - at < kChunkHeader)
+            return fail(fmt::format("{}: truncated after {} of {} chunks", path, i, count));
+        const std::string name(bytes.data() + at, 8);
+        Chunk chunk;
+        std::memcpy(&chunk.plainSize, bytes.data() + at + 8, 8);
+        std::memcpy(&chunk.packedSize, bytes.data() + at + 16, 8);
+        std::memcpy(&chunk.hash, bytes.data() + at + 24, 8);
+        at += kChunkHeader;
+        if (chunk.packedSize > bytes.size() - at || chunk.plainSize > kMostBytes)
+            return fail(fmt::format("{}: chunk {}: truncated or damaged", path, i));
+        chunk.packed = bytes.data() + at;
+        at += std::size_t(chunk.packedSize);
+        chunks[name] = chunk;
+    }
+    if (at != bytes.size())
+        return fail(fmt::format("{}: {} bytes after the last chunk", path, bytes.size() - at));
+    return chunks;
+}
+
+Result<std::string> unpack(const std::string& path, const char* name, const Chunk& chunk) {
+    const auto stated = ZSTD_getFrameContentSize(chunk.packed, std::size_t(chunk.packedSize));
+    if (stated != chunk.plainSize)
+        return fail(fmt::format("{}: chunk {}: damaged", path, name));
+    std::string plain(std::size_t(chunk.plainSize), '\0');
+    const std::size_t n =
+        ZSTD_decompress(plain.data(), plain.size(), chunk.packed, std::size_t(chunk.packedSize));
+    if (ZSTD_isError(n) || n != plain.size() || hashBytes(plain.data(), plain.size()) != chunk.hash)
+        return fail(fmt::format("{}: chunk {}: checksum does not match", path, name));
+    return plain;
+}
+
+} // namespace
+
+Result<void> writeBake(const std::string& path, const Bake& bake) {
+    Bake copy = bake; // the field lists take a mutable Bake
+    std::string chunks;
+    std::uint32_t count = 0;
+    forChunks([&](const char* name, auto fields) {
+        Writer archive;
+        fields(archive, copy);
+        chunks += packChunk(name, archive.bytes);
+        ++count;
+    });
+    Writer header;
+    header.bytes.append(kMagic, sizeof kMagic);
+    header(kVersion), header(count);
+    return replaceFile(path, header.bytes + chunks);
+}
+
+Result<Bake> readBake(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        return fail(fmt::format("{}: cannot open: {}", path, std::strerror(errno)));
+    const std::string bytes((std::istreambuf_iterator<char>(file)),
+                            std::istreambuf_iterator<char>());
+    const Result<std::map<std::string, Chunk>> chunks = listChunks(path, bytes);
+    if (!chunks)
+        return tl::make_unexpected(chunks.error());
+    Bake bake;
+    std::string defect;
+    forChunks([&](const char* name, auto fields) {
+        if (!defect.empty())
+            return;
+        const auto it = chunks->find(name);
+        if (it == chunks->end()) {
+            defect = fmt::format("{}: chunk {}: missing", path, name);
+            return;
+        }
+        const Result<std::string> plain = unpack(path, name, it->second);
+        if (!plain) {
+            defect = plain.error().message;
+            return;
+        }
+        Reader archive(*plain);
+        fields(archive, bake);
+        if (!archive.ok || !archive.atEnd())
+            defect = fmt::format("{}: chunk {}: wrong length", path, name);
+    });
+    if (defect.empty())
+        if (std::string inside = layoutDefect(bake.lightmap) + indexDefect(bake); !inside.empty())
+            defect = fmt::format("{}: {}", path, inside);
+    if (!defect.empty())
+        return fail(defect);
+    return bake;
+}
+
+} // namespace limn

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/bake_file.h"
+
+#include "engine/relight/relight.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <unistd.h>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+Scene room() {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(1)));
+    b.add(box(glm::vec3(0), glm::vec3(2), true));
+    b.add(box(glm::vec3(0.5f, 0, 0.5f), glm::vec3(1), false));
+    Scene scene = b.build();
+    scene.bake.surfels = 200;
+    scene.bake.lightmapCaches = 150;
+    scene.bake.rays = 64;
+    scene.bake.links = 16;
+    scene.bake.grid = {3, 2, 4};
+    return scene;
+}
+
+class BakeFile : public testing::Test {
+protected:
+    Scene scene = room();
+    TraceScene trace{scene};
+    Bake baked = *bake(trace);
+    std::string path = (std::filesystem::temp_directory_path() /
+                        ("limn_bake_file_test_" + std::to_string(getpid()) + ".limnbake"))
+                           .string();
+
+    ~BakeFile() override { std::remove(path.c_str()); }
+    std::string contents() const {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    }
+    void overwrite(const std::string& bytes) const {
+        std::ofstream(path, std::ios::binary) << bytes;
+    }
+};
+
+TEST_F(BakeFile, LoadsBackToIdenticalResults) {
+    ASSERT_TRUE(writeBake(path, baked));
+    const Result<Bake> loaded = readBake(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->hash(), baked.hash());
+    EXPECT_EQ(loaded->settings, baked.settings);
+    EXPECT_EQ(loaded->lightmap, baked.lightmap);
+    EXPECT_EQ(loaded->surfels, baked.surfels);
+    EXPECT_EQ(loaded->tree, baked.tree);
+    EXPECT_EQ(loaded->caches, baked.caches);
+    EXPECT_EQ(loaded->counts, baked.counts);
+    EXPECT_EQ(loaded->seconds, baked.seconds);
+    Relighter first(std::make_shared<const Bake>(baked)),
+        second(std::make_shared<const Bake>(*loaded));
+    first.relight(scene, trace, 8);
+    second.relight(scene, trace, 8);
+    EXPECT_EQ(first.field(), second.field());
+}
+
+TEST_F(BakeFile, EveryTruncationIsAnErrorThatNamesTheFile) {
+    ASSERT_TRUE(writeBake(path, baked));
+    const std::string whole = contents();
+    for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 97) {
+        overwrite(whole.substr(0, length));
+        const Result<Bake> refused = readBake(path);
+        ASSERT_FALSE(refused) << length;
+        EXPECT_NE(refused.error().message.find(path), std::string::npos);
+    }
+    overwrite(whole + "x");
+    EXPECT_FALSE(readBake(path));
+}
+
+TEST_F(BakeFile, DamageIsRefusedWhereverItIs) {
+    ASSERT_TRUE(writeBake(path, baked));
+    const std::string whole = contents();
+    std::mt19937 rng(1);
+    for (int i = 0; i < 300; ++i) {
+        std::string damaged = whole;
+        const std::size_t at = rng() % damaged.size();
+        damaged[at] = char(damaged[at] ^ char(1 << (rng() % 8)));
+        overwrite(damaged);
+        EXPECT_FALSE(readBake(path)) << "byte " << at;
+    }
+}
+
+TEST_F(BakeFile, IndicesOutOfRangeAreRefusedEvenWithRightChecksums) {
+    Bake broken = baked;
+    broken.caches.links[5].node = 1U << 30;
+    ASSERT_TRUE(writeBake(path, broken));
+    const Result<Bake> refused = readBake(path);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("CACHES: link out of range"), std::string::npos);
+    broken = baked;
+    broken.surfels.cache[0].x = 1U << 30;
+    ASSERT_TRUE(writeBake(path, broken));
+    EXPECT_FALSE(readBake(path));
+    broken = baked;
+    broken.tree.left[3] = broken.tree.size();
+    ASSERT_TRUE(writeBake(path, broken));
+    EXPECT_FALSE(readBake(path));
+}
+
+TEST_F(BakeFile, ANewerVersionSaysSo) {
+    ASSERT_TRUE(writeBake(path, baked));
+    std::string newer = contents();
+    newer[8] = 9;
+    overwrite(newer);
+    const Result<Bake> refused = readBake(path);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("version 9"), std::string::npos);
+}
+
+TEST_F(BakeFile, AnUnwritablePlaceIsAnError) {
+    const Result<void> refused = writeBake("/nonexistent/folder/x.limnbake", baked);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("/nonexistent/folder/x.limnbake"), std::string::npos);
+}
+
+} // namespace
+} // namespace limn
