@@ -17,8 +17,7 @@ Sampler createSampler(Device& device, const SamplerDesc& desc) {
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.maxLod = VK_LOD_CLAMP_NONE;
     info.compareEnable = desc.compare;
-    info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
-    info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
+    info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
     VK_CHECK(vkCreateSampler(device.device, &info, nullptr, &sampler));
     return {device, sampler};

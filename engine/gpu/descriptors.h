@@ -12,7 +12,7 @@ struct SamplerDesc {
     VkSamplerMipmapMode mipmaps = VK_SAMPLER_MIPMAP_MODE_LINEAR;
     VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     VkSamplerAddressMode wrapV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    bool compare = false; ///< depth comparison LESS_OR_EQUAL, border 1
+    bool compare = false; ///< depth comparison: reference >= texel, for depths of 1 near and 0 far
 };
 Sampler createSampler(Device& device, const SamplerDesc& desc);
 

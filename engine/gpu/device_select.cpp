@@ -84,6 +84,10 @@ static std::string whatIsMissing(VkPhysicalDevice device) {
         return "synchronization2";
     if (!v12.timelineSemaphore)
         return "timeline semaphores";
+    VkFormatProperties format;
+    vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_R32G32B32A32_SFLOAT, &format);
+    if (!(format.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
+        return "linear filtering of 32-bit float images";
     return {};
 }
 

@@ -141,31 +141,65 @@ static VkDeviceSize texelBytes(VkFormat format) {
     return 0;
 }
 
+static Buffer stage(Device& device, std::span<const std::byte> bytes) {
+    Buffer staging(device, {.size = bytes.size(),
+                            .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                            .memory = MemoryKind::Upload,
+                            .name = "staging"});
+    std::memcpy(staging.mapped, bytes.data(), bytes.size());
+    return staging;
+}
+
+// Returns the bytes read.
+static VkDeviceSize copyMip(VkCommandBuffer cmd, const Buffer& staging, VkDeviceSize offset,
+                            const Image& image, std::uint32_t mip) {
+    const std::uint32_t w = std::max(image.width >> mip, 1u), h = std::max(image.height >> mip, 1u);
+    const VkBufferImageCopy region{
+        .bufferOffset = offset,
+        .bufferRowLength = 0,
+        .bufferImageHeight = 0,
+        .imageSubresource = {aspectOf(image.format), mip, 0, image.layers},
+        .imageOffset = {},
+        .imageExtent = {w, h, 1}};
+    vkCmdCopyBufferToImage(cmd, staging.handle, image.handle, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           1, &region);
+    return VkDeviceSize(w) * h * image.layers * texelBytes(image.format);
+}
+
 void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
                  std::span<const std::byte> bytes) {
-    const Buffer staging(device, {.size = bytes.size(),
-                                  .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                  .memory = MemoryKind::Upload,
-                                  .name = "staging"});
-    std::memcpy(staging.mapped, bytes.data(), bytes.size());
+    const Buffer staging = stage(device, bytes);
     const VkImageAspectFlags aspect = aspectOf(image.format);
     imageBarrier(cmd, image.handle, aspect, kUndefined, kTransferWrite);
     VkDeviceSize offset = 0;
-    for (std::uint32_t mip = 0; mip < image.mips; ++mip) {
-        const std::uint32_t w = std::max(image.width >> mip, 1u);
-        const std::uint32_t h = std::max(image.height >> mip, 1u);
-        const VkBufferImageCopy region{.bufferOffset = offset,
-                                       .bufferRowLength = 0,
-                                       .bufferImageHeight = 0,
-                                       .imageSubresource = {aspect, mip, 0, image.layers},
-                                       .imageOffset = {},
-                                       .imageExtent = {w, h, 1}};
-        vkCmdCopyBufferToImage(cmd, staging.handle, image.handle,
-                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-        offset += VkDeviceSize(w) * h * image.layers * texelBytes(image.format);
-    }
+    for (std::uint32_t mip = 0; mip < image.mips; ++mip)
+        offset += copyMip(cmd, staging, offset, image, mip);
     assert(offset == bytes.size());
     imageBarrier(cmd, image.handle, aspect, kTransferWrite, kFragmentRead);
+}
+
+void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& image,
+                           std::span<const std::byte> bytes) {
+    const Buffer staging = stage(device, bytes);
+    const VkImageAspectFlags aspect = aspectOf(image.format);
+    imageBarrier(cmd, image.handle, aspect, kUndefined, kTransferWrite);
+    copyMip(cmd, staging, 0, image, 0);
+    const auto extent = [](std::uint32_t size, std::uint32_t mip) {
+        return std::int32_t(std::max(size >> mip, 1u));
+    };
+    for (std::uint32_t mip = 1; mip < image.mips; ++mip) {
+        imageBarrier(cmd, image.handle, aspect, kTransferWrite, kTransferRead, mip - 1, 1);
+        VkImageBlit region{};
+        region.srcSubresource = {aspect, mip - 1, 0, 1};
+        region.srcOffsets[1] = {extent(image.width, mip - 1), extent(image.height, mip - 1), 1};
+        region.dstSubresource = {aspect, mip, 0, 1};
+        region.dstOffsets[1] = {extent(image.width, mip), extent(image.height, mip), 1};
+        vkCmdBlitImage(cmd, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+    }
+    if (image.mips > 1)
+        imageBarrier(cmd, image.handle, aspect, kTransferRead, kFragmentRead, 0, image.mips - 1);
+    imageBarrier(cmd, image.handle, aspect, kTransferWrite, kFragmentRead, image.mips - 1, 1);
 }
 
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,

@@ -64,6 +64,11 @@ std::uint32_t mipCount(std::uint32_t width, std::uint32_t height);
 void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
                  std::span<const std::byte> bytes);
 
+/// The same for mip 0 of a one-layer image (TRANSFER_SRC too); the GPU fills the other mips by
+/// repeated halving.
+void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& image,
+                           std::span<const std::byte> bytes);
+
 /// Copies the corner (0, 0, width, height) of mip 0, layer 0 to the CPU, rows tightly packed. The
 /// image is in `layout` before and after. Waits.
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,

@@ -113,11 +113,14 @@ static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& d
     blend.attachmentCount = std::uint32_t(attachments.size());
     blend.pAttachments = attachments.data();
 
-    const std::array dynamics = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                 VK_DYNAMIC_STATE_DEPTH_BIAS};
+    std::vector dynamics = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    if (desc.depthBias)
+        dynamics.push_back(VK_DYNAMIC_STATE_DEPTH_BIAS);
+    if (desc.dynamicCull)
+        dynamics.insert(dynamics.end(), {VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE});
     VkPipelineDynamicStateCreateInfo dynamic{};
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-    dynamic.dynamicStateCount = desc.depthBias ? 3 : 2;
+    dynamic.dynamicStateCount = std::uint32_t(dynamics.size());
     dynamic.pDynamicStates = dynamics.data();
 
     VkPipelineRenderingCreateInfo rendering{};

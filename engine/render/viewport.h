@@ -4,8 +4,8 @@
 #include "engine/bake/lightmap_layout.h"
 #include "engine/core/result.h"
 #include "engine/relight/indirect_field.h"
-#include "engine/scene/view.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/view.h"
 
 #include <cstdint>
 #include <memory>
@@ -27,11 +27,14 @@ struct ViewportOptions {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
+    bool cullBackFaces =
+        true; ///< as glTF has it; else the back of a one-sided surface is black, as paths see it
 };
 
 struct ViewportStats {
-    double uploadMs = 0, shadowMs = 0, shadeMs = 0, totalMs = 0; ///< of the last frame, wall clock
-    std::uint32_t shadowMapsDrawn = 0;                           ///< 0 when no light or object changed
+    double uploadMs = 0, shadowMs = 0, shadeMs = 0,
+           totalMs = 0;                ///< of the last frame that is done, the GPU's clock
+    std::uint32_t shadowMapsDrawn = 0; ///< 0 when no light or object changed
     std::uint64_t gpuBytes = 0;
 };
 
@@ -42,23 +45,29 @@ public:
     explicit Viewport(gpu::Device& device);
     ~Viewport();
 
-    /// Geometry, textures, instance transforms. `layout` null: no bake yet, so no lightmap (indirect light is 0).
-    /// Cheap when assets and layout pointers are those of the last call and only transforms differ.
+    /// Geometry, textures, instance transforms. `layout` null: no bake yet, so no lightmap
+    /// (indirect light is 0). Cheap when assets and layout pointers are those of the last call and
+    /// only transforms differ.
     void setScene(const Scene& scene, std::shared_ptr<const LightmapLayout> layout);
 
-    /// Lights, materials' factors and sky: cheap, every frame if need be.
+    /// Lights, materials and sky: cheap, every frame if need be.
     void setLighting(const Scene& scene);
 
     /// Indirect light; uploads only if `field.version` is new.
     void setIndirect(const IndirectField& field);
 
-    /// Records and submits one frame to the viewport's own colour target, tone-mapped 8-bit sRGB-encoded.
+    /// Records and submits one frame to the viewport's own colour target, tone-mapped 8-bit
+    /// sRGB-encoded.
     void render(const ViewportOptions& options);
 
-    /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL, for ImGui::Image.
+    /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL,
+    /// for ImGui::Image.
     VkImageView colorView() const;
-    /// Its image, of the size of the last ViewportOptions, in the same layout; the window blits from it
-    /// (created with VK_IMAGE_USAGE_TRANSFER_SRC_BIT). ImGui 1.86's backend draws no textures but its font.
+    /// Its image, in the same layout: the picture is its corner (0, 0, width, height) of the last
+    /// ViewportOptions, and the rest is spare, so a size that changes every frame costs nothing
+    /// (half the size while things move, say). View and image stay the same until the size grows
+    /// beyond any before. The window blits from it (created with VK_IMAGE_USAGE_TRANSFER_SRC_BIT).
+    /// ImGui 1.86's backend draws no textures but its font.
     VkImage colorImage() const;
 
     /// The linear, scene-referred result of the last render(). Waits for the GPU.

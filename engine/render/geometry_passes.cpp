@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/geometry_passes.h"
+
+#include "shaders/depth.vert.h"
+#include "shaders/depth_mask.frag.h"
+#include "shaders/depth_mask.vert.h"
+#include "shaders/shade.frag.h"
+#include "shaders/shade.vert.h"
+#include "shaders/shared/gpu_frame.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn::render {
+
+using shared::GpuDraw;
+
+namespace {
+
+const std::vector<VkVertexInputBindingDescription> kBindings = {
+    {0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
+    {1, sizeof(VertexAttributes), VK_VERTEX_INPUT_RATE_VERTEX},
+    {2, sizeof(glm::vec2), VK_VERTEX_INPUT_RATE_VERTEX}};
+
+const std::vector<VkVertexInputAttributeDescription> kAttributes = {
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+    {1, 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexAttributes, normal)},
+    {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, tangent)},
+    {3, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv0)},
+    {4, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv1)},
+    {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, color)},
+    {6, 2, VK_FORMAT_R32G32_SFLOAT, 0}};
+
+// Binds what the variant reads and draws one instance.
+void drawInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& mesh,
+                  const GpuInstance& instance, const glm::mat4& toClip, std::uint32_t flags,
+                  std::uint32_t bindings) {
+    GpuDraw draw{};
+    draw.toClip = toClip * instance.toWorld;
+    const glm::mat4 rows = glm::transpose(instance.toWorld);
+    for (int r = 0; r < 3; ++r)
+        draw.toWorld[r] = rows[r];
+    draw.flags = flags;
+    vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_ALL, 0, sizeof draw, &draw);
+    const std::array buffers = {mesh.positions.handle, mesh.attributes.handle,
+                                instance.lightmapUv ? instance.lightmapUv.handle
+                                                    : mesh.positions.handle};
+    const std::array<VkDeviceSize, 3> offsets{};
+    vkCmdBindVertexBuffers(cmd, 0, bindings, buffers.data(), offsets.data());
+    vkCmdBindIndexBuffer(cmd, mesh.indices.handle, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
+}
+
+float distanceTo(const Bounds& b, glm::vec3 p) {
+    const glm::vec3 nearest = glm::clamp(p, b.lower, b.upper);
+    return glm::length(nearest - p);
+}
+
+} // namespace
+
+GeometryPasses::GeometryPasses(gpu::Device& device, VkDescriptorSetLayout frameLayout,
+                               VkDescriptorSetLayout materialLayout)
+    : m_device(device) {
+    const std::array layouts = {frameLayout, materialLayout};
+    m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuDraw), "geometry");
+}
+
+gpu::Pipeline GeometryPasses::createShaded(View view, std::uint32_t features) {
+    gpu::GraphicsPipelineDesc desc;
+    desc.vertex = kShadeVert;
+    desc.fragment = kShadeFrag;
+    desc.layout = m_layout.handle;
+    desc.bindings = kBindings;
+    desc.attributes = kAttributes;
+    if (!(features & FEATURE_LIGHTMAP)) {
+        desc.bindings.pop_back();
+        desc.attributes.back() = {6, 0, VK_FORMAT_R32G32_SFLOAT, 0}; // declared, not used
+    }
+    desc.colorFormats = {kLinearFormat};
+    desc.depthFormat = kDepthFormat;
+    desc.depthCompare = VK_COMPARE_OP_GREATER;
+    desc.dynamicCull = true;
+    desc.constants = {std::uint32_t(view), features};
+    desc.name = "shade";
+    return gpu::createGraphicsPipeline(m_device, desc);
+}
+
+gpu::Pipeline GeometryPasses::createDepth(std::uint32_t features) {
+    const bool mask = features & FEATURE_ALPHA_MASK;
+    gpu::GraphicsPipelineDesc desc;
+    desc.vertex = mask ? gpu::Spirv(kDepthMaskVert) : gpu::Spirv(kDepthVert);
+    if (mask)
+        desc.fragment = kDepthMaskFrag;
+    desc.layout = m_layout.handle;
+    desc.bindings = {kBindings[0]};
+    desc.attributes = {kAttributes[0]};
+    if (mask) {
+        desc.bindings.push_back(kBindings[1]);
+        desc.attributes.insert(desc.attributes.end(),
+                               {kAttributes[3], kAttributes[4], kAttributes[5]});
+    }
+    desc.depthFormat = kDepthFormat;
+    desc.depthCompare = VK_COMPARE_OP_GREATER;
+    desc.constants = {0, features};
+    desc.name = mask ? "depth, masked" : "depth";
+    return gpu::createGraphicsPipeline(m_device, desc);
+}
+
+void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
+                               const MaterialSet& materials, const glm::mat4& toClip,
+                               std::uint32_t slot) {
+    constexpr std::uint32_t kUsed = FEATURE_ALPHA_MASK | FEATURE_BASE_COLOR_TEXTURE;
+    VkPipeline bound = VK_NULL_HANDLE;
+    for (const GpuInstance& instance : scene.instances) {
+        const GpuMesh& mesh = scene.meshes[instance.mesh];
+        if (mesh.indexCount == 0 || !mayBeVisible(instance.bounds, toClip))
+            continue;
+        const std::uint32_t all = materials.features[instance.material];
+        const std::uint32_t features = all & FEATURE_ALPHA_MASK ? all & kUsed : 0;
+        gpu::Pipeline& pipeline = m_depth[features];
+        if (!pipeline)
+            pipeline = createDepth(features);
+        if (bound != pipeline.handle)
+            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+        bound = pipeline.handle;
+        if (features)
+            materials.bind(cmd, m_layout.handle, instance.material, slot);
+        drawInstance(cmd, m_layout.handle, mesh, instance, toClip, 0, features ? 2 : 1);
+    }
+}
+
+// Nearest first, so that later instances fail the depth test before they are shaded.
+static void orderByDistance(const RenderScene& scene, const GeometryView& view,
+                            std::vector<std::pair<float, std::uint32_t>>& order) {
+    order.clear();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const GpuInstance& instance = scene.instances[i];
+        if (scene.meshes[instance.mesh].indexCount > 0 &&
+            mayBeVisible(instance.bounds, view.toClip))
+            order.emplace_back(distanceTo(instance.bounds, view.eye), i);
+    }
+    std::sort(order.begin(), order.end());
+}
+
+// Only what the view shows: fewer variants, and none that reads a texture for nothing.
+static std::uint32_t variantFeatures(std::uint32_t material, const GpuMesh& mesh,
+                                     const GpuInstance& instance, const GeometryView& view) {
+    const bool lit = view.view == View::Lit;
+    const bool albedo = lit || view.view == View::Direct || view.view == View::Indirect ||
+                        view.view == View::Albedo;
+    const bool indirect = lit || view.view == View::Indirect || view.view == View::Irradiance;
+    std::uint32_t f = material;
+    if (!albedo)
+        f &= ~FEATURE_METALLIC_ROUGHNESS_TEXTURE;
+    if (!albedo && !(f & FEATURE_ALPHA_MASK))
+        f &= ~FEATURE_BASE_COLOR_TEXTURE;
+    if (!lit)
+        f &= ~FEATURE_EMISSIVE_TEXTURE;
+    if (!mesh.tangents || (!lit && view.view != View::Normals))
+        f &= ~FEATURE_NORMAL_TEXTURE;
+    if (indirect)
+        f |= instance.hasLightmap ? FEATURE_LIGHTMAP : view.grid ? FEATURE_GRID : 0u;
+    return f;
+}
+
+void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
+                                const MaterialSet& materials, const GeometryView& view) {
+    orderByDistance(scene, view, m_order);
+    VkPipeline bound = VK_NULL_HANDLE;
+    for (const auto& [distance, index] : m_order) {
+        const GpuInstance& instance = scene.instances[index];
+        const GpuMesh& mesh = scene.meshes[instance.mesh];
+        const std::uint32_t features =
+            variantFeatures(materials.features[instance.material], mesh, instance, view);
+        gpu::Pipeline& pipeline = m_shaded[{view.view, features}];
+        if (!pipeline)
+            pipeline = createShaded(view.view, features);
+        if (bound != pipeline.handle)
+            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+        bound = pipeline.handle;
+        const bool bothSides = materials.doubleSided[instance.material];
+        vkCmdSetCullMode(cmd, view.cullBackFaces && !bothSides ? VK_CULL_MODE_BACK_BIT
+                                                               : VK_CULL_MODE_NONE);
+        vkCmdSetFrontFace(cmd, instance.mirrored ? VK_FRONT_FACE_CLOCKWISE
+                                                 : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        materials.bind(cmd, m_layout.handle, instance.material, view.slot);
+        const std::uint32_t flags =
+            (bothSides ? DRAW_DOUBLE_SIDED : 0u) | (instance.mirrored ? DRAW_MIRRORED : 0u);
+        drawInstance(cmd, m_layout.handle, mesh, instance, view.toClip, flags,
+                     features & FEATURE_LIGHTMAP ? 3 : 2);
+    }
+}
+
+} // namespace limn::render

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/render/material_set.h"
+#include "engine/render/render_scene.h"
+#include "engine/scene/view.h"
+
+#include <map>
+#include <utility>
+
+namespace limn::render {
+
+constexpr VkFormat kLinearFormat =
+    VK_FORMAT_R32G32B32A32_SFLOAT;                      ///< lights of 1e6 cd overflow halfs
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT; ///< 1 near, 0 far
+
+/// What the camera's passes need to know.
+struct GeometryView {
+    View view = View::Lit;
+    glm::mat4 toClip{1};
+    glm::vec3 eye{0};
+    bool grid = false; ///< instances without lightmap read the grid
+    bool cullBackFaces = true;
+    std::uint32_t slot = 0;
+};
+
+/// Pipelines that draw a RenderScene: depth only (shadow maps) and shaded. Variants are made when
+/// first needed, so that a surface pays only for the textures and the kind of indirect light it
+/// has.
+class GeometryPasses {
+public:
+    GeometryPasses(gpu::Device& device, VkDescriptorSetLayout frameLayout,
+                   VkDescriptorSetLayout materialLayout);
+
+    VkPipelineLayout layout() const { return m_layout.handle; }
+
+    /// Everything inside `toClip`, no culling of faces, into a bound depth attachment.
+    void drawDepth(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
+                   const glm::mat4& toClip, std::uint32_t slot);
+
+    /// Shaded, into bound colour and depth attachments, nearest instances first. Set 0 is bound.
+    void drawShaded(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
+                    const GeometryView& view);
+
+private:
+    gpu::Pipeline createShaded(View view, std::uint32_t features);
+    gpu::Pipeline createDepth(std::uint32_t features);
+
+    gpu::Device& m_device;
+    gpu::PipelineLayout m_layout;
+    std::map<std::pair<View, std::uint32_t>, gpu::Pipeline> m_shaded;
+    std::map<std::uint32_t, gpu::Pipeline>
+        m_depth; ///< by FEATURE_BASE_COLOR_TEXTURE and FEATURE_ALPHA_MASK
+    std::vector<std::pair<float, std::uint32_t>>
+        m_order; ///< distance, instance; kept to save its allocation
+};
+
+} // namespace limn::render

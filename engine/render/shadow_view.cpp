@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/shadow_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace limn::render {
+
+namespace {
+
+// A spot wider than this would waste most of one map on its rim.
+constexpr float kWidestSpot = 1.2f; // [rad], half-angle
+
+// Texels beyond a face's edge that filtering near the edge may read: half a texel of the outer tap,
+// half a texel of its bilinear footprint, and what the normal bias moves.
+constexpr float kMarginTexels = 4;
+
+glm::vec3 upFor(glm::vec3 axis) {
+    return std::abs(axis.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+}
+
+std::array<glm::vec3, 8> corners(const Bounds& b) {
+    std::array<glm::vec3, 8> out;
+    for (int i = 0; i < 8; ++i)
+        out[std::size_t(i)] = {(i & 1) ? b.upper.x : b.lower.x, (i & 2) ? b.upper.y : b.lower.y,
+                               (i & 4) ? b.upper.z : b.lower.z};
+    return out;
+}
+
+// Orthographic, as tight round the scene as an axis-aligned box in light space can be.
+ShadowView directionalView(const ShadowKey& key, const Bounds& bounds, std::uint32_t mapSize) {
+    const glm::mat4 toLight = glm::lookAtRH(glm::vec3(0), key.direction, upFor(key.direction));
+    glm::vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
+    for (glm::vec3 p : corners(bounds)) {
+        const glm::vec3 q(toLight * glm::vec4(p, 1));
+        lower = glm::min(lower, q);
+        upper = glm::max(upper, q);
+    }
+    const glm::vec3 size = glm::max(upper - lower, glm::vec3(1e-6f * (1 + glm::length(upper))));
+    const glm::vec3 margin(glm::vec2(size) * (kMarginTexels / float(mapSize)), 0.01f * size.z);
+    lower -= margin;
+    upper += margin;
+    // orthoRH_ZO maps distance zNear to depth 0; the arguments are swapped for depth 1 near.
+    const glm::mat4 projection =
+        glm::orthoRH_ZO(lower.x, upper.x, lower.y, upper.y, -lower.z, -upper.z);
+    ShadowView v;
+    v.toClip = projection * toLight;
+    v.gpu.axis = glm::vec4(key.direction, 0);
+    v.gpu.texelSize = std::max(upper.x - lower.x, upper.y - lower.y) / float(mapSize);
+    v.gpu.perspective = 0;
+    return v;
+}
+
+ShadowView perspectiveView(glm::vec3 eye, glm::vec3 axis, float tanHalf, const Bounds& bounds,
+                           std::uint32_t mapSize) {
+    float zFar = 0;
+    for (glm::vec3 p : corners(bounds))
+        zFar = std::max(zFar, glm::length(p - eye));
+    zFar = std::max(zFar * 1.01f, 1e-6f);
+    // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
+    const float zNear = zFar * 1e-4f;
+    const float wide = tanHalf * (1 + 2 * kMarginTexels / float(mapSize));
+    ShadowView v;
+    v.toClip = glm::perspectiveRH_ZO(2 * std::atan(wide), 1.f, zFar, zNear) *
+               glm::lookAtRH(eye, eye + axis, upFor(axis));
+    v.gpu.axis = glm::vec4(axis, glm::dot(axis, eye));
+    v.gpu.texelSize = 2 * wide / float(mapSize);
+    v.gpu.perspective = 1;
+    return v;
+}
+
+} // namespace
+
+ShadowKey shadowKey(const Light& light) {
+    ShadowKey key{.kind = light.kind};
+    if (light.kind != LightKind::Directional)
+        key.position = light.position;
+    if (light.kind != LightKind::Point)
+        key.direction = light.direction;
+    if (light.kind == LightKind::Spot)
+        key.outerAngle = light.outerAngle;
+    return key;
+}
+
+std::vector<ShadowView> shadowViews(const ShadowKey& key, const Bounds& bounds,
+                                    std::uint32_t mapSize) {
+    if (key.kind == LightKind::Directional)
+        return {directionalView(key, bounds, mapSize)};
+    if (key.kind == LightKind::Spot && key.outerAngle <= kWidestSpot)
+        return {perspectiveView(key.position, key.direction, std::tan(key.outerAngle), bounds,
+                                mapSize)};
+    std::vector<ShadowView> views; // in the order of cubeFace() in shade.frag
+    for (glm::vec3 axis : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
+                           glm::vec3(0, -1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)})
+        views.push_back(perspectiveView(key.position, axis, 1, bounds, mapSize));
+    return views;
+}
+
+} // namespace limn::render

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/descriptors.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/scene/view.h"
+
+namespace limn::render {
+
+constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< holds sRGB-encoded values
+
+/// Linear image to sRGB-encoded RGBA8.
+class TonemapPass {
+public:
+    explicit TonemapPass(gpu::Device& device);
+
+    /// Draws into the bound colour attachment. `linear` is in SHADER_READ_ONLY_OPTIMAL; `slot` as
+    /// in MaterialSet.
+    void record(VkCommandBuffer cmd, VkImageView linear, float exposure, Tonemap curve,
+                std::uint32_t slot);
+
+private:
+    gpu::Device& m_device;
+    gpu::DescriptorSetLayout m_setLayout;
+    gpu::DescriptorPool m_pool;
+    gpu::PipelineLayout m_layout;
+    gpu::Pipeline m_pipeline;
+    gpu::Sampler m_sampler;
+    std::vector<VkDescriptorSet> m_sets; ///< per slot
+};
+
+} // namespace limn::render

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/viewport.h"
+
+#include "engine/core/log.h"
+#include "engine/gpu/barrier.h"
+#include "engine/gpu/vulkan_error.h"
+#include "engine/render/geometry_passes.h"
+#include "engine/render/indirect_light.h"
+#include "engine/render/shadow_maps.h"
+#include "engine/render/tonemap_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+using namespace render;
+using shared::GpuFrame;
+using shared::GpuLight;
+using shared::GpuShadowView;
+
+namespace {
+
+static_assert(std::uint32_t(View::Direct) == VIEW_DIRECT && std::uint32_t(View::Lit) == VIEW_LIT &&
+              std::uint32_t(View::Indirect) == VIEW_INDIRECT &&
+              std::uint32_t(View::Irradiance) == VIEW_IRRADIANCE &&
+              std::uint32_t(View::Albedo) == VIEW_ALBEDO &&
+              std::uint32_t(View::Normals) == VIEW_NORMALS);
+
+constexpr std::array kFrameTypes = {
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+// Shadow receivers are moved off their surface by so many shadow texels, along the normal (times
+// the sine of the light's angle) and towards the light: the 3 x 3 filter reaches 1.5 texels
+// sideways, on the diagonal 2.1.
+constexpr float kNormalBias = 2.f, kLightBias = 1.f;
+
+// Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
+constexpr std::uint32_t kSizeStep = 128;
+
+enum Timestamp : std::uint32_t { kBegin, kShadowsDone, kShadeDone, kEnd, kTimestamps };
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// What a frame in flight must not lose.
+struct FrameSlot {
+    gpu::Buffer frame, lights, shadowViews; ///< mapped
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    gpu::QueryPool queries;
+    std::uint64_t submission = 0;
+    std::uint32_t shadowMapsDrawn = 0;
+    double uploadMs = 0;
+    bool timed = false; ///< its timestamps were read
+};
+
+struct Targets {
+    gpu::Image linear, depth, color;
+    bool fresh = true; ///< layouts are undefined
+};
+
+} // namespace
+
+struct Viewport::Impl {
+    explicit Impl(gpu::Device& d);
+
+    void ensureTargets(std::uint32_t width, std::uint32_t height);
+    void ensureCapacity(gpu::Buffer& buffer, VkDeviceSize bytes, const char* name);
+    std::vector<ShadowSlot> assignShadows(bool needed);
+    void writeFrame(FrameSlot& slot, const ViewportOptions& options,
+                    const std::vector<ShadowSlot>& shadows);
+    void writeFrameSet(const FrameSlot& slot);
+    void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
+    void recordShade(VkCommandBuffer cmd, const FrameSlot& slot, const GeometryView& view,
+                     const ViewportOptions& options);
+    void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
+    void readTimes(FrameSlot& slot);
+
+    gpu::Device& device;
+    MaterialSet materials;
+    gpu::DescriptorSetLayout frameLayout;
+    gpu::DescriptorPool framePool;
+    gpu::Sampler lightmapSampler;
+    GeometryPasses geometry;
+    TonemapPass tonemap;
+    ShadowMaps shadows;
+    IndirectLight indirect;
+    RenderScene scene;
+    std::vector<Light> lights; ///< those that shine
+    glm::vec3 sky{0};
+    std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
+    bool warnedUnshadowed = false;
+    Targets targets;
+    std::array<FrameSlot, kFrameSlots> slots;
+    std::uint64_t frames = 0;
+    std::uint32_t width = 0, height = 0; ///< of the last frame
+    double pendingUploadMs = 0;
+    ViewportStats stats;
+};
+
+Viewport::Impl::Impl(gpu::Device& d)
+    : device(d), materials(d), frameLayout(gpu::createSetLayout(d, kFrameTypes)),
+      framePool(gpu::createDescriptorPool(d, kFrameSlots, kFrameTypes)),
+      lightmapSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                             .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                             .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+      geometry(d, frameLayout.handle, materials.layout()), tonemap(d), shadows(d),
+      indirect(createIndirectLight(d)) {
+    for (FrameSlot& slot : slots) {
+        slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
+                                     .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                     .memory = gpu::MemoryKind::Upload,
+                                     .name = "frame"});
+        ensureCapacity(slot.lights, 0, "lights");
+        ensureCapacity(slot.shadowViews, 0, "shadow views");
+        slot.set = gpu::allocateSet(d, framePool, frameLayout);
+        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                         .queryCount = kTimestamps};
+        VkQueryPool pool = VK_NULL_HANDLE;
+        VK_CHECK(vkCreateQueryPool(d.device, &info, nullptr, &pool));
+        slot.queries = gpu::QueryPool(d, pool);
+    }
+}
+
+void Viewport::Impl::ensureTargets(std::uint32_t w, std::uint32_t h) {
+    if (targets.linear && w <= targets.linear.width && h <= targets.linear.height)
+        return;
+    const auto up = [](std::uint32_t size, std::uint32_t old) {
+        return std::max((size + kSizeStep - 1) / kSizeStep * kSizeStep, old);
+    };
+    const std::uint32_t tw = up(w, targets.linear.width), th = up(h, targets.linear.height);
+    using gpu::ImageDesc;
+    targets.linear =
+        gpu::Image(device, ImageDesc::renderTarget(tw, th, kLinearFormat, "linear colour"));
+    targets.depth = gpu::Image(device, ImageDesc::renderTarget(tw, th, kDepthFormat, "depth"));
+    targets.color = gpu::Image(device, ImageDesc::renderTarget(tw, th, kColorFormat, "colour"));
+    targets.fresh = true;
+}
+
+// Storage buffers that only grow; a replaced one is retired.
+void Viewport::Impl::ensureCapacity(gpu::Buffer& buffer, VkDeviceSize bytes, const char* name) {
+    if (buffer && buffer.size >= bytes)
+        return;
+    buffer = gpu::Buffer(device, {.size = std::max<VkDeviceSize>(2 * bytes, 1024),
+                                  .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                  .memory = gpu::MemoryKind::Upload,
+                                  .name = name});
+}
+
+static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
+    GpuLight g{};
+    g.position = light.position;
+    g.inverseRange = light.range > 0 ? 1 / light.range : 0;
+    g.direction = light.direction;
+    g.kind = light.kind == LightKind::Directional ? LIGHT_DIRECTIONAL
+             : light.kind == LightKind::Spot      ? LIGHT_SPOT
+                                                  : LIGHT_POINT;
+    g.strength = light.color * light.strength;
+    g.cosOuter = std::cos(light.outerAngle);
+    g.spotScale = 1 / (std::max(std::cos(light.innerAngle), g.cosOuter + 1e-4f) - g.cosOuter);
+    g.shadowViews = shadow.count;
+    g.firstView = shadow.first;
+    return g;
+}
+
+std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
+    if (!needed)
+        return std::vector<ShadowSlot>(lights.size());
+    std::vector<ShadowSlot> result =
+        shadows.assign(lights, scene.bounds, scene.version + maskVersion);
+    if (shadows.unshadowed > 0 && !warnedUnshadowed)
+        logWarning(
+            fmt::format("{} lights cast no shadow in the viewport: room for {} shadow maps only",
+                        shadows.unshadowed, ShadowMaps::kMaxLayers * 4));
+    warnedUnshadowed = shadows.unshadowed > 0;
+    return result;
+}
+
+void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
+                                const std::vector<ShadowSlot>& shadowSlots) {
+    std::vector<GpuLight> table;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        table.push_back(gpuLight(lights[i], shadowSlots[i]));
+    const std::vector<GpuShadowView> views = shadows.views();
+    ensureCapacity(slot.lights, table.size() * sizeof(GpuLight), "lights");
+    ensureCapacity(slot.shadowViews, views.size() * sizeof(GpuShadowView), "shadow views");
+    if (!table.empty())
+        std::memcpy(slot.lights.mapped, table.data(), table.size() * sizeof(GpuLight));
+    if (!views.empty())
+        std::memcpy(slot.shadowViews.mapped, views.data(), views.size() * sizeof(GpuShadowView));
+    GpuFrame frame{};
+    frame.eye = options.camera.eye;
+    frame.lightCount = std::uint32_t(table.size());
+    frame.normalBias = kNormalBias;
+    frame.lightBias = kLightBias;
+    describeGrid(indirect, frame);
+    std::memcpy(slot.frame.mapped, &frame, sizeof frame);
+}
+
+void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
+    gpu::writeBuffer(device, slot.set, 0, kFrameTypes[0], slot.frame.handle);
+    gpu::writeBuffer(device, slot.set, 1, kFrameTypes[1], slot.lights.handle);
+    gpu::writeBuffer(device, slot.set, 2, kFrameTypes[2], slot.shadowViews.handle);
+    gpu::writeTexture(device, slot.set, 3, shadows.atlasView(), shadows.sampler());
+    gpu::writeTexture(device, slot.set, 4, indirect.lightmap.view, lightmapSampler.handle);
+    gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.grid.handle);
+}
+
+void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
+                                   bool needed) {
+    slot.shadowMapsDrawn = 0;
+    const auto draw = [&](VkCommandBuffer c, const ShadowView& view) {
+        geometry.drawDepth(c, scene, materials, view.toClip, slotIndex);
+    };
+    if (needed)
+        slot.shadowMapsDrawn = shadows.record(cmd, draw);
+    else
+        shadows.prepare(cmd);
+}
+
+static void setViewport(VkCommandBuffer cmd, std::uint32_t width, std::uint32_t height, bool flip) {
+    const auto w = float(width), h = float(height);
+    const VkViewport viewport = flip ? VkViewport{0, h, w, -h, 0, 1} : VkViewport{0, 0, w, h, 0, 1};
+    const VkRect2D scissor{{0, 0}, {width, height}};
+    vkCmdSetViewport(cmd, 0, 1, &viewport);
+    vkCmdSetScissor(cmd, 0, 1, &scissor);
+}
+
+static VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout,
+                                            VkAttachmentLoadOp load, VkClearValue clear) {
+    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+            .imageView = view,
+            .imageLayout = layout,
+            .loadOp = load,
+            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+            .clearValue = clear};
+}
+
+void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
+                                 const GeometryView& view, const ViewportOptions& options) {
+    const gpu::Access before = targets.fresh ? gpu::kUndefined : gpu::kFragmentRead;
+    gpu::imageBarrier(cmd, targets.linear.handle, VK_IMAGE_ASPECT_COLOR_BIT, before,
+                      gpu::kColorWrite);
+    gpu::Access depthBefore = gpu::kDepthWrite;
+    depthBefore.layout = VK_IMAGE_LAYOUT_UNDEFINED; // it is cleared
+    gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, depthBefore,
+                      gpu::kDepthWrite);
+    VkClearValue background{}, far{};
+    if (options.view == View::Lit)
+        background.color = {{sky.r, sky.g, sky.b, 0}};
+    const auto color = attachment(targets.linear.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                  VK_ATTACHMENT_LOAD_OP_CLEAR, background);
+    const auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                  VK_ATTACHMENT_LOAD_OP_CLEAR, far);
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .renderArea = {{0, 0}, {options.width, options.height}},
+                               .layerCount = 1,
+                               .colorAttachmentCount = 1,
+                               .pColorAttachments = &color,
+                               .pDepthAttachment = &depth};
+    vkCmdBeginRendering(cmd, &info);
+    setViewport(cmd, options.width, options.height, true);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, geometry.layout(), 0, 1,
+                            &slot.set, 0, nullptr);
+    geometry.drawShaded(cmd, scene, materials, view);
+    vkCmdEndRendering(cmd);
+    gpu::imageBarrier(cmd, targets.linear.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
+                      gpu::kFragmentRead);
+}
+
+void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options,
+                                   std::uint32_t slot) {
+    // Whoever showed the last picture, by sampling or blitting, is done with it.
+    gpu::Access before = gpu::kAllReads;
+    before.access = VK_ACCESS_2_NONE;
+    before.layout = VK_IMAGE_LAYOUT_UNDEFINED; // it is overwritten
+    gpu::imageBarrier(cmd, targets.color.handle, VK_IMAGE_ASPECT_COLOR_BIT, before,
+                      gpu::kColorWrite);
+    const auto color = attachment(targets.color.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                  VK_ATTACHMENT_LOAD_OP_DONT_CARE, {});
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .renderArea = {{0, 0}, {options.width, options.height}},
+                               .layerCount = 1,
+                               .colorAttachmentCount = 1,
+                               .pColorAttachments = &color};
+    vkCmdBeginRendering(cmd, &info);
+    setViewport(cmd, options.width, options.height, false);
+    const bool radiance = options.view != View::Albedo && options.view != View::Normals;
+    tonemap.record(cmd, targets.linear.view, radiance ? std::exp2(options.exposureEv) : 1.f,
+                   radiance ? options.tonemap : Tonemap::None, slot);
+    vkCmdEndRendering(cmd);
+    gpu::Access after = gpu::kAllReads;
+    after.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    gpu::imageBarrier(cmd, targets.color.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
+                      after);
+    targets.fresh = false;
+}
+
+void Viewport::Impl::readTimes(FrameSlot& slot) {
+    if (slot.timed || slot.submission == 0 || device.completed() < slot.submission)
+        return;
+    std::array<std::uint64_t, kTimestamps> ticks{};
+    if (vkGetQueryPoolResults(device.device, slot.queries.handle, 0, kTimestamps, sizeof ticks,
+                              ticks.data(), sizeof(std::uint64_t),
+                              VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+        return;
+    const double msPerTick = double(device.properties.limits.timestampPeriod) * 1e-6;
+    const auto between = [&](Timestamp a, Timestamp b) {
+        return ticks[b] > ticks[a] ? double(ticks[b] - ticks[a]) * msPerTick : 0.0;
+    };
+    stats.shadowMs = between(kBegin, kShadowsDone);
+    stats.shadeMs = between(kShadowsDone, kShadeDone);
+    stats.totalMs = between(kBegin, kEnd);
+    stats.uploadMs = slot.uploadMs;
+    slot.timed = true;
+}
+
+Viewport::Viewport(gpu::Device& device) : m_impl(std::make_unique<Impl>(device)) {}
+Viewport::~Viewport() = default;
+
+void Viewport::setScene(const Scene& scene, std::shared_ptr<const LightmapLayout> layout) {
+    const auto start = Clock::now();
+    updateRenderScene(m_impl->device, m_impl->scene, scene, std::move(layout));
+    setLighting(scene);
+    m_impl->pendingUploadMs += msSince(start);
+}
+
+void Viewport::setLighting(const Scene& scene) {
+    m_impl->maskVersion += m_impl->materials.update(scene);
+    m_impl->sky = scene.sky.radiance;
+    m_impl->lights.clear();
+    for (const Light& light : scene.lights) {
+        const glm::vec3 strength = light.color * light.strength;
+        if (light.enabled && strength.x + strength.y + strength.z > 0)
+            m_impl->lights.push_back(light);
+    }
+}
+
+void Viewport::setIndirect(const IndirectField& field) {
+    const auto start = Clock::now();
+    updateIndirectLight(m_impl->device, m_impl->indirect, field);
+    m_impl->pendingUploadMs += msSince(start);
+}
+
+static GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
+    const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
+                                     glm::abs(bounds.upper - options.camera.eye));
+    // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
+    const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f), zNear = zFar * 1e-5f;
+    const float aspect = float(options.width) / float(options.height);
+    GeometryView view;
+    view.view = options.view;
+    view.toClip =
+        projectionMatrix(options.camera, aspect, zFar, zNear) * viewMatrix(options.camera);
+    view.eye = options.camera.eye;
+    view.grid = grid;
+    view.cullBackFaces = options.cullBackFaces;
+    return view;
+}
+
+void Viewport::render(const ViewportOptions& options) {
+    assert(options.width > 0 && options.height > 0);
+    Impl& v = *m_impl;
+    const auto slotIndex = std::uint32_t(v.frames++ % kFrameSlots);
+    FrameSlot& slot = v.slots[slotIndex];
+    v.device.wait(slot.submission); // two frames ago
+    v.readTimes(slot);
+    const auto start = Clock::now();
+    v.width = options.width;
+    v.height = options.height;
+    v.ensureTargets(options.width, options.height);
+    const bool direct = options.view == View::Lit || options.view == View::Direct;
+    const std::vector<ShadowSlot> shadows = v.assignShadows(direct);
+    v.writeFrame(slot, options, shadows);
+    v.writeFrameSet(slot);
+    v.materials.writeFactors(slotIndex);
+    slot.uploadMs = v.pendingUploadMs + msSince(start);
+    v.pendingUploadMs = 0;
+
+    GeometryView view = geometryView(options, v.scene.bounds, v.indirect.hasGrid());
+    view.slot = slotIndex;
+    const VkCommandBuffer cmd = v.device.begin("viewport");
+    const auto mark = [&](Timestamp t) {
+        vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.queries.handle, t);
+    };
+    vkCmdResetQueryPool(cmd, slot.queries.handle, 0, kTimestamps);
+    mark(kBegin);
+    v.recordShadows(cmd, slot, slotIndex, direct);
+    mark(kShadowsDone);
+    v.recordShade(cmd, slot, view, options);
+    mark(kShadeDone);
+    v.recordTonemap(cmd, options, slotIndex);
+    mark(kEnd);
+    slot.submission = v.device.submit(cmd);
+    slot.timed = false;
+    v.stats.shadowMapsDrawn = slot.shadowMapsDrawn;
+}
+
+VkImageView Viewport::colorView() const {
+    return m_impl->targets.color.view;
+}
+
+VkImage Viewport::colorImage() const {
+    return m_impl->targets.color.handle;
+}
+
+ImageF Viewport::readLinear() {
+    Impl& v = *m_impl;
+    assert(v.frames > 0);
+    std::vector<glm::vec4> texels(std::size_t(v.width) * v.height);
+    gpu::readImage(v.device, v.targets.linear, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, v.width,
+                   v.height, std::as_writable_bytes(std::span(texels)));
+    return {v.width, v.height, std::vector<glm::vec3>(texels.begin(), texels.end())};
+}
+
+Image Viewport::readTonemapped() {
+    Impl& v = *m_impl;
+    assert(v.frames > 0);
+    Image image;
+    image.width = v.width;
+    image.height = v.height;
+    image.rgba.resize(std::size_t(v.width) * v.height * 4);
+    gpu::readImage(v.device, v.targets.color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, v.width,
+                   v.height, std::as_writable_bytes(std::span(image.rgba)));
+    return image;
+}
+
+const ViewportStats& Viewport::stats() const {
+    Impl& v = *m_impl;
+    if (v.frames > 0)
+        v.readTimes(v.slots[(v.frames - 1) % kFrameSlots]);
+    v.device.collect();
+    v.stats.gpuBytes = v.device.memory.bytesInUse;
+    return v.stats;
+}
+
+} // namespace limn

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Read by C++ and GLSL. Each row is 16 bytes, so std140, std430 and the C++ layout agree.
+#ifndef SHADERS_SHARED_GPU_FRAME_H
+#define SHADERS_SHARED_GPU_FRAME_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+namespace limn::shared {
+using glm::mat4;
+using glm::uvec3;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+#endif
+
+// clang-format off
+/// What is the same for every draw of a frame.
+struct GpuFrame {
+    vec3 eye;       uint lightCount;  // m; lights that shine
+    vec3 gridLower; uint gridCells;   // m; 0: no grid
+    vec3 gridScale; float normalBias; // cells per m; shadow texels along the normal
+    uvec3 gridSize; float lightBias;  // cells; shadow texels towards the light
+};
+
+/// Push constants of the geometry passes.
+struct GpuDraw {
+    mat4 toClip;     // object to clip
+    vec4 toWorld[3]; // rows of object to world
+    uint flags;      // DRAW_*
+    uint pad0, pad1, pad2;
+};
+// clang-format on
+
+#define DRAW_DOUBLE_SIDED 1u
+#define DRAW_MIRRORED 2u // the transform has a negative determinant
+
+#ifdef __cplusplus
+static_assert(sizeof(GpuFrame) == 64);
+static_assert(sizeof(GpuDraw) == 128);
+} // namespace limn::shared
+#endif
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Read by C++ and GLSL. Each row is 16 bytes, so std140, std430 and the C++ layout agree.
+#ifndef SHADERS_SHARED_GPU_LIGHT_H
+#define SHADERS_SHARED_GPU_LIGHT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+namespace limn::shared {
+using glm::mat4;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+#endif
+
+#define LIGHT_DIRECTIONAL 0u
+#define LIGHT_POINT 1u
+#define LIGHT_SPOT 2u
+
+#define SHADOW_NONE 0u // views of a light's shadow
+#define SHADOW_SINGLE 1u
+#define SHADOW_CUBE 6u
+
+// clang-format off
+/// sampleLight() of engine/scene/light.cpp reads the same numbers.
+struct GpuLight {
+    vec3 position;  float inverseRange; // m; 1/m, 0: unlimited
+    vec3 direction; uint kind;          // unit, the way light travels; LIGHT_*
+    vec3 strength;  float spotScale;    // colour times lux or cd; 1 / (cos inner - cos outer)
+    float cosOuter; uint shadowViews; uint firstView; uint pad;
+};
+
+/// A shadow map: a tile of one layer of the atlas.
+struct GpuShadowView {
+    mat4 toAtlas;      // world to (u, v, depth) w; depth 1 near, 0 far
+    vec4 axis;         // unit, the way it looks; w: dot(axis, eye)
+    float texelSize;   // m: a texel's width; perspective views: at distance 1 m along the axis
+    float perspective; // 1, or 0 for orthographic
+    uint layer; uint pad;
+};
+// clang-format on
+
+#ifdef __cplusplus
+static_assert(sizeof(GpuLight) == 64);
+static_assert(sizeof(GpuShadowView) == 96);
+} // namespace limn::shared
+#endif
+
+#endif
