@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bake_options.h"
 #include "app/command.h"
-#include "app/output_file.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -38,14 +37,13 @@ void print(const Bake& bake) {
 }
 
 Exit runBake(const BakeCommand& command) {
-    if (const Result<void> writable = checkOutputFile(command.output); !writable)
-        return failed(writable.error().message);
     Result<ImportedScene> imported = openScene(command.scene);
     if (!imported)
         return failed(imported.error().message);
     const ThreadLimit threads(command.bake.threads);
     Scene scene = flatten(imported->document, imported->assets);
-    applyBakeOptions(command.bake, scene.bake);
+    if (const Result<void> applied = applyBakeOptions(command.bake, scene.bake); !applied)
+        return failed(applied.error().message);
     const Result<Bake> baked = bake(TraceScene(scene), progressOnStderr());
     endProgressLine();
     if (!baked)

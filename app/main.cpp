@@ -19,6 +19,7 @@ static int runLimn(int argc, char** argv) {
     addCompareCommand(app, run);
     addInfoCommand(app, run);
     addReferenceCommand(app, run);
+    addRenderCommand(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

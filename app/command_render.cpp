@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "app/command.h"
+#include "app/progress_line.h"
+#include "app/render_image.h"
+#include "app/scene_options.h"
+
+#include "engine/files/bake_file.h"
+#include "engine/files/image_file.h"
+#include "engine/measure/compare.h"
+#include "engine/relight/relight.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    CameraOptions camera;
+    std::string bake, output, view = "lit", tonemap = "aces", device = "auto";
+    float exposureEv = 0;
+    bool json = false;
+};
+
+/// Indirect light for one picture.
+struct Lighting {
+    std::shared_ptr<const Bake> bake;
+    std::unique_ptr<Relighter> relighter;
+};
+
+template <class Names>
+std::size_t indexOf(const Names& names, const std::string& name) {
+    return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+template <class Names>
+std::vector<std::string> strings(const Names& names) {
+    return {names.begin(), names.end()};
+}
+
+bool needsIndirect(View view) {
+    switch (view) {
+    case View::Lit:
+    case View::Indirect:
+    case View::Irradiance:
+        return true;
+    case View::Direct:
+    case View::Albedo:
+    case View::Normals:
+        return false;
+    }
+    return false;
+}
+
+// Reads the bake, or makes one with the document's settings.
+Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& trace) {
+    if (options.bake.empty()) {
+        Result<Bake> made = bake(trace, progressOnStderr());
+        endProgressLine();
+        return made;
+    }
+    Result<Bake> read = readBake(options.bake);
+    if (!read)
+        return read;
+    scene.bake = read->settings;
+    if (read->sceneHash != bakeInputHash(scene))
+        return fail(
+            fmt::format("{}: is the bake of another scene than {}, or of an older state of it",
+                        options.bake, options.scene.scene));
+    return read;
+}
+
+Result<Lighting> lightIndirectly(const Options& options, Scene& scene) {
+    if (scene.instances.empty())
+        return Lighting{}; // nothing receives light
+    const TraceScene trace(scene);
+    Result<Bake> baked = obtainBake(options, scene, trace);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
+    Lighting lighting;
+    lighting.bake = std::make_shared<const Bake>(std::move(*baked));
+    lighting.relighter = std::make_unique<Relighter>(lighting.bake);
+    lighting.relighter->relight(scene, trace, lighting.bake->settings.maxBounces,
+                                progressOnStderr());
+    endProgressLine();
+    return lighting;
+}
+
+Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request) {
+#ifdef LIMN_HAS_VIEWPORT
+    const Progress progress = progressOnStderr();
+    progress.at("render", 0);
+    Result<RenderedImage> image = renderOnGpu(scene, request);
+    progress.at("render", 1);
+    endProgressLine();
+    return image;
+#else
+    static_cast<void>(scene);
+    static_cast<void>(request);
+    return fail("--device: this program was built without Vulkan");
+#endif
+}
+
+RenderRequest requestOf(const Options& options, const Camera& camera, const Lighting& lighting) {
+    RenderRequest request;
+    request.view = View(indexOf(kViewNames, options.view));
+    request.camera = camera;
+    request.width = options.camera.width;
+    request.height = options.camera.height;
+    request.tonemap = Tonemap(indexOf(kTonemapNames, options.tonemap));
+    request.exposureEv = options.exposureEv;
+    request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
+    request.device = options.device == "auto" ? "" : options.device;
+    if (lighting.relighter) {
+        request.field = &lighting.relighter->field();
+        request.layout = {lighting.bake, &lighting.bake->lightmap}; // lives as long as the bake
+    }
+    return request;
+}
+
+void report(const Options& options, const RenderedImage& image, double seconds) {
+    const std::uint64_t invalid = countInvalidPixels(image.linear);
+    if (options.json) {
+        nlohmann::ordered_json json;
+        json["seconds"] = seconds; // without reading the scene
+        json["device"] = image.device;
+        json["view"] = options.view;
+        json["width"] = image.linear.width;
+        json["height"] = image.linear.height;
+        json["invalid_pixels"] = invalid;
+        fmt::print("{}\n", json.dump());
+        return;
+    }
+    fmt::print("{}: {}, {} x {} on {}, {} invalid pixels, {:.1f} s\n", options.output, options.view,
+               image.linear.width, image.linear.height, image.device, invalid, seconds);
+}
+
+Exit runRender(const Options& options) {
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    if (extension != ".exr" && extension != ".png")
+        return failed(fmt::format("{}: only .exr and .png can be written", options.output));
+    const Result<ImportedScene> imported = openScene(options.scene);
+    if (!imported)
+        return failed(imported.error().message);
+    Scene scene = flatten(imported->document, imported->assets);
+    const Result<Camera> camera = chooseCamera(scene, options.camera);
+    if (!camera)
+        return failed(camera.error().message);
+
+    const auto start = std::chrono::steady_clock::now();
+    Lighting lighting;
+    if (needsIndirect(View(indexOf(kViewNames, options.view)))) {
+        Result<Lighting> made = lightIndirectly(options, scene);
+        if (!made)
+            return failed(made.error().message);
+        lighting = std::move(*made);
+    }
+    const Result<RenderedImage> image = draw(scene, requestOf(options, *camera, lighting));
+    if (!image)
+        return failed(image.error().message);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Result<void> written = extension == ".png" ? writePng(options.output, image->picture)
+                                                     : writeExr(options.output, image->linear);
+    if (!written)
+        return failed(written.error().message);
+    report(options, *image, seconds);
+    return Exit::Done;
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& app, Run& run) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("render", "Draws one picture, as the viewport shows it");
+    addSceneOptions(*command, options->scene);
+    addCameraOptions(*command, options->camera);
+    command->add_option("--bake", options->bake,
+                        ".limnbake of this scene; without it, one is made in memory if needed");
+    command
+        ->add_option("-o,--output", options->output, "picture: .exr (linear) or .png (tone-mapped)")
+        ->required();
+    command->add_option("--view", options->view, "what it shows")
+        ->check(CLI::IsMember(strings(kViewNames)));
+    command->add_option("--exposure", options->exposureEv, "stops before tone mapping [EV]")
+        ->check(CLI::Range(-64.0, 64.0));
+    command->add_option("--tonemap", options->tonemap, "curve of a .png")
+        ->check(CLI::IsMember(strings(kTonemapNames)));
+    command->add_option("--device", options->device, "auto, or part of a Vulkan device's name");
+    command->add_flag("--json", options->json, "one JSON object on stdout");
+    command->callback([options, &run] { run = [options] { return runRender(*options); }; });
+}
+
+} // namespace limn
