@@ -33,8 +33,8 @@ glm::mat4 matrix(const Transform& t);
 /// A node of the tree; carries meshes when it is an instance.
 struct Node {
     std::string name;
-    ObjectId parent = 0; ///< 0: a root. The tree has no cycles.
-    Transform transform; ///< to the parent's space
+    ObjectId parent = 0;               ///< 0: a root. The tree has no cycles.
+    Transform transform;               ///< to the parent's space
     std::vector<std::uint32_t> meshes; ///< indices into Assets::meshes
     bool visible = true;
     bool dynamic = false; ///< lit from the grid, sends no bounced light
@@ -68,7 +68,8 @@ struct Document {
 ObjectId addObject(Document& document, Object object);
 
 /// The single object of type T (Sky, BakeSettings), or T's defaults where the document has none.
-template <class T> T singleton(const Document& document) {
+template <class T>
+T singleton(const Document& document) {
     for (const auto& [id, object] : document.objects)
         if (const T* t = std::get_if<T>(&object))
             return *t;

@@ -19,7 +19,7 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
-/// Extensions that may be required: what they say is read, or says nothing about diffuse light.
+/// Extensions that may be required: what they say is read.
 static constexpr std::array<std::string_view, 5> kKnownExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_mesh_quantization", "KHR_texture_transform"};
@@ -149,13 +149,20 @@ static Result<std::string_view> jsonText(const std::vector<unsigned char>& bytes
 }
 
 static Result<void> checkExtensions(const nlohmann::json& json) {
-    const auto required = json.find("extensionsRequired");
-    if (required == json.end())
-        return {};
-    for (const nlohmann::json& name : *required)
+    for (const nlohmann::json& name : json.value("extensionsRequired", nlohmann::json::array()))
         if (std::ranges::find(kKnownExtensions, name.get<std::string>()) == kKnownExtensions.end())
             return fail(
                 fmt::format("extensionsRequired: {} is not supported", name.get<std::string>()));
+    // Compressed geometry without the fallback that an extension not required must have.
+    constexpr const char* kDraco = "KHR_draco_mesh_compression";
+    const nlohmann::json& accessors = json.value("accessors", nlohmann::json::array());
+    const nlohmann::json meshes = json.value("meshes", nlohmann::json::array());
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (const nlohmann::json& primitive : meshes[m]["primitives"])
+            if (primitive.value("extensions", nlohmann::json::object()).contains(kDraco))
+                for (const auto& [name, index] : primitive["attributes"].items())
+                    if (!accessors[index.get<std::size_t>()].contains("bufferView"))
+                        return fail(fmt::format("meshes[{}]: {} is not supported", m, kDraco));
     return {};
 }
 

@@ -18,8 +18,8 @@ struct Light {
     glm::vec3 position{0};         ///< [m]; ignored by Directional
     glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels; ignored by Point
     glm::vec3 color{1};            ///< linear Rec. 709, >= 0
-    float strength = 100;          ///< Directional: irradiance [lux]. Point, Spot: intensity [cd]. >= 0
-    float range = 0;               ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of KHR_lights_punctual
+    float strength = 100; ///< Directional: irradiance [lux]. Point, Spot: intensity [cd]. >= 0
+    float range = 0; ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of KHR_lights_punctual
     float innerAngle = 0;          ///< Spot: half-angle of full strength [rad]
     float outerAngle = 0.7853982f; ///< Spot: half-angle where it ends [rad], (innerAngle, pi/2]
 
@@ -33,7 +33,8 @@ struct LightSample {
     float distance = 0;      ///< [m]; infinity for Directional
 };
 
-/// Strength of `light` at world point `p`. Zero irradiance when out of range, off, outside the cone, or at d = 0.
+/// Strength of `light` at world point `p`. Zero irradiance when out of range, off, outside the
+/// cone, or at d = 0.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
 } // namespace limn

@@ -14,9 +14,10 @@ namespace limn {
 enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
-/// A texture as a material uses it. uv' = offset + R(rotation) * (scale * uv), as KHR_texture_transform.
+/// A texture as a material uses it. uv' = offset + R(rotation) * (scale * uv), as
+/// KHR_texture_transform.
 struct TextureRef {
-    std::int32_t image = -1; ///< index into Assets::images; -1: none
+    std::int32_t image = -1;    ///< index into Assets::images; -1: none
     std::uint32_t texCoord = 0; ///< 0 or 1
     glm::vec2 offset{0}, scale{1};
     float rotation = 0; ///< [rad], counter-clockwise

@@ -13,8 +13,8 @@
 namespace limn {
 
 /// One glTF primitive: indexed triangles in object space [m]. Counter-clockwise is the front.
-/// The importer guarantees: indices in range and a multiple of 3; every number finite; unit normals;
-/// optional arrays empty or as long as `positions`; triangles of zero area removed.
+/// The importer guarantees: indices in range and a multiple of 3; every number finite; unit
+/// normals; optional arrays empty or as long as `positions`; triangles of zero area removed.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;

@@ -27,9 +27,10 @@ struct Instance {
     ObjectId node = 0;          ///< the node it came from
     bool dynamic = false;
     glm::mat4 toWorld{1};
-    /// sign(det) * cofactor matrix of toWorld; not normalised. As in glTF, a mirrored instance (negative
-    /// determinant) has its front on the clockwise side, so the world's front normal of a triangle is
-    /// normalToWorld * cross(p1 - p0, p2 - p0) with the object's positions, never the cross of world edges.
+    /// sign(det) * cofactor matrix of toWorld; not normalised. As in glTF, a mirrored instance
+    /// (negative determinant) has its front on the clockwise side, so the world's front normal of a
+    /// triangle is normalToWorld * cross(p1 - p0, p2 - p0) with the object's positions, never the
+    /// cross of world edges.
     glm::mat3 normalToWorld{1};
 };
 
@@ -46,7 +47,7 @@ struct Scene {
     std::shared_ptr<const Assets> assets;
     std::vector<Instance> instances; ///< visible ones, ordered by node id, then mesh
     std::vector<Material> materials; ///< in id order; a plain one last if a mesh names none of them
-    std::vector<Light> lights; ///< enabled or not, ordered by id
+    std::vector<Light> lights;       ///< enabled or not, ordered by id
     std::vector<Camera> cameras;
     Sky sky;
     BakeSettings bake;
@@ -68,11 +69,13 @@ glm::vec4 sampleTexture(const Assets& assets, const TextureRef& texture, glm::ve
 /// Alpha from which a Blend texel counts as solid: transport knows no partial cover.
 inline constexpr float kBlendCutoff = 0.5f;
 
-/// Whether the surface may have holes that rays pass: Mask, and Blend treated as Mask at kBlendCutoff.
+/// Whether the surface may have holes that rays pass: Mask, and Blend treated as Mask at
+/// kBlendCutoff.
 bool isCutout(const Material& material);
 
 /// Only the alpha of surfaceMaterial, 0 or 1; cheap where the material is opaque.
-float surfaceAlpha(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u, float v);
+float surfaceAlpha(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
+                   float v);
 
 /// What a surface point is made of.
 struct SurfaceMaterial {
@@ -82,6 +85,7 @@ struct SurfaceMaterial {
 };
 
 /// At barycentrics (u, v) of `triangle` (weights 1-u-v, u, v).
-SurfaceMaterial surfaceMaterial(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u, float v);
+SurfaceMaterial surfaceMaterial(const Scene& scene, const Instance& instance,
+                                std::uint32_t triangle, float u, float v);
 
 } // namespace limn

@@ -10,15 +10,17 @@
 namespace limn {
 
 /// What a picture shows; the same for `render` and `reference`.
-/// Direct: first hit of directional, point and spot lights. Indirect: everything else that reaches a diffuse surface
-/// (bounces, light of emissive materials, sky). Irradiance: Indirect with the first surface's albedo replaced by 1,
-/// not divided by pi [W m^-2]. Lit: direct + indirect + the surface's own emission + specular; background is the sky.
-/// In every other view the background is 0.
+/// Direct: first hit of directional, point and spot lights. Indirect: everything else that reaches
+/// a diffuse surface (bounces, light of emissive materials, sky). Irradiance: Indirect with the
+/// first surface's albedo replaced by 1, not divided by pi [W m^-2]. Lit: direct + indirect + the
+/// surface's own emission + specular; background is the sky. In every other view the background is
+/// 0.
 enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Normals };
 
 enum class Tonemap : std::uint32_t { None, Aces, Agx, PbrNeutral };
 
-inline constexpr std::array<std::string_view, 6> kViewNames = {"lit", "direct", "indirect", "irradiance", "albedo", "normals"};
+inline constexpr std::array<std::string_view, 6> kViewNames = {"lit",        "direct", "indirect",
+                                                               "irradiance", "albedo", "normals"};
 inline constexpr std::array<std::string_view, 4> kTonemapNames = {"none", "aces", "agx", "neutral"};
 
 } // namespace limn
