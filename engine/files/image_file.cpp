@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/image_file.h"
 
+#include "engine/files/exr_check.h"
+
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -8,6 +11,7 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <stb/stb_image.h>
@@ -114,77 +118,57 @@ struct ExrFile {
 static tl::unexpected<Error> exrFailure(const std::string& path, const char* problem) {
     std::string reason = problem ? problem : "malformed EXR";
     FreeEXRErrorMessage(problem);
-    while (!reason.empty() && reason.back() == '\n')
-        reason.pop_back();
-    return fail(fmt::format("{}: {}", path, reason));
+    return fail(fmt::format("{}: {}", path, reason.substr(0, reason.find('\n'))));
 }
 
-/// Index of the channel of that name, of any layer; -1: none.
-static int channelOf(const EXRHeader& header, std::string_view name) {
+/// The indices of R, G and B; wants them as floats.
+static Result<std::array<int, 3>> colorChannels(const std::string& path, EXRHeader& header) {
+    std::array<int, 3> channels = {-1, -1, -1};
     for (int c = 0; c < header.num_channels; ++c)
-        if (name == header.channels[c].name)
-            return c;
-    return -1;
-}
-
-/// Puts the pixels of channel `c` into component `component`; tiled images hold tiles of pixels.
-static void copyChannel(const ExrFile& exr, int c, int component, ImageF& out) {
-    const auto put = [&](unsigned char** planes, std::uint32_t x0, std::uint32_t y0,
-                         std::uint32_t width, std::uint32_t height, std::uint32_t stride) {
-        const float* plane = reinterpret_cast<const float*>(planes[c]);
-        for (std::uint32_t y = 0; y < height && y0 + y < out.height; ++y)
-            for (std::uint32_t x = 0; x < width && x0 + x < out.width; ++x)
-                out.rgb[std::size_t(y0 + y) * out.width + x0 + x][component] =
-                    plane[std::size_t(y) * stride + x];
-    };
-    if (exr.image.images)
-        put(exr.image.images, 0, 0, out.width, out.height, out.width);
-    for (int t = 0; exr.image.tiles && t < exr.image.num_tiles; ++t) {
-        const EXRTile& tile = exr.image.tiles[t];
-        const auto size = std::uint32_t(exr.header.tile_size_x);
-        put(tile.images, std::uint32_t(tile.offset_x) * size,
-            std::uint32_t(tile.offset_y) * std::uint32_t(exr.header.tile_size_y),
-            std::uint32_t(tile.width), std::uint32_t(tile.height), size);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (header.channels[c].name == std::string_view("RGB").substr(i, 1))
+                channels[i] = c;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int c = channels[i];
+        if (c < 0)
+            return fail(fmt::format("{}: channels: there is no {}", path, "RGB"[i]));
+        if (header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT)
+            return fail(fmt::format("{}: channels: {} holds integers", path, "RGB"[i]));
+        header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
     }
+    return channels;
 }
 
 static Result<ImageF> readExr(const std::string& path, const Bytes& bytes) {
+    if (const Result<void> valid = checkExr(bytes); !valid)
+        return fail(fmt::format("{}: {}", path, valid.error().message));
     EXRVersion version;
     if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS)
-        return fail(fmt::format("{}: malformed EXR", path));
-    if (version.multipart || version.non_image)
-        return fail(fmt::format("{}: multipart and deep EXR are not supported", path));
+        return exrFailure(path, nullptr);
     ExrFile exr;
     const char* problem = nullptr;
     if (ParseEXRHeaderFromMemory(&exr.header, &version, bytes.data(), bytes.size(), &problem) !=
         TINYEXR_SUCCESS)
         return exrFailure(path, problem);
-    const auto& window = exr.header.data_window;
-    const std::int64_t width = std::int64_t(window.max_x) - window.min_x + 1;
-    const std::int64_t height = std::int64_t(window.max_y) - window.min_y + 1;
-    if (width <= 0 || height <= 0 || std::uint64_t(width) > kMaxTexels / std::uint64_t(height))
-        return fail(fmt::format("{}: dataWindow: {} x {} texels", path, width, height));
-    for (int c = 0; c < exr.header.num_channels; ++c)
-        if (exr.header.requested_pixel_types[c] == TINYEXR_PIXELTYPE_HALF)
-            exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
-    const char* const names[3] = {"R", "G", "B"};
-    int channels[3];
-    for (int i = 0; i < 3; ++i) {
-        channels[i] = channelOf(exr.header, names[i]);
-        if (channels[i] < 0)
-            return fail(fmt::format("{}: channels: there is no {}", path, names[i]));
-        if (exr.header.requested_pixel_types[channels[i]] != TINYEXR_PIXELTYPE_FLOAT)
-            return fail(fmt::format("{}: channels: {} holds integers", path, names[i]));
-    }
+    const Result<std::array<int, 3>> channels = colorChannels(path, exr.header);
+    if (!channels)
+        return tl::make_unexpected(channels.error());
+    // On failure tinyexr frees the image, by its number of channels, which it has not set by then.
+    exr.image.num_channels = exr.header.num_channels;
     if (LoadEXRImageFromMemory(&exr.image, &exr.header, bytes.data(), bytes.size(), &problem) !=
-        TINYEXR_SUCCESS)
+        TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.image);
         return exrFailure(path, problem);
+    }
     ImageF out;
-    out.width = std::uint32_t(width);
-    out.height = std::uint32_t(height);
-    out.rgb.resize(std::size_t(width) * std::size_t(height));
-    for (int i = 0; i < 3; ++i)
-        copyChannel(exr, channels[i], i, out);
+    out.width = std::uint32_t(exr.image.width);
+    out.height = std::uint32_t(exr.image.height);
+    out.rgb.resize(std::size_t(out.width) * out.height);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto* plane = reinterpret_cast<const float*>(exr.image.images[(*channels)[i]]);
+        for (std::size_t k = 0; k < out.rgb.size(); ++k)
+            out.rgb[k][int(i)] = plane[k];
+    }
     return out;
 }
 

@@ -8,8 +8,9 @@
 
 namespace limn {
 
-/// An accessor without a view is all zeros, whatever it costs: more than any mesh needs is refused.
-static constexpr std::size_t kMaxZeros = std::size_t(1) << 24;
+/// An accessor without a view is all zeros and costs its file nothing: what no mesh needs is
+/// refused.
+static constexpr std::size_t kMaxZeros = std::size_t(1) << 20;
 
 static std::uint32_t componentSize(int type) {
     switch (type) {

@@ -45,12 +45,18 @@ static bool readBytes(const std::string& path, std::vector<unsigned char>& out) 
 
 namespace {
 
+/// A buffer that lies in a file of its own.
+struct ExternalBuffer {
+    std::size_t index = 0; ///< in the root's `buffers`
+    std::uint64_t length = 0;
+};
+
 /// What tinygltf's callbacks work on.
 struct LoadState {
     fs::path folder;
-    /// Lengths of the buffers with a file, in order. Buffer files come first; they may be longer
-    /// than their buffer, which tinygltf would refuse.
-    std::vector<std::uint64_t> bufferLengths;
+    /// The buffers with a file, in order. Their files come first; they may be longer than their
+    /// buffer, which tinygltf would refuse.
+    std::vector<ExternalBuffer> buffers;
     std::size_t filesRead = 0;
     std::vector<std::vector<std::uint8_t>> encodedImages;
 };
@@ -78,8 +84,8 @@ static bool readWholeFile(std::vector<unsigned char>* out, std::string* error,
         return false;
     }
     const std::size_t index = state.filesRead++;
-    if (index < state.bufferLengths.size() && out->size() > state.bufferLengths[index])
-        out->resize(std::size_t(state.bufferLengths[index]));
+    if (index < state.buffers.size() && out->size() > state.buffers[index].length)
+        out->resize(std::size_t(state.buffers[index].length));
     return true;
 }
 
@@ -166,15 +172,15 @@ static Result<void> checkExtensions(const nlohmann::json& json) {
     return {};
 }
 
-static std::vector<std::uint64_t> externalBufferLengths(const nlohmann::json& json) {
-    std::vector<std::uint64_t> lengths;
+static std::vector<ExternalBuffer> externalBuffers(const nlohmann::json& json) {
+    std::vector<ExternalBuffer> external;
     const auto buffers = json.find("buffers");
-    if (buffers != json.end())
-        for (const nlohmann::json& buffer : *buffers)
-            if (const std::string uri = buffer.value("uri", ""); !uri.starts_with("data:"))
-                if (!uri.empty())
-                    lengths.push_back(buffer.value("byteLength", std::uint64_t(0)));
-    return lengths;
+    for (std::size_t i = 0; buffers != json.end() && i < buffers->size(); ++i) {
+        const std::string uri = (*buffers)[i].value("uri", "");
+        if (!uri.empty() && !uri.starts_with("data:"))
+            external.push_back({i, std::uint64_t((*buffers)[i].value("byteLength", 0.0))});
+    }
+    return external;
 }
 
 /// Parses and checks the JSON by itself, so that errors carry the field.
@@ -214,6 +220,9 @@ static Result<void> parseModel(const std::vector<unsigned char>& bytes, std::str
     } catch (const std::exception& e) { // libtinygltf 2.7 throws on some malformed files
         return fail(fmt::format("malformed glTF ({})", e.what()));
     }
+    if (!loaded && state.filesRead < state.buffers.size() && error.starts_with("File "))
+        return fail(fmt::format("buffers[{}].uri: {}", state.buffers[state.filesRead].index,
+                                firstLine(error)));
     if (!loaded)
         return fail(error.empty() ? "malformed glTF" : firstLine(error));
     return {};
@@ -238,7 +247,7 @@ Result<GltfFile> readGltfFile(const std::string& path) {
     GltfFile file;
     LoadState state;
     state.folder = fs::path(path).parent_path();
-    state.bufferLengths = externalBufferLengths(*json);
+    state.buffers = externalBuffers(*json);
     if (const Result<void> parsed = parseModel(bytes, *text, state, file.model); !parsed)
         return tl::make_unexpected(parsed.error());
     file.encodedImages = std::move(state.encodedImages);

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/image_file.h"
+
+#include "tests/scene/gltf_builder.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+ImageF randomImage(std::uint32_t width, std::uint32_t height) {
+    ImageF image{width, height, {}};
+    std::mt19937 random(width * 1000 + height);
+    std::uniform_real_distribution<float> exponent(-30, 30);
+    for (std::uint32_t i = 0; i < width * height; ++i)
+        image.rgb.emplace_back(std::exp2(exponent(random)), float(i), -std::exp2(exponent(random)));
+    return image;
+}
+
+TEST(ImageFile, AnExrComesBackBitForBit) {
+    const TemporaryFolder folder;
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 2u}, {17u, 40u}, {200u, 1u}}) {
+        const ImageF image = randomImage(width, height);
+        ASSERT_TRUE(writeExr(folder.file("i.exr"), image));
+        const Result<ImageF> again = readFloatImage(folder.file("i.exr"));
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_TRUE(*again == image) << width << " x " << height;
+    }
+}
+
+TEST(ImageFile, AnExrKeepsExtremesInfinityAndNan) {
+    const TemporaryFolder folder;
+    const float inf = std::numeric_limits<float>::infinity();
+    const ImageF image{2, 1, {{1e-45f, 3.4e38f, -0.f}, {inf, -inf, std::nanf("")}}};
+    ASSERT_TRUE(writeExr(folder.file("i.exr"), image));
+    const Result<ImageF> again = readFloatImage(folder.file("i.exr"));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(std::memcmp(again->rgb.data(), image.rgb.data(), 2 * sizeof(glm::vec3)), 0);
+}
+
+TEST(ImageFile, AnRgbeFileIsReadAsLinear) {
+    const TemporaryFolder folder;
+    // 2 x 1 flat texels: mantissas of 128/256 at exponent 0, then of 64/256 at exponent 3.
+    const std::string texels("\x80\x40\x20\x80\x40\x40\x40\x83", 8);
+    writeFile(folder.file("i.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + texels);
+    const Result<ImageF> image = readFloatImage(folder.file("i.hdr"));
+    ASSERT_TRUE(image) << image.error().message;
+    ASSERT_EQ(image->width, 2u);
+    EXPECT_EQ(image->rgb[0], glm::vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(image->rgb[1], glm::vec3(2));
+}
+
+TEST(ImageFile, APngComesBackBitForBit) {
+    const TemporaryFolder folder;
+    Image image{"i.png", 5, 3, {}};
+    for (int i = 0; i < 60; ++i)
+        image.rgba.push_back(std::uint8_t(i * 37));
+    ASSERT_TRUE(writePng(folder.file("i.png"), image));
+    const Result<Image> again = readPng(folder.file("i.png"));
+    ASSERT_TRUE(again);
+    EXPECT_TRUE(*again == image);
+}
+
+TEST(ImageFile, FailuresNameTheFile) {
+    const TemporaryFolder folder;
+    writeFile(folder.file("text.exr"), "not an image");
+    EXPECT_NE(readFloatImage(folder.file("text.exr")).error().message.find("text.exr"),
+              std::string::npos);
+    EXPECT_NE(readPng(folder.file("no.png")).error().message.find("no such file"),
+              std::string::npos);
+    EXPECT_NE(readPng(folder.path.string()).error().message.find("not a file"), std::string::npos);
+    const Result<void> written = writeExr(folder.file("no/where.exr"), randomImage(2, 2));
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("where.exr: cannot write"), std::string::npos);
+    EXPECT_FALSE(writePng(folder.file("empty.png"), Image{}));
+    EXPECT_FALSE(writeExr(folder.file("empty.exr"), ImageF{}));
+}
+
+/// Whatever the bytes, the reader answers; what it accepts is whole.
+void expectAnswer(const TemporaryFolder& folder, const std::string& bytes) {
+    writeFile(folder.file("damaged"), bytes);
+    if (const Result<ImageF> image = readFloatImage(folder.file("damaged"))) {
+        EXPECT_EQ(image->rgb.size(), std::size_t(image->width) * image->height);
+    }
+    if (const Result<Image> image = readPng(folder.file("damaged"))) {
+        EXPECT_EQ(image->rgba.size(), std::size_t(image->width) * image->height * 4);
+    }
+}
+
+TEST(ImageFile, DamagedFilesNeverCrash) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeExr(folder.file("i.exr"), randomImage(19, 21)));
+    ASSERT_TRUE(writePng(folder.file("i.png"), Image{"", 4, 4, std::vector<std::uint8_t>(64, 7)}));
+    std::mt19937 random(11);
+    for (const char* name : {"i.exr", "i.png"}) {
+        const std::string whole = readFile(folder.file(name));
+        for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 100)
+            expectAnswer(folder, whole.substr(0, length));
+        for (int round = 0; round < 200; ++round) {
+            std::string bytes = whole;
+            // The header is where the sizes are.
+            const std::size_t reach =
+                round % 2 ? bytes.size() : std::min<std::size_t>(400, bytes.size());
+            for (int flips = 1 + int(random() % 3); flips > 0; --flips)
+                bytes[random() % reach] = char(random());
+            expectAnswer(folder, bytes);
+        }
+    }
+}
+
+} // namespace
+} // namespace limn
