@@ -4,29 +4,48 @@
 #include "engine/core/hash.h"
 
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
 namespace limn {
 
+static std::optional<glm::uvec3> gridOf(const std::string& text) {
+    glm::uvec3 cells{0};
+    char rest = 0;
+    if (text.find('-') != std::string::npos ||
+        std::sscanf(text.c_str(), "%3ux%3ux%3u%c", &cells.x, &cells.y, &cells.z, &rest) != 3)
+        return {};
+    for (int c = 0; c < 3; ++c)
+        if (cells[c] < 1 || cells[c] > 256)
+            return {};
+    return cells;
+}
+
 void addBakeOptions(CLI::App& command, BakeOptions& o) {
-    command.add_option("--surfels", o.surfels, "Surfels n_S, 64 to 1048576");
-    command.add_option("--links", o.links, "Links per cache n_L, 1 to 4096");
-    command.add_option("--bands", o.bands, "SH bands of the caches, 2 to 8");
-    command.add_option("--rays", o.rays, "Gather rays per cache, 16 to 65536");
+    command.add_option("--surfels", o.surfels, "Surfels n_S")->check(CLI::Range(64, 1 << 20));
+    command.add_option("--links", o.links, "Links per cache n_L")->check(CLI::Range(1, 4096));
+    command.add_option("--bands", o.bands, "SH bands of the caches")->check(CLI::Range(2, 8));
+    command.add_option("--rays", o.rays, "Gather rays per cache")->check(CLI::Range(16, 65536));
     auto* lightmap =
-        command.add_option("--lightmap", o.lightmap, "Wanted number of lightmap caches");
+        command.add_option("--lightmap", o.lightmap, "Wanted number of lightmap caches")
+            ->check(CLI::Range(1, 1 << 24));
     command
         .add_option("--texels-per-metre", o.texelsPerMetre,
                     "Lightmap density, instead of --lightmap")
-        ->excludes(lightmap);
-    command.add_option("--grid", o.grid, "Cells of the grid caches, XxYxZ");
+        ->excludes(lightmap)
+        ->check(CLI::PositiveNumber);
+    command.add_option("--grid", o.grid, "Cells of the grid caches, XxYxZ")
+        ->check([](const std::string& text) {
+            return gridOf(text) ? "" : fmt::format("\"{}\" is not XxYxZ, each 1 to 256", text);
+        });
     command.add_option("--threads", o.threads, "Threads to use; 0: all")
         ->check(CLI::Range(0, 1024));
 }
 
-Result<void> applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
+void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
     s.surfels = o.surfels.value_or(s.surfels);
     s.links = o.links.value_or(s.links);
     s.bands = o.bands.value_or(s.bands);
@@ -36,12 +55,8 @@ Result<void> applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
         s.texelsPerMetre = 0;
     }
     s.texelsPerMetre = o.texelsPerMetre.value_or(s.texelsPerMetre);
-    if (!o.grid.empty()) {
-        char rest = 0;
-        if (std::sscanf(o.grid.c_str(), "%ux%ux%u%c", &s.grid.x, &s.grid.y, &s.grid.z, &rest) != 3)
-            return fail(fmt::format("--grid: \"{}\" is not XxYxZ", o.grid));
-    }
-    return {};
+    if (!o.grid.empty())
+        s.grid = *gridOf(o.grid);
 }
 
 nlohmann::json bakeSummary(const Bake& bake) {

@@ -17,13 +17,13 @@ namespace limn {
 struct BakeOptions {
     std::optional<std::uint32_t> surfels, links, bands, rays, lightmap;
     std::optional<float> texelsPerMetre;
-    std::string grid; ///< XxYxZ; empty: the document's
+    std::string grid; ///< XxYxZ, checked; empty: the document's
     int threads = 0;  ///< 0: all
 };
 void addBakeOptions(CLI::App& command, BakeOptions& options);
 
-/// Fails on a grid that is not XxYxZ; ranges are checked by bake().
-Result<void> applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
+/// Puts what was given on the command line, and checked there, into `settings`.
+void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
 
 /// {"seconds", "counts", "bytes", "hash"}.
 nlohmann::json bakeSummary(const Bake& bake);

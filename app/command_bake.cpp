@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bake_options.h"
 #include "app/command.h"
+#include "app/output_file.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -37,13 +38,14 @@ void print(const Bake& bake) {
 }
 
 Exit runBake(const BakeCommand& command) {
+    if (const Result<void> writable = checkOutputFile(command.output); !writable)
+        return failed(writable.error().message);
     Result<ImportedScene> imported = openScene(command.scene);
     if (!imported)
         return failed(imported.error().message);
     const ThreadLimit threads(command.bake.threads);
     Scene scene = flatten(imported->document, imported->assets);
-    if (const Result<void> applied = applyBakeOptions(command.bake, scene.bake); !applied)
-        return failed(applied.error().message);
+    applyBakeOptions(command.bake, scene.bake);
     const Result<Bake> baked = bake(TraceScene(scene), progressOnStderr());
     endProgressLine();
     if (!baked)

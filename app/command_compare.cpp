@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
+#include "app/output_file.h"
 
 #include "engine/files/image_file.h"
 #include "engine/measure/compare.h"
@@ -19,6 +20,9 @@ struct Options {
 };
 
 Exit runCompare(const Options& o) {
+    if (!o.heatmap.empty())
+        if (const Result<void> writable = checkOutputFile(o.heatmap, {".png"}); !writable)
+            return failed(writable.error().message);
     const Result<ImageF> test = readFloatImage(o.test);
     if (!test)
         return failed(test.error().message);

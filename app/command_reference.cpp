@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
+#include "app/output_file.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -55,6 +56,8 @@ Json report(const ReferenceResult& r, const std::string& view, double seconds) {
 }
 
 Exit runReference(Options& o) {
+    if (const Result<void> writable = checkOutputFile(o.output, {".exr"}); !writable)
+        return failed(writable.error().message);
     const ThreadLimit limit(o.threads);
     const Result<ImportedScene> imported = openScene(o.scene);
     if (!imported)

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
+#include "engine/reference/pixel_rays.h"
 
 #include <algorithm>
 #include <atomic>
@@ -53,24 +54,6 @@ glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Samp
     return own + p->albedo * E / glm::pi<float>();
 }
 
-/// Rays through pixels; directions are affine in the image plane.
-struct PixelRays {
-    glm::vec3 eye, centre, right, up;
-    glm::vec2 size;
-
-    explicit PixelRays(const ReferenceOptions& o)
-        : eye(o.camera.eye), size(float(o.width), float(o.height)) {
-        const float aspect = size.x / size.y;
-        centre = rayDirection(o.camera, aspect, 0, 0);
-        right = rayDirection(o.camera, aspect, 1, 0) - centre;
-        up = rayDirection(o.camera, aspect, 0, 1) - centre;
-    }
-    Ray through(glm::vec2 pixel) const {
-        const glm::vec2 ndc = 2.f * pixel / size - 1.f;
-        return {eye, glm::normalize(centre + ndc.x * right - ndc.y * up)};
-    }
-};
-
 // Adds samples [begin, end) of one pixel.
 void addSamples(const PathContext& c, const ReferenceOptions& o, const PixelRays& pixelRays,
                 std::uint32_t pixel, std::uint32_t begin, std::uint32_t end, PixelSum& sum,
@@ -115,7 +98,7 @@ ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions&
     assert(options.width > 0 && options.height > 0);
     const Emitters emitters = findEmitters(trace);
     const PathContext context{trace, emitters, options.maxBounces};
-    const PixelRays pixelRays(options);
+    const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     std::vector<PixelSum> sums(pixels);
     std::vector<std::uint32_t> tileSamples((pixels + kTile - 1) / kTile, 0);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "engine/reference/field_render.h"
+
+#include "engine/core/parallel.h"
+#include "engine/reference/direct_light.h"
+#include "engine/reference/pixel_rays.h"
+#include "engine/reference/sampler.h"
+#include "engine/reference/surface_point.h"
+#include "engine/relight/relight.h"
+
+#include <cassert>
+#include <optional>
+
+#include <glm/gtc/constants.hpp>
+
+namespace limn {
+
+namespace {
+
+struct FieldContext {
+    const TraceScene& trace;
+    const IndirectField& field;
+    const LightmapLayout& layout;
+    View view;
+
+    bool hasField() const { return field.lightmapWidth > 0 || field.gridSize.x > 0; }
+};
+
+glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePoint& p) {
+    if (!c.hasField())
+        return glm::vec3(0);
+    return sampleIrradiance(c.field, c.layout, c.trace.scene(), hit.instance, hit.triangle, hit.u,
+                            hit.v, p.position, p.normal);
+}
+
+glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight) {
+    const Hit hit = c.trace.closestHit(ray);
+    if (!hit)
+        return c.view == View::Lit ? c.trace.scene().sky.radiance : glm::vec3(0);
+    const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
+    if (!p)
+        return glm::vec3(0);
+    std::uint64_t rays = 0;
+    const auto direct = [&] { return sampleDirectIrradiance(c.trace, *p, pickLight, rays); };
+    const glm::vec3 reflectance = p->albedo / glm::pi<float>();
+    switch (c.view) {
+    case View::Lit:
+        return p->emission + reflectance * (direct() + fieldIrradiance(c, hit, *p));
+    case View::Direct:
+        return reflectance * direct();
+    case View::Indirect:
+        return reflectance * fieldIrradiance(c, hit, *p);
+    case View::Irradiance:
+        return fieldIrradiance(c, hit, *p);
+    case View::Albedo:
+        return p->albedo;
+    case View::Normals:
+        return p->normal * 0.5f + 0.5f;
+    }
+    return glm::vec3(0);
+}
+
+} // namespace
+
+ImageF renderField(const TraceScene& trace, const IndirectField& field,
+                   const LightmapLayout& layout, const FieldRenderOptions& options,
+                   const Progress& progress) {
+    assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
+    constexpr std::size_t kTile = 256; // pixels
+    const FieldContext context{trace, field, layout, options.view};
+    const PixelRays pixelRays(options.camera, options.width, options.height);
+    const std::size_t pixels = std::size_t(options.width) * options.height;
+    ImageF image{options.width, options.height, std::vector<glm::vec3>(pixels)};
+    const bool complete =
+        parallelRanges(pixels, kTile, progress, "pixels", [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const glm::vec2 corner(float(i % options.width), float(i / options.width));
+                glm::vec3 sum(0);
+                for (std::uint32_t s = 0; s < options.samplesPerPixel; ++s) {
+                    const Sampler sampler{mixBits(options.seed, std::uint32_t(i)), s};
+                    sum += shade(context, pixelRays.through(corner + sampler.pair(0)),
+                                 sampler.pair(1).x);
+                }
+                image.rgb[i] = sum / float(options.samplesPerPixel);
+            }
+        });
+    return complete ? image : ImageF{};
+}
+
+} // namespace limn

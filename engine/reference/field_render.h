@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/lightmap_layout.h"
+#include "engine/core/progress.h"
+#include "engine/relight/indirect_field.h"
+#include "engine/scene/view.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+
+namespace limn {
+
+struct FieldRenderOptions {
+    View view = View::Lit;
+    Camera camera;
+    std::uint32_t width = 1280, height = 720;
+    std::uint32_t samplesPerPixel = 16; ///< box filter; Owen-scrambled Sobol points
+    std::uint32_t seed = 1;
+};
+
+/// The picture that real-time light makes, on the CPU: direct light with ray-traced hard shadows,
+/// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
+/// the two differ by the field's error only; Lit has no specular. View::Normals is n / 2 + 1/2.
+/// Without a field (no lightmap, no grid) there is no indirect light. `layout` belongs to the
+/// field. Same bytes at any number of threads; empty when cancelled.
+ImageF renderField(const TraceScene& trace, const IndirectField& field,
+                   const LightmapLayout& layout, const FieldRenderOptions& options,
+                   const Progress& progress = {});
+
+} // namespace limn

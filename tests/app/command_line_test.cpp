@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// The contract that scripts rely on: exit codes, one line for a failure, one JSON object on stdout.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+struct Outcome {
+    int exit = -1;
+    std::string out, err;
+};
+
+/// An empty folder for the files of one test, removed at its end.
+class CommandLine : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+        m_folder = fs::temp_directory_path() / ("limn_" + name + std::to_string(getpid()));
+        fs::create_directories(m_folder);
+    }
+    void TearDown() override { fs::remove_all(m_folder); }
+
+    std::string path(const std::string& name) const { return (m_folder / name).string(); }
+
+    /// Runs `limn arguments` as a shell would.
+    Outcome limn(const std::string& arguments) const {
+        const std::string out = path("stdout"), err = path("stderr");
+        const std::string command = std::string("'") + LIMN_EXECUTABLE + "' " + arguments +
+                                    " </dev/null >'" + out + "' 2>'" + err + "'";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+    }
+
+    bool has(const std::string& command) const {
+        return limn("--help").out.find("\n  " + command + " ") != std::string::npos;
+    }
+
+    /// Fails unless the command exits with 1, prints nothing on stdout and one line, with `word`,
+    /// on stderr.
+    void expectRefusal(const std::string& arguments, const std::string& word) const {
+        const Outcome run = limn(arguments);
+        EXPECT_EQ(run.exit, 1) << arguments << "\n" << run.err;
+        EXPECT_EQ(run.out, "") << arguments;
+        EXPECT_EQ(run.err.rfind("limn: ", 0), 0u) << arguments << "\n" << run.err;
+        EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << arguments << ": more than one line\n"
+                                                          << run.err;
+        EXPECT_NE(run.err.find(word), std::string::npos)
+            << arguments << ": does not say " << word << "\n"
+            << run.err;
+    }
+
+    /// Stdout as the one JSON object that --json promises.
+    nlohmann::json json(const std::string& arguments) const {
+        const Outcome run = limn(arguments);
+        EXPECT_EQ(run.exit, 0) << arguments << "\n" << run.err;
+        const nlohmann::json object = nlohmann::json::parse(run.out, nullptr, false);
+        EXPECT_TRUE(object.is_object()) << arguments << "\n" << run.out;
+        return object;
+    }
+
+private:
+    fs::path m_folder;
+};
+
+const std::string kCoarse = " --surfels 256 --links 32 --rays 64 --lightmap 300 --grid 3x3x3 ";
+
+void expectKeys(const nlohmann::json& object, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys)
+        EXPECT_TRUE(object.contains(key)) << key << " is missing in " << object.dump();
+}
+
+TEST_F(CommandLine, ExitsWith2OnBadUsage) {
+    for (const char* arguments :
+         {"", "nonsense", "bake", "bake cornell", "bake cornell -o x --frobnicate",
+          "bake cornell -o x --surfels many", "bake cornell -o x --surfels -5",
+          "bake cornell -o x --grid 3x3", "bake cornell -o x --grid -1x3x3",
+          "bake cornell -o x --bands 9", "reference cornell",
+          "reference cornell -o x.exr --spp none", "reference cornell -o x.exr --view nonsense",
+          "compare one.exr", "info"}) {
+        const Outcome run = limn(arguments);
+        EXPECT_EQ(run.exit, 2) << "limn " << arguments << "\n" << run.err;
+        EXPECT_EQ(run.out, "") << "limn " << arguments;
+        EXPECT_NE(run.err, "") << "limn " << arguments;
+    }
+}
+
+TEST_F(CommandLine, ExplainsItselfOnStdout) {
+    for (const char* arguments : {"--help", "reference --help", "compare --help", "info --help"}) {
+        const Outcome run = limn(arguments);
+        EXPECT_EQ(run.exit, 0) << arguments;
+        EXPECT_NE(run.out, "") << arguments;
+        EXPECT_EQ(run.err, "") << arguments;
+    }
+}
+
+TEST_F(CommandLine, NamesTheSceneThatItCannotOpen) {
+    expectRefusal("info nowhere.gltf", "nowhere.gltf");
+    expectRefusal("info nowhere.limnbake", "nowhere.limnbake");
+    expectRefusal("reference nowhere.limn -o " + path("x.exr"), "nowhere.limn");
+    expectRefusal("compare nowhere.exr nowhere.exr", "nowhere.exr");
+    write(path("broken.gltf"), "{\"asset\": ");
+    expectRefusal("info " + path("broken.gltf"), "broken.gltf");
+    write(path("broken.limn"), "{\"version\": 1, ");
+    expectRefusal("info " + path("broken.limn"), "broken.limn");
+    write(path("broken.limnbake"), "no bake at all");
+    expectRefusal("info " + path("broken.limnbake"), "broken.limnbake");
+    write(path("empty.exr"), "");
+    expectRefusal("compare " + path("empty.exr") + " " + path("empty.exr"), "empty.exr");
+}
+
+TEST_F(CommandLine, RefusesAnOutputBeforeTheWork) {
+    expectRefusal("reference cornell --spp 1000000 -o " + path("no/such/folder/x.exr"), "x.exr");
+    expectRefusal("reference cornell --spp 1000000 -o " + path("x.png"), ".exr");
+    expectRefusal("reference cornell --spp 1000000 -o " + path(""), "folder");
+    expectRefusal("compare one.exr two.exr --heatmap " + path("no/such/folder/x.png"), "x.png");
+}
+
+TEST_F(CommandLine, RefusesLightsSkiesAndCamerasThatMakeNoSense) {
+    const std::string start = "reference cornell --spp 1 --width 8 --height 8 -o " + path("x.exr");
+    EXPECT_NE(limn(start + " --light 'sun dir=0,-1,0 lux=abc'").exit, 0);
+    EXPECT_NE(limn(start + " --light 'sun dir=0,-1,0 lux=nan'").exit, 0);
+    EXPECT_NE(limn(start + " --light 'sun dir=0,0,0 lux=1'").exit, 0);
+    EXPECT_NE(limn(start + " --light 'torch cd=1'").exit, 0);
+    EXPECT_NE(limn(start + " --sky 1,2").exit, 0);
+    EXPECT_NE(limn(start + " --sky 1,2,-3").exit, 0);
+    expectRefusal(start + " --camera Nobody", "Nobody");
+    EXPECT_FALSE(fs::exists(path("x.exr")));
+}
+
+TEST_F(CommandLine, BakeRefusesWhatItCannotReadOrWrite) {
+    expectRefusal("bake nowhere.gltf -o " + path("x.limnbake"), "nowhere.gltf");
+    expectRefusal("bake nowhere -o " + path("x.limnbake"), "nowhere");
+    expectRefusal("bake cornell -o " + path("no/such/folder/x.limnbake"), "x.limnbake");
+}
+
+TEST_F(CommandLine, BakePrintsOneJsonObjectAndInfoReadsTheFile) {
+    const std::string bake = path("box.limnbake");
+    const nlohmann::json baked = json("bake cornell" + kCoarse + "--json -o " + bake);
+    expectKeys(baked, {"seconds", "counts", "bytes", "hash"});
+    expectKeys(baked["seconds"], {"total"});
+    expectKeys(baked["counts"],
+               {"triangles", "surfels", "clusters", "caches", "invalid_caches", "links", "rays"});
+    expectKeys(baked["bytes"], {"surfels", "clusters", "links", "caches", "total"});
+    EXPECT_EQ(baked["counts"]["triangles"], 38);
+    EXPECT_EQ(json("bake cornell" + kCoarse + "--threads 1 --json -o " + bake)["hash"],
+              baked["hash"]);
+
+    EXPECT_FALSE(json("info --json " + bake).empty());
+    const std::string whole = contents(bake);
+    write(bake, whole.substr(0, whole.size() / 2));
+    expectRefusal("info " + bake, "box.limnbake");
+    std::string flipped = whole;
+    flipped[whole.size() / 2] = char(flipped[whole.size() / 2] ^ 0x10);
+    write(bake, flipped);
+    expectRefusal("info " + bake, "box.limnbake");
+}
+
+TEST_F(CommandLine, ReferenceAndComparePrintOneJsonObject) {
+    const std::string a = path("a.exr"), b = path("b.exr");
+    const std::string start = "reference cornell --view irradiance --width 32 --height 24 --json ";
+    const nlohmann::json first = json(start + "--spp 4 -o " + a);
+    expectKeys(first, {"seconds", "device", "width", "height", "invalid_pixels"});
+    EXPECT_EQ(first["width"], 32);
+    EXPECT_EQ(first["height"], 24);
+    EXPECT_EQ(first["invalid_pixels"], 0);
+    json(start + "--spp 16 -o " + b);
+    const nlohmann::json same = json("compare " + a + " " + a + " --json");
+    expectKeys(same, {"nrmse", "relmse", "bias", "ssim", "flip", "invalid_pixels"});
+    EXPECT_EQ(same["nrmse"], 0);
+    EXPECT_GT(json("compare " + a + " " + b + " --json")["nrmse"], 0);
+}
+
+TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
+    if (!has("render"))
+        GTEST_SKIP() << "built without the viewport";
+    const std::string bake = path("box.limnbake"), picture = path("box.png"),
+                      linear = path("box.exr");
+    ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);
+    for (const std::string& output : {picture, linear}) {
+        const nlohmann::json rendered =
+            json("render cornell --bake " + bake + " --width 48 --height 32 --json -o " + output);
+        expectKeys(rendered, {"seconds", "device", "width", "height", "invalid_pixels"});
+        EXPECT_EQ(rendered["width"], 48);
+        EXPECT_EQ(rendered["invalid_pixels"], 0);
+        EXPECT_GT(fs::file_size(output), 0u);
+    }
+    expectRefusal("render cornell --bake nowhere.limnbake -o " + picture, "nowhere.limnbake");
+    expectRefusal("render cornell --bake " + bake + " -o " + path("no/such/box.png"), "box.png");
+    expectRefusal("render cornell --bake " + bake + " -o " + path("box.bmp"), "box.bmp");
+    EXPECT_EQ(limn("render cornell --width 0 -o " + picture).exit, 2);
+    EXPECT_EQ(limn("render cornell --view nonsense -o " + picture).exit, 2);
+    EXPECT_EQ(limn("render cornell").exit, 2);
+}
+
+} // namespace
