@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/project_file.h"
+
+#include "tests/scene/gltf_builder.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with models/scene.glb: one triangle, one node.
+struct Workspace : TemporaryFolder {
+    Workspace() {
+        fs::create_directories(path / "models");
+        fs::create_directories(path / "projects");
+        writeFile(scene(), triangleScene().glb());
+    }
+    std::string scene() const { return file("models/scene.glb"); }
+};
+
+bool hasRepair(const ImportedScene& scene, const std::string& text) {
+    return std::ranges::any_of(scene.repairs, [&](const std::string& line) {
+        return line.find(text) != std::string::npos;
+    });
+}
+
+TEST(ProjectFile, WhatIsSavedIsLoaded) {
+    const Workspace w;
+    ImportedScene scene = *importGltf(w.scene());
+    Light light;
+    light.strength = 0.1f;
+    addObject(scene.document, light);
+    std::get<Sky>(scene.document.objects.rbegin()->second = Sky{}).radiance = {1, 2, 3};
+    const std::string project = w.file("projects/p.limn");
+    const Result<void> saved = saveProject(project, scene.document);
+    ASSERT_TRUE(saved) << saved.error().message;
+    const Result<ImportedScene> loaded = loadProject(project);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    Document expected = scene.document;
+    expected.scenePath = loaded->document.scenePath; // another spelling of the same file
+    EXPECT_TRUE(fs::equivalent(expected.scenePath, w.scene()));
+    EXPECT_TRUE(loaded->document == expected);
+    EXPECT_EQ(loaded->assets->meshes.size(), 1u);
+    EXPECT_FALSE(hasRepair(*loaded, "changed"));
+}
+
+TEST(ProjectFile, TheSceneIsStoredRelativeSoThatTheFolderMayMove) {
+    const Workspace w;
+    const ImportedScene scene = *importGltf(w.scene());
+    ASSERT_TRUE(saveProject(w.file("projects/p.limn"), scene.document));
+    EXPECT_NE(readFile(w.file("projects/p.limn")).find("\"../models/scene.glb\""),
+              std::string::npos);
+    const TemporaryFolder elsewhere;
+    fs::copy(w.path, elsewhere.path, fs::copy_options::recursive);
+    fs::remove(w.scene());
+    EXPECT_TRUE(loadProject(elsewhere.file("projects/p.limn")));
+    const Result<ImportedScene> gone = loadProject(w.file("projects/p.limn"));
+    ASSERT_FALSE(gone);
+    EXPECT_NE(gone.error().message.find("p.limn: scene: "), std::string::npos);
+    EXPECT_NE(gone.error().message.find("no such file"), std::string::npos);
+}
+
+TEST(ProjectFile, AChangedSceneIsLoadedWithAWord) {
+    const Workspace w;
+    const ImportedScene scene = *importGltf(w.scene());
+    ASSERT_TRUE(saveProject(w.file("p.limn"), scene.document));
+    GltfBuilder other;
+    writeFile(w.scene(), other.glb()); // its mesh is gone
+    const Result<ImportedScene> loaded = loadProject(w.file("p.limn"));
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_TRUE(hasRepair(*loaded, "changed since the project was saved"));
+    EXPECT_TRUE(hasRepair(*loaded, "1 meshes are no longer"));
+    EXPECT_NE(loaded->document.sceneHash, scene.document.sceneHash);
+    EXPECT_TRUE(flatten(loaded->document, loaded->assets).instances.empty());
+}
+
+TEST(ProjectFile, WithoutObjectsThoseOfTheSceneAreTaken) {
+    const Workspace w;
+    writeFile(w.file("p.limn"), R"({"version": 1, "scene": "models/scene.glb"})");
+    const Result<ImportedScene> loaded = loadProject(w.file("p.limn"));
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(flatten(loaded->document, loaded->assets).instances.size(), 1u);
+    writeFile(w.file("empty.limn"),
+              R"({"version": 1, "scene": "models/scene.glb", "objects": []})");
+    EXPECT_TRUE(loadProject(w.file("empty.limn"))->document.objects.empty());
+}
+
+TEST(ProjectFile, ADamagedProjectIsAnErrorWithFileAndField) {
+    const Workspace w;
+    writeFile(w.file("p.limn"), R"({"version": 3})");
+    EXPECT_NE(loadProject(w.file("p.limn")).error().message.find("p.limn: version: 3 is unknown"),
+              std::string::npos);
+    writeFile(w.file("p.limn"), R"({"version": 1, "scene": 4})");
+    EXPECT_NE(loadProject(w.file("p.limn")).error().message.find("p.limn: scene: not a string"),
+              std::string::npos);
+    writeFile(w.file("p.limn"), "");
+    EXPECT_FALSE(loadProject(w.file("p.limn")));
+    EXPECT_FALSE(loadProject(w.file("none.limn")));
+    EXPECT_FALSE(loadProject(w.path.string()));
+}
+
+TEST(ProjectFile, SavingReplacesTheWholeFileAndLeavesNothingBeside) {
+    const Workspace w;
+    const std::string project = w.file("projects/p.limn");
+    writeFile(project, std::string(100000, 'x'));
+    ASSERT_TRUE(saveProject(project, Document{}));
+    EXPECT_TRUE(loadProject(project));
+    EXPECT_EQ(std::distance(fs::directory_iterator(w.path / "projects"), {}), 1);
+}
+
+TEST(ProjectFile, AFailedSaveKeepsTheOldFile) {
+    const Workspace w;
+    const std::string project = w.file("projects/p.limn");
+    ASSERT_TRUE(saveProject(project, Document{}));
+    const std::string before = readFile(project);
+    Document broken;
+    Light light;
+    light.strength = std::numeric_limits<float>::quiet_NaN();
+    addObject(broken, light);
+    const Result<void> saved = saveProject(project, broken);
+    ASSERT_FALSE(saved);
+    EXPECT_NE(saved.error().message.find("objects[0].light.strength"), std::string::npos);
+    Document unspeakable;
+    addObject(unspeakable, Material{.name = "\xff"});
+    EXPECT_FALSE(saveProject(project, unspeakable));
+    EXPECT_EQ(readFile(project), before);
+    const Result<void> nowhere = saveProject(w.file("no/p.limn"), Document{});
+    ASSERT_FALSE(nowhere);
+    EXPECT_NE(nowhere.error().message.find("no/p.limn"), std::string::npos);
+    EXPECT_EQ(std::distance(fs::directory_iterator(w.path / "projects"), {}), 1);
+}
+
+TEST(ProjectFile, AnyKindOfNameOpens) {
+    const Workspace w;
+    const std::string folder = w.file("projects");
+    EXPECT_TRUE(openAny(w.scene(), folder));
+    const ImportedScene scene = *importGltf(w.scene());
+    fs::create_directories(w.path / "projects" / "room");
+    ASSERT_TRUE(saveProject(w.file("projects/room/room.limn"), scene.document));
+    EXPECT_TRUE(openAny("room", folder));
+    EXPECT_TRUE(openAny(w.file("projects/room/room.limn"), folder));
+    const Result<ImportedScene> none = openAny("castle", folder);
+    ASSERT_FALSE(none);
+    EXPECT_NE(none.error().message.find("castle"), std::string::npos);
+    EXPECT_FALSE(openAny("", folder));
+    EXPECT_FALSE(openAny("../projects/room/room", folder));
+}
+
+} // namespace
+} // namespace limn

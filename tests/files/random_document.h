@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/document.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+/// Valid documents with numbers from all over float's range.
+class RandomDocument {
+public:
+    explicit RandomDocument(unsigned seed) : m_random(seed) {}
+
+    Document make() {
+        Document document;
+        document.scenePath = text();
+        document.sceneHash = (std::uint64_t(m_random()) << 32) | m_random();
+        std::vector<ObjectId> nodes = {0};
+        for (unsigned i = below(20); i > 0; --i) {
+            document.nextId += below(3); // gaps, as deleting leaves them
+            if (below(2))
+                nodes.push_back(addObject(document, node(nodes[below(unsigned(nodes.size()))])));
+            else
+                addObject(document, other());
+        }
+        return document;
+    }
+
+private:
+    unsigned below(unsigned count) { return unsigned(m_random()) % count; }
+    bool coin() { return below(2) == 1; }
+    float number() {
+        using Limits = std::numeric_limits<float>;
+        static constexpr float kExtremes[] = {0.f,           -0.f,
+                                              Limits::max(), Limits::lowest(),
+                                              Limits::min(), Limits::denorm_min(),
+                                              1 / 3.f,       16777217.f,
+                                              1e-7f};
+        if (below(3) == 0)
+            return kExtremes[below(unsigned(std::size(kExtremes)))];
+        const float sign = coin() ? 1.f : -1.f;
+        return sign * std::ldexp(1 + unit(), int(below(250)) - 125);
+    }
+    float notNegative() { return std::abs(number()); }
+    float unit() { return float(m_random() & 0xffffff) / float(0xffffff); }
+    glm::vec3 vec3() { return {number(), number(), number()}; }
+    glm::vec3 direction() {
+        glm::vec3 d{unit() - 0.5f, unit() - 0.5f, unit() + 0.01f};
+        return glm::normalize(d);
+    }
+    std::string text() {
+        static const char* const kTexts[] = {"",
+                                             "Sponza",
+                                             "a \"quoted\" \\ name",
+                                             "Ω ünïcode 木",
+                                             "line\nbreak\ttab",
+                                             "../up/and down.gltf",
+                                             "null"};
+        return kTexts[below(unsigned(std::size(kTexts)))];
+    }
+    Node node(ObjectId parent) {
+        Node n;
+        n.name = text();
+        n.parent = parent;
+        n.transform.translation = vec3();
+        n.transform.rotation = glm::angleAxis(unit() * 6, direction());
+        for (int c = 0; c < 3; ++c)
+            n.transform.scale[c] = number() == 0 ? -1 : std::copysign(0.5f + unit(), number());
+        for (unsigned i = below(4); i > 0; --i)
+            n.meshes.push_back(std::uint32_t(m_random()));
+        n.visible = coin();
+        n.dynamic = coin();
+        return n;
+    }
+    TextureRef texture() {
+        TextureRef t;
+        t.image = int(below(10)) - 1;
+        t.texCoord = below(2);
+        t.offset = {number(), number()};
+        t.scale = {number(), number()};
+        t.rotation = number();
+        t.wrapU = Wrap(below(3));
+        t.wrapV = Wrap(below(3));
+        t.nearest = coin();
+        return t;
+    }
+    Object other() {
+        switch (below(5)) {
+        case 0: {
+            Material m;
+            m.name = text();
+            m.baseColor = {unit(), unit(), unit(), unit()};
+            m.metallic = unit();
+            m.roughness = unit();
+            m.emission = {notNegative(), notNegative(), notNegative()};
+            m.alphaMode = AlphaMode(below(3));
+            m.alphaCutoff = notNegative();
+            m.doubleSided = coin();
+            m.normalScale = number();
+            m.baseColorTexture = texture();
+            m.metallicRoughnessTexture = texture();
+            m.normalTexture = texture();
+            m.emissiveTexture = texture();
+            return m;
+        }
+        case 1: {
+            Light l;
+            l.name = text();
+            l.kind = LightKind(below(3));
+            l.enabled = coin();
+            l.position = vec3();
+            l.direction = direction();
+            l.color = {notNegative(), notNegative(), notNegative()};
+            l.strength = notNegative();
+            l.range = notNegative();
+            l.innerAngle = unit() * 0.7f;
+            l.outerAngle = 0.71f + unit() * 0.8f;
+            return l;
+        }
+        case 2: {
+            Camera c;
+            c.name = text();
+            c.eye = vec3();
+            c.target = c.eye == glm::vec3(1) ? glm::vec3(2) : glm::vec3(1);
+            c.up = direction();
+            c.fovY = 0.01f + unit() * 3;
+            return c;
+        }
+        case 3:
+            return Sky{{notNegative(), notNegative(), notNegative()}};
+        default: {
+            BakeSettings b;
+            b.surfels = 64 + below(1000000);
+            b.links = 1 + below(4096);
+            b.bands = 2 + below(7);
+            b.rays = 16 + below(65000);
+            b.lightmapCaches = std::uint32_t(m_random());
+            b.texelsPerMetre = notNegative();
+            b.grid = {below(100), below(100), below(100)};
+            b.maxBounces = std::uint32_t(m_random());
+            return b;
+        }
+        }
+    }
+
+    std::mt19937 m_random;
+};
+
+} // namespace limn
