@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
+#include "app/output_file.h"
 #include "app/progress_line.h"
 #include "app/render_image.h"
 #include "app/scene_options.h"
@@ -144,8 +145,8 @@ void report(const Options& options, const RenderedImage& image, double seconds) 
 
 Exit runRender(const Options& options) {
     const std::string extension = std::filesystem::path(options.output).extension().string();
-    if (extension != ".exr" && extension != ".png")
-        return failed(fmt::format("{}: only .exr and .png can be written", options.output));
+    if (const Result<void> writable = checkOutputFile(options.output, {".exr", ".png"}); !writable)
+        return failed(writable.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);
     if (!imported)
         return failed(imported.error().message);
