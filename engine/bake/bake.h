@@ -42,7 +42,7 @@ struct ClusterTree {
     std::uint32_t surfels = 0, skyCells = 0;
     std::vector<std::uint32_t> left,
         right;                           ///< per inner node, children; index - (surfels + skyCells)
-    std::vector<float> leftWeight;       ///< A_left / (A_left + A_right)
+    std::vector<float> leftWeight;       ///< share of the left child in its parent, [0, 1]
     std::vector<std::uint32_t> parent;   ///< per node; the root's is ~0
     std::vector<glm::vec3> skyDirection; ///< unit, per sky cell
 

@@ -127,6 +127,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
     if (!gather(trace, set, result.caches, scene.bake.rays, progress, hits))
         return cancelled();
     clock.finish("trace");
+    weighBySight(hits, result.tree);
     if (!buildLinks(result.tree, hits, scene.bake.links, int(scene.bake.bands), progress,
                     result.caches))
         return cancelled();

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Radiosity of the inner nodes from their children's: the area-weighted mean, in one sweep.
+/// Radiosity of the inner nodes from their children's: the weighted mean, in one sweep.
 /// `radiosity` has one entry per node, leaves filled in.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec3>& radiosity);
 
