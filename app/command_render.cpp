@@ -5,6 +5,7 @@
 #include "app/render_image.h"
 #include "app/scene_options.h"
 
+#include "engine/core/log.h"
 #include "engine/files/bake_file.h"
 #include "engine/files/image_file.h"
 #include "engine/measure/compare.h"
@@ -94,19 +95,21 @@ Result<Lighting> lightIndirectly(const Options& options, Scene& scene) {
     return lighting;
 }
 
-Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request) {
+// "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
+Result<RenderedImage> draw(const Options& options, const Scene& scene,
+                           const RenderRequest& request) {
+    if (options.device == "cpu")
+        return renderOnCpu(scene, request);
 #ifdef LIMN_HAS_VIEWPORT
-    const Progress progress = progressOnStderr();
-    progress.at("render", 0);
     Result<RenderedImage> image = renderOnGpu(scene, request);
-    progress.at("render", 1);
-    endProgressLine();
-    return image;
+    if (image || options.device != "auto")
+        return image;
+    logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
 #else
-    static_cast<void>(scene);
-    static_cast<void>(request);
-    return fail("--device: this program was built without Vulkan");
+    if (options.device != "auto")
+        return fail("--device: this program was built without Vulkan; there is: cpu");
 #endif
+    return renderOnCpu(scene, request);
 }
 
 RenderRequest requestOf(const Options& options, const Camera& camera, const Lighting& lighting) {
@@ -163,7 +166,7 @@ Exit runRender(const Options& options) {
             return failed(made.error().message);
         lighting = std::move(*made);
     }
-    const Result<RenderedImage> image = draw(scene, requestOf(options, *camera, lighting));
+    const Result<RenderedImage> image = draw(options, scene, requestOf(options, *camera, lighting));
     if (!image)
         return failed(image.error().message);
     const double seconds =
@@ -194,7 +197,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
         ->check(CLI::Range(-64.0, 64.0));
     command->add_option("--tonemap", options->tonemap, "curve of a .png")
         ->check(CLI::IsMember(strings(kTonemapNames)));
-    command->add_option("--device", options->device, "auto, or part of a Vulkan device's name");
+    command->add_option("--device", options->device,
+                        "auto, cpu, or part of a Vulkan device's name");
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

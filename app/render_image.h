@@ -34,4 +34,8 @@ struct RenderedImage {
 /// Vulkan.
 Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& request);
 
+/// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
+/// `request.device` is not looked at.
+RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
+
 } // namespace limn

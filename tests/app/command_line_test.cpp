@@ -193,14 +193,21 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     const std::string bake = path("box.limnbake"), picture = path("box.png"),
                       linear = path("box.exr");
     ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);
-    for (const std::string& output : {picture, linear}) {
-        const nlohmann::json rendered =
-            json("render cornell --bake " + bake + " --width 48 --height 32 --json -o " + output);
-        expectKeys(rendered, {"seconds", "device", "width", "height", "invalid_pixels"});
-        EXPECT_EQ(rendered["width"], 48);
-        EXPECT_EQ(rendered["invalid_pixels"], 0);
-        EXPECT_GT(fs::file_size(output), 0u);
-    }
+    for (const std::string& output : {picture, linear})
+        for (const std::string device : {"auto", "cpu"}) {
+            const nlohmann::json rendered =
+                json("render cornell --bake " + bake + " --device " + device +
+                     " --width 48 --height 32 --json -o " + output);
+            expectKeys(rendered, {"seconds", "device", "width", "height", "invalid_pixels"});
+            EXPECT_EQ(rendered["width"], 48);
+            EXPECT_EQ(rendered["invalid_pixels"], 0);
+            EXPECT_GT(fs::file_size(output), 0u);
+            if (device == "cpu") {
+                EXPECT_EQ(rendered["device"], "cpu");
+            }
+            fs::remove(output);
+        }
+    expectRefusal("render cornell --bake " + bake + " --device nowhere -o " + picture, "--device");
     expectRefusal("render cornell --bake nowhere.limnbake -o " + picture, "nowhere.limnbake");
     expectRefusal("render cornell --bake " + bake + " -o " + path("no/such/box.png"), "box.png");
     expectRefusal("render cornell --bake " + bake + " -o " + path("box.bmp"), "box.bmp");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/tone_map.h"
 #include "tests/render/viewport_fixture.h"
 
 namespace limn {
@@ -86,6 +87,15 @@ TEST_F(ViewportTonemap, AgxPutsMiddleGreyNearTheMiddle) {
     const int grey = shown(glm::vec3(0.18f), Tonemap::Agx).g;
     EXPECT_GE(grey, 117);
     EXPECT_LE(grey, 133);
+}
+
+TEST_F(ViewportTonemap, IsTheSameOnTheCpu) {
+    for (Tonemap curve : {Tonemap::None, Tonemap::Aces, Tonemap::Agx, Tonemap::PbrNeutral})
+        for (glm::vec3 L : {glm::vec3(0), glm::vec3(0.02f, 0.3f, 0.1f), glm::vec3(0.9f, 0.1f, 0.5f),
+                            glm::vec3(3, 0.2f, 1), glm::vec3(40, 70, 3), glm::vec3(1e8f)}) {
+            const Image cpu = toneMappedImage({1, 1, {L}}, curve, 0.5f);
+            expectClose(shown(L, curve, 0.5f), {cpu.rgba[0], cpu.rgba[1], cpu.rgba[2]});
+        }
 }
 
 TEST_F(ViewportTonemap, DataViewsAreShownAsTheyAre) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "app/progress_line.h"
+#include "app/render_image.h"
+
+#include "engine/reference/field_render.h"
+#include "engine/scene/tone_map.h"
+
+namespace limn {
+
+RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
+    FieldRenderOptions options;
+    options.view = request.view;
+    options.camera = request.camera;
+    options.width = request.width;
+    options.height = request.height;
+    static const IndirectField noField;
+    static const LightmapLayout noLayout;
+    RenderedImage result;
+    result.device = "cpu";
+    result.linear =
+        renderField(TraceScene(scene), request.field ? *request.field : noField,
+                    request.layout ? *request.layout : noLayout, options, progressOnStderr());
+    endProgressLine();
+    if (!request.tonemapped)
+        return result;
+    const bool data = request.view == View::Albedo || request.view == View::Normals;
+    result.picture = toneMappedImage(result.linear, data ? Tonemap::None : request.tonemap,
+                                     data ? 0 : request.exposureEv); // as the viewport shows data
+    return result;
+}
+
+} // namespace limn
