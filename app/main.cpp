@@ -17,6 +17,9 @@ static int runLimn(int argc, char** argv) {
     Run run;
     addBakeCommand(app, run);
     addCompareCommand(app, run);
+#ifdef LIMN_EDITOR
+    addEditCommand(app, run);
+#endif
     addInfoCommand(app, run);
     addReferenceCommand(app, run);
     addRenderCommand(app, run);

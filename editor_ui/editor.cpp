@@ -55,15 +55,15 @@ static Places placesOf(const LayoutState& layout, float menuHeight) {
     const float frame = ImGui::GetFrameHeight();
     const float statusHeight = frame + 10, barHeight = frame + 12;
     const float top = menuHeight, height = std::max(display.y - top - statusHeight, 1.f);
+    const float upper = std::max(height - layout.bottom - kSplitter, 1.f);
     const float middleX = layout.left + kSplitter;
     const float middleW = std::max(display.x - layout.left - layout.right - 2 * kSplitter, 1.f);
-    const float pictureH = std::max(height - layout.bottom - kSplitter - barHeight, 1.f);
     Places p;
-    p.left = {0, top, layout.left, height};
-    p.right = {display.x - layout.right, top, layout.right, height};
+    p.left = {0, top, layout.left, upper};
+    p.right = {display.x - layout.right, top, layout.right, upper};
     p.bar = {middleX, top, middleW, barHeight};
-    p.picture = {middleX, top + barHeight, middleW, pictureH};
-    p.bottom = {middleX, top + height - layout.bottom, middleW, layout.bottom};
+    p.picture = {middleX, top + barHeight, middleW, std::max(upper - barHeight, 1.f)};
+    p.bottom = {0, top + height - layout.bottom, display.x, layout.bottom};
     p.status = {0, top + height, display.x, statusHeight};
     return p;
 }

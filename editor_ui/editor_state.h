@@ -58,7 +58,7 @@ struct ViewState {
 
 /// Widths of the fixed panels [px].
 struct LayoutState {
-    float left = 270, right = 350, bottom = 210;
+    float left = 270, right = 350, bottom = 212;
 };
 
 struct OutlinerState {

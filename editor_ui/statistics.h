@@ -33,6 +33,7 @@ struct BakeStatus {
     BakeBytes bytes;
     std::vector<std::pair<std::string, double>> seconds; ///< per stage
     double totalSeconds = 0;
+    bool lightEdited = false; ///< since the scene was opened
     double secondsSinceLightEdit =
         0;             ///< spent baking since a light, material or sky was last edited
     std::string error; ///< why the last bake gave nothing; empty: it gave something
@@ -58,6 +59,8 @@ struct FrameStatus {
     double uiMs = 0;        ///< last UI frame, without waiting for events
     double longestUiMs = 0; ///< since the start
     double longestUiWhileRelightingMs = 0;
+    double longestLatencyMs =
+        0; ///< from the event to the submitted frame, waits for the GPU included
 };
 
 } // namespace limn

@@ -49,10 +49,6 @@ static void timeTable(const EditorState& state) {
     row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
     row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
     row("Shade", ms(f.shadeMs), "The picture from caches and direct light");
-    row("UI frame", ms(f.uiMs), "The whole last frame of the window");
-    row("Longest UI frame", ms(f.longestUiMs), "Since the start");
-    row("  while relighting", ms(f.longestUiWhileRelightingMs),
-        "The window never waits for bounced light; this is the proof");
     ImGui::EndTable();
 }
 
@@ -69,9 +65,26 @@ static void relightTable(const EditorState& state) {
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
     row("Shadow rays", groupedNumber(r.last.shadowRays), "Of the last call; 0 when no light moved");
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
-    row("Bake since light edit", durationText(state.bake.secondsSinceLightEdit),
-        "Seconds of baking since a light, a material or the sky was last edited: it is 0, editing "
-        "light never bakes");
+    row("Bake since edit",
+        state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",
+        "Bake seconds since a light, a material or the sky was last edited: 0, editing light "
+        "never bakes");
+    ImGui::EndTable();
+}
+
+static void windowTable(const EditorState& state) {
+    const FrameStatus& f = state.frame;
+    if (!beginTable("window", "Window"))
+        return;
+    row("UI frame", ms(f.uiMs), "The whole last frame of the window");
+    row("Longest", ms(f.longestUiMs), "Longest UI frame since the start");
+    row("  relighting", ms(f.longestUiWhileRelightingMs),
+        "Longest UI frame while light was bouncing: the window never waits for it");
+    row("UI frames", groupedNumber(f.uiFrames), "Stands still while nothing happens");
+    row("Pictures", groupedNumber(f.pictures),
+        "Drawn by the viewport; stands still while nothing changes");
+    row("Size", fmt::format("{} \u00d7 {}", f.width, f.height),
+        "Pixels of the picture; fewer while things move on a slow device");
     ImGui::EndTable();
 }
 
@@ -86,10 +99,6 @@ static void countTable(const EditorState& state) {
     row("  invalid", groupedNumber(c.invalidCaches), "Inside walls; filled from their neighbours");
     row("Links", groupedNumber(c.links), "");
     row("Rays", groupedNumber(c.rays), "Traced by the last bake");
-    row("Pictures drawn", groupedNumber(state.frame.pictures),
-        "Stands still while nothing changes");
-    row("Picture", fmt::format("{} \u00d7 {}", state.frame.width, state.frame.height),
-        "Pixels; fewer while things move");
     ImGui::EndTable();
 }
 
@@ -116,8 +125,8 @@ static void bakeTable(const EditorState& state) {
 }
 
 void statisticsPanel(const EditorState& state) {
-    constexpr int kColumns = 5;
-    const float minimum = ImGui::GetFontSize() * 13;
+    constexpr int kColumns = 6;
+    const float minimum = ImGui::GetFontSize() * 11.6f;
     const float room = ImGui::GetContentRegionAvail().x;
     const bool wide = room >= kColumns * minimum;
     const ImVec2 size(wide ? 0 : kColumns * minimum, 0);
@@ -127,7 +136,7 @@ void statisticsPanel(const EditorState& state) {
                            {0, 0}, size.x))
         return;
     ImGui::TableNextRow();
-    for (auto* table : {timeTable, relightTable, countTable, byteTable, bakeTable}) {
+    for (auto* table : {timeTable, relightTable, windowTable, countTable, byteTable, bakeTable}) {
         ImGui::TableNextColumn();
         table(state);
     }

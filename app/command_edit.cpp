@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "app/command.h"
+#include "app/editor_app.h"
+#include "app/scene_options.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace limn {
+
+static bool parseSize(const std::string& text, EditorAppOptions& options) {
+    char end = 0;
+    return std::sscanf(text.c_str(), "%ux%u%c", &options.width, &options.height, &end) == 2 &&
+           options.width >= 320 && options.height >= 240 && options.width <= 16384 &&
+           options.height <= 16384;
+}
+
+void addEditCommand(CLI::App& app, Run& run) {
+    auto options = std::make_shared<EditorAppOptions>();
+    CLI::App* command = app.add_subcommand("edit", "opens the editor");
+    command
+        ->add_option("scene", options->scene, ".gltf, .glb or .limn file, or the name of a project")
+        ->default_str("cornell");
+    auto size = std::make_shared<std::string>();
+    command->add_option("--size", *size, "WIDTHxHEIGHT of the window [px]")
+        ->check([options](const std::string& text) {
+            return parseSize(text, *options) ? std::string()
+                                             : "not WIDTHxHEIGHT from 320x240 to 16384x16384";
+        });
+    command->add_option(
+        "--stats-json", options->statsPath,
+        "writes counters and the longest frame there, whenever all work is done and at the end");
+    command->add_flag("--validate", options->validate,
+                      "Vulkan validation; fails if there was a message");
+    command->add_flag("--no-bake", options->noBake, "does not bake a scene as soon as it is open");
+    command->callback([options, &run] {
+        run = [options] {
+            options->projectsFolder = projectsFolder();
+            const Result<void> done = runEditor(*options);
+            return done ? Exit::Done : failed(done.error().message);
+        };
+    });
+}
+
+} // namespace limn

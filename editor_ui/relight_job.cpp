@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/relight_job.h"
+
+#include "editor_ui/background_priority.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace limn {
+
+namespace {
+
+/// Bounces between two looks at what the user did meanwhile.
+constexpr std::uint32_t kBouncesPerCall = 2;
+
+bool sameSurface(const Material& a, const Material& b) {
+    return a.alphaMode == b.alphaMode && a.alphaCutoff == b.alphaCutoff &&
+           a.doubleSided == b.doubleSided && a.baseColor.w == b.baseColor.w &&
+           a.baseColorTexture == b.baseColorTexture;
+}
+
+bool sameInstance(const Instance& a, const Instance& b) {
+    return a.mesh == b.mesh && a.material == b.material && a.node == b.node &&
+           a.dynamic == b.dynamic && a.toWorld == b.toWorld;
+}
+
+} // namespace
+
+bool sameGeometry(const Scene& a, const Scene& b) {
+    return a.assets == b.assets && std::ranges::equal(a.instances, b.instances, sameInstance) &&
+           std::ranges::equal(a.materials, b.materials, sameSurface);
+}
+
+bool sameBakeInputs(const Scene& a, const Scene& b) {
+    return sameGeometry(a, b) && a.bake == b.bake;
+}
+
+Scene relitScene(const Scene& baked, const Scene& now) {
+    Scene scene = baked;
+    scene.lights = now.lights;
+    scene.sky = now.sky;
+    if (scene.materials.size() == now.materials.size())
+        scene.materials = now.materials;
+    return scene;
+}
+
+/// The thread's own state; nobody else touches it.
+struct RelightJob::Worker {
+    std::shared_ptr<const Scene> scene; ///< newest
+    std::shared_ptr<const TraceScene> trace;
+    std::uint64_t inputHash = 0;
+    BakedScene baked;
+    std::unique_ptr<Relighter> relighter;
+    std::array<std::shared_ptr<IndirectField>, 3>
+        pool; ///< fields nobody looks at any more are used again
+    RelightStatus status;
+
+    bool hasWork() const { return relighter && scene && !status.converged; }
+    void takeScene(std::shared_ptr<const Scene> next);
+    void takeBake(BakedScene next);
+    void relight(const Progress& progress);
+    std::shared_ptr<const IndirectField> copyField();
+};
+
+void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
+    const bool sameRays = scene && sameGeometry(*scene, *next);
+    const bool sameInputs = scene && sameBakeInputs(*scene, *next);
+    scene = std::move(next);
+    if (!sameRays)
+        trace = std::make_shared<const TraceScene>(*scene);
+    if (!sameInputs)
+        inputHash = bakeInputHash(*scene);
+    status.converged = false;
+    status.bounces = 0;
+}
+
+void RelightJob::Worker::takeBake(BakedScene next) {
+    baked = std::move(next);
+    relighter = baked.bake ? std::make_unique<Relighter>(baked.bake) : nullptr;
+    status.converged = false;
+    status.bounces = 0;
+}
+
+void RelightJob::Worker::relight(const Progress& progress) {
+    const bool fresh = inputHash == baked.bake->sceneHash;
+    if (fresh)
+        status.last = relighter->relight(*scene, *trace, kBouncesPerCall, progress);
+    else
+        status.last = relighter->relight(relitScene(*baked.scene, *scene), *baked.trace,
+                                         kBouncesPerCall, progress);
+    ++status.calls;
+    status.bounces += status.last.bounces;
+    const std::uint32_t most = scene->bake.maxBounces;
+    status.converged = status.last.converged || status.bounces >= most;
+}
+
+std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
+    for (auto& field : pool) {
+        if (field && field.use_count() > 1)
+            continue;
+        if (!field)
+            field = std::make_shared<IndirectField>();
+        *field = relighter->field();
+        return field;
+    }
+    return std::make_shared<const IndirectField>(relighter->field());
+}
+
+RelightJob::RelightJob(std::function<void()> wake)
+    : m_wake(std::move(wake)), m_thread([this] { run(); }) {}
+
+RelightJob::~RelightJob() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_stop = true;
+        m_cancel = true;
+    }
+    m_changed.notify_one();
+    m_thread.join();
+}
+
+void RelightJob::setScene(std::shared_ptr<const Scene> scene) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_nextScene = std::move(scene);
+        m_result.status.running = true;
+        m_result.status.converged = false;
+    }
+    m_changed.notify_one();
+}
+
+void RelightJob::setBake(BakedScene baked) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_result.status.running = m_result.status.running || baked.bake;
+        m_result.status.converged = false;
+        m_nextBake = std::move(baked);
+    }
+    m_changed.notify_one();
+}
+
+Relit RelightJob::result() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result;
+}
+
+void RelightJob::run() {
+    lowerThreadPriority();
+    Worker worker;
+    const Progress progress{.report = {}, .cancel = &m_cancel};
+    std::unique_lock lock(m_mutex);
+    for (;;) {
+        m_changed.wait(lock,
+                       [&] { return m_stop || m_nextScene || m_nextBake || worker.hasWork(); });
+        if (m_stop)
+            return;
+        auto scene = std::exchange(m_nextScene, nullptr);
+        auto baked = std::exchange(m_nextBake, {});
+        lock.unlock();
+        if (scene)
+            worker.takeScene(std::move(scene));
+        if (baked)
+            worker.takeBake(std::move(*baked));
+        std::shared_ptr<const IndirectField> field;
+        if (worker.hasWork()) {
+            worker.relight(progress);
+            field = worker.copyField();
+        }
+        lock.lock();
+        if (field || !worker.relighter)
+            m_result.field = std::move(field);
+        m_result.trace = worker.trace;
+        m_result.hashedScene = worker.scene;
+        m_result.inputHash = worker.inputHash;
+        m_result.status = worker.status;
+        m_result.status.running = worker.hasWork() || m_nextScene;
+        m_result.status.converged = worker.status.converged && !m_nextScene;
+        m_wake();
+    }
+}
+
+} // namespace limn

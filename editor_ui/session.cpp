@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/session.h"
+
+#include "editor_ui/document_edit.h"
+#include "editor_ui/recent_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+bool lightChanged(const Scene& a, const Scene& b) {
+    return a.lights != b.lights || a.materials != b.materials || a.sky != b.sky;
+}
+
+static bool sameInstances(const Scene& a, const Scene& b) {
+    return std::ranges::equal(a.instances, b.instances, [](const Instance& x, const Instance& y) {
+        return x.mesh == y.mesh && x.node == y.node;
+    });
+}
+
+LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapLayout& layout) {
+    LightmapLayout fitted = layout;
+    fitted.instances.assign(scene.instances.size(), {});
+    std::map<std::pair<ObjectId, std::uint32_t>, std::size_t> known;
+    for (std::size_t i = 0; i < baked.instances.size(); ++i)
+        known.emplace(std::pair(baked.instances[i].node, baked.instances[i].mesh), i);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (const auto at = known.find({scene.instances[i].node, scene.instances[i].mesh});
+            at != known.end())
+            fitted.instances[i] = layout.instances[at->second];
+    return fitted;
+}
+
+Session::Session(SessionOptions options)
+    : m_options(std::move(options)), m_files(m_options.projectsFolder, m_options.wake),
+      m_bakeJob(m_options.wake), m_relightJob(m_options.wake) {
+    state.assets = std::make_shared<const Assets>();
+    state.recent = readRecentFiles();
+    m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
+}
+
+void Session::log(LogLine::Level level, std::string text) {
+    state.log.push_back({level, std::move(text)});
+}
+
+void Session::open(const std::string& what) {
+    if (m_files.open(what))
+        state.loading = what;
+    else
+        log(LogLine::Level::Warning, "Busy with another file; " + what + " was not opened");
+}
+
+void Session::handle(const Request& request) {
+    const bool leaves = request.kind == Request::Kind::NewFromScene ||
+                        request.kind == Request::Kind::Open || request.kind == Request::Kind::Quit;
+    if (leaves && hasUnsavedChanges(state)) {
+        state.confirm = request;
+        return;
+    }
+    switch (request.kind) {
+    case Request::Kind::NewFromScene:
+    case Request::Kind::Open:
+        open(request.path);
+        break;
+    case Request::Kind::Save:
+        if (m_files.save(request.path, state.document, m_baked.bake))
+            m_savingTo = request.path;
+        else
+            log(LogLine::Level::Warning, "Busy with another file; try again in a moment");
+        break;
+    case Request::Kind::Bake:
+        m_bakeSoon = true;
+        break;
+    case Request::Kind::CancelBake:
+        m_bakeSoon = false;
+        m_bakeJob.cancel();
+        break;
+    case Request::Kind::Quit:
+        m_quit = true;
+        break;
+    case Request::Kind::Screenshot:
+        state.requests.push_back(request);
+        break;
+    }
+}
+
+void Session::takeOpened() {
+    auto opened = m_files.takeOpened();
+    if (!opened)
+        return;
+    state.loading.clear();
+    if (!*opened) {
+        log(LogLine::Level::Error, opened->error().message);
+        return;
+    }
+    OpenedFile& file = **opened;
+    m_bakeJob.cancel();
+    const EditorState before = std::exchange(state, {});
+    state.layout = before.layout;
+    state.recent =
+        addRecentFile(before.recent, file.projectPath.empty() ? file.imported.document.scenePath
+                                                              : file.projectPath);
+    state.frame = before.frame;
+    state.autoBake = before.autoBake;
+    state.document = std::move(file.imported.document);
+    state.saved = state.document.objects;
+    state.assets = std::move(file.imported.assets);
+    state.meshBounds = std::move(file.meshBounds);
+    state.projectPath = std::move(file.projectPath);
+    log(LogLine::Level::Info, "Opened " + file.what);
+    for (std::string& repair : file.imported.repairs)
+        log(LogLine::Level::Warning, std::move(repair));
+    const bool hasBake = file.baked.bake != nullptr;
+    m_scene = hasBake ? file.baked.scene
+                      : std::make_shared<const Scene>(flatten(state.document, state.assets));
+    m_followed = state.document.objects;
+    state.view.camera = chooseCamera(*m_scene, {});
+    state.sceneBounds = m_scene->bounds;
+    state.view.flySpeed = std::max(glm::length(m_scene->bounds.size()) / 8, 0.01f);
+    m_relightJob.setScene(m_scene);
+    useBake(std::move(file.baked));
+    m_bakeSoon = !hasBake && m_options.bakeOnOpen && !m_scene->instances.empty();
+    m_lightEdited = false;
+}
+
+void Session::takeSaved() {
+    auto saved = m_files.takeSaved();
+    if (!saved)
+        return;
+    if (!*saved) {
+        log(LogLine::Level::Error, saved->error().message);
+        return;
+    }
+    state.saved = (*saved)->objects;
+    state.projectPath = std::filesystem::absolute(m_savingTo).string();
+    state.recent = addRecentFile(state.recent, state.projectPath);
+    log(LogLine::Level::Info, "Saved " + m_savingTo);
+}
+
+void Session::useBake(BakedScene baked) {
+    m_baked = std::move(baked);
+    state.bake = {};
+    if (m_baked.bake) {
+        const Bake& bake = *m_baked.bake;
+        state.bake.counts = bake.counts;
+        state.bake.bytes = bytesOf(bake);
+        state.bake.seconds = bake.seconds;
+        for (const auto& [stage, seconds] : bake.seconds)
+            state.bake.totalSeconds += seconds;
+    }
+    fitLayout();
+    m_relightJob.setBake(m_baked);
+}
+
+void Session::fitLayout() {
+    if (!m_baked.bake)
+        m_layout = nullptr;
+    else if (sameInstances(*m_scene,
+                           *m_baked.scene)) // a pointer into the bake, which it keeps alive
+        m_layout = std::shared_ptr<const LightmapLayout>(m_baked.bake, &m_baked.bake->lightmap);
+    else
+        m_layout = std::make_shared<const LightmapLayout>(
+            layoutFor(*m_scene, *m_baked.scene, m_baked.bake->lightmap));
+}
+
+void Session::takeBaked() {
+    auto result = m_bakeJob.takeResult();
+    if (!result)
+        return;
+    m_bakeSecondsDone += std::exchange(m_bakeSecondsRunning, 0);
+    if (!*result) {
+        state.bake.error = result->error().message;
+        log(LogLine::Level::Warning, "Bake: " + state.bake.error);
+    } else if ((*result)->scene->assets == state.assets) {
+        useBake(std::move(**result));
+    }
+}
+
+void Session::followDocument() {
+    if (state.document.objects == m_followed)
+        return;
+    m_followed = state.document.objects;
+    auto scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
+    if (lightChanged(*m_scene, *scene)) {
+        m_bakeSecondsAtLightEdit = bakeSeconds();
+        m_lightEdited = true;
+    }
+    const bool sameList = sameInstances(*m_scene, *scene);
+    m_scene = std::move(scene);
+    state.sceneBounds = m_scene->bounds;
+    if (!sameList)
+        fitLayout();
+    m_relightJob.setScene(m_scene);
+}
+
+static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, const Scene& scene) {
+    if (!baked.bake)
+        return BakeFreshness::None;
+    if (!relit.hashedScene || !sameBakeInputs(*relit.hashedScene, scene))
+        return BakeFreshness::Checking;
+    return relit.inputHash == baked.bake->sceneHash ? BakeFreshness::UpToDate
+                                                    : BakeFreshness::Needed;
+}
+
+void Session::showStatus() {
+    m_relit = m_relightJob.result();
+    state.trace = m_relit.trace;
+    state.relight = m_relit.status;
+    m_bakeJob.report(state.bake);
+    if (state.bake.running)
+        m_bakeSecondsRunning = state.bake.elapsedSeconds;
+    state.bake.freshness = freshness(m_baked, m_relit, *m_scene);
+    state.bake.lightEdited = m_lightEdited;
+    state.bake.secondsSinceLightEdit = m_lightEdited ? bakeSeconds() - m_bakeSecondsAtLightEdit : 0;
+    const bool traced = m_relit.hashedScene && sameBakeInputs(*m_relit.hashedScene, *m_scene);
+    const bool wanted =
+        m_bakeSoon || (state.autoBake && state.bake.freshness == BakeFreshness::Needed);
+    if (wanted && traced && !m_bakeJob.running()) {
+        m_bakeSoon = false;
+        state.bake.error.clear();
+        m_bakeJob.start(m_scene, m_relit.trace);
+        m_bakeJob.report(state.bake);
+    }
+}
+
+void Session::update() {
+    if (!state.requests.empty())
+        commitGesture(state);
+    for (const Request& request : std::exchange(state.requests, {}))
+        handle(request);
+    takeOpened();
+    takeSaved();
+    takeBaked();
+    followDocument();
+    showStatus();
+}
+
+bool Session::idle() const {
+    return !m_files.running() && !m_bakeJob.running() && !m_bakeSoon && !state.relight.running &&
+           state.loading.empty();
+}
+
+double Session::bakeSeconds() const {
+    return m_bakeSecondsDone + m_bakeSecondsRunning;
+}
+
+} // namespace limn
