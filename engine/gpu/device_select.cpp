@@ -86,8 +86,10 @@ static std::string whatIsMissing(VkPhysicalDevice device) {
         return "timeline semaphores";
     VkFormatProperties format;
     vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_R32G32B32A32_SFLOAT, &format);
-    if (!(format.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
-        return "linear filtering of 32-bit float images";
+    constexpr VkFormatFeatureFlags kNeed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+                                           VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+    if ((format.optimalTilingFeatures & kNeed) != kNeed)
+        return "filtering and blending of 32-bit float images";
     return {};
 }
 

@@ -25,6 +25,7 @@ struct GraphicsPipelineDesc {
     VkFormat depthFormat = VK_FORMAT_UNDEFINED; ///< UNDEFINED: no depth test
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
     bool depthWrite = true;
+    bool additive = false;  ///< colours are added to what is there
     bool depthBias = false; ///< set with vkCmdSetDepthBias
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cull = VK_CULL_MODE_NONE; ///< counter-clockwise on screen is the front

@@ -7,6 +7,7 @@
 #include "shaders/shade.frag.h"
 #include "shaders/shade.vert.h"
 #include "shaders/shared/gpu_frame.h"
+#include "shaders/surface.frag.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -71,7 +72,7 @@ GeometryPasses::GeometryPasses(gpu::Device& device, VkDescriptorSetLayout frameL
 gpu::Pipeline GeometryPasses::createShaded(View view, std::uint32_t features) {
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = kShadeVert;
-    desc.fragment = kShadeFrag;
+    desc.fragment = showsDirectLight(view) ? gpu::Spirv(kSurfaceFrag) : gpu::Spirv(kShadeFrag);
     desc.layout = m_layout.handle;
     desc.bindings = kBindings;
     desc.attributes = kAttributes;
@@ -80,6 +81,8 @@ gpu::Pipeline GeometryPasses::createShaded(View view, std::uint32_t features) {
         desc.attributes.back() = {6, 0, VK_FORMAT_R32G32_SFLOAT, 0}; // declared, not used
     }
     desc.colorFormats = {kLinearFormat};
+    if (showsDirectLight(view))
+        desc.colorFormats.push_back(kSurfaceFormat);
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
     desc.dynamicCull = true;

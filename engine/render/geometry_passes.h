@@ -14,6 +14,12 @@ namespace limn::render {
 constexpr VkFormat kLinearFormat =
     VK_FORMAT_R32G32B32A32_SFLOAT;                      ///< lights of 1e6 cd overflow halfs
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT; ///< 1 near, 0 far
+constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT; ///< surface_pack.glsl
+
+/// Whether a view needs the surface image, and the direct pass after the shaded one.
+constexpr bool showsDirectLight(View view) {
+    return view == View::Lit || view == View::Direct;
+}
 
 /// What the camera's passes need to know.
 struct GeometryView {
@@ -39,7 +45,9 @@ public:
     void drawDepth(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                    const glm::mat4& toClip, std::uint32_t slot);
 
-    /// Shaded, into bound colour and depth attachments, nearest instances first. Set 0 is bound.
+    /// Shaded but for direct light, into bound colour and depth attachments, nearest instances
+    /// first. Set 0 is bound. Views that show direct light have a second colour attachment: the
+    /// surface, for DirectPass.
     void drawShaded(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                     const GeometryView& view);
 

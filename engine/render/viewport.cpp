@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/vulkan_error.h"
+#include "engine/render/direct_pass.h"
 #include "engine/render/geometry_passes.h"
 #include "engine/render/indirect_light.h"
 #include "engine/render/shadow_maps.h"
@@ -36,7 +37,8 @@ static_assert(std::uint32_t(View::Direct) == VIEW_DIRECT && std::uint32_t(View::
 constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 // Shadow receivers are moved off their surface by so many shadow texels, along the normal (times
 // the sine of the light's angle) and towards the light: the 3 x 3 filter reaches 1.5 texels
@@ -66,9 +68,21 @@ struct FrameSlot {
 };
 
 struct Targets {
-    gpu::Image linear, depth, color;
-    bool fresh = true; ///< layouts are undefined
+    gpu::Image linear, depth, surface, color;
 };
+
+struct DepthRange {
+    float zNear = 0, zFar = 0; ///< [m]
+};
+
+// Round the scene as the camera sees it. Depth runs from 1 to 0 in floating point, so a near plane
+// this close costs no precision.
+DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
+    const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
+                                     glm::abs(bounds.upper - options.camera.eye));
+    const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f);
+    return {zFar * 1e-5f, zFar};
+}
 
 } // namespace
 
@@ -84,6 +98,7 @@ struct Viewport::Impl {
     void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
     void recordShade(VkCommandBuffer cmd, const FrameSlot& slot, const GeometryView& view,
                      const ViewportOptions& options);
+    void recordDirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options);
     void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
     void readTimes(FrameSlot& slot);
 
@@ -93,6 +108,8 @@ struct Viewport::Impl {
     gpu::DescriptorPool framePool;
     gpu::Sampler lightmapSampler;
     GeometryPasses geometry;
+    DirectPass direct;
+    gpu::Sampler texelSampler;
     TonemapPass tonemap;
     ShadowMaps shadows;
     IndirectLight indirect;
@@ -115,8 +132,10 @@ Viewport::Impl::Impl(gpu::Device& d)
       lightmapSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                              .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                              .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-      geometry(d, frameLayout.handle, materials.layout()), tonemap(d), shadows(d),
-      indirect(createIndirectLight(d)) {
+      geometry(d, frameLayout.handle, materials.layout()), direct(d, frameLayout.handle),
+      texelSampler(gpu::createSampler(
+          d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
+      tonemap(d), shadows(d), indirect(createIndirectLight(d)) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -145,8 +164,9 @@ void Viewport::Impl::ensureTargets(std::uint32_t w, std::uint32_t h) {
     targets.linear =
         gpu::Image(device, ImageDesc::renderTarget(tw, th, kLinearFormat, "linear colour"));
     targets.depth = gpu::Image(device, ImageDesc::renderTarget(tw, th, kDepthFormat, "depth"));
+    targets.surface =
+        gpu::Image(device, ImageDesc::renderTarget(tw, th, kSurfaceFormat, "surface"));
     targets.color = gpu::Image(device, ImageDesc::renderTarget(tw, th, kColorFormat, "colour"));
-    targets.fresh = true;
 }
 
 // Storage buffers that only grow; a replaced one is retired.
@@ -206,6 +226,16 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
     frame.normalBias = kNormalBias;
     frame.lightBias = kLightBias;
     describeGrid(indirect, frame);
+    const float aspect = float(options.width) / float(options.height);
+    frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
+    frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
+    frame.rayUp = rayDirection(options.camera, aspect, 0, 1) - frame.rayCentre;
+    frame.pixelSize = 1.f / glm::vec2(options.width, options.height);
+    // Depth is (a + b / distance) with a, b of the projection's third row.
+    const DepthRange range = depthRange(options, scene.bounds);
+    const glm::mat4 projection = projectionMatrix(options.camera, aspect, range.zFar, range.zNear);
+    frame.depthOffset = projection[2][2];
+    frame.depthScale = projection[3][2];
     std::memcpy(slot.frame.mapped, &frame, sizeof frame);
 }
 
@@ -216,6 +246,8 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
     gpu::writeTexture(device, slot.set, 3, shadows.atlasView(), shadows.sampler());
     gpu::writeTexture(device, slot.set, 4, indirect.lightmap.view, lightmapSampler.handle);
     gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.grid.handle);
+    gpu::writeTexture(device, slot.set, 6, targets.surface.view, texelSampler.handle);
+    gpu::writeTexture(device, slot.set, 7, targets.depth.view, texelSampler.handle);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
@@ -248,34 +280,65 @@ static VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layo
             .clearValue = clear};
 }
 
+static void beginRendering(VkCommandBuffer cmd, std::uint32_t width, std::uint32_t height,
+                           std::span<const VkRenderingAttachmentInfo> colors,
+                           const VkRenderingAttachmentInfo* depth) {
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .renderArea = {{0, 0}, {width, height}},
+                               .layerCount = 1,
+                               .colorAttachmentCount = std::uint32_t(colors.size()),
+                               .pColorAttachments = colors.data(),
+                               .pDepthAttachment = depth};
+    vkCmdBeginRendering(cmd, &info);
+}
+
+// All but direct light.
 void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
                                  const GeometryView& view, const ViewportOptions& options) {
-    const gpu::Access before = targets.fresh ? gpu::kUndefined : gpu::kFragmentRead;
-    gpu::imageBarrier(cmd, targets.linear.handle, VK_IMAGE_ASPECT_COLOR_BIT, before,
-                      gpu::kColorWrite);
-    gpu::Access depthBefore = gpu::kDepthWrite;
-    depthBefore.layout = VK_IMAGE_LAYOUT_UNDEFINED; // it is cleared
-    gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, depthBefore,
-                      gpu::kDepthWrite);
-    VkClearValue background{}, far{};
+    const auto discard = [&](const gpu::Image& image, const gpu::Access& to) {
+        gpu::Access before = gpu::kFragmentRead; // of the frame before; its contents are cleared
+        before.access = VK_ACCESS_2_NONE;
+        before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+        gpu::imageBarrier(cmd, image.handle, gpu::aspectOf(image.format), before, to);
+    };
+    discard(targets.linear, gpu::kColorWrite);
+    discard(targets.surface, gpu::kColorWrite);
+    discard(targets.depth, gpu::kDepthWrite);
+    VkClearValue background{}, none{};
     if (options.view == View::Lit)
         background.color = {{sky.r, sky.g, sky.b, 0}};
-    const auto color = attachment(targets.linear.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                  VK_ATTACHMENT_LOAD_OP_CLEAR, background);
+    const std::array colors = {
+        attachment(targets.linear.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                   VK_ATTACHMENT_LOAD_OP_CLEAR, background),
+        attachment(targets.surface.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                   VK_ATTACHMENT_LOAD_OP_CLEAR, none)};
     const auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                  VK_ATTACHMENT_LOAD_OP_CLEAR, far);
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = {{0, 0}, {options.width, options.height}},
-                               .layerCount = 1,
-                               .colorAttachmentCount = 1,
-                               .pColorAttachments = &color,
-                               .pDepthAttachment = &depth};
-    vkCmdBeginRendering(cmd, &info);
+                                  VK_ATTACHMENT_LOAD_OP_CLEAR, none);
+    beginRendering(cmd, options.width, options.height,
+                   std::span(colors).first(showsDirectLight(options.view) ? 2 : 1), &depth);
     setViewport(cmd, options.width, options.height, true);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, geometry.layout(), 0, 1,
                             &slot.set, 0, nullptr);
     geometry.drawShaded(cmd, scene, materials, view);
     vkCmdEndRendering(cmd);
+    gpu::imageBarrier(cmd, targets.surface.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
+                      gpu::kFragmentRead);
+    gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
+                      gpu::kFragmentRead);
+}
+
+void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
+                                  const ViewportOptions& options) {
+    if (showsDirectLight(options.view) && !lights.empty()) {
+        gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
+        const std::array color = {attachment(targets.linear.view,
+                                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                             VK_ATTACHMENT_LOAD_OP_LOAD, {})};
+        beginRendering(cmd, options.width, options.height, color, nullptr);
+        setViewport(cmd, options.width, options.height, false);
+        direct.record(cmd, slot.set, options.view);
+        vkCmdEndRendering(cmd);
+    }
     gpu::imageBarrier(cmd, targets.linear.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
                       gpu::kFragmentRead);
 }
@@ -288,14 +351,10 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED; // it is overwritten
     gpu::imageBarrier(cmd, targets.color.handle, VK_IMAGE_ASPECT_COLOR_BIT, before,
                       gpu::kColorWrite);
-    const auto color = attachment(targets.color.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                  VK_ATTACHMENT_LOAD_OP_DONT_CARE, {});
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = {{0, 0}, {options.width, options.height}},
-                               .layerCount = 1,
-                               .colorAttachmentCount = 1,
-                               .pColorAttachments = &color};
-    vkCmdBeginRendering(cmd, &info);
+    const std::array color = {attachment(targets.color.view,
+                                         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                         VK_ATTACHMENT_LOAD_OP_DONT_CARE, {})};
+    beginRendering(cmd, options.width, options.height, color, nullptr);
     setViewport(cmd, options.width, options.height, false);
     const bool radiance = options.view != View::Albedo && options.view != View::Normals;
     tonemap.record(cmd, targets.linear.view, radiance ? std::exp2(options.exposureEv) : 1.f,
@@ -305,7 +364,6 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
     after.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     gpu::imageBarrier(cmd, targets.color.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
                       after);
-    targets.fresh = false;
 }
 
 void Viewport::Impl::readTimes(FrameSlot& slot) {
@@ -355,15 +413,12 @@ void Viewport::setIndirect(const IndirectField& field) {
 }
 
 static GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
-    const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
-                                     glm::abs(bounds.upper - options.camera.eye));
-    // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
-    const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f), zNear = zFar * 1e-5f;
+    const DepthRange range = depthRange(options, bounds);
     const float aspect = float(options.width) / float(options.height);
     GeometryView view;
     view.view = options.view;
-    view.toClip =
-        projectionMatrix(options.camera, aspect, zFar, zNear) * viewMatrix(options.camera);
+    view.toClip = projectionMatrix(options.camera, aspect, range.zFar, range.zNear) *
+                  viewMatrix(options.camera);
     view.eye = options.camera.eye;
     view.grid = grid;
     view.cullBackFaces = options.cullBackFaces;
@@ -381,7 +436,7 @@ void Viewport::render(const ViewportOptions& options) {
     v.width = options.width;
     v.height = options.height;
     v.ensureTargets(options.width, options.height);
-    const bool direct = options.view == View::Lit || options.view == View::Direct;
+    const bool direct = showsDirectLight(options.view);
     const std::vector<ShadowSlot> shadows = v.assignShadows(direct);
     v.writeFrame(slot, options, shadows);
     v.writeFrameSet(slot);
@@ -400,6 +455,7 @@ void Viewport::render(const ViewportOptions& options) {
     v.recordShadows(cmd, slot, slotIndex, direct);
     mark(kShadowsDone);
     v.recordShade(cmd, slot, view, options);
+    v.recordDirect(cmd, slot, options);
     mark(kShadeDone);
     v.recordTonemap(cmd, options, slotIndex);
     mark(kEnd);

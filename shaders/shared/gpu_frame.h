@@ -6,11 +6,13 @@
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 namespace limn::shared {
 using glm::mat4;
 using glm::uvec3;
+using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
@@ -23,6 +25,10 @@ struct GpuFrame {
     vec3 gridLower; uint gridCells;   // m; 0: no grid
     vec3 gridScale; float normalBias; // cells per m; shadow texels along the normal
     uvec3 gridSize; float lightBias;  // cells; shadow texels towards the light
+    vec3 rayCentre; float depthScale;  // ray of the picture's middle, 1 m deep; distance along it is
+    vec3 rayRight;  float depthOffset; // depthScale / (depth + depthOffset)
+    vec3 rayUp;     float pad0;        // from the middle to the right and upper edges
+    vec2 pixelSize; vec2 pad1;         // 1 / picture's size in pixels
 };
 
 /// Push constants of the geometry passes.
@@ -38,7 +44,7 @@ struct GpuDraw {
 #define DRAW_MIRRORED 2u // the transform has a negative determinant
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuFrame) == 64);
+static_assert(sizeof(GpuFrame) == 128);
 static_assert(sizeof(GpuDraw) == 128);
 } // namespace limn::shared
 #endif

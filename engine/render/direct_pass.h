@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/scene/view.h"
+
+#include <map>
+
+namespace limn::render {
+
+/// Adds direct light to the linear image, once per pixel. Triangles far smaller than the pixel
+/// blocks that hardware and software rasterisers shade would otherwise pay for every light many
+/// times.
+class DirectPass {
+public:
+    DirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
+
+    /// Into the bound linear image; `frameSet` holds the surface and depth images.
+    void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view);
+
+private:
+    gpu::Device& m_device;
+    gpu::PipelineLayout m_layout;
+    std::map<View, gpu::Pipeline> m_pipelines;
+};
+
+} // namespace limn::render

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// What a rasterised fragment is made of: inputs, material, normals, bounced light. For fragment shaders of shade.vert.
+#include "shaders/shared/gpu_frame.h"
+#include "shaders/shared/gpu_material.h"
+#include "shaders/shared/sh_irradiance.glsl"
+
+layout(constant_id = 0) const uint kView = VIEW_LIT;
+layout(constant_id = 1) const uint kFeatures = 0;
+
+layout(push_constant) uniform Draw { GpuDraw draw; };
+
+layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
+layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
+layout(set = 0, binding = 5, std430) readonly buffer Grid { vec4 grid[]; };
+
+layout(set = 1, binding = 0) uniform MaterialBlock { GpuMaterial material; };
+layout(set = 1, binding = 1) uniform sampler2D textures0;
+layout(set = 1, binding = 2) uniform sampler2D textures1;
+layout(set = 1, binding = 3) uniform sampler2D textures2;
+layout(set = 1, binding = 4) uniform sampler2D textures3;
+
+layout(location = 0) in vec3 fragPosition;
+layout(location = 1) in vec3 fragNormal;
+layout(location = 2) in vec4 fragTangent;
+layout(location = 3) in vec4 fragUv;
+layout(location = 4) in vec4 fragColor;
+layout(location = 5) in vec2 fragLightmapUv;
+
+bool has(uint feature) {
+    return (kFeatures & feature) != 0;
+}
+
+vec2 textureUv(int k) {
+    const vec3 uv = vec3(material.uvRows[2 * k].w > 0.5 ? fragUv.zw : fragUv.xy, 1);
+    return vec2(dot(material.uvRows[2 * k].xyz, uv), dot(material.uvRows[2 * k + 1].xyz, uv));
+}
+
+struct Surface {
+    vec3 position;
+    vec3 geometricNormal; // unit, to the viewer
+    vec3 normal;          // unit, of the interpolated vertex normals, on the viewer's side
+    vec3 detailNormal;    // the same with the normal map
+    vec3 toEye;           // unit
+    vec3 baseColor;
+    float metallic, roughness;
+    vec3 albedo; // diffuse reflectance
+};
+
+vec3 mappedNormal(vec3 n, float side) {
+    vec3 t = fragTangent.xyz - n * dot(n, fragTangent.xyz);
+    const float t2 = dot(t, t);
+    if (t2 < 1e-20)
+        return n;
+    t *= inversesqrt(t2);
+    // The map is given in the front's frame: of the vertex normal before it was turned to the viewer.
+    const vec3 front = side * n;
+    const vec3 b = cross(front, t) * fragTangent.w;
+    vec3 m = texture(textures2, textureUv(TEXTURE_NORMAL)).xyz * 2.0 - 1.0;
+    m.xy *= material.normalScale;
+    const vec3 mapped = side * (t * m.x + b * m.y + front * m.z);
+    const float m2 = dot(mapped, mapped);
+    return m2 > 1e-20 ? mapped * inversesqrt(m2) : n;
+}
+
+Surface readSurface(vec4 base) {
+    Surface s;
+    s.position = fragPosition;
+    s.toEye = normalize(frame.eye - fragPosition);
+    const vec3 g = cross(dFdx(fragPosition), dFdy(fragPosition));
+    const float g2 = dot(g, g);
+    const float side = gl_FrontFacing ? 1.0 : -1.0;
+    const float n2 = dot(fragNormal, fragNormal);
+    const vec3 n = n2 > 0.0 ? side * fragNormal * inversesqrt(n2) : s.toEye;
+    s.geometricNormal = g2 > 0.0 ? g * inversesqrt(g2) : n;
+    if (dot(s.geometricNormal, s.toEye) < 0.0)
+        s.geometricNormal = -s.geometricNormal;
+    s.normal = dot(n, s.geometricNormal) > 0.0 ? n : s.geometricNormal;
+    s.detailNormal = s.normal;
+    if (has(FEATURE_NORMAL_TEXTURE) && (kView == VIEW_LIT || kView == VIEW_NORMALS))
+        s.detailNormal = mappedNormal(s.normal, side);
+    s.baseColor = base.rgb;
+    s.metallic = material.metallic;
+    s.roughness = material.roughness;
+    if (has(FEATURE_METALLIC_ROUGHNESS_TEXTURE)) {
+        const vec4 t = texture(textures1, textureUv(TEXTURE_METALLIC_ROUGHNESS));
+        s.roughness *= t.g;
+        s.metallic *= t.b;
+    }
+    s.albedo = min(s.baseColor * (1.0 - s.metallic), 0.99);
+    return s;
+}
+
+// SH of the light that reaches the surface by bounces. False: there is none.
+bool readIndirect(Surface s, out vec3 c[9]) {
+    for (int i = 0; i < 9; ++i)
+        c[i] = vec3(0);
+    if (has(FEATURE_LIGHTMAP)) {
+        for (int i = 0; i < 9; ++i)
+            c[i] = textureLod(lightmap, vec3(fragLightmapUv, i), 0.0).rgb;
+        return true;
+    }
+    if (!has(FEATURE_GRID))
+        return false;
+    const ivec3 last = ivec3(frame.gridSize) - 1;
+    const vec3 x = clamp((s.position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
+    const ivec3 lower = min(ivec3(x), last);
+    const vec3 f = x - vec3(lower);
+    for (int k = 0; k < 8; ++k) {
+        const ivec3 high = ivec3(k & 1, (k >> 1) & 1, k >> 2);
+        const ivec3 cell = min(lower + high, last);
+        const vec3 w = mix(1.0 - f, f, vec3(high));
+        const uint index =
+            (uint(cell.z) * frame.gridSize.y + uint(cell.y)) * frame.gridSize.x + uint(cell.x);
+        for (uint i = 0; i < 9; ++i)
+            c[i] += w.x * w.y * w.z * grid[i * frame.gridCells + index].rgb;
+    }
+    return true;
+}
+
+vec3 emission() {
+    vec3 e = material.emission;
+    if (has(FEATURE_EMISSIVE_TEXTURE))
+        e *= texture(textures3, textureUv(TEXTURE_EMISSIVE)).rgb;
+    return e;
+}
+
+// Discards what the alpha mask cuts away.
+vec4 baseColor() {
+    vec4 base = material.baseColor * fragColor;
+    if (has(FEATURE_BASE_COLOR_TEXTURE))
+        base *= texture(textures0, textureUv(TEXTURE_BASE_COLOR));
+    if (has(FEATURE_ALPHA_MASK) && base.a < material.alphaCutoff)
+        discard;
+    return base;
+}
+
+bool isBlackBack() {
+    return !gl_FrontFacing && (draw.flags & DRAW_DOUBLE_SIDED) == 0;
+}
