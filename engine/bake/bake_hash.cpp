@@ -59,7 +59,11 @@ std::uint64_t bakeInputHash(const Scene& scene) {
         h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), h));
         h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
         const Material& m = scene.materialOf(i);
-        h = hashValue(std::uint32_t(m.doubleSided) << 8 | std::uint32_t(m.alphaMode), h);
+        // Whether it emits guides the sampling; how much does not.
+        const bool emits = m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
+        h = hashValue(std::uint32_t(emits) << 16 | std::uint32_t(m.doubleSided) << 8 |
+                          std::uint32_t(m.alphaMode),
+                      h);
         if (m.alphaMode == AlphaMode::Mask) {
             h = hashValue(m.alphaCutoff, hashValue(m.baseColor.w, h));
             h = hashTexture(*scene.assets, m.baseColorTexture, h);

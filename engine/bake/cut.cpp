@@ -165,11 +165,11 @@ struct Linker {
         const std::uint32_t* sender = hits.sender.data() + std::size_t(cache) * hits.rays;
         if (2 * std::count(sender, sender + hits.rays, GatherHits::kBackFace) > hits.rays)
             return;
-        for (std::uint32_t r = 0; r < hits.rays; ++r) {
-            if (sender[r] == GatherHits::kBackFace)
-                continue;
-            seen.add(sender[r], weight, rays[r]);
-        }
+        for (std::uint32_t r = 0; r < hits.rays; ++r)
+            if (sender[r] < GatherHits::kAimed)
+                seen.add(sender[r], weight, rays[r]);
+        for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k)
+            seen.add(hits.aimed[k].sender, hits.aimed[k].transport, hits.aimed[k].direction);
         seen.pull();
         seen.cut(maxLinks, weight, cones);
         seen.clear();
@@ -183,15 +183,18 @@ struct Linker {
 } // namespace
 
 void weighBySight(const GatherHits& hits, ClusterTree& tree) {
-    std::vector<std::uint64_t> met(tree.size());
+    std::vector<double> seen(tree.size());
     for (const std::uint32_t sender : hits.sender)
-        if (sender != GatherHits::kBackFace)
-            ++met[sender];
+        if (sender < GatherHits::kAimed)
+            seen[sender] +=
+                2.0 / hits.rays; // a hemisphere's ray; a sphere's weighs twice that, near enough
+    for (const AimedSample& a : hits.aimed)
+        seen[a.sender] += double(a.transport);
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
-        const std::uint64_t l = met[tree.left[k]], r = met[tree.right[k]];
-        met[tree.leaves() + k] = l + r;
+        const double l = seen[tree.left[k]], r = seen[tree.right[k]];
+        seen[tree.leaves() + k] = l + r;
         if (l + r > 0)
-            tree.leftWeight[k] = float(double(l) / double(l + r));
+            tree.leftWeight[k] = float(l / (l + r));
     }
 }
 

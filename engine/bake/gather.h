@@ -11,13 +11,23 @@
 
 namespace limn {
 
-/// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree, or
-/// kBackFace. Ray r of a cache runs along rayDirections(...)[r], so that directions need not be
-/// stored.
+/// A sender sampled by a ray towards it rather than met by chance.
+struct AimedSample {
+    std::uint32_t sender;
+    float transport;     ///< visible solid angle / pi
+    glm::vec3 direction; ///< unit, away from the cache
+};
+
+/// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree,
+/// kBackFace, or kAimed where the hit is left to the cache's aimed samples. Ray r of a cache runs
+/// along raysOf(...)[r], so directions need not be stored. aimed[aimedBegin[c] … aimedBegin[c + 1])
+/// belong to cache c.
 struct GatherHits {
-    static constexpr std::uint32_t kBackFace = ~0U;
+    static constexpr std::uint32_t kBackFace = ~0U, kAimed = ~0U - 1;
     std::uint32_t rays = 0;
     std::vector<std::uint32_t> sender;
+    std::vector<std::uint32_t> aimedBegin;
+    std::vector<AimedSample> aimed;
 };
 
 /// The rays of a cache: a function of its kind, normal and number alone. Local z is the normal

@@ -13,7 +13,7 @@ struct BakeSettings {
     std::uint32_t surfels = 16384; ///< n_S, target over the scene; [64, 1 << 20]
     std::uint32_t links = 192;     ///< n_L per cache; [1, 4096]
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
-    std::uint32_t rays = 2048;     ///< R per cache; [16, 65536]
+    std::uint32_t rays = 1024;     ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
         10000;                     ///< target count of lightmap caches; 0 with texelsPerMetre > 0
     float texelsPerMetre = 0;      ///< > 0: fixes the texel density instead
