@@ -11,7 +11,7 @@ namespace limn {
 /// building.
 struct BakeSettings {
     std::uint32_t surfels = 16384; ///< n_S, target over the scene; [64, 1 << 20]
-    std::uint32_t links = 192;     ///< n_L per cache; [1, 4096]
+    std::uint32_t links = 256;     ///< n_L per cache; [1, 4096]
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
     std::uint32_t rays = 1024;     ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
