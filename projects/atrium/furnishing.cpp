@@ -82,7 +82,7 @@ void addCloth(GltfFile& file) {
 
 void addFountain(GltfFile& file, int group) {
     GltfMesh stone{.name = "Fountain", .material = Limestone};
-    const Profile basin = {{{1.2, -0.02}, {1.2, 0.1}},
+    const Profile basin = {{{1.2, 0}, {1.2, 0.1}},
                            {{1.2, 0.1}, {1.04, 0.1}},
                            curve({1.04, 0.1}, {1.04, 0.42}, 0.02, 6),
                            curve({1.08, 0.42}, {1.08, 0.5}, 0.03, 5),
@@ -105,7 +105,7 @@ void addFountain(GltfFile& file, int group) {
 
 void addPlants(GltfFile& file, int group) {
     GltfMesh pot{.name = "Pot", .material = Terracotta};
-    const Profile profile = {curve({0.22, -0.02}, {0.34, 0.5}, 0.03, 6),
+    const Profile profile = {curve({0.22, 0}, {0.34, 0.5}, 0.03, 6),
                              {{0.37, 0.48}, {0.37, 0.56}},
                              {{0.37, 0.56}, {0.31, 0.56}},
                              {{0.31, 0.56}, {0.3, 0.46}},
@@ -132,7 +132,7 @@ void addPlants(GltfFile& file, int group) {
 void addDoors(GltfFile& file, int group) {
     GltfMesh frame{.name = "Door frame", .material = Limestone},
         door{.name = "Door", .material = Wood};
-    const double floor = kGroundFloor - 0.02, wall = kGallery + 0.05, front = kGallery - 0.12;
+    const double floor = kGroundFloor, wall = kGallery + 0.05, front = kGallery - 0.12;
     const unsigned seen = NegativeX | PositiveX | PositiveY | NegativeZ;
     addBox(frame, {-0.78, floor, front}, {-0.6, 2.42, wall}, seen);
     addBox(frame, {0.6, floor, front}, {0.78, 2.42, wall}, seen);

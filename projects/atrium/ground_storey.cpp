@@ -17,8 +17,7 @@ constexpr double kVaultMiddle = 1.95; ///< its middle, from the column axes
 
 GltfMesh column() {
     GltfMesh mesh{.name = "Column", .material = Limestone};
-    addBox(mesh, {-0.36, kGroundFloor - 0.05, -0.36}, {0.36, 0.32, 0.36},
-           AllFaces & ~unsigned(NegativeY));
+    addBox(mesh, {-0.36, kGroundFloor, -0.36}, {0.36, 0.32, 0.36}, AllFaces & ~unsigned(NegativeY));
     const Profile base = {
         curve({0.33, 0.31}, {0.33, 0.43}, 0.04, 6), curve({0.3, 0.43}, {0.28, 0.5}, -0.02, 4),
         curve({0.28, 0.5}, {0.28, 0.57}, 0.025, 5), curve({0.28, 0.57}, {0.255, 0.62}, -0.01, 3)};
@@ -92,9 +91,9 @@ GltfMesh rib() {
         n = glm::vec3(n.z, n.y, -n.x);
     }
     const double wall = kGallery;
-    addBox(arch, {-0.22, kGroundFloor - 0.02, wall - 0.18}, {0.22, 2.8, wall + 0.1},
+    addBox(arch, {-0.22, kGroundFloor, wall - 0.18}, {0.22, 2.8, wall + 0.1},
            NegativeX | PositiveX | NegativeZ);
-    addBox(arch, {-0.27, kGroundFloor - 0.02, wall - 0.23}, {0.27, 0.66, wall + 0.1},
+    addBox(arch, {-0.27, kGroundFloor, wall - 0.23}, {0.27, 0.66, wall + 0.1},
            NegativeX | PositiveX | PositiveY | NegativeZ);
     addBox(arch, {-0.28, 2.78, wall - 0.3}, {0.28, kSpringing, wall + 0.1},
            AllFaces & ~unsigned(PositiveZ));

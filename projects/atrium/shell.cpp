@@ -27,7 +27,7 @@ void addFloors(GltfFile& file, int group) {
     addRing(gallery, edge, kBuried, kGroundFloor, kGroundFloor, PositiveY);
     addPart(file, group, std::move(gallery), 2);
     GltfMesh step{.name = "Step", .material = Limestone};
-    addRing(step, edge, kBuried, -0.05, kGroundFloor, kInward);
+    addRing(step, edge, kBuried, 0, kGroundFloor, kInward);
     addPart(file, group, std::move(step));
 }
 
@@ -54,17 +54,38 @@ void addSlabs(GltfFile& file, int group) {
 }
 
 void addWalls(GltfFile& file, int group) {
-    GltfMesh walls{.name = "Outer walls", .material = Stone};
-    addRing(walls, kWall, kWall + dvec2(kWallThickness), -0.3, kWallTop, kInward | kOutward);
-    addPart(file, group, std::move(walls), 2.4);
+    // A mesh per storey: a lightmap texel then never reaches through a slab. The joints are inside
+    // the slabs.
+    const double joint = (kSlabLower + kUpperFloor) / 2, roofJoint = (kRoofLower + kRoofUpper) / 2;
+    const struct {
+        const char* name;
+        double y0, y1;
+    } storeys[] = {{"Ground walls", -0.3, joint},
+                   {"Upper walls", joint, roofJoint},
+                   {"Parapet", roofJoint, kWallTop}};
+    const dvec2 edge = kWall + dvec2(kWallThickness);
+    for (const auto& storey : storeys) {
+        GltfMesh walls{.name = storey.name, .material = Stone};
+        addRing(walls, kWall, edge, storey.y0, storey.y1, kInward);
+        addPart(file, group, std::move(walls), 2.4);
+    }
+    GltfMesh outside{.name = "Outer walls", .material = Stone};
+    addRing(outside, kWall, edge, -0.3, kWallTop, kOutward);
+    addPart(file, group, std::move(outside), 2.4);
+
+    // Closes the building below: whatever light comes from under the horizon stays outside.
+    GltfMesh base{.name = "Foundation", .material = Stone};
+    addQuad(base, {-edge.x, -0.3, -edge.y}, {edge.x, -0.3, -edge.y}, {edge.x, -0.3, edge.y},
+            {-edge.x, -0.3, edge.y});
+    addPart(file, group, std::move(base), 2.4);
     GltfMesh coping{.name = "Coping", .material = Limestone};
     addRing(coping, kWall - dvec2(0.06), kWall + dvec2(kWallThickness + 0.06), kWallTop - 0.02,
             kWallTop + 0.12);
     addPart(file, group, std::move(coping));
 
     GltfMesh skirting{.name = "Skirting", .material = Limestone};
-    addRing(skirting, kWall - dvec2(0.05), kBuried, kGroundFloor - 0.02, 0.6, kInward | PositiveY);
-    addRing(skirting, kWall - dvec2(0.04), kBuried, kUpperFloor - 0.02, kUpperFloor + 0.3,
+    addRing(skirting, kWall - dvec2(0.05), kBuried, kGroundFloor, 0.6, kInward | PositiveY);
+    addRing(skirting, kWall - dvec2(0.04), kBuried, kUpperFloor, kUpperFloor + 0.3,
             kInward | PositiveY);
     addPart(file, group, std::move(skirting));
 }

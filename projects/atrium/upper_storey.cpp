@@ -13,8 +13,8 @@ constexpr unsigned kSidesOnly = NegativeX | PositiveX | NegativeZ | PositiveZ;
 // On a pedestal of half-width `half`; `radius` of the shaft.
 GltfMesh column(const char* name, double half, double radius, double abacus) {
     GltfMesh mesh{.name = name, .material = Limestone};
-    addBox(mesh, {-half, kUpperFloor - 0.02, -half}, {half, kRailTop, half}, kSidesOnly);
-    addBox(mesh, {-half - 0.04, kUpperFloor - 0.02, -half - 0.04},
+    addBox(mesh, {-half, kUpperFloor, -half}, {half, kRailTop, half}, kSidesOnly);
+    addBox(mesh, {-half - 0.04, kUpperFloor, -half - 0.04},
            {half + 0.04, kUpperFloor + 0.14, half + 0.04}, kSidesOnly | PositiveY);
     addBox(mesh, {-half - 0.04, kRailTop - 0.02, -half - 0.04},
            {half + 0.04, kRailTop + 0.08, half + 0.04});
@@ -53,7 +53,7 @@ GltfMesh arcade() {
 GltfMesh balustrade() {
     GltfMesh mesh{.name = "Balustrade", .material = Limestone};
     const double half = 0.55, floor = kUpperFloor;
-    addBox(mesh, {-half, floor - 0.02, -0.13}, {half, floor + 0.12, 0.13},
+    addBox(mesh, {-half, floor, -0.13}, {half, floor + 0.12, 0.13},
            PositiveY | NegativeZ | PositiveZ);
     addBox(mesh, {-half, kRailTop - 0.17, -0.13}, {half, kRailTop - 0.04, 0.13},
            PositiveY | NegativeY | NegativeZ | PositiveZ);
