@@ -479,15 +479,15 @@ TEST(GltfImport, CyclesAndSecondParentsAreRefused) {
     EXPECT_NE(refusal(b).find("two parents"), std::string::npos);
 }
 
-TEST(GltfImport, AChainOfAHundredThousandNodesIsNoProblem) {
+TEST(GltfImport, AChainOfFiftyThousandNodesIsNoProblem) {
     GltfBuilder b = triangleScene();
     Json nodes = Json::array({{{"mesh", 0}}});
-    for (int i = 1; i <= 100000; ++i)
+    for (int i = 1; i <= 50000; ++i)
         nodes.push_back({{"children", {i - 1}}, {"translation", {1, 0, 0}}});
     b.json["nodes"] = nodes;
-    b.json["scenes"] = {{{"nodes", {100000}}}};
+    b.json["scenes"] = {{{"nodes", {50000}}}};
     const ImportedScene scene = imported(b);
-    EXPECT_EQ(flatten(scene.document, scene.assets).bounds.lower.x, 100000);
+    EXPECT_EQ(flatten(scene.document, scene.assets).bounds.lower.x, 50000);
 }
 
 TEST(GltfImport, WhatDoesNotFitIsRefusedByFieldAndFile) {
