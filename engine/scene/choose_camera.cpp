@@ -92,7 +92,7 @@ static Camera alongHall(const Bounds& bounds) {
     const glm::vec3 size = bounds.size();
     const int axis = size.x >= size.z ? 0 : 2;
     glm::vec3 eye = bounds.centre(), target = eye;
-    eye[axis] += 0.35f * size[axis];
+    eye[axis] += 0.3f * size[axis];
     target[axis] -= 0.25f * size[axis];
     eye.y = bounds.lower.y + 0.25f * size.y;
     target.y = bounds.lower.y + 0.32f * size.y;

@@ -229,9 +229,15 @@ TEST(GltfImport, QuantisedAttributesAreDecoded) {
     const int color =
         b.accessor(b.view(std::vector<std::uint8_t>{255, 0, 51, 255, 0, 0, 0, 0, 0, 0, 0, 0}),
                    "VEC4", GltfBuilder::kUnsignedByte, 3, true);
-    b.mesh(
-        {{"attributes",
-          {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}, {"COLOR_0", color}}}});
+    const int uv1 =
+        b.accessor(b.view(std::vector<std::int8_t>{127, -128, 0, 0, -127, 64, 0, 0, 0, 0, 0, 0}, 4),
+                   "VEC2", GltfBuilder::kByte, 3, true);
+    b.mesh({{"attributes",
+             {{"POSITION", position},
+              {"NORMAL", normal},
+              {"TEXCOORD_0", uv},
+              {"TEXCOORD_1", uv1},
+              {"COLOR_0", color}}}});
     const ImportedScene scene = imported(b);
     const Mesh& mesh = onlyMesh(scene);
     EXPECT_EQ(mesh.positions[2], glm::vec3(0, 200, 0));
@@ -239,6 +245,8 @@ TEST(GltfImport, QuantisedAttributesAreDecoded) {
     expectNear(mesh.normals[2], {0, 0, -1}); // -128 / 127 is cut at -1
     EXPECT_FLOAT_EQ(mesh.uv0[0].y, 1);
     EXPECT_FLOAT_EQ(mesh.uv0[1].x, 0.2f);
+    EXPECT_EQ(mesh.uv1[0], glm::vec2(1, -1));
+    EXPECT_EQ(mesh.uv1[1], glm::vec2(-1, 64 / 127.f));
     EXPECT_FLOAT_EQ(mesh.colors[0].z, 0.2f);
 }
 
@@ -414,6 +422,12 @@ TEST(GltfImport, TangentsExistOnlyForNormalMapsAndFollowTheTexture) {
     // u along +x, v down: along -y, as an upright picture has it.
     const int uv =
         b.accessor(b.view(std::vector<float>{0, 1, 1, 1, 0, 0}), "VEC2", GltfBuilder::kFloat, 3);
+    const int bytes =
+        b.accessor(b.view(std::vector<std::int8_t>{127, -128, 0, 0, -127, 64, 0, 0}, 4), "VEC2",
+                   GltfBuilder::kByte, 2, true);
+    b.json["accessors"][std::size_t(bytes)]["count"] = 3;
+    b.bytes.resize(b.bytes.size() + 4);
+    b.json["bufferViews"].back()["byteLength"] = 12;
     b.mesh({{"attributes", {{"POSITION", position}, {"TEXCOORD_0", uv}}}, {"material", 0}});
     b.json["materials"] = {Json::object()};
     EXPECT_TRUE(onlyMesh(imported(b)).tangents.empty());
