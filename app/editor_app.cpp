@@ -52,11 +52,12 @@ public:
               std::unique_ptr<gpu::Device> device, VkSurfaceKHR surface)
         : m_options(options), m_window(std::move(window)), m_device(std::move(device)),
           m_swapchain(*m_device, surface), m_imgui(*m_window), m_renderer(*m_device, m_swapchain),
-          m_picture(*m_device),
+          m_picture(*m_device, options.validate, [this] { m_window->wake(); }),
           m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake}) {}
 
     void run();
     void writeStats() const;
+    std::vector<std::string> validationMessages() const;
 
 private:
     bool waitForWork();
@@ -137,7 +138,7 @@ void EditorApp::countFrame(double ms) {
     ++f.uiFrames;
     f.uiMs = ms;
     f.longestUiMs = std::max(f.longestUiMs, ms);
-    if (m_session.state.relight.running)
+    if (m_session.field() && m_session.state.relight.running)
         f.longestUiWhileRelightingMs = std::max(f.longestUiWhileRelightingMs, ms);
 }
 
@@ -167,7 +168,8 @@ void EditorApp::draw() {
         return;
     }
     VkCommandBuffer cmd = m_device->begin("window");
-    m_renderer.record(cmd, *image, m_picture.picture(m_session.state.view));
+    const WindowPicture picture = m_picture.record(cmd, m_session.state.view);
+    m_renderer.record(cmd, *image, picture);
     m_swapchain.present(cmd, *image);
 }
 
@@ -175,10 +177,17 @@ void EditorApp::takeScreenshots() {
     auto& requests = m_session.state.requests;
     const auto shots = std::erase_if(
         requests, [](const Request& r) { return r.kind == Request::Kind::Screenshot; });
-    if (shots == 0)
+    if (shots == 0 || !m_picture.image())
         return;
-    const std::string path = m_screenshots.write(m_picture.viewport().readTonemapped());
+    const std::string path = m_screenshots.write(*m_picture.image());
     m_session.state.log.push_back({LogLine::Level::Info, "Screenshot " + path});
+}
+
+std::vector<std::string> EditorApp::validationMessages() const {
+    std::vector<std::string> all = m_device->validationMessages();
+    for (std::string& message : m_picture.validationMessages())
+        all.push_back(std::move(message));
+    return all;
 }
 
 void EditorApp::writeStats() const {
@@ -201,7 +210,7 @@ void EditorApp::writeStats() const {
         {"selection", s.selection},
         {"unsaved", hasUnsavedChanges(s)},
         {"validating", m_device->validating},
-        {"validation_messages", m_device->validationMessages()},
+        {"validation_messages", validationMessages()},
     };
     // Renamed into place: a reader never sees half of it.
     const std::string temporary = m_options.statsPath + ".part";
@@ -220,14 +229,13 @@ void EditorApp::run() {
             m_window->wait(0.002);
         frame();
         countLatency(std::chrono::duration<double, std::milli>(Clock::now() - wanted).count());
-        const bool idle = m_session.idle() && m_framesOwed == 0 && m_picture.secondsToNext() < 0;
+        const bool idle = m_session.idle() && m_framesOwed == 0 && m_picture.idle();
         if (idle && !m_wasIdle)
             writeStats();
         m_wasIdle = idle;
         m_window->setTitle(
             m_session.state.projectPath.empty() ? "Limn" : m_session.state.projectPath + " - Limn");
     }
-    m_device->waitIdle();
     writeStats();
 }
 
@@ -245,11 +253,9 @@ Result<void> runEditor(const EditorAppOptions& options) {
     const auto surface = (*window)->createSurface((*device)->instance);
     if (!surface)
         return tl::make_unexpected(surface.error());
-    gpu::Device& kept = **device;
-    std::vector<std::string> messages;
     EditorApp app(options, std::move(*window), std::move(*device), *surface);
     app.run();
-    messages = kept.validationMessages();
+    const std::vector<std::string> messages = app.validationMessages();
     if (options.validate && !messages.empty())
         return fail(
             fmt::format("{} validation messages, the first: {}", messages.size(), messages[0]));

@@ -1,31 +1,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/render_job.h"
 #include "app/ui_renderer.h"
 #include "editor_ui/session.h"
-#include "engine/render/viewport.h"
+#include "engine/gpu/image.h"
 
 #include <chrono>
 #include <optional>
 
 namespace limn {
 
-/// Draws the session's scene into the viewport when, and only when, something it shows has changed;
+/// Asks for a picture of the session's scene when, and only when, something it shows has changed;
 /// with fewer pixels while things move, where the device is too slow for all of them.
 class ViewportPicture {
 public:
-    explicit ViewportPicture(gpu::Device& device) : m_viewport(device) {}
+    ViewportPicture(gpu::Device& windowDevice, bool validate, std::function<void()> wake)
+        : m_device(windowDevice), m_job(validate, std::move(wake)) {}
 
-    /// Submits a new picture if one is due, and fills state.frame.
+    /// Asks for a new picture if one is due, takes in the last one drawn, and fills state.frame.
     void update(Session& session);
 
-    /// What the window shows; its image is null before the first update().
-    WindowPicture picture(const ViewState& view) const;
+    /// Records what brings the newest picture to the window's device; returns what the window
+    /// shows.
+    WindowPicture record(VkCommandBuffer cmd, const ViewState& view);
 
     /// Seconds until update() should be called again although nothing happens; < 0: never.
     double secondsToNext() const;
 
-    Viewport& viewport() { return m_viewport; }
+    /// No picture is due or being drawn.
+    bool idle() const { return !m_drawn.running && secondsToNext() < 0; }
+
+    std::shared_ptr<const Image> image() const { return m_drawn.image; }
+    std::vector<std::string> validationMessages() const { return m_job.validationMessages(); }
 
 private:
     struct Shown {
@@ -34,22 +41,25 @@ private:
         float exposureEv = 0;
         Camera camera;
         glm::uvec2 size{0};
+        std::shared_ptr<const Scene> scene;
+        std::shared_ptr<const LightmapLayout> layout;
+        std::shared_ptr<const IndirectField> field;
 
         bool operator==(const Shown&) const = default;
     };
 
-    bool uploadChanges(const Session& session);
-    float chooseScale(glm::uvec2 full, bool moving) const;
+    float chooseScale(glm::uvec2 full) const;
+    void takeDrawn(EditorState& state);
 
-    Viewport m_viewport;
-    std::shared_ptr<const Scene> m_scene;
-    std::shared_ptr<const LightmapLayout> m_layout;
-    std::shared_ptr<const IndirectField> m_field;
-    std::optional<Shown> m_shown;
-    glm::uvec2 m_size{0}; ///< of the picture drawn last
+    gpu::Device& m_device;
+    RenderJob m_job;
+    DrawnPicture m_drawn;
+    gpu::Image m_image;           ///< on the window's device
+    std::uint64_t m_onDevice = 0; ///< number of the picture in m_image
+    std::optional<Shown> m_shown; ///< as asked for last
     std::chrono::steady_clock::time_point m_changed;
-    double m_msPerPixel = 0; ///< of recent pictures; 0: none yet
-    bool m_reduced = false;  ///< the picture has fewer pixels than the window has for it
+    double m_msPerPixel = 0; ///< of the last picture; 0: none yet
+    bool m_reduced = false;  ///< the picture asked for has fewer pixels than the window has for it
 };
 
 } // namespace limn

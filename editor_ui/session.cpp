@@ -101,6 +101,8 @@ void Session::takeOpened() {
     m_bakeJob.cancel();
     const EditorState before = std::exchange(state, {});
     state.layout = before.layout;
+    state.view.origin = before.view.origin;
+    state.view.size = before.view.size;
     state.recent =
         addRecentFile(before.recent, file.projectPath.empty() ? file.imported.document.scenePath
                                                               : file.projectPath);

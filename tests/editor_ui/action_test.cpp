@@ -98,6 +98,26 @@ TEST(Actions, RenameTakesTheTypedName) {
     EXPECT_EQ(state.history.edits[0].label, "Rename Lamp");
 }
 
+TEST(Actions, ThePaletteRunsTheFirstActionThatMatchesOnEnter) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    ui.mouse(600, 300);
+    ui.frames(state);
+    ui.tap(key::of('P'), kCtrl);
+    for (int i = 0; i < 4; ++i)
+        ui.frames(state);
+    for (char c : std::string("point")) {
+        ui.tap(key::of(char(c - 32)));
+        ui.input.events.push_back({.kind = InputEvent::Kind::Character, .code = c});
+        ui.frames(state);
+    }
+    ui.tap(key::kEnter);
+    for (int i = 0; i < 4; ++i)
+        ui.frames(state);
+    ASSERT_EQ(state.history.edits.size(), 1u);
+    EXPECT_EQ(state.history.edits[0].label, "Add Point light");
+}
+
 TEST(Actions, UndoNamesWhatItWouldUndo) {
     EditorState state = fullEditor();
     EXPECT_EQ(actionLabel(state, actionById("edit.undo")), "Undo");
