@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Starts the editor on a screen without a monitor and uses it with real mouse and key events.
+#include "editor_ui/gizmo_math.h"
+#include "engine/files/image_file.h"
+#include "engine/files/project_file.h"
+#include "tests/app/virtual_screen.h"
+#include "tests/editor_ui/headless.h"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 1024, kHeight = 768;
+
+/// Cornell with a point light, baked in a second or two.
+Document testDocument(ObjectId& light) {
+    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
+    for (auto& [id, object] : document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object)) {
+            settings->surfels = 512;
+            settings->lightmapCaches = 600;
+            settings->rays = 64;
+            settings->links = 32;
+        }
+    light = addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = 0.5f});
+    return document;
+}
+
+/// Where the editor puts its picture: the same interface, drawn without a window.
+Picture pictureOf(const std::string& project) {
+    const ImportedScene opened = *loadProject(project);
+    HeadlessUi ui(kWidth, kHeight);
+    EditorState state;
+    state.assets = opened.assets;
+    state.document = opened.document;
+    state.view.camera = chooseCamera(flatten(opened.document, opened.assets), {});
+    ui.frames(state);
+    return state.view.picture();
+}
+
+struct EditorWindowTest : testing::Test {
+    fs::path folder = fs::temp_directory_path() / fmt::format("limn-window-{}", processId());
+    std::string project = (folder / "test.limn").string(), stats = (folder / "stats.json").string();
+    ObjectId light = 0;
+    Document document;
+    std::optional<VirtualScreen> screen;
+    std::optional<ChildProcess> editor;
+
+    void SetUp() override {
+        auto started = startVirtualScreen(kWidth, kHeight, folder.string());
+        if (!started)
+            GTEST_SKIP() << "needs Xvfb and xdotool";
+        screen.emplace(std::move(*started));
+        document = testDocument(light);
+        ASSERT_TRUE(saveProject(project, document));
+        editor.emplace(std::vector<std::string>{LIMN_BINARY, "edit", project, "--size",
+                                                fmt::format("{}x{}", kWidth, kHeight),
+                                                "--stats-json", stats, "--validate"},
+                       screen->environment(), folder.string());
+        document = loadProject(project)->document;
+    }
+
+    void TearDown() override {
+        editor.reset();
+        screen.reset();
+        std::error_code error;
+        fs::remove_all(folder, error);
+    }
+
+    nlohmann::json readStats() const {
+        std::ifstream in(stats);
+        return in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
+    }
+
+    /// Waits until the statistics fulfil `condition`; they are written whenever the editor has
+    /// nothing to do.
+    bool waitFor(const std::function<bool(const nlohmann::json&)>& condition) {
+        for (int i = 0; i < 1800; ++i) {
+            if (const auto json = readStats(); json.is_object() && condition(json))
+                return true;
+            if (!editor->running())
+                return false;
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        return false;
+    }
+
+    glm::vec3 savedPosition() const {
+        return std::get<Light>(loadProject(project)->document.objects.at(light)).position;
+    }
+};
+
+TEST_F(EditorWindowTest, ALightIsPickedDraggedSavedUndoneAndLitWithoutABake) {
+    ASSERT_TRUE(
+        waitFor([](const auto& s) { return s["bake_up_to_date"] && s["relight_converged"]; }));
+    const Picture picture = pictureOf(project);
+    const glm::vec3 origin = std::get<Light>(document.objects.at(light)).position;
+    const float length = arrowLength(picture, origin);
+    const glm::vec2 icon = *toPixel(picture, origin);
+
+    screen->focusWindow();
+    screen->click(icon);
+    ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
+
+    screen->drag(*toPixel(picture, arrowTip(Handle::X, origin, 0.8f * length)),
+                 *toPixel(picture, arrowTip(Handle::X, origin, 1.6f * length)));
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 1 && s["relight_converged"]; }));
+    EXPECT_EQ(readStats()["bake_seconds_since_light_edit"], 0);
+    screen->key("ctrl+s");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
+    const glm::vec3 moved = savedPosition() - origin;
+    EXPECT_NEAR(moved.x, 0.8f * length, 0.03f * length); // the mouse stands on whole pixels
+    EXPECT_EQ(moved.y, 0);
+    EXPECT_EQ(moved.z, 0);
+
+    screen->key("ctrl+z");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 0 && s["unsaved"] == true; }));
+    screen->key("ctrl+s");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
+    EXPECT_EQ(loadProject(project)->document.objects, document.objects);
+
+    EXPECT_GT(screen->colorsIn(picture.origin, picture.size), 200u); // the picture is drawn
+    EXPECT_GT(screen->colorsIn({0, 0}, {float(kWidth), picture.origin.y}), 10u); // and the menu
+    screen->key("F12");
+    ASSERT_TRUE(waitFor([&](const auto&) { return fs::exists(folder / "limn-1.png"); }));
+
+    screen->key("ctrl+q");
+    EXPECT_EQ(editor->wait(), 0);
+    const auto last = readStats();
+    EXPECT_EQ(last["validation_messages"], nlohmann::json::array());
+    EXPECT_EQ(last["bake_seconds_since_light_edit"], 0);
+    const Result<Image> shot = readPng((folder / "limn-1.png").string());
+    ASSERT_TRUE(shot);
+    EXPECT_EQ(shot->width, unsigned(picture.size.x));
+}
+
+TEST_F(EditorWindowTest, AnIdleEditorDrawsNothing) {
+    ASSERT_TRUE(
+        waitFor([](const auto& s) { return s["bake_up_to_date"] && s["relight_converged"]; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const std::uint64_t before = readStats()["frames"];
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    screen->focusWindow();
+    screen->key("ctrl+q");
+    EXPECT_EQ(editor->wait(), 0);
+    EXPECT_LE(readStats()["frames"].get<std::uint64_t>(), before + 20); // those of the key itself
+}
+
+} // namespace
+} // namespace limn
