@@ -41,7 +41,8 @@ float visibility(GpuLight light, PackedSurface s, vec3 toLight, bool lit) {
         const GpuShadowView view = shadowViews[light.firstView + face];
         const float depth = view.perspective > 0.5 ? dot(view.axis.xyz, s.position) - view.axis.w : 1.0;
         const float width = view.texelSize * depth;
-        const float cosine = dot(s.geometricNormal, toLight);
+        // Depth changes by tan of the angle to the view's axis per texel; a move along the normal makes up for it.
+        const float cosine = dot(s.geometricNormal, view.axis.xyz);
         const float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
         const vec3 p = s.position + width * (frame.normalBias * sine * s.geometricNormal +
                                              frame.lightBias * toLight);

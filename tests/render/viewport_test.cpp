@@ -60,7 +60,7 @@ TEST_F(ViewportViews,
 TEST_F(ViewportViews, DirectLightOfEveryKindIsThatOfSampleLight) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
-    for (int round = 0; round < 12; ++round) {
+    for (int round = 0; round < 24; ++round) {
         simple::SceneBuilder b = plane();
         Light light;
         light.kind = LightKind(round % 3);
