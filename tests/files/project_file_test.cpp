@@ -3,7 +3,7 @@
 
 #include "tests/scene/gltf_builder.h"
 
-#include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -21,12 +21,6 @@ struct Workspace : TemporaryFolder {
     }
     std::string scene() const { return file("models/scene.glb"); }
 };
-
-bool hasRepair(const ImportedScene& scene, const std::string& text) {
-    return std::ranges::any_of(scene.repairs, [&](const std::string& line) {
-        return line.find(text) != std::string::npos;
-    });
-}
 
 TEST(ProjectFile, WhatIsSavedIsLoaded) {
     const Workspace w;

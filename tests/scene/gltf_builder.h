@@ -3,6 +3,7 @@
 
 #include "engine/scene/gltf_import.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>
@@ -126,6 +128,26 @@ inline GltfBuilder triangleScene() {
     GltfBuilder b;
     b.mesh({{"attributes", {{"POSITION", b.vec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}}}});
     return b;
+}
+
+inline bool hasRepair(const ImportedScene& scene, const std::string& text) {
+    return std::ranges::any_of(scene.repairs, [&](const std::string& line) {
+        return line.find(text) != std::string::npos;
+    });
+}
+
+/// The import, which must succeed.
+inline ImportedScene imported(const GltfBuilder& b) {
+    Result<ImportedScene> scene = b.import();
+    EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
+    return scene ? *scene : ImportedScene{};
+}
+
+/// The reason of an import, which must fail.
+inline std::string refusal(const GltfBuilder& b) {
+    const Result<ImportedScene> scene = b.import();
+    EXPECT_FALSE(scene);
+    return scene ? "" : scene.error().message;
 }
 
 } // namespace limn
