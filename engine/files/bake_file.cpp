@@ -172,7 +172,7 @@ std::string packChunk(const char* name, const std::string& plain) {
     Writer out;
     out.bytes.append(name, 8);
     out(std::uint64_t(plain.size())), out(std::uint64_t(packed.size())),
-        out(hashBytes(plain.data(), plain.size()));
+        out(hashBytes(packed.data(), packed.size()));
     return out.bytes + packed;
 }
 
@@ -273,14 +273,15 @@ Result<std::map<std::string, Chunk>> listChunks(const std::string& path, const s
 }
 
 Result<std::string> unpack(const std::string& path, const char* name, const Chunk& chunk) {
-    const auto stated = ZSTD_getFrameContentSize(chunk.packed, std::size_t(chunk.packedSize));
-    if (stated != chunk.plainSize)
-        return fail(fmt::format("{}: chunk {}: damaged", path, name));
-    std::string plain(std::size_t(chunk.plainSize), '\0');
-    const std::size_t n =
-        ZSTD_decompress(plain.data(), plain.size(), chunk.packed, std::size_t(chunk.packedSize));
-    if (ZSTD_isError(n) || n != plain.size() || hashBytes(plain.data(), plain.size()) != chunk.hash)
+    const auto packedSize = std::size_t(chunk.packedSize);
+    if (hashBytes(chunk.packed, packedSize) != chunk.hash)
         return fail(fmt::format("{}: chunk {}: checksum does not match", path, name));
+    if (ZSTD_getFrameContentSize(chunk.packed, packedSize) != chunk.plainSize)
+        return fail(fmt::format("{}: chunk {}: wrong length", path, name));
+    std::string plain(std::size_t(chunk.plainSize), '\0');
+    const std::size_t n = ZSTD_decompress(plain.data(), plain.size(), chunk.packed, packedSize);
+    if (ZSTD_isError(n) || n != plain.size())
+        return fail(fmt::format("{}: chunk {}: cannot be unpacked", path, name));
     return plain;
 }
 
