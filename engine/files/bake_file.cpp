@@ -14,8 +14,8 @@
 #include <zstd.h>
 
 // File: "LIMNBAKE", u32 version, u32 chunk count, then per chunk:
-//   char[8] name, u64 bytes unpacked, u64 bytes packed, u64 XXH3 of the unpacked bytes, packed
-//   bytes (zstd).
+//   char[8] name, u64 bytes unpacked, u64 bytes packed, u64 XXH3 of the packed bytes, packed bytes
+//   (zstd).
 // Little-endian; numbers and arrays as in memory: an array is a u64 count and its elements.
 
 namespace limn {
