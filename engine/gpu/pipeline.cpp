@@ -118,7 +118,9 @@ static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& d
     blend.attachmentCount = std::uint32_t(attachments.size());
     blend.pAttachments = attachments.data();
 
-    std::vector dynamics = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    std::vector<VkDynamicState> dynamics;
+    dynamics.reserve(5); // without it GCC 12 sees an overflow where there is none
+    dynamics.assign({VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR});
     if (desc.depthBias)
         dynamics.push_back(VK_DYNAMIC_STATE_DEPTH_BIAS);
     if (desc.dynamicCull)
