@@ -13,13 +13,14 @@ namespace limn {
 std::uint64_t hashBytes(const void* data, std::size_t size, std::uint64_t seed = 0);
 
 template <class T>
-    requires std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>
-std::uint64_t hashValue(const T& value, std::uint64_t seed) {
+requires std::has_unique_object_representations_v<T> || std::is_floating_point_v<T> std::uint64_t
+hashValue(const T& value, std::uint64_t seed) {
     return hashBytes(&value, sizeof value, seed);
 }
 
 /// Hash of the elements' bytes and their count; T must have no padding.
-template <class T> std::uint64_t hashVector(const std::vector<T>& v, std::uint64_t seed) {
+template <class T>
+std::uint64_t hashVector(const std::vector<T>& v, std::uint64_t seed) {
     static_assert(std::is_trivially_copyable_v<T>);
     return hashBytes(v.data(), v.size() * sizeof(T), hashValue(std::uint64_t(v.size()), seed));
 }

@@ -19,8 +19,14 @@ spdlog::logger& logger() {
 
 } // namespace
 
-void logInfo(std::string_view message) { logger().info("{}", message); }
-void logWarning(std::string_view message) { logger().warn("{}", message); }
-void logError(std::string_view message) { logger().error("{}", message); }
+void logInfo(std::string_view message) {
+    logger().info("{}", message);
+}
+void logWarning(std::string_view message) {
+    logger().warn("{}", message);
+}
+void logError(std::string_view message) {
+    logger().error("{}", message);
+}
 
 } // namespace limn

@@ -15,14 +15,12 @@ void parallelRanges(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) {
     if (count == 0)
         return;
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
-        [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
+                      [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
 }
 
 bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progress,
-                    const char* stage,
-                    const std::function<void(std::size_t, std::size_t)>& body) {
+                    const char* stage, const std::function<void(std::size_t, std::size_t)>& body) {
     progress.at(stage, 0);
     std::atomic<std::size_t> done = 0;
     std::atomic<bool> stopped = false;
@@ -53,10 +51,13 @@ struct ThreadLimit::Control {
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : m_control(threads > 0 ? new Control{tbb::global_control(
-                                  tbb::global_control::max_allowed_parallelism, std::size_t(threads))}
-                            : nullptr) {}
+    : m_control(threads > 0
+                    ? new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                                      std::size_t(threads))}
+                    : nullptr) {}
 
-ThreadLimit::~ThreadLimit() { delete m_control; }
+ThreadLimit::~ThreadLimit() {
+    delete m_control;
+}
 
 } // namespace limn
