@@ -23,25 +23,30 @@ namespace limn {
 
 namespace {
 
-/// What one acceleration structure of triangles is made from. Instances with equal keys share it.
-struct BlasKey {
+/// Triangles with the same holes everywhere: a mesh and, where it has holes, its material.
+struct MeshKey {
     std::uint32_t mesh = 0;
-    std::uint32_t maskMaterial = ~0u;  ///< material with holes; ~0: opaque
-    std::uint32_t worldInstance = ~0u; ///< its matrix is baked into the vertices; ~0: object space
+    std::uint32_t cutout = ~0u; ///< material with holes; ~0: none
 
-    auto operator<=>(const BlasKey&) const = default;
+    auto operator<=>(const MeshKey&) const = default;
 };
 
-struct Blas {
-    RTCScene scene = nullptr;
+/// What instances of equal keys share.
+struct SharedMesh {
     AlphaMask mask;
+    RTCScene scene = nullptr; ///< in object space; null while no instance needs it
 };
 
 /// Per instance, what a hit needs.
 struct HitFrame {
     glm::mat4 toWorld{1};
-    float winding = 1; ///< -1: the matrix mirrors, glTF flips the front
+    float winding = 1;   ///< -1: the matrix mirrors, glTF flips the front
+    bool present = true; ///< has triangles at finite places
+    bool inWorld = true; ///< its triangles lie in the top structure, in world space
 };
+
+/// Static scenes of up to this many triangles are copied to world space whole.
+constexpr std::size_t kMaxCopiedTriangles = 2'000'000;
 
 void passThroughMask(const RTCFilterFunctionNArguments* args) {
     const AlphaMask& mask = *static_cast<const AlphaMask*>(args->geometryUserPtr);
@@ -78,16 +83,18 @@ struct TraceScene::Impl {
     Scene scene;
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
-    std::map<BlasKey, Blas> blas; ///< nodes stay where they are: Embree points at the masks
-    std::vector<HitFrame> frames; ///< per instance
-    float magnitude = 0;          ///< largest coordinate of the scene [m]
+    std::map<MeshKey, SharedMesh> meshes; ///< nodes stay where they are: Embree points at the masks
+    std::vector<HitFrame> frames;         ///< per instance
+    float magnitude = 0;                  ///< largest coordinate of the scene [m]
 
     Impl(const Scene& s);
     ~Impl();
-    BlasKey keyOf(std::uint32_t instance) const;
-    void buildBlas(const BlasKey& key, Blas& blas) const;
-    void setPositions(RTCGeometry geometry, const BlasKey& key) const;
+    MeshKey keyOf(const Instance& instance) const;
+    void placeInstances();
+    void buildMeshes();
     void buildTop();
+    RTCGeometry triangles(const Instance& instance, const SharedMesh& shared, bool inWorld) const;
+    void setPositions(RTCGeometry geometry, const Instance& instance, bool inWorld) const;
 };
 
 TraceScene::Impl::Impl(const Scene& s) : scene(s) {
@@ -99,52 +106,56 @@ TraceScene::Impl::Impl(const Scene& s) : scene(s) {
     rtcSetDeviceErrorFunction(
         device, [](void*, RTCError, const char* text) { logError(std::string("Embree: ") + text); },
         nullptr);
-
-    AlphaImages images;
-    frames.resize(scene.instances.size());
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        frames[i] = {instance.toWorld, determinant3(instance.toWorld) < 0 ? -1.f : 1.f};
-        if (scene.meshOf(instance).indices.empty() || !isFinite(instance.toWorld))
-            continue;
-        const BlasKey key = keyOf(i);
-        const auto [entry, isNew] = blas.try_emplace(key);
-        if (isNew && key.maskMaterial != ~0u)
-            entry->second.mask = makeAlphaMask(*scene.assets, scene.meshOf(instance),
-                                               scene.materials[key.maskMaterial], images);
-    }
-    std::vector<std::pair<const BlasKey, Blas>*> work;
-    for (auto& entry : blas)
-        work.push_back(&entry);
-    parallelRanges(work.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            buildBlas(work[i]->first, work[i]->second);
-    });
+    placeInstances();
+    buildMeshes();
     buildTop();
 }
 
 TraceScene::Impl::~Impl() {
     rtcReleaseScene(top);
-    for (auto& [key, b] : blas)
-        rtcReleaseScene(b.scene);
+    for (auto& [key, shared] : meshes)
+        if (shared.scene)
+            rtcReleaseScene(shared.scene);
     rtcReleaseDevice(device);
 }
 
-BlasKey TraceScene::Impl::keyOf(std::uint32_t i) const {
-    const Instance& instance = scene.instances[i];
-    BlasKey key;
-    key.mesh = instance.mesh;
-    if (isCutout(scene.materialOf(instance)))
-        key.maskMaterial = instance.material;
-    if (!invertsWell(instance.toWorld))
-        key.worldInstance = i;
-    return key;
+MeshKey TraceScene::Impl::keyOf(const Instance& instance) const {
+    return {instance.mesh, isCutout(scene.materialOf(instance)) ? instance.material : ~0u};
 }
 
-void TraceScene::Impl::setPositions(RTCGeometry geometry, const BlasKey& key) const {
-    const std::vector<glm::vec3>& positions = scene.assets->meshes[key.mesh].positions;
+// One tree over the world's triangles beats one per instance by far where instances overlap: a ray
+// through Sponza's 103 meshes enters most of them. Its price is a copy of the vertices, so meshes
+// repeated until they are many stay instances, and so do objects that move.
+void TraceScene::Impl::placeInstances() {
+    std::vector<std::uint32_t> uses(scene.assets->meshes.size(), 0);
+    std::size_t staticTriangles = 0;
+    for (const Instance& instance : scene.instances) {
+        ++uses[instance.mesh];
+        staticTriangles += instance.dynamic ? 0 : scene.meshOf(instance).triangleCount();
+    }
+    AlphaImages images;
+    for (const Instance& instance : scene.instances) {
+        const glm::mat4& toWorld = instance.toWorld;
+        HitFrame frame{toWorld, determinant3(toWorld) < 0 ? -1.f : 1.f};
+        frame.present = !scene.meshOf(instance).indices.empty() && isFinite(toWorld);
+        const bool copied = !instance.dynamic &&
+                            (uses[instance.mesh] == 1 || staticTriangles <= kMaxCopiedTriangles);
+        frame.inWorld = copied || !invertsWell(toWorld);
+        frames.push_back(frame);
+        const MeshKey key = keyOf(instance);
+        const auto [entry, isNew] = meshes.try_emplace(key);
+        if (isNew && key.cutout != ~0u)
+            entry->second.mask = makeAlphaMask(*scene.assets, scene.meshOf(instance),
+                                               scene.materials[key.cutout], images);
+    }
+}
+
+void TraceScene::Impl::setPositions(RTCGeometry geometry, const Instance& instance,
+                                    bool inWorld) const {
+    const std::vector<glm::vec3>& positions = scene.meshOf(instance).positions;
+    const bool asTheyAre = !inWorld || instance.toWorld == glm::mat4(1);
     // Embree loads 16 bytes at each vertex: the last one may be shared only where memory follows.
-    if (key.worldInstance == ~0u && positions.capacity() > positions.size()) {
+    if (asTheyAre && positions.capacity() > positions.size()) {
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                    positions.data(), 0, sizeof(glm::vec3), positions.size());
         return;
@@ -154,36 +165,52 @@ void TraceScene::Impl::setPositions(RTCGeometry geometry, const BlasKey& key) co
                                 sizeof(glm::vec3), positions.size()));
     if (!copy)
         throw std::runtime_error("Embree: out of memory");
-    if (key.worldInstance == ~0u) {
-        std::copy(positions.begin(), positions.end(), copy);
-        return;
-    }
-    const glm::mat4& toWorld = scene.instances[key.worldInstance].toWorld;
     for (std::size_t i = 0; i < positions.size(); ++i)
-        copy[i] = glm::vec3(toWorld * glm::vec4(positions[i], 1));
+        copy[i] =
+            asTheyAre ? positions[i] : glm::vec3(instance.toWorld * glm::vec4(positions[i], 1));
+}
+
+RTCGeometry TraceScene::Impl::triangles(const Instance& instance, const SharedMesh& shared,
+                                        bool inWorld) const {
+    const Mesh& mesh = scene.meshOf(instance);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    setPositions(geometry, instance, inWorld);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.indices.data(), 0, 3 * sizeof(std::uint32_t),
+                               mesh.triangleCount());
+    if (shared.mask.mesh) {
+        rtcSetGeometryUserData(geometry, const_cast<AlphaMask*>(&shared.mask));
+        rtcSetGeometryIntersectFilterFunction(geometry, passThroughMask);
+        rtcSetGeometryOccludedFilterFunction(geometry, passThroughMask);
+    }
+    return geometry;
 }
 
 // One thread per structure, several structures at once: the tree, and with it which of two coplanar
 // triangles is met first, does not depend on the number of threads.
-void TraceScene::Impl::buildBlas(const BlasKey& key, Blas& b) const {
-    const Mesh& mesh = scene.assets->meshes[key.mesh];
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    setPositions(geometry, key);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               mesh.indices.data(), 0, 3 * sizeof(std::uint32_t),
-                               mesh.triangleCount());
-    if (key.maskMaterial != ~0u) {
-        rtcSetGeometryUserData(geometry, const_cast<AlphaMask*>(&b.mask));
-        rtcSetGeometryIntersectFilterFunction(geometry, passThroughMask);
-        rtcSetGeometryOccludedFilterFunction(geometry, passThroughMask);
-    }
-    rtcSetGeometryMask(geometry, ~0u);
-    rtcCommitGeometry(geometry);
-    b.scene = rtcNewScene(device);
-    rtcSetSceneFlags(b.scene, RTC_SCENE_FLAG_ROBUST);
-    rtcAttachGeometry(b.scene, geometry);
-    rtcReleaseGeometry(geometry);
-    tbb::task_arena(1).execute([&] { rtcCommitScene(b.scene); });
+static void commitAlone(RTCScene scene) {
+    tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
+}
+
+void TraceScene::Impl::buildMeshes() {
+    std::map<MeshKey, const Instance*> needed;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        if (frames[i].present && !frames[i].inWorld)
+            needed.try_emplace(keyOf(scene.instances[i]), &scene.instances[i]);
+    const std::vector<std::pair<MeshKey, const Instance*>> work(needed.begin(), needed.end());
+    parallelRanges(work.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            SharedMesh& shared = meshes.at(work[i].first);
+            RTCGeometry geometry = triangles(*work[i].second, shared, false);
+            rtcSetGeometryMask(geometry, ~0u);
+            rtcCommitGeometry(geometry);
+            shared.scene = rtcNewScene(device);
+            rtcSetSceneFlags(shared.scene, RTC_SCENE_FLAG_ROBUST);
+            rtcAttachGeometry(shared.scene, geometry);
+            rtcReleaseGeometry(geometry);
+            commitAlone(shared.scene);
+        }
+    });
 }
 
 void TraceScene::Impl::buildTop() {
@@ -191,26 +218,30 @@ void TraceScene::Impl::buildTop() {
     rtcSetSceneFlags(top, RTC_SCENE_FLAG_ROBUST);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (scene.meshOf(instance).indices.empty() || !isFinite(instance.toWorld))
+        if (!frames[i].present)
             continue;
-        const BlasKey key = keyOf(i);
-        const glm::mat4 toWorld = key.worldInstance == ~0u ? instance.toWorld : glm::mat4(1);
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, blas.at(key).scene);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &toWorld);
+        const SharedMesh& shared = meshes.at(keyOf(instance));
+        RTCGeometry geometry = nullptr;
+        if (frames[i].inWorld) {
+            geometry = triangles(instance, shared, true);
+        } else {
+            geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+            rtcSetGeometryInstancedScene(geometry, shared.scene);
+            rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                    &instance.toWorld);
+        }
         rtcSetGeometryMask(geometry,
                            unsigned(instance.dynamic ? TraceMask::Dynamic : TraceMask::Static));
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(top, geometry, i);
         rtcReleaseGeometry(geometry);
     }
-    tbb::task_arena(1).execute([&] { rtcCommitScene(top); });
-    if (blas.empty())
-        return;
+    commitAlone(top);
     RTCBounds b;
     rtcGetSceneBounds(top, &b);
-    magnitude = std::max({std::abs(b.lower_x), std::abs(b.lower_y), std::abs(b.lower_z),
-                          std::abs(b.upper_x), std::abs(b.upper_y), std::abs(b.upper_z)});
+    const float largest = std::max({std::abs(b.lower_x), std::abs(b.lower_y), std::abs(b.lower_z),
+                                    std::abs(b.upper_x), std::abs(b.upper_y), std::abs(b.upper_z)});
+    magnitude = std::isfinite(largest) ? largest : 0; // infinite where there is nothing
 }
 
 TraceScene::TraceScene(const Scene& scene) : m_impl(std::make_unique<Impl>(scene)) {}
@@ -246,7 +277,8 @@ Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
     Hit hit;
     if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return hit;
-    hit.instance = rh.hit.instID[0];
+    const unsigned instanced = rh.hit.instID[0];
+    hit.instance = instanced == RTC_INVALID_GEOMETRY_ID ? rh.hit.geomID : instanced;
     hit.triangle = rh.hit.primID;
     hit.u = rh.hit.u;
     hit.v = rh.hit.v;

@@ -33,7 +33,8 @@ struct Hit {
 /// Which surfaces a query may meet.
 enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3 };
 
-/// Embree's acceleration structure over a Scene: one per mesh, instanced. Immutable, thread-safe to
+/// Embree's acceleration structure over a Scene: static triangles in one tree, moving and often
+/// repeated meshes as instances of their own. Immutable, thread-safe to
 /// query. Holds a copy of the instance table and shares the assets; the Scene may die or change
 /// meanwhile.
 class TraceScene {
