@@ -13,7 +13,7 @@ layout(constant_id = 0) const uint kView = VIEW_LIT;
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = 1, std430) readonly buffer Lights { GpuLight lights[]; };
 layout(set = 0, binding = 2, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
-layout(set = 0, binding = 3) uniform sampler2DArrayShadow shadowAtlas;
+layout(set = 0, binding = 3) uniform sampler2DArray shadowAtlas;
 layout(set = 0, binding = 6) uniform usampler2D surfaceImage;
 layout(set = 0, binding = 7) uniform sampler2D depthImage;
 
@@ -29,33 +29,54 @@ uint cubeFace(vec3 fromLight) {
     return fromLight.z > 0.0 ? 4u : 5u;
 }
 
-// 1: the light arrives; 0: it does not. `taps` 0 is free on software rasterisers, where only loops skip work.
+// Share of texel `offset` (from the 2 x 2 texels round the point) in a tent 3 texels wide, `f` within them.
+vec4 tentWeight(vec4 offset, float f) {
+    return 0.5 * (max(1.0 - abs(f - 0.5 - offset), 0.0) + max(1.0 - abs(f + 0.5 - offset), 0.0));
+}
+
+// How atlas depth changes with atlas u and v on the surface's plane. `width`: a texel there.
+vec2 planeGradient(GpuShadowView view, PackedSurface s, vec4 q, float width) {
+    const vec3 n = s.geometricNormal;
+    const vec3 t = width * normalize(cross(n, abs(n.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+    const vec4 qt = q + view.toAtlas * vec4(t, 0), qb = q + view.toAtlas * vec4(cross(n, t), 0);
+    const vec3 dt = qt.xyz / qt.w - q.xyz / q.w, db = qb.xyz / qb.w - q.xyz / q.w;
+    const float det = dt.x * db.y - dt.y * db.x;
+    if (abs(det) < 1e-14)
+        return vec2(0);
+    return vec2(dt.z * db.y - db.z * dt.y, dt.x * db.z - db.x * dt.z) / det;
+}
+
+// 1: the light arrives; 0: it does not. Each texel is compared with the depth of the surface's plane at its own
+// middle, so that flat surfaces need no bias, however steep. A loop, because software rasterisers skip nothing else.
 float visibility(GpuLight light, PackedSurface s, vec3 toLight, bool lit) {
-    const int taps = light.shadowViews != SHADOW_NONE && lit ? 4 : 0;
-    float sum = 0.0;
-    vec3 uvz = vec3(0);
-    float layer = 0.0;
-    vec2 texel = 1.0 / vec2(textureSize(shadowAtlas, 0).xy);
-    for (int k = 0; k < min(taps, 1); ++k) {
+    float sum = 1.0;
+    const int count = light.shadowViews != SHADOW_NONE && lit ? 1 : 0;
+    for (int once = 0; once < count; ++once) {
         const uint face = light.shadowViews == SHADOW_CUBE ? cubeFace(-toLight) : 0u;
         const GpuShadowView view = shadowViews[light.firstView + face];
-        const float depth = view.perspective > 0.5 ? dot(view.axis.xyz, s.position) - view.axis.w : 1.0;
+        const float depth =
+            view.perspective > 0.5 ? dot(view.axis.xyz, s.position) - view.axis.w : 1.0;
         const float width = view.texelSize * depth;
-        // Depth changes by tan of the angle to the view's axis per texel; a move along the normal makes up for it.
-        const float cosine = dot(s.geometricNormal, view.axis.xyz);
-        const float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-        const vec3 p = s.position + width * (frame.normalBias * sine * s.geometricNormal +
+        const vec3 p = s.position + width * (frame.normalBias * s.geometricNormal +
                                              frame.lightBias * toLight);
         const vec4 q = view.toAtlas * vec4(p, 1);
-        uvz = q.xyz / q.w;
-        layer = float(view.layer);
+        const vec3 centre = q.xyz / q.w;
+        const vec2 gradient = planeGradient(view, s, q, width);
+        const vec2 size = vec2(textureSize(shadowAtlas, 0).xy);
+        const vec2 x = centre.xy * size - 0.5, base = floor(x), f = x - base;
+        sum = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            const vec2 corner = vec2((k & 1) * 2 - 1, (k >> 1) * 2 - 1);
+            const vec4 stored = textureGather(
+                shadowAtlas, vec3((base + corner + 1.0) / size, float(view.layer)));
+            const vec4 i = corner.x + vec4(0, 1, 1, 0), j = corner.y + vec4(1, 1, 0, 0);
+            const vec4 plane = centre.z + gradient.x * ((base.x + i + 0.5) / size.x - centre.x) +
+                               gradient.y * ((base.y + j + 0.5) / size.y - centre.y);
+            sum += dot(vec4(greaterThanEqual(plane, stored)),
+                       tentWeight(i, f.x) * tentWeight(j, f.y));
+        }
     }
-    // Four bilinear comparisons half a texel off the centre: a 3 x 3 tent.
-    for (int k = 0; k < taps; ++k) {
-        const vec2 offset = vec2((k & 1) != 0 ? 0.5 : -0.5, (k & 2) != 0 ? 0.5 : -0.5);
-        sum += texture(shadowAtlas, vec4(uvz.xy + offset * texel, layer, uvz.z));
-    }
-    return taps > 0 ? 0.25 * sum : 1.0;
+    return sum;
 }
 
 // sampleLight() of engine/scene/light.cpp.

@@ -15,9 +15,10 @@ constexpr std::uint32_t kTilesPerLayer = 4;
 
 ShadowMaps::ShadowMaps(gpu::Device& device)
     : m_device(device),
-      m_sampler(gpu::createSampler(device, {.wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                            .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                            .compare = true})) {
+      m_sampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST,
+                                            .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                            .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                            .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})) {
     // Descriptors need an image even where nothing casts a shadow.
     m_atlas = gpu::Image(device, {.format = kShadowFormat,
                                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT,

@@ -13,8 +13,7 @@ namespace {
 // A spot wider than this would waste most of one map on its rim.
 constexpr float kWidestSpot = 1.2f; // [rad], half-angle
 
-// Texels beyond a face's edge that filtering near the edge may read: half a texel of the outer tap,
-// half a texel of its bilinear footprint, and what the normal bias moves.
+// Texels beyond a face's edge that filtering near the edge may read: two, and what the bias moves.
 constexpr float kMarginTexels = 4;
 
 glm::vec3 upFor(glm::vec3 axis) {

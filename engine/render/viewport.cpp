@@ -40,10 +40,9 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
-// Shadow receivers are moved off their surface by so many shadow texels: along the normal, times
-// the sine of its angle to the view's axis, because the 3 x 3 filter reaches 1.5 texels
-// sideways, 2.1 on the diagonal; and towards the light for rounding.
-constexpr float kNormalBias = 2.f, kLightBias = 0.2f;
+// Shadow receivers are moved off their surface by so many shadow texels, along the normal and
+// towards the light: for rounding, and for the facets next to the one that is lit.
+constexpr float kNormalBias = 0.2f, kLightBias = 0.5f;
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
