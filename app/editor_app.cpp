@@ -230,8 +230,10 @@ void EditorApp::run() {
         frame();
         countLatency(std::chrono::duration<double, std::milli>(Clock::now() - wanted).count());
         const bool idle = m_session.idle() && m_framesOwed == 0 && m_picture.idle();
-        if (idle && !m_wasIdle)
+        if (idle && !m_wasIdle) {
             writeStats();
+            m_framesOwed = 1; // the panels show the last numbers
+        }
         m_wasIdle = idle;
         m_window->setTitle(
             m_session.state.projectPath.empty() ? "Limn" : m_session.state.projectPath + " - Limn");

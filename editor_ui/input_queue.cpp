@@ -12,7 +12,7 @@ namespace {
 /// What one frame has already shown.
 struct FrameSoFar {
     bool buttonOrKey = false;
-    bool anything = false;
+    bool moved = false;
 };
 
 } // namespace
@@ -21,10 +21,10 @@ static bool fitsThisFrame(const InputEvent& event, const FrameSoFar& sofar) {
     switch (event.kind) {
     case InputEvent::Kind::MouseMove: // a move after a click would shift the click
     case InputEvent::Kind::Character:
-        return !sofar.buttonOrKey;
-    case InputEvent::Kind::MouseButton:
     case InputEvent::Kind::Key:
         return !sofar.buttonOrKey;
+    case InputEvent::Kind::MouseButton: // ImGui must have seen what is hovered before it is clicked
+        return !sofar.buttonOrKey && !sofar.moved;
     case InputEvent::Kind::Scroll:
     case InputEvent::Kind::Focus:
         return true;
@@ -47,6 +47,7 @@ static void feed(ImGuiIO& io, const InputEvent& event, FrameSoFar& sofar,
     switch (event.kind) {
     case InputEvent::Kind::MouseMove:
         io.MousePos = {event.position.x, event.position.y};
+        sofar.moved = true;
         break;
     case InputEvent::Kind::MouseButton:
         if (event.code >= 0 && event.code < int(IM_ARRAYSIZE(io.MouseDown)))

@@ -14,7 +14,7 @@ namespace limn {
 static glm::vec3 eulerDegrees(const EulerEdit& euler, ObjectId id, glm::quat rotation) {
     if (euler.id == id && euler.rotation == rotation)
         return euler.degrees;
-    return glm::degrees(glm::eulerAngles(rotation));
+    return glm::degrees(glm::eulerAngles(rotation)) + 0.f; // no "-0.0"
 }
 
 static void rotationRow(FieldEdit& edit, Node& node) {

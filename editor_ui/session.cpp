@@ -224,7 +224,9 @@ void Session::showStatus() {
     if (wanted && traced && !m_bakeJob.running()) {
         m_bakeSoon = false;
         state.bake.error.clear();
-        m_bakeJob.start(m_scene, m_relit.trace);
+        // The baker reads the settings of the scene that the rays meet.
+        const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
+        m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr);
         m_bakeJob.report(state.bake);
     }
 }

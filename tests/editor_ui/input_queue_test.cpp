@@ -49,11 +49,14 @@ TEST(InputQueue, EveryTapOfAKeyIsReportedOnceWithItsModifiers) {
     EXPECT_EQ(all, expected);
 }
 
-TEST(InputQueue, SeveralMovesBeforeAPressFitOneFrame) {
+TEST(InputQueue, AllMovesFitOneFrameAndAPressComesInTheNext) {
     HeadlessUi ui;
     for (int i = 0; i < 10; ++i)
         ui.mouse(float(i), 0);
     ui.button(true);
+    feedInput(ui.input);
+    EXPECT_EQ(ImGui::GetIO().MousePos.x, 9);
+    EXPECT_EQ(ui.input.events.size(), 1u);
     feedInput(ui.input);
     EXPECT_TRUE(ui.input.events.empty());
 }

@@ -6,6 +6,8 @@
 
 #include <imgui.h>
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace limn {
@@ -109,6 +111,22 @@ TEST(Panels, TheGizmosArrowMovesALightInOneStepAndUndoBringsItBack) {
     undoEdit(state);
     EXPECT_EQ(state.document, before);
     EXPECT_EQ(state.selection, std::vector{id});
+}
+
+TEST(Panels, EveryRowOfTheListCanBeClickedRightAfterAnother) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    ui.frames(state);
+    std::set<ObjectId> selected;
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    for (int row = 0; row < 16; ++row) {
+        ui.mouse(80, 66 + line * float(row));
+        ui.button(true);
+        ui.button(false);
+        ui.frames(state);
+        selected.insert(activeId(state));
+    }
+    EXPECT_EQ(selected.size(), state.document.objects.size());
 }
 
 TEST(Panels, AClickOnALightsIconSelectsItAndADragInThePictureDoesNot) {

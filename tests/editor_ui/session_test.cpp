@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// The document with its jobs beside it: opening, baking, relighting, saving. No window, no GPU.
+#include "editor_ui/session.h"
+
+#include "editor_ui/action.h"
+#include "editor_ui/document_edit.h"
+#include "engine/files/project_file.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace limn {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Cornell with a lamp and a bake of a fraction of a second.
+Document smallDocument() {
+    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
+    for (auto& [id, object] : document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object)) {
+            settings->surfels = 256;
+            settings->lightmapCaches = 300;
+            settings->rays = 32;
+            settings->links = 16;
+        }
+    addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = 1});
+    return document;
+}
+
+struct SessionTest : testing::Test {
+    fs::path folder = fs::temp_directory_path() / fmt::format("limn-session-{}", getpid());
+    std::string project = (folder / "small.limn").string();
+
+    void SetUp() override {
+        fs::create_directories(folder);
+        setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
+        ASSERT_TRUE(saveProject(project, smallDocument()));
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    static SessionOptions options() {
+        return {LIMN_SOURCE_DIR "/projects", [] {}, true};
+    }
+
+    static bool runUntil(Session& session, const std::function<bool()>& done) {
+        for (int i = 0; i < 12000; ++i) {
+            session.update();
+            if (done())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return false;
+    }
+    static bool runUntilIdle(Session& session) {
+        return runUntil(session, [&] { return session.idle() && session.state.relight.converged; });
+    }
+    static Light& lamp(Session& session) {
+        for (auto& [id, object] : session.state.document.objects)
+            if (objectName(object) == "Lamp")
+                return std::get<Light>(object);
+        throw std::runtime_error("no lamp");
+    }
+};
+
+TEST_F(SessionTest, AnOpenedSceneIsBakedAndLitUntilItConverges) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+    EXPECT_GT(session.state.bake.counts.surfels, 0u);
+    ASSERT_TRUE(session.layout());
+    EXPECT_EQ(session.layout()->instances.size(), session.scene()->instances.size());
+    ASSERT_TRUE(session.field());
+    EXPECT_FALSE(hasUnsavedChanges(session.state));
+}
+
+TEST_F(SessionTest, AnEditedLightChangesTheFieldWithoutABakeAndUndoRestoresIt) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const auto before = session.field();
+    const auto calls = session.state.relight.calls;
+    const Light original = lamp(session);
+    Edit edit{"Move", {}};
+    for (const auto& [id, object] : session.state.document.objects)
+        if (objectName(object) == "Lamp") {
+            Light moved = original;
+            moved.position.x += 0.4f;
+            edit.changes.push_back({id, object, moved});
+        }
+    apply(session.state.history, session.state.document, edit);
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] {
+        return session.state.relight.calls > calls && session.state.relight.converged;
+    }));
+    EXPECT_NE(session.field()->lightmap, before->lightmap);
+    EXPECT_EQ(session.state.bake.secondsSinceLightEdit, 0);
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+
+    const auto moved = session.state.relight.calls;
+    ASSERT_TRUE(undoEdit(session.state));
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] {
+        return session.state.relight.calls > moved && session.state.relight.converged;
+    }));
+    double difference = 0, sum = 0;
+    for (std::size_t i = 0; i < before->lightmap.size(); ++i) {
+        difference += std::abs(double(session.field()->lightmap[i].x - before->lightmap[i].x));
+        sum += std::abs(double(before->lightmap[i].x));
+    }
+    EXPECT_LT(difference, 1e-3 * sum); // both converged to one part in ten thousand
+}
+
+TEST_F(SessionTest, AMovedObjectMakesANewBakeNeededAndTheOldLightStays) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    for (auto& [id, object] : session.state.document.objects)
+        if (auto* node = std::get_if<Node>(&object); node && node->name == "Short block")
+            node->transform.translation.x += 0.1f;
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::Needed; }));
+    EXPECT_TRUE(session.field());
+    const auto calls = session.state.relight.calls;
+    lamp(session).strength = 3; // light still follows, over the old geometry
+    ASSERT_TRUE(runUntil(session, [&] { return session.state.relight.calls > calls; }));
+    runAction(session.state, actionById("bake.start"));
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
+}
+
+TEST_F(SessionTest, ABakeUsesTheSettingsOfTheDocument) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    for (auto& [id, object] : session.state.document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object))
+            settings->surfels = 500;
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::Needed; }));
+    runAction(session.state, actionById("bake.start"));
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
+    EXPECT_NEAR(double(session.state.bake.counts.surfels), 500, 50);
+}
+
+TEST_F(SessionTest, HidingAnObjectKeepsTheLightmapsOfTheOthers) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    for (auto& [id, object] : session.state.document.objects)
+        if (auto* node = std::get_if<Node>(&object); node && node->name == "Floor")
+            node->visible = false;
+    session.update();
+    ASSERT_EQ(session.layout()->instances.size(), session.scene()->instances.size());
+    for (const InstanceLightmap& instance : session.layout()->instances)
+        EXPECT_FALSE(instance.uv.empty());
+}
+
+TEST_F(SessionTest, ACancelledBakeStopsAtOnceAndLeavesTheLastOne) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    for (auto& [id, object] : session.state.document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object))
+            settings->rays = 2048, settings->lightmapCaches = 6000; // seconds
+    runAction(session.state, actionById("bake.start"));
+    ASSERT_TRUE(runUntil(session, [&] {
+        return session.state.bake.running && session.state.bake.stage == "trace";
+    }));
+    const auto field = session.field();
+    runAction(session.state, actionById("bake.cancel"));
+    ASSERT_TRUE(runUntil(session, [&] { return !session.state.bake.running; }));
+    session.update();
+    EXPECT_EQ(session.state.bake.error, "cancelled");
+    EXPECT_EQ(session.field(), field);
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::Needed);
+}
+
+TEST_F(SessionTest, WhatIsSavedOpensAgainWithItsBake) {
+    Document saved;
+    {
+        Session session(options());
+        session.open(project);
+        ASSERT_TRUE(runUntilIdle(session));
+        addLight(session.state, Light{.name = "Second"});
+        EXPECT_TRUE(hasUnsavedChanges(session.state));
+        runAction(session.state, actionById("file.save"));
+        ASSERT_TRUE(runUntil(session, [&] { return !hasUnsavedChanges(session.state); }));
+        saved = session.state.document;
+    }
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_EQ(session.state.document.objects, saved.objects);
+    EXPECT_EQ(session.bakeSeconds(), 0); // the bake lay beside it
+    EXPECT_EQ(session.state.recent.at(0), project);
+}
+
+TEST_F(SessionTest, LeavingAChangedDocumentAsksFirst) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    addLight(session.state, Light{});
+    runAction(session.state, actionById("file.quit"));
+    session.update();
+    EXPECT_FALSE(session.wantsQuit());
+    ASSERT_TRUE(session.state.confirm);
+    EXPECT_EQ(session.state.confirm->kind, Request::Kind::Quit);
+}
+
+TEST_F(SessionTest, AFileThatCannotBeOpenedIsAnErrorInTheLogAndTheDocumentStays) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const Document before = session.state.document;
+    session.open((folder / "missing.gltf").string());
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    ASSERT_FALSE(session.state.log.empty());
+    EXPECT_EQ(session.state.log.back().level, LogLine::Level::Error);
+    EXPECT_EQ(session.state.document, before);
+}
+
+TEST(BakeFraction, GrowsFromStageToStageUpToOne) {
+    float last = -1;
+    for (const char* stage : {"charts", "surfels", "clusters", "caches", "trace", "cut"}) {
+        EXPECT_GT(bakeFraction(stage, 0.5f), last);
+        last = bakeFraction(stage, 1);
+    }
+    EXPECT_NEAR(last, 1, 1e-5f);
+}
+
+} // namespace
+} // namespace limn
