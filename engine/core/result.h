@@ -14,7 +14,8 @@ struct Error {
 };
 
 /// A value, or the reason there is none.
-template <class T> using Result = tl::expected<T, Error>;
+template <class T>
+using Result = tl::expected<T, Error>;
 
 /// `return fail("cannot open {}", path)` is written `return fail(fmt::format(...))`.
 inline tl::unexpected<Error> fail(std::string message) {
