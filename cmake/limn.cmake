@@ -37,13 +37,13 @@ endfunction()
 
 # limn_shaders(limn_render shade.vert shade.frag): compiles shaders/NAME to SPIR-V and embeds it, as
 # `const std::uint32_t kShadeFrag[]` of the generated header "shaders/shade.frag.h".
-# Each is compiled again when any header of shaders/shared changes.
+# Each is compiled again when any file of shaders/shared changes.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 function(limn_shaders target)
   if(NOT GLSLANG_VALIDATOR)
     message(FATAL_ERROR "glslangValidator is missing (Debian: glslang-tools)")
   endif()
-  file(GLOB shared CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h)
+  file(GLOB shared CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/shared/*.glsl)
   set(folder ${CMAKE_BINARY_DIR}/generated/shaders)
   file(MAKE_DIRECTORY ${folder})
   foreach(shader ${ARGN})

@@ -335,6 +335,19 @@ TEST_F(ViewportViews, AMirroredInstanceKeepsItsFrontOutside) {
     expectNear(pixel(draw(scene, View::Normals), 16, 16), {0.5f, 1, 0.5f}, 1e-5f);
 }
 
+TEST_F(ViewportViews, VertexNormalsAreMirroredWithTheirInstanceAndTurnedOnTheBack) {
+    const glm::vec3 n = glm::normalize(glm::vec3(0.3f, 1, -0.2f));
+    simple::SceneBuilder b = plane();
+    b.assets->meshes[0].normals.assign(4, n);
+    b.scene.instances[0].toWorld = glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1));
+    expectNear(pixel(draw(b.build(), View::Normals), 16, 16),
+               glm::vec3(-n.x, n.y, n.z) * 0.5f + 0.5f, 1e-5f);
+    b.scene.instances[0].toWorld = glm::scale(glm::mat4(1), glm::vec3(1, -1, 1));
+    b.scene.materials[0].doubleSided = true; // its front looks down now
+    expectNear(pixel(draw(b.build(), View::Normals), 16, 16),
+               glm::vec3(-n.x, n.y, -n.z) * 0.5f + 0.5f, 1e-5f);
+}
+
 class ViewportLife : public ViewportTest {};
 
 TEST_F(ViewportLife, AnEmptySceneIsTheSky) {
