@@ -53,11 +53,11 @@ struct Place {
     glm::vec2 toTexels(glm::vec2 chartUv) const { return chartUv * scale + 0.5f; }
 };
 
-/// A texel of a place, with the closest surface point.
+/// A texel of a place, with the surface points it stands for.
 struct LocalTexel {
     glm::uvec2 at;
-    std::uint32_t triangle;
-    glm::vec2 barycentric;
+    std::uint32_t count;
+    std::array<SurfacePoint, AtlasTexel::kMostPoints> points;
 };
 
 std::uint32_t sideTexels(float texels) {
@@ -130,12 +130,61 @@ glm::vec3 pullInside(glm::vec3 weights, const std::array<glm::vec2, 3>& t) {
     return glm::mix(weights, glm::vec3(1.f / 3), s);
 }
 
-/// Texels of `place` that a lookup on its triangles can meet; each stands for the closest surface
-/// point.
+/// What a texel has found while the triangles pass by.
+struct TexelSearch {
+    float distance =
+        1e30f; ///< to the closest surface point, in texels; 1e30: out of every lookup's reach
+    SurfacePoint closest{};
+    std::uint32_t found = 0; ///< bit k: spread[k] lies on the surface
+    std::array<SurfacePoint, AtlasTexel::kMostPoints> spread;
+};
+
+/// The k-th of the places looked for in a texel, relative to its centre: a rank-1 lattice over
+/// [-1/2, 1/2)^2.
+glm::vec2 spreadOffset(std::uint32_t k) {
+    constexpr float n = float(AtlasTexel::kMostPoints);
+    return {(float(k) + 0.5f) / n - 0.5f,
+            (float(3 * k % AtlasTexel::kMostPoints) + 0.5f) / n - 0.5f};
+}
+
+void searchTexel(glm::vec2 centre, std::uint32_t triangle, const std::array<glm::vec2, 3>& flat,
+                 bool spread, TexelSearch& out) {
+    const glm::vec3 w = closestPoint(centre, flat);
+    const float d = glm::length(w.x * flat[0] + w.y * flat[1] + w.z * flat[2] - centre);
+    if (d < out.distance) {
+        const glm::vec3 inside = pullInside(w, flat);
+        out.distance = d;
+        out.closest = {triangle, {inside.y, inside.z}};
+    }
+    for (std::uint32_t k = 0; spread && k < AtlasTexel::kMostPoints; ++k) {
+        if (out.found >> k & 1)
+            continue;
+        const glm::vec2 p = centre + spreadOffset(k);
+        glm::vec3 at = closestPoint(p, flat);
+        if (glm::length(at.x * flat[0] + at.y * flat[1] + at.z * flat[2] - p) > 1e-4f)
+            continue;
+        if (std::min({at.x, at.y, at.z}) < 0.02f)
+            at = pullInside(at, flat);
+        out.found |= 1U << k;
+        out.spread[k] = {triangle, {at.y, at.z}};
+    }
+}
+
+LocalTexel localTexel(glm::uvec2 at, const TexelSearch& search) {
+    LocalTexel result{at, 0, {}};
+    for (std::uint32_t k = 0; k < AtlasTexel::kMostPoints; ++k)
+        if (search.found >> k & 1)
+            result.points[result.count++] = search.spread[k];
+    if (result.count == 0)
+        result.points[result.count++] = search.closest;
+    return result;
+}
+
+/// Texels of `place` that a lookup on its triangles can meet. Without `spread` only the closest
+/// points are looked for.
 std::vector<LocalTexel> coverTexels(const Place& place, const MeshCharts& charts,
-                                    std::span<const std::uint32_t> triangles) {
-    std::vector<float> distance(std::size_t(place.size.x) * place.size.y, 1e30f);
-    std::vector<LocalTexel> best(distance.size());
+                                    std::span<const std::uint32_t> triangles, bool spread) {
+    std::vector<TexelSearch> search(std::size_t(place.size.x) * place.size.y);
     for (const std::uint32_t t : triangles) {
         std::array<glm::vec2, 3> flat;
         for (std::size_t k = 0; k < 3; ++k)
@@ -150,22 +199,15 @@ std::vector<LocalTexel> coverTexels(const Place& place, const MeshCharts& charts
         for (int y = lower.y; y <= upper.y; ++y)
             for (int x = lower.x; x <= upper.x; ++x) {
                 const glm::vec2 centre(float(x) + 0.5f, float(y) + 0.5f);
-                if (!reaches(centre, flat))
-                    continue;
-                const glm::vec3 w = closestPoint(centre, flat);
-                const float d = glm::length(w.x * flat[0] + w.y * flat[1] + w.z * flat[2] - centre);
-                const std::size_t cell = std::size_t(y) * place.size.x + std::size_t(x);
-                if (d < distance[cell]) {
-                    distance[cell] = d;
-                    const glm::vec3 inside = pullInside(w, flat);
-                    best[cell] = {{x, y}, t, {inside.y, inside.z}};
-                }
+                if (reaches(centre, flat))
+                    searchTexel(centre, t, flat, spread,
+                                search[std::size_t(y) * place.size.x + std::size_t(x)]);
             }
     }
     std::vector<LocalTexel> result;
-    for (std::size_t i = 0; i < best.size(); ++i)
-        if (distance[i] < 1e30f)
-            result.push_back(best[i]);
+    for (std::uint32_t i = 0; i < search.size(); ++i)
+        if (search[i].distance < 1e30f)
+            result.push_back(localTexel({i % place.size.x, i / place.size.x}, search[i]));
     return result;
 }
 
@@ -215,7 +257,7 @@ ShareKey shareKey(const AtlasInput& in, const Place& place, float density) {
             axis * 2 + (n[axis] < 0 ? 1 : 0)};
 }
 
-Arrangement arrange(const AtlasInput& in, float density) {
+Arrangement arrange(const AtlasInput& in, float density, bool spread) {
     Arrangement result;
     std::map<ShareKey, std::uint32_t> groups;
     for (std::uint32_t i = 0; i < in.scene.instances.size(); ++i) {
@@ -242,7 +284,7 @@ Arrangement arrange(const AtlasInput& in, float density) {
         for (std::size_t p = begin; p < end; ++p) {
             const std::uint32_t mesh = in.scene.instances[result.places[p].instance].mesh;
             result.covered[p] = coverTexels(result.places[p], in.charts[mesh],
-                                            in.byChart[mesh].of(result.places[p].chart));
+                                            in.byChart[mesh].of(result.places[p].chart), spread);
         }
     });
     return result;
@@ -274,7 +316,7 @@ float findDensity(const AtlasInput& in, std::uint32_t wanted) {
     double low = std::sqrt(wanted / area) / 64, high = std::sqrt(wanted / area) * 2;
     for (int i = 0; i < 12; ++i) {
         const double middle = std::sqrt(low * high);
-        (arrange(in, float(middle)).texelCount() > wanted ? high : low) = middle;
+        (arrange(in, float(middle), false).texelCount() > wanted ? high : low) = middle;
     }
     return float(low);
 }
@@ -341,23 +383,25 @@ void writeUv(const Place& place, const AtlasInput& in, LightmapLayout& layout) {
         }
 }
 
-/// The surface point a shared texel stands for: the middle of the group's largest triangle.
+/// The surface points a shared texel stands for: the middles of the group's largest triangles.
 AtlasTexel sharedTexel(const std::vector<Place>& group, const AtlasInput& in, std::uint32_t width) {
-    AtlasTexel result{std::uint32_t(group[0].offset.y) * width + std::uint32_t(group[0].offset.x),
-                      group[0].instance, 0, glm::vec2(1.f / 3)};
-    float largest = -1;
-    const Mesh& mesh = in.scene.meshOf(in.scene.instances[group[0].instance]);
+    AtlasTexel result;
+    result.texel = std::uint32_t(group[0].offset.y) * width + std::uint32_t(group[0].offset.x);
+    result.instance = group[0].instance;
+    const std::uint32_t meshIndex = in.scene.instances[result.instance].mesh;
+    const Mesh& mesh = in.scene.assets->meshes[meshIndex];
+    std::vector<std::pair<float, std::uint32_t>> largest; // by falling area, then index
     for (const Place& place : group)
-        for (const std::uint32_t t :
-             in.byChart[in.scene.instances[place.instance].mesh].of(place.chart)) {
+        for (const std::uint32_t t : in.byChart[meshIndex].of(place.chart)) {
             const auto [a, b, c] = mesh.triangle(t);
-            const float area = glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
-                                                      mesh.positions[c] - mesh.positions[a]));
-            if (area > largest) {
-                largest = area;
-                result.triangle = t;
-            }
+            largest.emplace_back(-glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
+                                                         mesh.positions[c] - mesh.positions[a])),
+                                 t);
         }
+    std::sort(largest.begin(), largest.end());
+    for (; result.count < std::min<std::size_t>(AtlasTexel::kMostPoints, largest.size());
+         ++result.count)
+        result.points[result.count] = {largest[result.count].second, glm::vec2(1.f / 3)};
     return result;
 }
 
@@ -370,7 +414,7 @@ Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeS
     Atlas atlas;
     atlas.texelsPerMetre = settings.texelsPerMetre > 0 ? settings.texelsPerMetre
                                                        : findDensity(in, settings.lightmapCaches);
-    Arrangement a = arrange(in, atlas.texelsPerMetre);
+    Arrangement a = arrange(in, atlas.texelsPerMetre, true);
     LightmapLayout& layout = atlas.layout;
     layout.instances.resize(scene.instances.size());
     if (a.texelCount() == 0) {
@@ -384,8 +428,7 @@ Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeS
         writeUv(place, in, layout);
         for (const LocalTexel& t : a.covered[p]) {
             const glm::uvec2 at = glm::uvec2(place.offset) + t.at;
-            atlas.texels.push_back(
-                {at.y * layout.width + at.x, place.instance, t.triangle, t.barycentric});
+            atlas.texels.push_back({at.y * layout.width + at.x, place.instance, t.count, t.points});
         }
     }
     for (const std::vector<Place>& group : a.shared) {

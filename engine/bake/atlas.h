@@ -5,17 +5,28 @@
 #include "engine/core/progress.h"
 #include "engine/scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace limn {
 
-/// A texel that a bilinear lookup can meet, and the surface point it stands for.
-struct AtlasTexel {
-    std::uint32_t texel;    ///< y * width + x
-    std::uint32_t instance; ///< index into Scene::instances
+/// A point of an instance's surface.
+struct SurfacePoint {
     std::uint32_t triangle;
     glm::vec2 barycentric; ///< (u, v), weights (1-u-v, u, v)
+};
+
+/// A texel that a bilinear lookup can meet, and the surface it stands for: points spread over the
+/// part of the surface that lies in it; the closest point where none does.
+struct AtlasTexel {
+    /// Not a Fibonacci number: every seventh direction of a Fibonacci lattice is again well spread.
+    static constexpr std::uint32_t kMostPoints = 7;
+
+    std::uint32_t texel;     ///< y * width + x
+    std::uint32_t instance;  ///< index into Scene::instances
+    std::uint32_t count = 0; ///< of points, [1, kMostPoints]
+    std::array<SurfacePoint, kMostPoints> points;
 };
 
 struct Atlas {

@@ -119,16 +119,17 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
 
     result.gridBounds = gridBoundsOf(scene);
     result.gridSize = chooseGridSize(scene, atlas.layout, scene.bake);
-    result.caches = placeCaches(scene, atlas, result.gridSize, result.gridBounds);
+    CachePoints points;
+    result.caches = placeCaches(scene, atlas, result.gridSize, result.gridBounds, points);
     connectSurfels(scene, atlas.layout, result.caches, set.surfels);
     clock.finish("caches");
 
     GatherHits hits;
-    if (!gather(trace, set, result.caches, scene.bake.rays, progress, hits))
+    if (!gather(trace, set, result.caches, points, scene.bake.rays, progress, hits))
         return cancelled();
     clock.finish("trace");
     weighBySight(hits, result.tree);
-    if (!buildLinks(result.tree, hits, scene.bake.links, int(scene.bake.bands), progress,
+    if (!buildLinks(result.tree, hits, points, scene.bake.links, int(scene.bake.bands), progress,
                     result.caches))
         return cancelled();
     const std::uint32_t invalid = fillInvalid(result.caches);

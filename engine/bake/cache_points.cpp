@@ -13,29 +13,45 @@ namespace limn {
 
 namespace {
 
-void addLightmapCache(const Scene& scene, const AtlasTexel& t, Caches& out) {
-    const Instance& instance = scene.instances[t.instance];
-    const Mesh& mesh = scene.meshOf(instance);
-    const auto [a, b, c] = mesh.triangle(t.triangle);
+void addPoint(const Instance& instance, const Mesh& mesh, const SurfacePoint& point,
+              CachePoints& out) {
+    const auto [a, b, c] = mesh.triangle(point.triangle);
     const glm::vec3 pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
-    const glm::vec3 p =
-        pa * (1 - t.barycentric.x - t.barycentric.y) + pb * t.barycentric.x + pc * t.barycentric.y;
+    const glm::vec2 uv = point.barycentric;
     const glm::vec3 n = instance.normalToWorld * glm::cross(pb - pa, pc - pa);
     const float length = glm::length(n);
-    out.kind.push_back(isTwoSided(scene.materialOf(instance)) ? CacheKind::TwoSided
-                                                              : CacheKind::Hemisphere);
-    out.position.push_back(instance.toWorld * glm::vec4(p, 1));
+    out.position.push_back(instance.toWorld *
+                           glm::vec4(pa * (1 - uv.x - uv.y) + pb * uv.x + pc * uv.y, 1));
     out.normal.push_back(length > 0 ? n / length : glm::vec3(0, 1, 0));
-    out.texel.push_back(t.texel);
+}
+
+void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
+                      CachePoints& points) {
+    const Instance& instance = scene.instances[texel.instance];
+    const std::size_t first = points.position.size();
+    glm::vec3 position{0}, normal{0};
+    for (std::uint32_t k = 0; k < texel.count; ++k) {
+        addPoint(instance, scene.meshOf(instance), texel.points[k], points);
+        position += points.position.back() / float(texel.count);
+        normal += points.normal.back();
+    }
+    const float length = glm::length(normal);
+    points.begin.push_back(std::uint32_t(points.position.size()));
+    caches.kind.push_back(isTwoSided(scene.materialOf(instance)) ? CacheKind::TwoSided
+                                                                 : CacheKind::Hemisphere);
+    caches.position.push_back(position);
+    caches.normal.push_back(length > 1e-3f ? normal / length : points.normal[first]);
+    caches.texel.push_back(texel.texel);
 }
 
 } // namespace
 
 Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
-                   const Bounds& gridBounds) {
+                   const Bounds& gridBounds, CachePoints& points) {
     Caches caches;
+    points.begin = {0};
     for (const AtlasTexel& t : atlas.texels)
-        addLightmapCache(scene, t, caches);
+        addLightmapCache(scene, t, caches, points);
     caches.lightmapCount = std::uint32_t(caches.size());
     const glm::vec3 cell = gridBounds.size() / glm::vec3(glm::max(gridSize, glm::uvec3(1)));
     std::uint32_t index = 0;
@@ -46,6 +62,9 @@ Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
                 caches.position.push_back(gridBounds.lower + (glm::vec3(x, y, z) + 0.5f) * cell);
                 caches.normal.emplace_back(0);
                 caches.texel.push_back(index++);
+                points.position.push_back(caches.position.back());
+                points.normal.emplace_back(0);
+                points.begin.push_back(std::uint32_t(points.position.size()));
             }
     return caches;
 }

@@ -6,10 +6,18 @@
 
 namespace limn {
 
-/// The caches of an atlas' texels, then those of the grid; only kind, position, normal and texel
-/// are filled.
+/// Where a cache's rays start: ray r leaves points[r mod count], about that point's normal. A cache
+/// so gathers over the whole surface its texel stands for, folds and edges included, and the points
+/// that lie in a wall can be left out.
+struct CachePoints {
+    std::vector<std::uint32_t> begin;        ///< caches + 1 offsets
+    std::vector<glm::vec3> position, normal; ///< world; normal 0 for Grid
+};
+
+/// The caches of an atlas' texels, then those of the grid: kind, mean position, mean normal and
+/// texel are filled.
 Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
-                   const Bounds& gridBounds);
+                   const Bounds& gridBounds, CachePoints& points);
 
 /// Cells of the grid: settings.grid; or, where that is 0 and some instance has no lightmap, cubes
 /// of about 1/12 of the longest side, at most 32 a side; or none.

@@ -21,6 +21,7 @@ struct Cone {
     glm::vec3 direction; ///< unit
     float u;             ///< 1 - cos(half-angle)
     float transport;     ///< visible solid angle / pi
+    float irradiance; ///< exact, at unit radiosity: the rays' sum of solid angle / pi times cosine
 };
 
 Link pack(const Cone& cone) {
@@ -33,13 +34,15 @@ Link pack(const Cone& cone) {
 class VisibleTree {
 public:
     explicit VisibleTree(const ClusterTree& tree)
-        : m_tree(tree), m_weight(tree.size()), m_moment(tree.size()) {}
+        : m_tree(tree), m_weight(tree.size()), m_cosine(tree.size()), m_moment(tree.size()) {}
 
-    /// `weight`: solid angle / pi seen along `direction`.
-    void add(std::uint32_t leaf, float weight, glm::vec3 direction) {
+    /// `weight`: solid angle / pi seen along `direction`, at `cosTheta` to the surface that sees
+    /// it.
+    void add(std::uint32_t leaf, float weight, float cosTheta, glm::vec3 direction) {
         if (m_weight[leaf] == 0)
             m_touched.push_back(leaf);
         m_weight[leaf] += weight;
+        m_cosine[leaf] += weight * cosTheta;
         m_moment[leaf] += direction * weight;
     }
 
@@ -56,13 +59,14 @@ public:
         for (const std::uint32_t node : m_touched)
             if (const std::uint32_t parent = m_tree.parent[node]; parent != ~0U) {
                 m_weight[parent] += m_weight[node];
+                m_cosine[parent] += m_cosine[node];
                 m_moment[parent] += m_moment[node];
             }
     }
 
     void clear() {
         for (const std::uint32_t node : m_touched) {
-            m_weight[node] = 0;
+            m_weight[node] = m_cosine[node] = 0;
             m_moment[node] = glm::vec3(0);
         }
         m_touched.clear();
@@ -79,11 +83,12 @@ private:
         // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; a
         // single ray has its own solid angle: rayWeight pi = 2 pi u.
         const float u = std::clamp(2 * (1 - length / weight), std::min(rayWeight / 2, 2.f), 2.f);
-        return {node, length > 0 ? m_moment[node] / length : glm::vec3(0, 0, 1), u, weight};
+        return {node, length > 0 ? m_moment[node] / length : glm::vec3(0, 0, 1), u, weight,
+                m_cosine[node]};
     }
 
     const ClusterTree& m_tree;
-    std::vector<float> m_weight;
+    std::vector<float> m_weight, m_cosine;
     std::vector<glm::vec3> m_moment;
     std::vector<std::uint32_t> m_touched;
     std::vector<std::pair<float, std::uint32_t>> m_heap;
@@ -144,9 +149,9 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
                 band += y[i] * axis[i];
             series += factors[std::size_t(l)] * g[l] * band;
         }
-        const float exact = std::max((1 - cone.u / 2) * glm::dot(cone.direction, normal), 0.f);
         constexpr float kMostGain = 2; // where the series is near zero along the surface
-        cone.transport *= series > 0 ? std::min(exact / series, kMostGain) : 1;
+        cone.transport *=
+            series > 0 ? std::min(cone.irradiance / (cone.transport * series), kMostGain) : 1;
     }
 }
 
@@ -154,22 +159,30 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
 struct Linker {
     const ClusterTree& tree;
     const GatherHits& hits;
+    const CachePoints& points;
     std::uint32_t maxLinks;
     int bands;
     VisibleTree seen{tree};
     std::vector<Cone> cones;
 
     void link(const Caches& caches, std::uint32_t cache, std::vector<Link>& links) {
-        const CacheRays rays = raysOf(caches, cache, hits.rays);
-        const float weight = rays.local.solidAngle() / std::numbers::pi_v<float>;
         const std::uint32_t* sender = hits.sender.data() + std::size_t(cache) * hits.rays;
-        if (2 * std::count(sender, sender + hits.rays, GatherHits::kBackFace) > hits.rays)
+        const auto kept =
+            hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
+        if (kept == 0)
             return;
+        const CacheRays rays = raysOf(caches, points, cache, hits.rays);
+        const float weight =
+            rays.local.solidAngle() / std::numbers::pi_v<float> * (float(hits.rays) / float(kept));
         for (std::uint32_t r = 0; r < hits.rays; ++r)
-            if (sender[r] < GatherHits::kAimed)
-                seen.add(sender[r], weight, rays[r]);
-        for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k)
-            seen.add(hits.aimed[k].sender, hits.aimed[k].transport, hits.aimed[k].direction);
+            if (sender[r] < GatherHits::kFirstMark) {
+                const glm::vec3 local = rays.local[r];
+                seen.add(sender[r], weight, local.z, rays.toWorld[r % rays.points] * local);
+            }
+        for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k) {
+            const AimedSample& a = hits.aimed[k];
+            seen.add(a.sender, a.transport, a.cosTheta, a.direction);
+        }
         seen.pull();
         seen.cut(maxLinks, weight, cones);
         seen.clear();
@@ -185,7 +198,7 @@ struct Linker {
 void weighBySight(const GatherHits& hits, ClusterTree& tree) {
     std::vector<double> seen(tree.size());
     for (const std::uint32_t sender : hits.sender)
-        if (sender < GatherHits::kAimed)
+        if (sender < GatherHits::kFirstMark)
             seen[sender] +=
                 2.0 / hits.rays; // a hemisphere's ray; a sphere's weighs twice that, near enough
     for (const AimedSample& a : hits.aimed)
@@ -198,11 +211,11 @@ void weighBySight(const GatherHits& hits, ClusterTree& tree) {
     }
 }
 
-bool buildLinks(const ClusterTree& tree, const GatherHits& hits, std::uint32_t maxLinks, int bands,
-                const Progress& progress, Caches& caches) {
+bool buildLinks(const ClusterTree& tree, const GatherHits& hits, const CachePoints& points,
+                std::uint32_t maxLinks, int bands, const Progress& progress, Caches& caches) {
     std::vector<std::vector<Link>> links(caches.size());
     tbb::enumerable_thread_specific<Linker> scratch([&] {
-        return Linker{tree, hits, maxLinks, bands};
+        return Linker{tree, hits, points, maxLinks, bands};
     });
     const bool done =
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {

@@ -13,12 +13,12 @@ void weighBySight(const GatherHits& hits, ClusterTree& tree);
 
 /// Fills linkBegin and links of `caches`: for each valid cache at most `maxLinks` nodes of the tree
 /// that together cover all it saw, by refining the node of the largest visible solid angle first
-/// (the paper's criterion). A cache most of whose rays met back faces is invalid and gets none. The
+/// (the paper's criterion). A cache whose every point lies in a wall is invalid and gets none. The
 /// links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact irradiance
 /// of its rays at the surface's own normal, whatever shines. Traces nothing. Returns false when
 /// cancelled.
-bool buildLinks(const ClusterTree& tree, const GatherHits& hits, std::uint32_t maxLinks, int bands,
-                const Progress& progress, Caches& caches);
+bool buildLinks(const ClusterTree& tree, const GatherHits& hits, const CachePoints& points,
+                std::uint32_t maxLinks, int bands, const Progress& progress, Caches& caches);
 
 /// Fills fillBegin … fillWeight: an invalid cache becomes the mean of its nearest valid ones of the
 /// same kind, weighted by 1 / distance^2; lightmap caches also weigh how well the normals agree.

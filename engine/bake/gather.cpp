@@ -41,6 +41,7 @@ struct Gatherer {
     const TraceScene& trace;
     const SurfelSet& set;
     const Caches& caches;
+    const CachePoints& points;
     std::vector<SurfelOwners> owners;
     std::vector<std::uint32_t> emissive;
     std::vector<bool> isEmissive; ///< per surfel; empty without emissive ones
@@ -58,51 +59,72 @@ struct Gatherer {
                owners[instance.mesh].at(hit.triangle, hit.u, hit.v, back);
     }
 
-    /// Where a ray of the cache starts that leaves on the front (or back) of its surface.
-    glm::vec3 start(std::uint32_t cache, bool front) const {
-        const glm::vec3 p = caches.position[cache];
-        if (caches.kind[cache] == CacheKind::Grid)
-            return p;
-        const glm::vec3 lift = caches.normal[cache] * trace.epsilonAt(p);
+    /// Where a ray starts that leaves a cache's point on the front (or back) of its surface.
+    glm::vec3 start(std::uint32_t point, bool front) const {
+        const glm::vec3 p = points.position[point];
+        const glm::vec3 lift = points.normal[point] * trace.epsilonAt(p);
         return front ? p + lift : p - lift;
     }
 
     void gatherCache(std::uint32_t cache, std::uint32_t rays, std::uint32_t* out) const {
-        const CacheRays directions = raysOf(caches, cache, rays);
-        const glm::vec3 front = start(cache, true), back = start(cache, false);
+        const CacheRays directions = raysOf(caches, points, cache, rays);
+        const std::uint32_t first = points.begin[cache];
         for (std::uint32_t r = 0; r < rays; ++r) {
+            const std::uint32_t k = r % directions.points;
             const glm::vec3 local = directions.local[r];
             Ray ray;
-            ray.origin = local.z < 0 ? back : front;
-            ray.direction = directions.toWorld * local;
+            ray.origin = start(first + k, local.z >= 0);
+            ray.direction = directions.toWorld[k] * local;
             out[r] = sender(ray);
+        }
+        leaveOutBuried(directions.points, rays, out);
+    }
+
+    /// Marks the rays of points most of whose rays met backs.
+    static void leaveOutBuried(std::uint32_t count, std::uint32_t rays, std::uint32_t* sender) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            std::uint32_t all = 0, backs = 0;
+            for (std::uint32_t r = k; r < rays; r += count) {
+                ++all;
+                backs += sender[r] == GatherHits::kBackFace ? 1 : 0;
+            }
+            for (std::uint32_t r = k; 2 * backs > all && r < rays; r += count)
+                sender[r] = GatherHits::kLeftOut;
         }
     }
 
-    /// Replaces the few chance hits of emissive surfels by a ray at each.
+    /// Replaces the few chance hits of emissive surfels by a ray at each, from the cache's points
+    /// in turn.
     void aimCache(std::uint32_t cache, std::uint32_t rays, std::uint32_t* sender,
                   std::vector<AimedSample>& aimed) const {
         const auto met = [&](std::uint32_t s) { return s < isEmissive.size() && isEmissive[s]; };
         if (emissive.empty() ||
             std::uint32_t(std::count_if(sender, sender + rays, met)) * 16 >= rays)
             return;
+        std::vector<std::uint32_t> open; // points that are not buried
+        for (std::uint32_t k = 0; k < points.begin[cache + 1] - points.begin[cache]; ++k)
+            if (sender[k] != GatherHits::kLeftOut)
+                open.push_back(points.begin[cache] + k);
+        if (open.empty())
+            return;
         std::replace_if(sender, sender + rays, met, GatherHits::kAimed);
-        for (const std::uint32_t s : emissive)
-            aim(cache, s, aimed);
+        for (std::size_t i = 0; i < emissive.size(); ++i)
+            aim(caches.kind[cache], open[i % open.size()], emissive[i], aimed);
     }
 
 private:
-    void aim(std::uint32_t cache, std::uint32_t s, std::vector<AimedSample>& aimed) const {
-        const glm::vec3 toSender = set.surfels.position[s] - caches.position[cache];
+    void aim(CacheKind kind, std::uint32_t point, std::uint32_t s,
+             std::vector<AimedSample>& aimed) const {
+        const glm::vec3 toSender = set.surfels.position[s] - points.position[point];
         const float d2 = glm::dot(toSender, toSender);
         if (!(d2 > 0))
             return;
         const glm::vec3 direction = toSender / std::sqrt(d2);
-        const float side = glm::dot(direction, caches.normal[cache]);
+        const float cosTheta = glm::dot(direction, points.normal[point]);
         const float cosSender = -glm::dot(direction, set.surfels.normal[s]);
-        if (!(cosSender > 0) || (caches.kind[cache] == CacheKind::Hemisphere && !(side > 0)))
+        if (!(cosSender > 0) || (kind == CacheKind::Hemisphere && !(cosTheta > 0)))
             return;
-        const glm::vec3 from = start(cache, side > 0);
+        const glm::vec3 from = start(point, cosTheta >= 0);
         const glm::vec3 to = set.surfels.position[s] +
                              set.surfels.normal[s] * trace.epsilonAt(set.surfels.position[s]);
         const float length = glm::length(to - from);
@@ -111,23 +133,30 @@ private:
             return;
         const float area = set.surfels.area[s];
         const float solidAngle = area * cosSender / (d2 + area / (2 * std::numbers::pi_v<float>));
-        aimed.push_back({s, solidAngle / std::numbers::pi_v<float>, direction});
+        aimed.push_back({s, solidAngle / std::numbers::pi_v<float>, cosTheta, direction});
     }
 };
 
 } // namespace
 
-CacheRays raysOf(const Caches& caches, std::uint32_t cache, std::uint32_t rays) {
-    const CacheKind kind = caches.kind[cache];
-    const glm::vec3 axis = kind == CacheKind::Grid ? glm::vec3(0, 0, 1) : caches.normal[cache];
-    return {DirectionSet(rays, kind != CacheKind::Hemisphere, cache), basisAround(axis)};
+CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
+                 std::uint32_t rays) {
+    const std::uint32_t first = points.begin[cache], count = points.begin[cache + 1] - first;
+    CacheRays result{
+        DirectionSet(rays, caches.kind[cache] != CacheKind::Hemisphere, cache), count, {}};
+    for (std::uint32_t k = 0; k < count; ++k)
+        result.toWorld[k] = basisAround(
+            caches.kind[cache] == CacheKind::Grid ? glm::vec3(0, 0, 1) : points.normal[first + k]);
+    return result;
 }
 
-bool gather(const TraceScene& trace, const SurfelSet& set, const Caches& caches, std::uint32_t rays,
-            const Progress& progress, GatherHits& hits) {
+bool gather(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+            const CachePoints& points, std::uint32_t rays, const Progress& progress,
+            GatherHits& hits) {
     Gatherer gatherer{trace,
                       set,
                       caches,
+                      points,
                       buildOwners(trace.scene(), set),
                       emissiveSurfels(trace.scene(), set, rays),
                       {}};

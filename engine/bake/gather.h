@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/bake/cache_points.h"
 #include "engine/bake/surfels.h"
 #include "engine/core/progress.h"
 #include "engine/math/sampling.h"
 #include "engine/trace/trace_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,36 +16,51 @@ namespace limn {
 /// A sender sampled by a ray towards it rather than met by chance.
 struct AimedSample {
     std::uint32_t sender;
-    float transport;     ///< visible solid angle / pi
+    float transport; ///< visible solid angle / pi
+    float cosTheta;  ///< at the point of the cache it was aimed from; negative behind a two-sided
+                     ///< surface
     glm::vec3 direction; ///< unit, away from the cache
 };
 
-/// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree,
-/// kBackFace, or kAimed where the hit is left to the cache's aimed samples. Ray r of a cache runs
-/// along raysOf(...)[r], so directions need not be stored. aimed[aimedBegin[c] … aimedBegin[c + 1])
-/// belong to cache c.
+/// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree or one
+/// of the marks below. Ray r of a cache runs along CacheRays[r], so directions need not be stored.
+/// aimed[aimedBegin[c] … aimedBegin[c + 1]) belong to cache c.
 struct GatherHits {
-    static constexpr std::uint32_t kBackFace = ~0U, kAimed = ~0U - 1;
+    static constexpr std::uint32_t kBackFace =
+        ~0U; ///< the back of a one-sided surface: carries nothing
+    static constexpr std::uint32_t kAimed = ~0U - 1; ///< a lamp: left to the cache's aimed samples
+    static constexpr std::uint32_t kLeftOut =
+        ~0U - 2; ///< started in a wall: not a ray of this cache
+    static constexpr std::uint32_t kFirstMark = kLeftOut;
     std::uint32_t rays = 0;
     std::vector<std::uint32_t> sender;
     std::vector<std::uint32_t> aimedBegin;
     std::vector<AimedSample> aimed;
 };
 
-/// The rays of a cache: a function of its kind, normal and number alone. Local z is the normal
-/// (world z for Grid).
+/// The rays of a cache: a function of its kind, points and number alone. Local z is the point's
+/// normal (world z for Grid).
 struct CacheRays {
     DirectionSet local;
-    glm::mat3 toWorld;
+    std::uint32_t points;
+    std::array<glm::mat3, AtlasTexel::kMostPoints> toWorld;
 
-    glm::vec3 operator[](std::uint32_t r) const { return toWorld * local[r]; }
+    glm::vec3 operator[](std::uint32_t r) const { return toWorld[r % points] * local[r]; }
 };
-CacheRays raysOf(const Caches& caches, std::uint32_t cache, std::uint32_t rays);
+CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
+                 std::uint32_t rays);
 
 /// Shoots `rays` rays per cache at the static scene. A hit is credited to the surfel that owns the
-/// hit point, an escaped ray to its sky cell, a back of a one-sided surface to nobody. Returns
-/// false when cancelled.
-bool gather(const TraceScene& trace, const SurfelSet& set, const Caches& caches, std::uint32_t rays,
-            const Progress& progress, GatherHits& hits);
+/// hit point, an escaped ray to its sky cell, a back of a one-sided surface to nobody. Of a cache's
+/// points, those most of whose rays meet backs are left out; where that is all of them the cache is
+/// invalid. Returns false when cancelled.
+///
+/// Small bright lamps would be met by a handful of rays: blotches. A cache that meets the emissive
+/// surfels with fewer than a sixteenth of its rays aims one ray at each of them instead, and takes
+/// their bounded solid angle a cos / (d^2 + a / 2 pi). Which materials emit only guides the
+/// sampling: any other sender is met by the rays.
+bool gather(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+            const CachePoints& points, std::uint32_t rays, const Progress& progress,
+            GatherHits& hits);
 
 } // namespace limn
