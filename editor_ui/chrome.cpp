@@ -153,6 +153,10 @@ static void bakeProgress(EditorState& state) {
 }
 
 static void bakeWords(EditorState& state) {
+    if (state.assets->meshes.empty()) {
+        ImGui::TextDisabled("Nothing to bake");
+        return;
+    }
     switch (state.bake.freshness) {
     case BakeFreshness::None:
         ImGui::TextColored(ImColor(color::kWarning), "Bake needed: nothing baked yet");

@@ -50,7 +50,8 @@ void nodeSection(FieldEdit& edit, Node& node) {
     for (std::uint32_t mesh : node.meshes)
         if (mesh < edit.state.assets->meshes.size())
             triangles += edit.state.assets->meshes[mesh].triangleCount();
-    ImGui::TextDisabled("%zu meshes, %s triangles", node.meshes.size(),
+    ImGui::TextDisabled("%zu %s, %s triangles", node.meshes.size(),
+                        node.meshes.size() == 1 ? "mesh" : "meshes",
                         groupedNumber(triangles).c_str());
 }
 

@@ -31,7 +31,7 @@ static void setColors(ImVec4* c) {
     c[ImGuiCol_ButtonHovered] = grey(0.31f);
     c[ImGuiCol_ButtonActive] = accent;
     c[ImGuiCol_Header] = ImVec4(0.25f, 0.47f, 0.76f, 0.55f);
-    c[ImGuiCol_HeaderHovered] = grey(0.27f);
+    c[ImGuiCol_HeaderHovered] = ImVec4(0.25f, 0.47f, 0.76f, 0.35f);
     c[ImGuiCol_HeaderActive] = accent;
     c[ImGuiCol_Separator] = grey(0.24f);
     c[ImGuiCol_SeparatorHovered] = accentHover;

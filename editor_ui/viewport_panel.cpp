@@ -192,7 +192,10 @@ static void selectionBoxes(const EditorState& state) {
 }
 
 static void emptyHint(const EditorState& state) {
-    if (!state.document.objects.empty() || !state.loading.empty())
+    const bool anything = std::ranges::any_of(state.document.objects, [](const auto& entry) {
+        return std::holds_alternative<Node>(entry.second);
+    });
+    if (anything || !state.loading.empty())
         return;
     const char* hint = "Drop a .gltf, .glb or .limn here, or press Ctrl-O";
     const ImVec2 size = ImGui::CalcTextSize(hint);
