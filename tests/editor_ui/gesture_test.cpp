@@ -46,6 +46,8 @@ TEST_F(GestureTest, AnotherWidgetEndsTheGesture) {
     EXPECT_EQ(light.strength, 2);
     undo(state.history, state.document);
     EXPECT_EQ(light.strength, first);
+    redo(state.history, state.document);
+    EXPECT_EQ(light.strength, 2); // each edit ends where the next begins
 }
 
 TEST_F(GestureTest, AnotherObjectEndsTheGesture) {
