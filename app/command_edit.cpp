@@ -21,12 +21,14 @@ void addEditCommand(CLI::App& app, Run& run) {
     command
         ->add_option("scene", options->scene, ".gltf, .glb or .limn file, or the name of a project")
         ->default_str("cornell");
-    auto size = std::make_shared<std::string>();
-    command->add_option("--size", *size, "WIDTHxHEIGHT of the window [px]")
-        ->check([options](const std::string& text) {
-            return parseSize(text, *options) ? std::string()
-                                             : "not WIDTHxHEIGHT from 320x240 to 16384x16384";
-        });
+    command->add_option_function<std::string>(
+        "--size",
+        [options](const std::string& text) {
+            if (!parseSize(text, *options))
+                throw CLI::ValidationError("--size",
+                                           "not WIDTHxHEIGHT from 320x240 to 16384x16384");
+        },
+        "WIDTHxHEIGHT of the window [px]");
     command->add_option(
         "--stats-json", options->statsPath,
         "writes counters and the longest frame there, whenever all work is done and at the end");
