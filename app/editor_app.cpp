@@ -43,6 +43,7 @@ struct ImGuiContextOwner {
 
 /// Frames drawn after the last event, so that hover and layout of ImGui settle.
 constexpr int kFramesAfterEvent = 2;
+constexpr double kLookWhenIdleSeconds = 0.25, kLookWhenBusySeconds = 0.05;
 constexpr double kCursorBlinkSeconds = 0.4;
 
 /// The window, the session and what draws them. Members are destroyed last to first.
@@ -91,7 +92,11 @@ bool EditorApp::waitForWork() {
         seconds = seconds < 0 ? kCursorBlinkSeconds : std::min(seconds, kCursorBlinkSeconds);
     const bool due = m_framesOwed > 0 || state.view.animating || m_window->pending();
     const auto before = Clock::now();
-    m_window->wait(due ? 0 : seconds);
+    // No sleep without an end: a thread of the Vulkan driver that reads the same X connection can
+    // take in the event we sleep for, a key or a wake(), without waking us. A look costs nothing
+    // and draws nothing.
+    const double longest = m_wasIdle ? kLookWhenIdleSeconds : kLookWhenBusySeconds;
+    m_window->wait(due ? 0 : seconds < 0 ? longest : seconds);
     const bool timer =
         !due && seconds >= 0 &&
         std::chrono::duration<double>(Clock::now() - before).count() >= seconds * 0.9;
