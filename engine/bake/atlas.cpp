@@ -2,6 +2,7 @@
 #include "engine/bake/atlas.h"
 
 #include "engine/core/parallel.h"
+#include "engine/scene/triangle_geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -292,18 +293,9 @@ Arrangement arrange(const AtlasInput& in, float density, bool spread) {
 
 double lightmappedArea(const AtlasInput& in) {
     double area = 0;
-    for (const Instance& instance : in.scene.instances) {
-        if (!hasLightmap(in, instance))
-            continue;
-        const Mesh& mesh = in.scene.meshOf(instance);
-        const glm::mat3 m(instance.toWorld);
-        for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-            const auto [a, b, c] = mesh.triangle(t);
-            area += glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),
-                                           m * (mesh.positions[c] - mesh.positions[a]))) /
-                    2;
-        }
-    }
+    for (const Instance& instance : in.scene.instances)
+        if (hasLightmap(in, instance))
+            area += worldArea(in.scene, instance);
     return area;
 }
 
@@ -392,12 +384,8 @@ AtlasTexel sharedTexel(const std::vector<Place>& group, const AtlasInput& in, st
     const Mesh& mesh = in.scene.assets->meshes[meshIndex];
     std::vector<std::pair<float, std::uint32_t>> largest; // by falling area, then index
     for (const Place& place : group)
-        for (const std::uint32_t t : in.byChart[meshIndex].of(place.chart)) {
-            const auto [a, b, c] = mesh.triangle(t);
-            largest.emplace_back(-glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
-                                                         mesh.positions[c] - mesh.positions[a])),
-                                 t);
-        }
+        for (const std::uint32_t t : in.byChart[meshIndex].of(place.chart))
+            largest.emplace_back(-triangleArea(mesh, t), t);
     std::sort(largest.begin(), largest.end());
     for (; result.count < std::min<std::size_t>(AtlasTexel::kMostPoints, largest.size());
          ++result.count)

@@ -3,6 +3,7 @@
 
 #include "engine/bake/planar_set.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/triangle_geometry.h"
 
 #include <algorithm>
 #include <bit>
@@ -90,28 +91,10 @@ Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& poi
     return result;
 }
 
-struct Geometry {
-    std::vector<glm::vec3> normal; ///< unit, per triangle
-    std::vector<float> area;
-};
-
-Geometry triangleGeometry(const Mesh& mesh) {
-    Geometry g;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-        const auto [a, b, c] = mesh.triangle(t);
-        const glm::vec3 n = glm::cross(mesh.positions[b] - mesh.positions[a],
-                                       mesh.positions[c] - mesh.positions[a]);
-        const float length = glm::length(n);
-        g.normal.push_back(length > 0 ? n / length : glm::vec3(0, 1, 0));
-        g.area.push_back(length / 2);
-    }
-    return g;
-}
-
 /// Grows one chart from `seed`; fills chartOf and the corners' plane coordinates.
 class ChartGrower {
 public:
-    ChartGrower(const Mesh& mesh, const Geometry& geometry, const Adjacency& adjacency)
+    ChartGrower(const Mesh& mesh, const TriangleGeometry& geometry, const Adjacency& adjacency)
         : m_mesh(mesh), m_geometry(geometry), m_adjacency(adjacency),
           chartOf(mesh.triangleCount(), ~0U), corner(mesh.indices.size()) {}
 
@@ -149,7 +132,7 @@ private:
     }
 
     const Mesh& m_mesh;
-    const Geometry& m_geometry;
+    const TriangleGeometry& m_geometry;
     const Adjacency& m_adjacency;
 
 public:
@@ -158,7 +141,7 @@ public:
 };
 
 /// Islands of TEXCOORD_1, to the scale of the surface.
-void useAuthoredUv(const Mesh& mesh, const Geometry& geometry, ChartGrower& out) {
+void useAuthoredUv(const Mesh& mesh, const TriangleGeometry& geometry, ChartGrower& out) {
     const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, true));
     double surface = 0, plane = 0;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
@@ -190,7 +173,7 @@ void useAuthoredUv(const Mesh& mesh, const Geometry& geometry, ChartGrower& out)
     }
 }
 
-void unwrap(const Geometry& geometry, ChartGrower& out) {
+void unwrap(const TriangleGeometry& geometry, ChartGrower& out) {
     std::vector<std::uint32_t> seeds(geometry.area.size());
     std::iota(seeds.begin(), seeds.end(), 0U);
     std::stable_sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -259,7 +242,7 @@ std::string lightmapUvDefect(const Mesh& mesh) {
 }
 
 MeshCharts buildCharts(const Mesh& mesh) {
-    const Geometry geometry = triangleGeometry(mesh);
+    const TriangleGeometry geometry = triangleGeometry(mesh);
     if (lightmapUvDefect(mesh).empty()) {
         const Adjacency none;
         ChartGrower grown(mesh, geometry, none);

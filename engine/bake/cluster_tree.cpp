@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cluster_tree.h"
 
+#include "engine/bake/median_split.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -45,34 +46,12 @@ public:
     LocalTree tree;
 
 private:
-    int widestAxis(std::uint32_t begin, std::uint32_t end) const {
-        Point6 lower, upper;
-        lower.fill(1e30f);
-        upper.fill(-1e30f);
-        for (std::uint32_t i = begin; i < end; ++i)
-            for (std::size_t k = 0; k < 6; ++k) {
-                lower[k] = std::min(lower[k], m_points[m_order[i]][k]);
-                upper[k] = std::max(upper[k], m_points[m_order[i]][k]);
-            }
-        int widest = 0;
-        for (int k = 1; k < 6; ++k)
-            if (upper[std::size_t(k)] - lower[std::size_t(k)] >
-                upper[std::size_t(widest)] - lower[std::size_t(widest)])
-                widest = k;
-        return widest;
-    }
-
     std::uint32_t split(std::uint32_t begin, std::uint32_t end) {
         if (end - begin == 1)
             return m_order[begin];
-        const auto axis = std::size_t(widestAxis(begin, end));
         const std::uint32_t middle = begin + (end - begin) / 2;
-        std::nth_element(m_order.begin() + begin, m_order.begin() + middle, m_order.begin() + end,
-                         [&](std::uint32_t a, std::uint32_t b) {
-                             return m_points[a][axis] != m_points[b][axis]
-                                        ? m_points[a][axis] < m_points[b][axis]
-                                        : a < b;
-                         });
+        medianSplit<6>(std::span(m_order).subspan(begin, end - begin),
+                       [&](std::uint32_t i, std::size_t k) { return m_points[i][k]; });
         const std::uint32_t l = split(begin, middle), r = split(middle, end);
         tree.left.push_back(l);
         tree.right.push_back(r);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/nearest_point.h"
 
-#include <algorithm>
+#include "engine/bake/median_split.h"
+
 #include <limits>
 #include <numeric>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace limn {
@@ -27,20 +27,10 @@ NearestPoint::NearestPoint(std::span<const glm::vec3> points, std::span<const gl
 void NearestPoint::build(std::uint32_t begin, std::uint32_t end) {
     if (end - begin < 2)
         return;
-    glm::vec3 lower(1e30f), upper(-1e30f);
-    for (std::uint32_t i = begin; i < end; ++i) {
-        lower = glm::min(lower, m_points[m_order[i]]);
-        upper = glm::max(upper, m_points[m_order[i]]);
-    }
-    const glm::vec3 size = upper - lower;
-    const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(m_order.begin() + begin, m_order.begin() + middle, m_order.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         return m_points[a][axis] != m_points[b][axis]
-                                    ? m_points[a][axis] < m_points[b][axis]
-                                    : a < b;
-                     });
+    const std::size_t axis =
+        medianSplit<3>(std::span(m_order).subspan(begin, end - begin),
+                       [&](std::uint32_t i, std::size_t k) { return m_points[i][int(k)]; });
     m_axis[middle] = std::uint8_t(axis);
     build(begin, middle);
     build(middle + 1, end);

@@ -4,6 +4,7 @@
 #include "engine/bake/nearest_point.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/triangle_geometry.h"
 
 #include <algorithm>
 #include <cassert>
@@ -14,40 +15,6 @@
 namespace limn {
 
 namespace {
-
-float triangleArea(const Mesh& mesh, std::size_t t) {
-    const auto [a, b, c] = mesh.triangle(t);
-    return glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
-                                  mesh.positions[c] - mesh.positions[a])) /
-           2;
-}
-
-glm::vec3 triangleNormal(const Mesh& mesh, std::size_t t) {
-    const auto [a, b, c] = mesh.triangle(t);
-    const glm::vec3 n =
-        glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
-    const float length = glm::length(n);
-    return length > 0 ? n / length : glm::vec3(0, 1, 0);
-}
-
-glm::vec3 pointOn(const Mesh& mesh, std::size_t t, glm::vec2 uv) {
-    const auto [a, b, c] = mesh.triangle(t);
-    return mesh.positions[a] * (1 - uv.x - uv.y) + mesh.positions[b] * uv.x +
-           mesh.positions[c] * uv.y;
-}
-
-double worldArea(const Scene& scene, const Instance& instance) {
-    const Mesh& mesh = scene.meshOf(instance);
-    const glm::mat3 m(instance.toWorld);
-    double area = 0;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-        const auto [a, b, c] = mesh.triangle(t);
-        area += glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),
-                                       m * (mesh.positions[c] - mesh.positions[a]))) /
-                2;
-    }
-    return area;
-}
 
 bool sendsLight(const Scene& scene, const Instance& instance) {
     return !instance.dynamic && scene.meshOf(instance).triangleCount() > 0;
@@ -118,7 +85,7 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided) {
         while (passed < wanted && t + 1 < mesh.triangleCount())
             passed += triangleArea(mesh, ++t);
         const glm::vec2 uv = sampleTriangle({radicalInverse(i + 1, 2), radicalInverse(i + 1, 3)});
-        result.position.push_back(pointOn(mesh, t, uv));
+        result.position.push_back(trianglePoint(mesh, t, uv));
         result.normal.push_back(triangleNormal(mesh, t));
         result.triangle.push_back(std::uint32_t(t));
         result.barycentric.push_back(uv);
@@ -186,7 +153,8 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels)
                     }
                     if (uv.x + uv.y > 1)
                         uv /= uv.x + uv.y;
-                    m_owner[m_begin[t] + j * n + i] = nearest.find(pointOn(mesh, t, uv), normal);
+                    m_owner[m_begin[t] + j * n + i] =
+                        nearest.find(trianglePoint(mesh, t, uv), normal);
                 }
         }
     });

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/triangle_geometry.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace limn {
+
+/// Twice the area, along the normal.
+static glm::vec3 edgeCross(const Mesh& mesh, std::size_t triangle) {
+    const auto [a, b, c] = mesh.triangle(triangle);
+    return glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+}
+
+static glm::vec3 unitOr(glm::vec3 n, float length) {
+    return length > 0 ? n / length : glm::vec3(0, 1, 0);
+}
+
+float triangleArea(const Mesh& mesh, std::size_t triangle) {
+    return glm::length(edgeCross(mesh, triangle)) / 2;
+}
+
+glm::vec3 triangleNormal(const Mesh& mesh, std::size_t triangle) {
+    const glm::vec3 n = edgeCross(mesh, triangle);
+    return unitOr(n, glm::length(n));
+}
+
+glm::vec3 trianglePoint(const Mesh& mesh, std::size_t triangle, glm::vec2 uv) {
+    const auto [a, b, c] = mesh.triangle(triangle);
+    return mesh.positions[a] * (1 - uv.x - uv.y) + mesh.positions[b] * uv.x +
+           mesh.positions[c] * uv.y;
+}
+
+TriangleGeometry triangleGeometry(const Mesh& mesh) {
+    TriangleGeometry g;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const glm::vec3 n = edgeCross(mesh, t);
+        const float length = glm::length(n);
+        g.normal.push_back(unitOr(n, length));
+        g.area.push_back(length / 2);
+    }
+    return g;
+}
+
+double worldArea(const Scene& scene, const Instance& instance) {
+    const Mesh& mesh = scene.meshOf(instance);
+    const glm::mat3 m(instance.toWorld);
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const auto [a, b, c] = mesh.triangle(t);
+        area += glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),
+                                       m * (mesh.positions[c] - mesh.positions[a]))) /
+                2;
+    }
+    return area;
+}
+
+} // namespace limn
