@@ -58,7 +58,7 @@ struct Place {
 struct LocalTexel {
     glm::uvec2 at;
     std::uint32_t count;
-    std::array<SurfacePoint, AtlasTexel::kMostPoints> points;
+    std::array<MeshPoint, AtlasTexel::kMostPoints> points;
 };
 
 std::uint32_t sideTexels(float texels) {
@@ -135,9 +135,9 @@ glm::vec3 pullInside(glm::vec3 weights, const std::array<glm::vec2, 3>& t) {
 struct TexelSearch {
     float distance =
         1e30f; ///< to the closest surface point, in texels; 1e30: out of every lookup's reach
-    SurfacePoint closest{};
+    MeshPoint closest{};
     std::uint32_t found = 0; ///< bit k: spread[k] lies on the surface
-    std::array<SurfacePoint, AtlasTexel::kMostPoints> spread;
+    std::array<MeshPoint, AtlasTexel::kMostPoints> spread;
 };
 
 /// The k-th of the places looked for in a texel, relative to its centre: a rank-1 lattice over

@@ -11,8 +11,8 @@
 
 namespace limn {
 
-/// A point of an instance's surface.
-struct SurfacePoint {
+/// A point of a mesh.
+struct MeshPoint {
     std::uint32_t triangle;
     glm::vec2 barycentric; ///< (u, v), weights (1-u-v, u, v)
 };
@@ -26,7 +26,7 @@ struct AtlasTexel {
     std::uint32_t texel;     ///< y * width + x
     std::uint32_t instance;  ///< index into Scene::instances
     std::uint32_t count = 0; ///< of points, [1, kMostPoints]
-    std::array<SurfacePoint, kMostPoints> points;
+    std::array<MeshPoint, kMostPoints> points;
 };
 
 struct Atlas {

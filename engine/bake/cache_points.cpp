@@ -13,7 +13,7 @@ namespace limn {
 
 namespace {
 
-void addPoint(const Instance& instance, const Mesh& mesh, const SurfacePoint& point,
+void addPoint(const Instance& instance, const Mesh& mesh, const MeshPoint& point,
               CachePoints& out) {
     const auto [a, b, c] = mesh.triangle(point.triangle);
     const glm::vec3 pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
