@@ -4,6 +4,7 @@
 #include "engine/core/hash.h"
 
 #include <cstdio>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -41,6 +42,17 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
         ->check([](const std::string& text) {
             return gridOf(text) ? "" : fmt::format("\"{}\" is not XxYxZ, each 1 to 256", text);
         });
+    command.add_option("--clustering", o.clustering, "How surfels are joined: agglomerative or kd")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Clustering>{
+            {"agglomerative", Clustering::Agglomerative}, {"kd", Clustering::KdTree}}));
+    command
+        .add_option("--cluster-normal-weight", o.clusterNormalWeight,
+                    "C_n, weight of normals in the clusters' metric")
+        ->check(CLI::Range(0.f, 100.f));
+    command
+        .add_option("--cluster-balance-weight", o.clusterBalanceWeight,
+                    "C_b, weight of equal areas in it; agglomerative only")
+        ->check(CLI::Range(0.f, 100.f));
     command.add_option("--threads", o.threads, "Threads to use; 0: all")
         ->check(CLI::Range(0, 1024));
 }
@@ -55,6 +67,9 @@ void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
         s.texelsPerMetre = 0;
     }
     s.texelsPerMetre = o.texelsPerMetre.value_or(s.texelsPerMetre);
+    s.clustering = o.clustering.value_or(s.clustering);
+    s.clusterNormalWeight = o.clusterNormalWeight.value_or(s.clusterNormalWeight);
+    s.clusterBalanceWeight = o.clusterBalanceWeight.value_or(s.clusterBalanceWeight);
     if (!o.grid.empty())
         s.grid = *gridOf(o.grid);
 }

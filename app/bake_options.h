@@ -16,7 +16,8 @@ namespace limn {
 /// Flags that replace the document's bake settings.
 struct BakeOptions {
     std::optional<std::uint32_t> surfels, links, bands, rays, lightmap;
-    std::optional<float> texelsPerMetre;
+    std::optional<float> texelsPerMetre, clusterNormalWeight, clusterBalanceWeight;
+    std::optional<Clustering> clustering;
     std::string grid; ///< XxYxZ, checked; empty: the document's
     int threads = 0;  ///< 0: all
 };

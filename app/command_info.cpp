@@ -3,8 +3,10 @@
 #include "app/command.h"
 #include "app/scene_options.h"
 
+#include "engine/bake/tree_shape.h"
 #include "engine/core/hash.h"
 #include "engine/files/bake_file.h"
+#include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 
@@ -109,8 +111,12 @@ static Json describe(const Bake& bake) {
                         {"links", s.links},
                         {"bands", s.bands},
                         {"rays", s.rays},
+                        {"clustering", kClusteringNames[std::size_t(s.clustering)]},
                         {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
     json["lightmap"] = {{"width", bake.lightmap.width}, {"height", bake.lightmap.height}};
+    const TreeShape tree = treeShapeOf(bake.tree);
+    json["tree"] = {
+        {"most_depth", tree.mostDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};
     json["input"] = hexHash(bake.sceneHash);
     const nlohmann::json summary = bakeSummary(bake);
     for (const auto& [key, value] : summary.items())

@@ -52,6 +52,31 @@ static void gridRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Grid");
 }
 
+static void clusterRows(FieldEdit& edit, BakeSettings& s) {
+    int how = int(s.clustering);
+    fieldLabel("Clustering",
+               "How surfels are joined into clusters. Agglomerative: the closest two, again and "
+               "again; slower. Kd-tree: halved at medians");
+    if (ImGui::Combo("##clustering", &how, "Agglomerative\0Kd-tree\0"))
+        s.clustering = Clustering(how);
+    fieldEdited(edit, "Clustering");
+    const auto weightRow = [&](const char* label, const char* tooltip, float& weight) {
+        fieldLabel(label, tooltip);
+        ImGui::PushID(label);
+        ImGui::SliderFloat("##weight", &weight, 0, 100, "%.3f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        ImGui::PopID();
+        fieldEdited(edit, label);
+    };
+    weightRow("Normal weight (C_n)",
+              "How much clusters keep to surfels that face the same way. More: flatter clusters",
+              s.clusterNormalWeight);
+    if (s.clustering == Clustering::Agglomerative)
+        weightRow("Balance weight (C_b)",
+                  "How much clusters of like area are joined first. More: a tree of less depth",
+                  s.clusterBalanceWeight);
+}
+
 static void bakeStateLine(EditorState& state) {
     const BakeStatus& bake = state.bake;
     ImGui::Spacing();
@@ -97,6 +122,8 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
     countRow(edit, "Rays per cache",
              "Rays traced from each cache while baking. More: less noise, longer bake", s.rays, 16,
              65536, "Rays");
+    ImGui::Separator();
+    clusterRows(edit, s);
     ImGui::Separator();
     lightmapRows(edit, s);
     gridRow(edit, s);

@@ -46,6 +46,9 @@ std::string settingsDefect(const BakeSettings& s) {
         return fmt::format("bake settings: bands {} is outside [2, 8]", s.bands);
     if (outside(s.rays, 16, 65536))
         return fmt::format("bake settings: rays {} is outside [16, 65536]", s.rays);
+    for (const float weight : {s.clusterNormalWeight, s.clusterBalanceWeight})
+        if (!(weight >= 0 && weight <= 100))
+            return fmt::format("bake settings: cluster weight {} is outside [0, 100]", weight);
     if (!(s.texelsPerMetre >= 0 && s.texelsPerMetre < 1e6f))
         return fmt::format("bake settings: texelsPerMetre {} is outside [0, 1e6)",
                            s.texelsPerMetre);

@@ -23,7 +23,7 @@ namespace limn {
 namespace {
 
 constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 36; // per chunk, unpacked: more is damage
 
 /// One list of fields serves both directions: the archive writes, or reads and checks.
@@ -111,6 +111,7 @@ template <class A>
 void settingsFields(A& a, Bake& b) {
     BakeSettings& s = b.settings;
     a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
+    a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
     a(s.grid), a(s.maxBounces), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
     BakeCounts& c = b.counts;
     a(c.triangles), a(c.surfels), a(c.clusters), a(c.caches), a(c.invalidCaches), a(c.links),
@@ -191,6 +192,8 @@ std::string indexDefect(const Bake& b) {
         for (int i = 0; i < 4; ++i)
             if (k[i] != ~0U && k[i] >= caches)
                 return "SURFELS: cache out of range";
+    if (b.settings.clustering > Clustering::KdTree)
+        return "SETTINGS: unknown clustering";
     if (t.surfels != n || t.skyDirection.size() != t.skyCells || t.right.size() != t.left.size() ||
         t.leftWeight.size() != t.left.size() || t.parent.size() != nodes || nodes == 0)
         return "CLUSTERS: arrays differ in length";

@@ -7,6 +7,10 @@
 
 namespace limn {
 
+/// How surfels are joined into clusters: the closest two by the paper's metric, again and again, or
+/// by halving at medians.
+enum class Clustering : std::uint8_t { Agglomerative, KdTree };
+
 /// What a bake depends on besides the scene. Part of the document. Defaults suit a room or a small
 /// building.
 struct BakeSettings {
@@ -19,6 +23,10 @@ struct BakeSettings {
     float texelsPerMetre = 0;      ///< > 0: fixes the texel density instead
     glm::uvec3 grid{0};            ///< cells of the grid caches; 0: chosen from the bounds
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
+
+    Clustering clustering = Clustering::KdTree;
+    float clusterNormalWeight = 0.1f;   ///< C_n of the clusters' metric; [0, 100]
+    float clusterBalanceWeight = 0.02f; ///< C_b, of agglomerative clusters only; [0, 100]
 
     bool operator==(const BakeSettings&) const = default;
 };

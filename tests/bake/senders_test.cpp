@@ -2,6 +2,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/nearest_point.h"
 #include "engine/bake/surfels.h"
+#include "engine/bake/tree_shape.h"
 #include "engine/math/sampling.h"
 #include "tests/trace/simple_scene.h"
 
@@ -104,24 +105,56 @@ TEST(SurfelOwners, GiveANearbySurfelOfTheSameFace) {
 }
 
 TEST(ClusterTree, IsOneBinaryTreeWithParentsAfterChildren) {
-    const Scene scene = twoRooms();
+    Scene scene = twoRooms();
     const SurfelSet set = placeSurfels(scene, 1000);
-    const ClusterTree tree = buildClusterTree(scene, set);
-    ASSERT_EQ(tree.left.size() + 1, tree.leaves());
-    std::vector<int> parents(tree.size());
-    for (std::uint32_t k = 0; k < tree.left.size(); ++k) {
-        const std::uint32_t node = tree.leaves() + k;
-        for (const std::uint32_t child : {tree.left[k], tree.right[k]}) {
-            EXPECT_LT(child, node);
-            EXPECT_EQ(tree.parent[child], node);
-            ++parents[child];
+    for (const Clustering how : {Clustering::Agglomerative, Clustering::KdTree}) {
+        scene.bake.clustering = how;
+        const ClusterTree tree = buildClusterTree(scene, set);
+        ASSERT_EQ(tree.left.size() + 1, tree.leaves());
+        std::vector<int> parents(tree.size());
+        for (std::uint32_t k = 0; k < tree.left.size(); ++k) {
+            const std::uint32_t node = tree.leaves() + k;
+            for (const std::uint32_t child : {tree.left[k], tree.right[k]}) {
+                EXPECT_LT(child, node);
+                EXPECT_EQ(tree.parent[child], node);
+                ++parents[child];
+            }
+            EXPECT_GT(tree.leftWeight[k], 0);
+            EXPECT_LT(tree.leftWeight[k], 1);
         }
-        EXPECT_GT(tree.leftWeight[k], 0);
-        EXPECT_LT(tree.leftWeight[k], 1);
+        for (std::uint32_t n = 0; n + 1 < tree.size(); ++n)
+            EXPECT_EQ(parents[n], 1) << n;
+        EXPECT_EQ(tree.parent[tree.size() - 1], ~0U);
     }
-    for (std::uint32_t n = 0; n + 1 < tree.size(); ++n)
-        EXPECT_EQ(parents[n], 1) << n;
-    EXPECT_EQ(tree.parent[tree.size() - 1], ~0U);
+}
+
+TEST(ClusterTree, InstancesRepeatTheirMeshsTree) {
+    Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 1000);
+    for (const Clustering how : {Clustering::Agglomerative, Clustering::KdTree}) {
+        scene.bake.clustering = how;
+        const ClusterTree tree = buildClusterTree(scene, set);
+        const std::uint32_t n = set.instanceBegin[1], inner = n - 1;
+        const auto inSecond = [&](std::uint32_t child) {
+            return child < n ? child + n : child + inner;
+        };
+        for (std::uint32_t k = 0; k < inner; ++k) {
+            EXPECT_EQ(tree.left[inner + k], inSecond(tree.left[k]));
+            EXPECT_EQ(tree.right[inner + k], inSecond(tree.right[k]));
+        }
+    }
+}
+
+TEST(TreeShape, OfAKnownTree) {
+    ClusterTree tree;
+    tree.surfels = 3;
+    tree.skyCells = 1;
+    tree.left = {0, 4, 5}; // ((0 1) 2) sky
+    tree.right = {1, 2, 3};
+    const TreeShape shape = treeShapeOf(tree);
+    EXPECT_EQ(shape.mostDepth, 3U);
+    EXPECT_NEAR(shape.meanDepth, 8 / 3.0, 1e-12);
+    EXPECT_NEAR(shape.balance, 0.75, 1e-12);
 }
 
 TEST(Sky, CellsHaveEqualSolidAngleAndContainTheirDirection) {

@@ -143,6 +143,9 @@ private:
             b.texelsPerMetre = notNegative();
             b.grid = {below(100), below(100), below(100)};
             b.maxBounces = std::uint32_t(m_random());
+            b.clustering = Clustering(below(2));
+            b.clusterNormalWeight = unit();
+            b.clusterBalanceWeight = unit();
             return b;
         }
         }
