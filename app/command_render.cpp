@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
 #include "app/output_file.h"
+#include "app/overlay_options.h"
 #include "app/progress_line.h"
 #include "app/render_image.h"
 #include "app/scene_options.h"
@@ -26,15 +27,17 @@ namespace {
 struct Options {
     SceneOptions scene;
     CameraOptions camera;
+    OverlayFlags overlay;
     std::string bake, output, view = "lit", tonemap = "aces", device = "auto";
     float exposureEv = 0;
     bool json = false;
 };
 
-/// Indirect light for one picture.
-struct Lighting {
+/// What a picture needs of a bake: indirect light, and what is drawn over it. Empty: nothing.
+struct Baked {
     std::shared_ptr<const Bake> bake;
     std::unique_ptr<Relighter> relighter;
+    std::shared_ptr<const OverlayData> overlay;
 };
 
 template <class Names>
@@ -79,20 +82,46 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
     return read;
 }
 
-Result<Lighting> lightIndirectly(const Options& options, Scene& scene) {
-    if (scene.instances.empty())
-        return Lighting{}; // nothing receives light
+Result<void> addOverlay(const Options& options, const Scene& scene, const TraceScene& trace,
+                        const Camera& camera, Baked& baked) {
+    const Result<OverlayOptions> wanted = overlayOptions(
+        options.overlay, *baked.bake, trace, camera, options.camera.width, options.camera.height);
+    if (!wanted)
+        return tl::make_unexpected(wanted.error());
+    baked.overlay = std::make_shared<const OverlayData>(makeOverlay(*baked.bake, scene, *wanted));
+    return {};
+}
+
+Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& camera) {
+    const bool light = needsIndirect(View(indexOf(kViewNames, options.view)));
+    if (scene.instances.empty() || !(light || options.overlay.wanted()))
+        return Baked{}; // nothing receives light, or nobody asks
     const TraceScene trace(scene);
-    Result<Bake> baked = obtainBake(options, scene, trace);
-    if (!baked)
-        return tl::make_unexpected(baked.error());
-    Lighting lighting;
-    lighting.bake = std::make_shared<const Bake>(std::move(*baked));
-    lighting.relighter = std::make_unique<Relighter>(lighting.bake);
-    lighting.relighter->relight(scene, trace, lighting.bake->settings.maxBounces,
-                                progressOnStderr());
-    endProgressLine();
-    return lighting;
+    Result<Bake> made = obtainBake(options, scene, trace);
+    if (!made)
+        return tl::make_unexpected(made.error());
+    Baked baked;
+    baked.bake = std::make_shared<const Bake>(std::move(*made));
+    if (options.overlay.wanted())
+        if (const Result<void> added = addOverlay(options, scene, trace, camera, baked); !added)
+            return tl::make_unexpected(added.error());
+    if (light) {
+        baked.relighter = std::make_unique<Relighter>(baked.bake);
+        baked.relighter->relight(scene, trace, baked.bake->settings.maxBounces, progressOnStderr());
+        endProgressLine();
+    }
+    return baked;
+}
+
+// Before anything is read or baked for it.
+Result<void> checkOverlay(const Options& options) {
+    if (!options.overlay.wanted())
+        return checkOverlayFlags(options.overlay);
+    if (std::filesystem::path(options.output).extension() != ".png")
+        return fail("--overlay: is drawn on a tone-mapped picture; -o must be a .png");
+    if (options.device == "cpu")
+        return fail("--overlay: needs a Vulkan device");
+    return checkOverlayFlags(options.overlay);
 }
 
 // "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
@@ -102,17 +131,17 @@ Result<RenderedImage> draw(const Options& options, const Scene& scene,
         return renderOnCpu(scene, request);
 #ifdef LIMN_HAS_VIEWPORT
     Result<RenderedImage> image = renderOnGpu(scene, request);
-    if (image || options.device != "auto")
+    if (image || options.device != "auto" || request.overlay)
         return image;
     logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
 #else
-    if (options.device != "auto")
+    if (options.device != "auto" || request.overlay)
         return fail("--device: this program was built without Vulkan; there is: cpu");
 #endif
     return renderOnCpu(scene, request);
 }
 
-RenderRequest requestOf(const Options& options, const Camera& camera, const Lighting& lighting) {
+RenderRequest requestOf(const Options& options, const Camera& camera, const Baked& baked) {
     RenderRequest request;
     request.view = View(indexOf(kViewNames, options.view));
     request.camera = camera;
@@ -122,14 +151,16 @@ RenderRequest requestOf(const Options& options, const Camera& camera, const Ligh
     request.exposureEv = options.exposureEv;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     request.device = options.device == "auto" ? "" : options.device;
-    if (lighting.relighter) {
-        request.field = &lighting.relighter->field();
-        request.layout = {lighting.bake, &lighting.bake->lightmap}; // lives as long as the bake
-    }
+    if (baked.relighter)
+        request.field = &baked.relighter->field();
+    if (baked.bake)
+        request.layout = {baked.bake, &baked.bake->lightmap}; // lives as long as the bake
+    request.overlay = baked.overlay;
     return request;
 }
 
-void report(const Options& options, const RenderedImage& image, double seconds) {
+void report(const Options& options, const RenderedImage& image, const OverlayData* overlay,
+            double seconds) {
     const std::uint64_t invalid = countInvalidPixels(image.linear);
     if (options.json) {
         nlohmann::ordered_json json;
@@ -139,17 +170,23 @@ void report(const Options& options, const RenderedImage& image, double seconds) 
         json["width"] = image.linear.width;
         json["height"] = image.linear.height;
         json["invalid_pixels"] = invalid;
+        if (overlay)
+            json["overlay"] = legendJson(overlay->legend);
         fmt::print("{}\n", json.dump());
         return;
     }
     fmt::print("{}: {}, {} x {} on {}, {} invalid pixels, {:.1f} s\n", options.output, options.view,
                image.linear.width, image.linear.height, image.device, invalid, seconds);
+    if (overlay)
+        fmt::print("{}", legendText(overlay->legend));
 }
 
 Exit runRender(const Options& options) {
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (const Result<void> writable = checkOutputFile(options.output, {".exr", ".png"}); !writable)
         return failed(writable.error().message);
+    if (const Result<void> possible = checkOverlay(options); !possible)
+        return failed(possible.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);
     if (!imported)
         return failed(imported.error().message);
@@ -159,14 +196,10 @@ Exit runRender(const Options& options) {
         return failed(camera.error().message);
 
     const auto start = std::chrono::steady_clock::now();
-    Lighting lighting;
-    if (needsIndirect(View(indexOf(kViewNames, options.view)))) {
-        Result<Lighting> made = lightIndirectly(options, scene);
-        if (!made)
-            return failed(made.error().message);
-        lighting = std::move(*made);
-    }
-    const Result<RenderedImage> image = draw(options, scene, requestOf(options, *camera, lighting));
+    const Result<Baked> baked = prepareBake(options, scene, *camera);
+    if (!baked)
+        return failed(baked.error().message);
+    const Result<RenderedImage> image = draw(options, scene, requestOf(options, *camera, *baked));
     if (!image)
         return failed(image.error().message);
     const double seconds =
@@ -175,7 +208,7 @@ Exit runRender(const Options& options) {
                                                      : writeExr(options.output, image->linear);
     if (!written)
         return failed(written.error().message);
-    report(options, *image, seconds);
+    report(options, *image, baked->overlay.get(), seconds);
     return Exit::Done;
 }
 
@@ -186,6 +219,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Draws one picture, as the viewport shows it");
     addSceneOptions(*command, options->scene);
     addCameraOptions(*command, options->camera);
+    addOverlayFlags(*command, options->overlay);
     command->add_option("--bake", options->bake,
                         ".limnbake of this scene; without it, one is made in memory if needed");
     command

@@ -22,6 +22,7 @@ Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& reque
     viewport.setScene(scene, request.layout);
     if (request.field)
         viewport.setIndirect(*request.field);
+    viewport.setOverlay(request.overlay);
     ViewportOptions options;
     options.view = request.view;
     options.camera = request.camera;

@@ -12,6 +12,8 @@
 
 namespace limn {
 
+struct OverlayData;
+
 struct RenderRequest {
     View view = View::Lit;
     Camera camera;
@@ -22,6 +24,7 @@ struct RenderRequest {
     std::string device;                   ///< part of the Vulkan device's name; empty: the best
     const IndirectField* field = nullptr; ///< null: no indirect light
     std::shared_ptr<const LightmapLayout> layout;
+    std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
 };
 
 struct RenderedImage {

@@ -71,5 +71,7 @@ void main() {
         c = pbrNeutral(c);
         break;
     }
-    outColor = vec4(encodeSrgb(clamp(c, 0.0, 1.0)), 1);
+    c = encodeSrgb(clamp(c, 0.0, 1.0));
+    const float grey = dot(c, vec3(0.2126, 0.7152, 0.0722));
+    outColor = vec4(mix(c, vec3(grey), push.fade) * (1.0 - 0.5 * push.fade), 1);
 }

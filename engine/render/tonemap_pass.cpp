@@ -3,7 +3,6 @@
 
 #include "engine/render/material_set.h"
 #include "shaders/fullscreen.vert.h"
-#include "shaders/shared/gpu_tonemap.h"
 #include "shaders/tonemap.frag.h"
 
 namespace limn::render {
@@ -33,10 +32,9 @@ TonemapPass::TonemapPass(gpu::Device& device) : m_device(device) {
     m_pipeline = gpu::createGraphicsPipeline(device, desc);
 }
 
-void TonemapPass::record(VkCommandBuffer cmd, VkImageView linear, float exposure, Tonemap curve,
+void TonemapPass::record(VkCommandBuffer cmd, VkImageView linear, const GpuTonemap& push,
                          std::uint32_t slot) {
     gpu::writeTexture(m_device, m_sets[slot], 0, linear, m_sampler.handle);
-    const GpuTonemap push{exposure, std::uint32_t(curve)};
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_pipeline.handle);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0, 1,
                             &m_sets[slot], 0, nullptr);

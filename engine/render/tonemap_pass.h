@@ -4,6 +4,7 @@
 #include "engine/gpu/descriptors.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/scene/view.h"
+#include "shaders/shared/gpu_tonemap.h"
 
 namespace limn::render {
 
@@ -16,7 +17,7 @@ public:
 
     /// Draws into the bound colour attachment. `linear` is in SHADER_READ_ONLY_OPTIMAL; `slot` as
     /// in MaterialSet.
-    void record(VkCommandBuffer cmd, VkImageView linear, float exposure, Tonemap curve,
+    void record(VkCommandBuffer cmd, VkImageView linear, const shared::GpuTonemap& push,
                 std::uint32_t slot);
 
 private:

@@ -7,6 +7,7 @@
 #include "engine/render/direct_pass.h"
 #include "engine/render/geometry_passes.h"
 #include "engine/render/indirect_light.h"
+#include "engine/render/overlay_pass.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/tonemap_pass.h"
 
@@ -46,6 +47,9 @@ constexpr float kNormalBias = 0.2f, kLightBias = 0.5f;
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
+
+// How much a picture gives way to what is drawn over it.
+constexpr float kOverlayFade = 0.8f;
 
 enum Timestamp : std::uint32_t { kBegin, kShadowsDone, kShadeDone, kEnd, kTimestamps };
 
@@ -99,6 +103,8 @@ struct Viewport::Impl {
                      const ViewportOptions& options);
     void recordDirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options);
     void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
+    void recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
+                       const ViewportOptions& options);
     void readTimes(FrameSlot& slot);
 
     gpu::Device& device;
@@ -110,6 +116,7 @@ struct Viewport::Impl {
     DirectPass direct;
     gpu::Sampler texelSampler;
     TonemapPass tonemap;
+    OverlayPass overlay;
     ShadowMaps shadows;
     IndirectLight indirect;
     RenderScene scene;
@@ -134,7 +141,7 @@ Viewport::Impl::Impl(gpu::Device& d)
       geometry(d, frameLayout.handle, materials.layout()), direct(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
-      tonemap(d), shadows(d), indirect(createIndirectLight(d)) {
+      tonemap(d), overlay(d), shadows(d), indirect(createIndirectLight(d)) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -356,9 +363,34 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
     beginRendering(cmd, options.width, options.height, color, nullptr);
     setViewport(cmd, options.width, options.height, false);
     const bool radiance = options.view != View::Albedo && options.view != View::Normals;
-    tonemap.record(cmd, targets.linear.view, radiance ? std::exp2(options.exposureEv) : 1.f,
-                   radiance ? options.tonemap : Tonemap::None, slot);
+    tonemap.record(cmd, targets.linear.view,
+                   {.exposure = radiance ? std::exp2(options.exposureEv) : 1.f,
+                    .curve = std::uint32_t(radiance ? options.tonemap : Tonemap::None),
+                    .fade = overlay.active() ? kOverlayFade : 0},
+                   slot);
     vkCmdEndRendering(cmd);
+}
+
+// Over the tone-mapped picture, so that colours are those of the legend; then hands it out.
+void Viewport::Impl::recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
+                                   const ViewportOptions& options) {
+    if (overlay.active()) {
+        gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
+        gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kFragmentRead,
+                          gpu::kDepthWrite);
+        const std::array color = {attachment(targets.color.view,
+                                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                             VK_ATTACHMENT_LOAD_OP_LOAD, {})};
+        const auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                      VK_ATTACHMENT_LOAD_OP_LOAD, {});
+        beginRendering(cmd, options.width, options.height, color, &depth);
+        setViewport(cmd, options.width, options.height, true);
+        overlay.record(cmd, scene, view,
+                       2 * std::tan(options.camera.fovY / 2) / float(options.height));
+        vkCmdEndRendering(cmd);
+        gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
+                          gpu::kFragmentRead);
+    }
     gpu::Access after = gpu::kAllReads;
     after.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     gpu::imageBarrier(cmd, targets.color.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
@@ -411,6 +443,12 @@ void Viewport::setIndirect(const IndirectField& field) {
     m_impl->pendingUploadMs += msSince(start);
 }
 
+void Viewport::setOverlay(std::shared_ptr<const OverlayData> overlay) {
+    const auto start = Clock::now();
+    m_impl->overlay.set(std::move(overlay));
+    m_impl->pendingUploadMs += msSince(start);
+}
+
 static GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
     const DepthRange range = depthRange(options, bounds);
     const float aspect = float(options.width) / float(options.height);
@@ -457,6 +495,7 @@ void Viewport::render(const ViewportOptions& options) {
     v.recordDirect(cmd, slot, options);
     mark(kShadeDone);
     v.recordTonemap(cmd, options, slotIndex);
+    v.recordOverlay(cmd, view, options);
     mark(kEnd);
     slot.submission = v.device.submit(cmd);
     slot.timed = false;

@@ -20,6 +20,7 @@ namespace limn {
 namespace gpu {
 class Device;
 }
+struct OverlayData;
 
 struct ViewportOptions {
     View view = View::Lit;
@@ -56,6 +57,10 @@ public:
     /// Indirect light; uploads only if `field.version` is new.
     void setIndirect(const IndirectField& field);
 
+    /// What is drawn over the pictures from now on, which fade to grey beneath it; uploads only if
+    /// the pointer is new. Null: nothing, at no cost. The layout is that of setScene.
+    void setOverlay(std::shared_ptr<const OverlayData> overlay);
+
     /// Records and submits one frame to the viewport's own colour target, tone-mapped 8-bit
     /// sRGB-encoded.
     void render(const ViewportOptions& options);
@@ -70,7 +75,8 @@ public:
     /// ImGui 1.86's backend draws no textures but its font.
     VkImage colorImage() const;
 
-    /// The linear, scene-referred result of the last render(). Waits for the GPU.
+    /// The linear, scene-referred result of the last render(), without the overlay. Waits for the
+    /// GPU.
     ImageF readLinear();
     /// The tone-mapped result, RGBA8, as on screen. Waits for the GPU.
     Image readTonemapped();

@@ -19,10 +19,11 @@ using uint = std::uint32_t;
 struct GpuTonemap {
     float exposure; // factor
     uint curve;     // TONEMAP_*
+    float fade;     // 0: as it is; towards 1: greyer and darker, to be drawn over
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuTonemap) == 8);
+static_assert(sizeof(GpuTonemap) == 12);
 } // namespace limn::shared
 #endif
 

@@ -215,6 +215,33 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     EXPECT_EQ(limn("render cornell --view nonsense -o " + picture).exit, 2);
     EXPECT_EQ(limn("render cornell").exit, 2);
 }
+
+TEST_F(CommandLine, RenderDrawsAnOverlayAndSaysWhatItsColoursMean) {
+    const std::string bake = path("box.limnbake"), picture = path("box.png");
+    ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);
+    const std::string start =
+        "render cornell --bake " + bake + " --view albedo --width 48 --height 32 -o " + picture;
+    ASSERT_EQ(limn(start).exit, 0);
+    const std::string without = contents(picture);
+    for (const std::string overlay :
+         {"surfels", "surfel-normals", "surfel-owners", "clusters --overlay-depth 3",
+          "links --pick 24,28", "links --cache 5", "caches", "charts", "density", "overlap"}) {
+        const nlohmann::json drawn = json(start + " --json --overlay " + overlay);
+        expectKeys(drawn["overlay"], {"title", "colors", "notes"});
+        EXPECT_NE(contents(picture), without) << overlay;
+    }
+    EXPECT_FALSE(json(start + " --json").contains("overlay"));
+    EXPECT_EQ(contents(picture), without);
+    expectRefusal(start + " --overlay links", "--pick");
+    expectRefusal(start + " --overlay links --pick 48,0", "48 x 32");
+    expectRefusal(start + " --overlay links --cache 999999", "--cache");
+    expectRefusal(start + " --overlay caches --cache 1", "--overlay links");
+    expectRefusal(start + " --overlay caches --overlay-depth 1", "--overlay clusters");
+    expectRefusal(start + " --overlay caches --device cpu", "Vulkan");
+    expectRefusal("render cornell --overlay caches -o " + path("box.exr"), ".png");
+    EXPECT_EQ(limn(start + " --overlay nonsense").exit, 2);
+    EXPECT_EQ(limn(start + " --overlay links --cache 1 --pick 1,1").exit, 2);
+}
 #endif
 
 } // namespace

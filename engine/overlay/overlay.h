@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// What can be drawn over a picture to see a bake.
+enum class Overlay : std::uint32_t {
+    None,
+    Surfels,       ///< colour: albedo
+    SurfelNormals, ///< colour: normal
+    SurfelOwners,  ///< colour: instance
+    Clusters,      ///< surfels, colour: the cluster at a depth of the tree
+    Links,         ///< surfels that a cache is linked with, colour: weight
+    Caches,        ///< colour: validity
+    Charts,        ///< surfaces, colour: chart
+    Density,       ///< surfaces, colour: texels per metre
+    Overlap,       ///< surfaces, colour: texels used more than once
+};
+
+/// The names of Overlay, for the command line and for people.
+struct OverlayName {
+    const char *name, *label, *tooltip;
+};
+inline constexpr std::array<OverlayName, 10> kOverlays = {
+    {{"none", "No overlay", "The picture alone"},
+     {"surfels", "Surfels", "Samples of the surfaces that send light, in their albedo"},
+     {"surfel-normals", "Surfel normals", "Surfels in the colour of the side they stand for"},
+     {"surfel-owners", "Surfel owners", "Surfels in one colour per instance"},
+     {"clusters", "Clusters", "Surfels in one colour per cluster at a depth of the tree"},
+     {"links", "Link cut", "The clusters that light one cache; click a surface to pick the cache"},
+     {"caches", "Caches", "Where light is gathered; magenta: invalid, filled from others"},
+     {"charts", "UV charts", "Pieces of surface that lie together in the lightmap"},
+     {"density", "Texel density", "Lightmap texels per metre"},
+     {"overlap", "UV overlap", "Lightmap texels that more than one piece of surface uses"}}};
+
+struct OverlayOptions {
+    Overlay kind = Overlay::None;
+    std::uint32_t depth = 6;   ///< of Clusters; 0: the root
+    std::uint32_t cache = ~0u; ///< of Links; ~0: none picked
+
+    bool operator==(const OverlayOptions&) const = default;
+};
+
+enum class MarkShape : std::uint32_t { Disc, Square, Ring };
+
+/// A flat figure in the world, drawn as one instance.
+struct OverlayMark {
+    glm::vec3 position{0};   ///< [m]
+    float radius = 0;        ///< [m]; of Square: half a side
+    glm::vec3 normal{0};     ///< unit, seen from its front only; 0: turned to the viewer
+    std::uint32_t color = 0; ///< sRGB-encoded bytes R, G, B, A
+    MarkShape shape = MarkShape::Disc;
+    std::uint32_t twoSided = 0; ///< 1: seen from both sides
+
+    bool operator==(const OverlayMark&) const = default;
+};
+static_assert(sizeof(OverlayMark) == 40);
+
+/// What the colours mean.
+struct OverlayLegend {
+    struct Entry {
+        std::uint32_t color; ///< as OverlayMark::color
+        std::string text;
+    };
+    std::string title;
+    std::vector<Entry> entries;
+    std::vector<std::string> notes;
+};
+
+/// An overlay ready to draw: figures in the world, or colours for the texels of the lightmap.
+struct OverlayData {
+    std::vector<OverlayMark> marks;
+    std::uint32_t width = 0, height = 0; ///< of `texels`
+    /// Per lightmap texel, row by row, as OverlayMark::color; A = 0: not painted. Empty: surfaces
+    /// stay as they are.
+    std::vector<std::uint32_t> texels;
+    OverlayLegend legend;
+};
+
+/// `scene` is the one that was baked; its materials may be newer. None gives nothing to draw.
+OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options);
+
+/// Depth of the deepest leaf of the tree; the root's is 0.
+std::uint32_t treeDepth(const ClusterTree& tree);
+
+/// Per leaf the node that stands for it when the tree is cut at `depth`: its ancestor there, or
+/// itself if it lies higher.
+std::vector<std::uint32_t> clustersAtDepth(const ClusterTree& tree, std::uint32_t depth);
+
+/// A cache without links: it sees nothing but walls and copies others.
+inline bool isValid(const Caches& caches, std::uint32_t cache) {
+    return caches.linkBegin[cache + 1] > caches.linkBegin[cache];
+}
+
+} // namespace limn

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The colour of the lightmap texel a surface point lies in, with a checker of texels, lit from the viewer.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/gpu_overlay.h"
+
+layout(push_constant) uniform Draw { GpuOverlaySurface draw; };
+
+layout(set = 0, binding = 0, std430) readonly buffer Texels {
+    uint width, height;
+    uint texel[]; // bytes R, G, B, A, sRGB-encoded; A = 0: not painted
+};
+
+layout(location = 0) in vec3 fragPosition;
+layout(location = 1) in vec2 fragLightmapUv;
+
+layout(location = 0) out vec4 outColor;
+
+void main() {
+    const vec2 x = fragLightmapUv * vec2(width, height);
+    // Not of x: helper invocations need not read buffers.
+    const vec2 texelsPerPixel = fwidth(fragLightmapUv) * vec2(width, height);
+    const vec3 g = cross(dFdx(fragPosition), dFdy(fragPosition));
+    const uvec2 i = min(uvec2(max(x, 0.0)), uvec2(width, height) - 1u);
+    const vec4 c = unpackUnorm4x8(texel[i.y * width + i.x]);
+    if (c.a == 0.0)
+        discard;
+    const vec3 toEye = normalize(draw.eye - fragPosition);
+    const float facing = abs(dot(g, toEye)) / max(length(g), 1e-30);
+    // Texels smaller than two pixels have no checker: it would only be noise.
+    const float checker = clamp(1.0 - 2.0 * max(texelsPerPixel.x, texelsPerPixel.y), 0.0, 1.0);
+    const float dark = float((i.x ^ i.y) & 1u) * checker;
+    outColor = vec4(c.rgb * (0.6 + 0.4 * facing) * (1.0 - 0.3 * dark), 1);
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "engine/overlay/overlay.h"
+
+#include "engine/overlay/palette.h"
+#include "tests/render/viewport_fixture.h"
+
+namespace limn {
+
+namespace {
+
+/// The picture from above the plane y = 0 with an overlay; the middle pixel is (16, 16).
+class ViewportOverlays : public ViewportTest {
+protected:
+    Image drawOver(const Scene& scene, std::shared_ptr<const OverlayData> overlay) {
+        viewport->setOverlay(std::move(overlay));
+        draw(scene, View::Lit);
+        return viewport->readTonemapped();
+    }
+
+    static glm::uvec3 pixelOf(const Image& image, std::uint32_t x, std::uint32_t y) {
+        const std::uint8_t* p = &image.rgba[(std::size_t(y) * image.width + x) * 4];
+        return {p[0], p[1], p[2]};
+    }
+};
+
+std::shared_ptr<OverlayData> disc(glm::vec3 position, glm::vec3 normal, float radius = 1) {
+    auto data = std::make_shared<OverlayData>();
+    data->marks = {{.position = position,
+                    .radius = radius,
+                    .normal = normal,
+                    .color = packColor({1, 0.5f, 0})}};
+    return data;
+}
+
+const glm::uvec3 kOrange(255, 128, 0);
+
+} // namespace
+
+TEST_F(ViewportOverlays, AMarkHasItsOwnColourAndSizeOverAGreyPicture) {
+    const Image image = drawOver(plane({0, 0, 0.9f}).build(), disc({0, 0, 0}, {0, 1, 0}));
+    for (std::uint32_t y = 0; y < 32; ++y)
+        for (std::uint32_t x = 0; x < 32; ++x) {
+            const float r = glm::length(planePoint(options, x, y));
+            if (r < 0.6f) {
+                EXPECT_EQ(pixelOf(image, x, y), kOrange) << x << ", " << y;
+            }
+            if (r > 1.1f) {
+                const glm::uvec3 c = pixelOf(image, x, y);
+                EXPECT_TRUE(c.r == c.g && c.g == c.b && c.r > 40 && c.r < 140) << c.r << " " << c.b;
+            }
+        }
+}
+
+TEST_F(ViewportOverlays, MarksHideBehindSurfacesAndShowTheirFrontOnly) {
+    const Scene scene = plane().build();
+    const auto middle = [&](std::shared_ptr<OverlayData> data) {
+        return pixelOf(drawOver(scene, std::move(data)), 16, 16);
+    };
+    EXPECT_NE(middle(disc({0, -0.1f, 0}, {0, 1, 0})), kOrange);
+    EXPECT_NE(middle(disc({0, 1, 0}, {0, -1, 0})), kOrange);
+    EXPECT_EQ(middle(disc({0, 1, 0}, {0, 1, 0})), kOrange);
+    EXPECT_EQ(middle(disc({0, 1, 0}, {0, 0, 0})), kOrange); // turned to the viewer
+    auto both = disc({0, 1, 0}, {0, -1, 0});
+    both->marks[0].twoSided = 1;
+    EXPECT_EQ(middle(both), kOrange);
+}
+
+TEST_F(ViewportOverlays, TexelsColourTheSurfaceWhereTheirUvSaysAndLeaveOutUnpaintedOnes) {
+    const Scene scene = plane().build();
+    layout = std::make_shared<LightmapLayout>();
+    layout->width = 2;
+    layout->height = 1;
+    layout->meshes = {{{0, 1, 2, 3}, {0, 1, 2, 0, 2, 3}, {0, 0}, {}, {{1, 1}}}};
+    layout->instances = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
+    auto data = std::make_shared<OverlayData>();
+    data->width = 2;
+    data->height = 1;
+    data->texels = {packColor({1, 0.5f, 0}), 0};
+    const Image image = drawOver(scene, data);
+    // The plane faces the viewer, so its colours are not darkened; x < 0 is texel 0. Looking down,
+    // the picture's right is x > 0 or x < 0 as the camera's up vector has it.
+    for (std::uint32_t x : {2u, 29u}) {
+        const bool first = planePoint(options, x, 16).x < 0;
+        const glm::vec3 c(pixelOf(image, x, 16));
+        if (first)
+            EXPECT_TRUE(c.r > 1.9f * c.g && c.b == 0 && c.r > 200)
+                << c.r << " " << c.g << " " << c.b;
+        else
+            EXPECT_TRUE(c.r == c.g && c.g == c.b);
+    }
+}
+
+TEST_F(ViewportOverlays, OffCostsNoMemoryAndChangesNothing) {
+    const Scene scene = plane().build();
+    const Image before = drawOver(scene, nullptr);
+    device->waitIdle();
+    const std::uint64_t bytes = viewport->stats().gpuBytes;
+    const Image over = drawOver(scene, disc({0, 0, 0}, {0, 1, 0}));
+    EXPECT_NE(over.rgba, before.rgba);
+    device->waitIdle();
+    EXPECT_GT(viewport->stats().gpuBytes, bytes);
+    const Image after = drawOver(scene, nullptr);
+    device->waitIdle();
+    EXPECT_EQ(after.rgba, before.rgba);
+    EXPECT_EQ(viewport->stats().gpuBytes, bytes);
+}
+
+TEST_F(ViewportOverlays, EachOverlayOfABakeIsDrawnInTurn) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert({0.7f, 0.7f, 0.7f}));
+    b.add(simple::box({-2, -2, -2}, {2, 2, 2}, true));
+    b.add(simple::box({-0.5f, -1.5f, -0.5f}, {0.5f, -0.5f, 0.5f}, false));
+    b.scene.bake.surfels = 300;
+    b.scene.bake.links = 16;
+    b.scene.bake.rays = 64;
+    b.scene.bake.lightmapCaches = 300;
+    b.scene.bake.grid = {3, 3, 3};
+    const Scene scene = b.build();
+    const TraceScene trace(scene);
+    const Result<Bake> baked = bake(trace);
+    ASSERT_TRUE(baked);
+    layout = std::make_shared<LightmapLayout>(baked->lightmap);
+    options.camera.eye = {0.3f, 1.7f, 1.2f};
+    options.width = options.height = 64;
+    const Image without = drawOver(scene, nullptr);
+    for (int round = 0; round < 2; ++round) // frames in flight, buffers replaced
+        for (std::uint32_t k = 1; k < kOverlays.size(); ++k) {
+            const auto data = std::make_shared<const OverlayData>(
+                makeOverlay(*baked, scene, {.kind = Overlay(k), .depth = 4, .cache = 0}));
+            const Image image = drawOver(scene, data);
+            std::size_t colored = 0;
+            for (std::size_t p = 0; p < image.rgba.size(); p += 4)
+                colored += image.rgba[p] != image.rgba[p + 1] || image.rgba[p] != image.rgba[p + 2];
+            const bool grey = Overlay(k) == Overlay::Surfels; // as the albedo is
+            EXPECT_EQ(colored > 200, !grey) << kOverlays[k].name << ": " << colored;
+            EXPECT_NE(image.rgba, without.rgba);
+        }
+}
+
+} // namespace limn
