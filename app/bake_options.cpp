@@ -99,6 +99,7 @@ nlohmann::json bakeSummary(const Bake& bake) {
               {"links", b.links},
               {"caches", b.caches},
               {"total", b.total()}}},
+            {"notes", bake.notes},
             {"hash", hexHash(bake.hash())}};
 }
 

@@ -26,7 +26,7 @@ void addBakeOptions(CLI::App& command, BakeOptions& options);
 /// Puts what was given on the command line, and checked there, into `settings`.
 void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
 
-/// {"seconds", "counts", "bytes", "hash"}.
+/// {"seconds", "counts", "bytes", "notes", "hash"}.
 nlohmann::json bakeSummary(const Bake& bake);
 
 } // namespace limn

@@ -5,6 +5,8 @@
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
+#include "engine/bake/stage_store.h"
+#include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/files/bake_file.h"
 
@@ -21,6 +23,9 @@ namespace {
 struct BakeCommand {
     SceneOptions scene;
     BakeOptions bake;
+    StageStoreOptions store{.folder = defaultStageFolder()};
+    double storeGib = 4;
+    bool noStore = false;
     std::string output;
     bool json = false;
 };
@@ -34,6 +39,8 @@ void print(const Bake& bake) {
         fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
     for (const auto& [name, bytes] : summary["bytes"].items())
         fmt::print("{:<10} {:8.2f} MiB\n", name, double(bytes.get<std::uint64_t>()) / (1 << 20));
+    for (const std::string& note : bake.notes)
+        fmt::print("{}\n", note);
     fmt::print("hash {}\n", summary["hash"].get<std::string>());
 }
 
@@ -46,8 +53,17 @@ Exit runBake(const BakeCommand& command) {
     const ThreadLimit threads(command.bake.threads);
     Scene scene = flatten(imported->document, imported->assets);
     applyBakeOptions(command.bake, scene.bake);
-    const Result<Bake> baked = bake(TraceScene(scene), progressOnStderr());
+    StageStoreOptions options = command.store;
+    options.mostDiskBytes = std::uint64_t(command.storeGib * double(1 << 30));
+    if (command.noStore)
+        options.folder.clear();
+    StageStore store(options);
+    const Result<Bake> baked =
+        bake(TraceScene(scene), progressOnStderr(), command.noStore ? nullptr : &store);
     endProgressLine();
+    store.flush();
+    if (const std::string defect = store.defect(); !defect.empty())
+        logWarning(fmt::format("{}; this bake was not kept", defect));
     if (!baked)
         return failed(fmt::format("{}: {}", command.scene.scene, baked.error().message));
     if (const Result<void> written = writeBake(command.output, *baked); !written)
@@ -66,6 +82,13 @@ void addBakeCommand(CLI::App& app, Run& run) {
     CLI::App* sub = app.add_subcommand("bake", "Precompute a scene's light transport");
     addSceneOptions(*sub, command->scene);
     addBakeOptions(*sub, command->bake);
+    CLI::Option* folder = sub->add_option(
+        "--cache", command->store.folder,
+        "Folder that keeps finished stages for later bakes; default ~/.cache/limn/bake");
+    sub->add_option("--cache-size", command->storeGib, "Most that the folder may hold [GiB]")
+        ->check(CLI::Range(0.001, 1e6));
+    sub->add_flag("--no-cache", command->noStore, "Bake everything, keep nothing")
+        ->excludes(folder);
     sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();
     sub->add_flag("--json", command->json, "One JSON object on stdout");
     sub->callback([command, &run] { run = [command] { return runBake(*command); }; });

@@ -212,11 +212,6 @@ std::vector<LocalTexel> coverTexels(const Place& place, const MeshCharts& charts
     return result;
 }
 
-/// Mean length scale of the instance's transform.
-float worldScale(const Instance& instance) {
-    return std::cbrt(std::abs(glm::determinant(glm::mat3(instance.toWorld))));
-}
-
 /// Everything one density needs; made anew for each density tried.
 struct Arrangement {
     std::vector<Place> places;                    ///< charts with texels of their own
@@ -234,28 +229,27 @@ struct AtlasInput {
     const Scene& scene;
     const std::vector<MeshCharts>& charts;
     std::vector<ChartTriangles> byChart;
+    std::vector<float> scale; ///< per instance: atlasScale
+    Progress progress;        ///< only its cancellation is used
 };
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance) {
     return !instance.dynamic && !in.charts[instance.mesh].indices.empty();
 }
 
-/// Which tiny charts share a texel: those in the same cell of a world grid of one texel, facing the
-/// same way.
+/// Which tiny charts share a texel: those in the same cell of a grid of one texel over the mesh,
+/// facing the same way.
 using ShareKey = std::tuple<std::uint32_t, int, int, int, int>;
 
-ShareKey shareKey(const AtlasInput& in, const Place& place, float density) {
-    const Instance& instance = in.scene.instances[place.instance];
-    const Mesh& mesh = in.scene.meshOf(instance);
-    const auto [a, b, c] = mesh.triangle(in.byChart[instance.mesh].of(place.chart)[0]);
-    const glm::vec3 pa = instance.toWorld * glm::vec4(mesh.positions[a], 1);
-    const glm::vec3 pb = instance.toWorld * glm::vec4(mesh.positions[b], 1);
-    const glm::vec3 pc = instance.toWorld * glm::vec4(mesh.positions[c], 1);
-    const glm::vec3 n = glm::cross(pb - pa, pc - pa), size = glm::abs(n);
+ShareKey shareKey(const AtlasInput& in, const Place& place, float texelsPerUnit) {
+    const std::uint32_t meshIndex = in.scene.instances[place.instance].mesh;
+    const Mesh& mesh = in.scene.assets->meshes[meshIndex];
+    const std::uint32_t triangle = in.byChart[meshIndex].of(place.chart)[0];
+    const glm::vec3 n = triangleNormal(mesh, triangle), size = glm::abs(n);
     const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-    const glm::vec3 cell = glm::floor((pa - in.scene.bounds.lower) * density);
-    return {place.instance, int(cell.x), int(cell.y), int(cell.z),
-            axis * 2 + (n[axis] < 0 ? 1 : 0)};
+    const glm::vec3 p = mesh.positions[mesh.triangle(triangle)[0]];
+    const glm::ivec3 cell(glm::floor(p * texelsPerUnit));
+    return {place.instance, cell.x, cell.y, cell.z, axis * 2 + (n[axis] < 0 ? 1 : 0)};
 }
 
 Arrangement arrange(const AtlasInput& in, float density, bool spread) {
@@ -266,14 +260,14 @@ Arrangement arrange(const AtlasInput& in, float density, bool spread) {
         if (!hasLightmap(in, instance))
             continue;
         const MeshCharts& charts = in.charts[instance.mesh];
-        const float texelsPerUnit = density * worldScale(instance);
+        const float texelsPerUnit = density * in.scale[i];
         for (std::uint32_t c = 0; c < charts.chartSize.size(); ++c) {
             const Place place = makePlace(i, c, charts.chartSize[c], texelsPerUnit);
             if (place.size.x > 1 || place.size.y > 1) {
                 result.places.push_back(place);
                 continue;
             }
-            const auto [it, fresh] = groups.try_emplace(shareKey(in, place, density),
+            const auto [it, fresh] = groups.try_emplace(shareKey(in, place, texelsPerUnit),
                                                         std::uint32_t(result.shared.size()));
             if (fresh)
                 result.shared.emplace_back();
@@ -281,36 +275,51 @@ Arrangement arrange(const AtlasInput& in, float density, bool spread) {
         }
     }
     result.covered.resize(result.places.size());
-    parallelRanges(result.places.size(), 16, [&](std::size_t begin, std::size_t end) {
+    const auto cover = [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const std::uint32_t mesh = in.scene.instances[result.places[p].instance].mesh;
             result.covered[p] = coverTexels(result.places[p], in.charts[mesh],
                                             in.byChart[mesh].of(result.places[p].chart), spread);
         }
-    });
+    };
+    parallelRanges(result.places.size(), 16, in.progress, "charts", cover);
     return result;
 }
 
+/// Summed area [m^2], from the scales that the charts get.
 double lightmappedArea(const AtlasInput& in) {
-    double area = 0;
-    for (const Instance& instance : in.scene.instances)
-        if (hasLightmap(in, instance))
-            area += worldArea(in.scene, instance);
-    return area;
+    std::vector<double> area(in.charts.size(), -1);
+    double sum = 0;
+    for (std::size_t i = 0; i < in.scene.instances.size(); ++i) {
+        const Instance& instance = in.scene.instances[i];
+        if (!hasLightmap(in, instance))
+            continue;
+        double& mesh = area[instance.mesh];
+        if (mesh < 0) {
+            mesh = 0;
+            for (std::size_t t = 0; t < in.scene.meshOf(instance).triangleCount(); ++t)
+                mesh += double(triangleArea(in.scene.meshOf(instance), t));
+        }
+        sum += mesh * double(in.scale[i]) * double(in.scale[i]);
+    }
+    return sum;
 }
 
-/// The density in texels per metre whose texel count is nearest below `wanted`, by bisection on its
-/// logarithm.
+/// The density in texels per metre whose texel count is nearest below `wanted`, by bisection over
+/// 2^(k / 256), k whole: small changes of a scene leave its density and so its texels alone.
 float findDensity(const AtlasInput& in, std::uint32_t wanted) {
     const double area = lightmappedArea(in);
     if (!(area > 0))
         return 1;
-    double low = std::sqrt(wanted / area) / 64, high = std::sqrt(wanted / area) * 2;
-    for (int i = 0; i < 12; ++i) {
-        const double middle = std::sqrt(low * high);
-        (arrange(in, float(middle), false).texelCount() > wanted ? high : low) = middle;
+    constexpr int kSteps = 256; // per octave
+    const auto density = [](int k) { return float(std::exp2(double(k) / kSteps)); };
+    const int middle = int(std::floor(std::log2(wanted / area) / 2 * kSteps));
+    int low = middle - 6 * kSteps, high = middle + kSteps;
+    while (high - low > 1 && !in.progress.cancelled()) {
+        const int k = low + (high - low) / 2;
+        (arrange(in, density(k), false).texelCount() > wanted ? high : low) = k;
     }
-    return float(low);
+    return density(low);
 }
 
 /// Packs the places; sets their offsets and the atlas size. Returns which texels are taken.
@@ -395,14 +404,27 @@ AtlasTexel sharedTexel(const std::vector<Place>& group, const AtlasInput& in, st
 
 } // namespace
 
-Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings) {
-    AtlasInput in{scene, charts, {}};
+float atlasScale(const Instance& instance) {
+    const float scale = std::cbrt(std::abs(glm::determinant(glm::mat3(instance.toWorld))));
+    int exponent;
+    const float mantissa = std::frexp(scale, &exponent);
+    constexpr float kSteps = 4096; // hides what a rotation's rounding does to the determinant
+    return std::isfinite(scale) ? std::ldexp(std::round(mantissa * kSteps) / kSteps, exponent) : 0;
+}
+
+Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
+                 const Progress& progress) {
+    AtlasInput in{scene, charts, {}, {}, {.report = {}, .cancel = progress.cancel}};
+    for (const Instance& i : scene.instances)
+        in.scale.push_back(atlasScale(i));
     for (const MeshCharts& c : charts)
         in.byChart.push_back(trianglesByChart(c));
     Atlas atlas;
     atlas.texelsPerMetre = settings.texelsPerMetre > 0 ? settings.texelsPerMetre
                                                        : findDensity(in, settings.lightmapCaches);
     Arrangement a = arrange(in, atlas.texelsPerMetre, true);
+    if (progress.cancelled())
+        return atlas;
     LightmapLayout& layout = atlas.layout;
     layout.instances.resize(scene.instances.size());
     if (a.texelCount() == 0) {

@@ -40,8 +40,13 @@ struct Atlas {
 /// without padding; a side under half a texel becomes one texel; charts smaller than that in both
 /// share a texel with their neighbours of like orientation. The density is settings.texelsPerMetre,
 /// or found by bisection so that about settings.lightmapCaches texels are met. `charts` per mesh,
-/// as Assets::meshes.
-Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings);
+/// as Assets::meshes. Of the instances it reads only mesh, dynamic and atlasScale. Unfinished when
+/// cancelled.
+Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
+                 const Progress& progress = {});
+
+/// Mean length scale of the instance's transform, rounded to 12 bits.
+float atlasScale(const Instance& instance);
 
 /// The four texels and weights of a bilinear lookup at normalised `uv`; indices y * width + x,
 /// clamped to the atlas.

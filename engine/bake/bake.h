@@ -18,6 +18,8 @@
 
 namespace limn {
 
+class StageStore;
+
 /// Sample points of the static surfaces that stand for all bounced light. Structure of arrays,
 /// world space.
 struct Surfels {
@@ -105,8 +107,12 @@ struct Bake {
     BakeCounts counts;
     std::vector<std::pair<std::string, double>>
         seconds; ///< per stage in order; not part of the hash
+    /// What was made again and why, for people: "2 instances moved: 1 204 of 10 585 caches
+    /// re-traced". Not part of the hash or the file.
+    std::vector<std::string> notes;
 
-    /// Of everything but `seconds`.
+    /// Of everything but `counts`, `seconds` and `notes`: equal for equal documents, whatever was
+    /// known before.
     std::uint64_t hash() const;
 };
 
@@ -121,7 +127,9 @@ BakeBytes bytesOf(const Bake& bake);
 std::uint64_t bakeInputHash(const Scene& scene);
 
 /// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").
-/// Stages reported: charts, surfels, clusters, caches, trace, cut.
-Result<Bake> bake(const TraceScene& trace, const Progress& progress = {});
+/// Stages reported: charts, surfels, clusters, caches, trace, cut. What `store` knows is not made
+/// again: the result is the same, and counts.rays is what was traced now.
+Result<Bake> bake(const TraceScene& trace, const Progress& progress = {},
+                  StageStore* store = nullptr);
 
 } // namespace limn

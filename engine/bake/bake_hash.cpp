@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/bake.h"
+#include "engine/bake/input_hash.h"
 #include "engine/core/hash.h"
+#include "engine/core/parallel.h"
 
 namespace limn {
 
@@ -55,28 +57,44 @@ std::uint64_t Bake::hash() const {
     return hashVector(c.fillBegin, hashVector(c.fillSource, hashVector(c.fillWeight, h)));
 }
 
+std::uint64_t hashMesh(const Mesh& mesh) {
+    const std::uint64_t h = hashVector(mesh.positions, hashVector(mesh.indices, 5));
+    return hashVector(mesh.uv0, hashVector(mesh.uv1, h));
+}
+
+std::vector<std::uint64_t> hashMeshes(const Scene& scene) {
+    std::vector<std::uint64_t> hashes(scene.assets ? scene.assets->meshes.size() : 0);
+    parallelRanges(hashes.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            hashes[m] = hashMesh(scene.assets->meshes[m]);
+    });
+    return hashes;
+}
+
+std::uint64_t hashSurface(const Scene& scene, const Material& m, std::uint64_t seed) {
+    std::uint64_t h =
+        hashValue(std::uint32_t(m.doubleSided) << 8 | std::uint32_t(m.alphaMode), seed);
+    if (isCutout(m)) {
+        h = hashValue(m.alphaCutoff, hashValue(m.baseColor.w, h));
+        h = hashTexture(*scene.assets, m.baseColorTexture, h);
+    }
+    return h;
+}
+
+bool emits(const Material& m) {
+    return m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
+}
+
 std::uint64_t bakeInputHash(const Scene& scene) {
     std::uint64_t h = hashSettings(scene.bake, 2);
     for (const Instance& i : scene.instances) {
-        h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), h));
+        h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), hashValue(i.node, h)));
         h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
-        const Material& m = scene.materialOf(i);
         // Whether it emits guides the sampling; how much does not.
-        const bool emits = m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
-        h = hashValue(std::uint32_t(emits) << 16 | std::uint32_t(m.doubleSided) << 8 |
-                          std::uint32_t(m.alphaMode),
-                      h);
-        if (m.alphaMode == AlphaMode::Mask) {
-            h = hashValue(m.alphaCutoff, hashValue(m.baseColor.w, h));
-            h = hashTexture(*scene.assets, m.baseColorTexture, h);
-        }
+        const Material& m = scene.materialOf(i);
+        h = hashSurface(scene, m, hashValue(std::uint32_t(emits(m)), h));
     }
-    if (scene.assets)
-        for (const Mesh& m : scene.assets->meshes) {
-            h = hashVector(m.positions, hashVector(m.indices, h));
-            h = hashVector(m.uv0, hashVector(m.uv1, h));
-        }
-    return h;
+    return hashVector(hashMeshes(scene), h);
 }
 
 } // namespace limn

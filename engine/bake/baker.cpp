@@ -6,8 +6,10 @@
 #include "engine/bake/charts.h"
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut.h"
-#include "engine/bake/gather.h"
+#include "engine/bake/input_hash.h"
+#include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
+#include "engine/bake/trace_stage.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 
@@ -63,17 +65,40 @@ std::string settingsDefect(const BakeSettings& s) {
 }
 
 /// Charts of every mesh that a static instance uses. Returns false when cancelled.
-bool chartMeshes(const Scene& scene, const Progress& progress, std::vector<MeshCharts>& charts) {
-    charts.assign(scene.assets->meshes.size(), {});
+bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
+                 const Progress& progress, StageStore* store, std::vector<MeshCharts>& charts) {
+    charts.assign(meshes.size(), {});
     std::vector<bool> used(charts.size());
     for (const Instance& i : scene.instances)
         used[i.mesh] = used[i.mesh] || !i.dynamic;
-    return parallelRanges(charts.size(), 1, progress, "charts",
-                          [&](std::size_t begin, std::size_t end) {
-                              for (std::size_t m = begin; m < end; ++m)
-                                  if (used[m])
-                                      charts[m] = buildCharts(scene.assets->meshes[m]);
-                          });
+    return parallelRanges(
+        charts.size(), 1, progress, "charts", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t m = begin; m < end; ++m)
+                if (used[m])
+                    charts[m] = keptOrMade<MeshCharts>(
+                        store, hashValue(meshes[m], 21), progress,
+                        [](auto& a, auto& c) { chartFields(a, c); },
+                        [&] { return buildCharts(scene.assets->meshes[m], progress); });
+        });
+}
+
+/// Of all that buildAtlas reads.
+std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes) {
+    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 22);
+    h = hashValue(scene.bake.texelsPerMetre, h);
+    for (const Instance& i : scene.instances)
+        h = hashValue(std::uint32_t(i.dynamic),
+                      hashValue(atlasScale(i), hashValue(meshes[i.mesh], h)));
+    return h;
+}
+
+Atlas makeAtlas(const Scene& scene, const std::vector<std::uint64_t>& meshes,
+                std::vector<MeshCharts> charts, const Progress& progress, StageStore* store) {
+    Atlas atlas = keptOrMade<Atlas>(
+        store, atlasKey(scene, meshes), progress, [](auto& a, auto& t) { atlasFields(a, t); },
+        [&] { return buildAtlas(scene, charts, scene.bake, progress); });
+    atlas.layout.meshes = std::move(charts);
+    return atlas;
 }
 
 BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
@@ -90,7 +115,7 @@ BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
 
 } // namespace
 
-Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
+Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore* store) {
     const Scene& scene = trace.scene();
     if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
         return fail(defect);
@@ -100,10 +125,11 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
     result.sceneHash = bakeInputHash(scene);
     StageClock clock(result.seconds);
 
+    const std::vector<std::uint64_t> meshes = hashMeshes(scene);
     std::vector<MeshCharts> charts;
-    if (!chartMeshes(scene, progress, charts))
+    if (!chartMeshes(scene, meshes, progress, store, charts))
         return cancelled();
-    Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
+    Atlas atlas = makeAtlas(scene, meshes, std::move(charts), progress, store);
     clock.finish("charts");
     if (progress.cancelled())
         return cancelled();
@@ -128,8 +154,11 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
     clock.finish("caches");
 
     GatherHits hits;
-    if (!gather(trace, set, result.caches, points, scene.bake.rays, progress, hits))
-        return cancelled();
+    Result<TraceReport> traced = traceHits(
+        {trace, set, result.caches, points, scene.bake.rays, meshes}, progress, store, hits);
+    if (!traced)
+        return tl::make_unexpected(traced.error());
+    result.notes = std::move(traced->notes);
     clock.finish("trace");
     weighBySight(hits, result.tree);
     if (!buildLinks(result.tree, hits, points, scene.bake.links, int(scene.bake.bands), progress,
@@ -140,7 +169,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress) {
 
     result.lightmap = std::move(atlas.layout);
     result.surfels = std::move(set.surfels);
-    result.counts = countOf(scene, result, std::uint64_t(hits.sender.size()));
+    result.counts = countOf(scene, result, traced->rays);
     result.counts.invalidCaches = invalid;
     return result;
 }

@@ -2,8 +2,10 @@
 #include "engine/bake/cache_points.h"
 
 #include "engine/bake/surfels.h"
+#include "engine/math/sampling.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -25,6 +27,15 @@ void addPoint(const Instance& instance, const Mesh& mesh, const MeshPoint& point
     out.normal.push_back(length > 0 ? n / length : glm::vec3(0, 1, 0));
 }
 
+std::uint32_t seedOf(const Instance& instance, const MeshPoint& point) {
+    std::uint32_t seed = mixBits(instance.mesh);
+    for (const std::uint32_t v : {std::uint32_t(instance.node), point.triangle,
+                                  std::bit_cast<std::uint32_t>(point.barycentric.x),
+                                  std::bit_cast<std::uint32_t>(point.barycentric.y)})
+        seed = mixBits(seed ^ v) + seed;
+    return seed;
+}
+
 void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
                       CachePoints& points) {
     const Instance& instance = scene.instances[texel.instance];
@@ -42,6 +53,7 @@ void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& cache
     caches.position.push_back(position);
     caches.normal.push_back(length > 1e-3f ? normal / length : points.normal[first]);
     caches.texel.push_back(texel.texel);
+    points.seed.push_back(seedOf(instance, texel.points[0]));
 }
 
 } // namespace
@@ -61,7 +73,8 @@ Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
                 caches.kind.push_back(CacheKind::Grid);
                 caches.position.push_back(gridBounds.lower + (glm::vec3(x, y, z) + 0.5f) * cell);
                 caches.normal.emplace_back(0);
-                caches.texel.push_back(index++);
+                caches.texel.push_back(index);
+                points.seed.push_back(index++);
                 points.position.push_back(caches.position.back());
                 points.normal.emplace_back(0);
                 points.begin.push_back(std::uint32_t(points.position.size()));

@@ -12,6 +12,9 @@ namespace limn {
 struct CachePoints {
     std::vector<std::uint32_t> begin;        ///< caches + 1 offsets
     std::vector<glm::vec3> position, normal; ///< world; normal 0 for Grid
+    /// Per cache: turns its ray directions. Of the place in the mesh or the grid, so that a cache
+    /// keeps its rays when objects come, go or move.
+    std::vector<std::uint32_t> seed;
 };
 
 /// The caches of an atlas' texels, then those of the grid: kind, mean position, mean normal and

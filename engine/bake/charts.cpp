@@ -17,6 +17,12 @@ namespace limn {
 
 namespace {
 
+/// Looks now and then whether the bake was cancelled.
+struct Stop {
+    const Progress& progress;
+    bool at(std::size_t i) const { return i % 4096 == 0 && progress.cancelled(); }
+};
+
 /// Two triangles belong together when they share an edge of equal end points.
 struct EdgeKey {
     std::uint32_t a, b;
@@ -42,11 +48,11 @@ std::uint32_t floatKey(float f) {
 } // -0 joins 0
 
 /// Number of each vertex after joining those at equal position (and equal uv1 when asked).
-std::vector<std::uint32_t> weld(const Mesh& mesh, bool byUv1) {
+std::vector<std::uint32_t> weld(const Mesh& mesh, bool byUv1, const Stop& stop) {
     std::unordered_map<std::array<std::uint32_t, 5>, std::uint32_t, PointHash> ids;
     ids.reserve(mesh.positions.size());
     std::vector<std::uint32_t> result(mesh.positions.size());
-    for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t i = 0; i < result.size() && !stop.at(i); ++i) {
         const glm::vec3 p = mesh.positions[i];
         const glm::vec2 uv = byUv1 ? mesh.uv1[i] : glm::vec2(0);
         const std::array<std::uint32_t, 5> key = {floatKey(p.x), floatKey(p.y), floatKey(p.z),
@@ -61,7 +67,8 @@ struct Adjacency {
     std::vector<std::uint32_t> begin, neighbours;
 };
 
-Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& point) {
+Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& point,
+                         const Stop& stop) {
     const std::size_t count = mesh.triangleCount();
     std::unordered_map<EdgeKey, std::vector<std::uint32_t>, EdgeHash> edges;
     edges.reserve(count * 2);
@@ -70,12 +77,12 @@ Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& poi
                             b = point[mesh.indices[3 * t + (k + 1) % 3]];
         return EdgeKey{std::min(a, b), std::max(a, b)};
     };
-    for (std::size_t t = 0; t < count; ++t)
+    for (std::size_t t = 0; t < count && !stop.at(t); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             edges[edge(t, k)].push_back(std::uint32_t(t));
     Adjacency result;
     result.begin.reserve(count + 1);
-    for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t t = 0; t < count && !stop.at(t); ++t) {
         result.begin.push_back(std::uint32_t(result.neighbours.size()));
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& sharing = edges[edge(t, k)];
@@ -94,8 +101,9 @@ Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& poi
 /// Grows one chart from `seed`; fills chartOf and the corners' plane coordinates.
 class ChartGrower {
 public:
-    ChartGrower(const Mesh& mesh, const TriangleGeometry& geometry, const Adjacency& adjacency)
-        : m_mesh(mesh), m_geometry(geometry), m_adjacency(adjacency),
+    ChartGrower(const Mesh& mesh, const TriangleGeometry& geometry, const Adjacency& adjacency,
+                const Stop& stop)
+        : m_mesh(mesh), m_geometry(geometry), m_adjacency(adjacency), m_stop(stop),
           chartOf(mesh.triangleCount(), ~0U), corner(mesh.indices.size()) {}
 
     void grow(std::uint32_t seed, std::uint32_t chart) {
@@ -105,7 +113,7 @@ public:
         PlanarSet placed(std::sqrt(std::max(m_geometry.area[seed], 1e-30f)) * 2);
         std::vector<std::uint32_t> queue;
         tryAdd(seed, chart, basis, placed, queue);
-        for (std::size_t next = 0; next < queue.size(); ++next)
+        for (std::size_t next = 0; next < queue.size() && !m_stop.at(next); ++next)
             for (std::uint32_t i = m_adjacency.begin[queue[next]];
                  i < m_adjacency.begin[queue[next] + 1]; ++i) {
                 const std::uint32_t other = m_adjacency.neighbours[i];
@@ -134,6 +142,7 @@ private:
     const Mesh& m_mesh;
     const TriangleGeometry& m_geometry;
     const Adjacency& m_adjacency;
+    const Stop& m_stop;
 
 public:
     std::vector<std::uint32_t> chartOf; ///< per triangle
@@ -141,8 +150,11 @@ public:
 };
 
 /// Islands of TEXCOORD_1, to the scale of the surface.
-void useAuthoredUv(const Mesh& mesh, const TriangleGeometry& geometry, ChartGrower& out) {
-    const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, true));
+void useAuthoredUv(const Mesh& mesh, const TriangleGeometry& geometry, const Stop& stop,
+                   ChartGrower& out) {
+    const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, true, stop), stop);
+    if (stop.progress.cancelled())
+        return;
     double surface = 0, plane = 0;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
         const auto [a, b, c] = mesh.triangle(t);
@@ -173,16 +185,16 @@ void useAuthoredUv(const Mesh& mesh, const TriangleGeometry& geometry, ChartGrow
     }
 }
 
-void unwrap(const TriangleGeometry& geometry, ChartGrower& out) {
+void unwrap(const TriangleGeometry& geometry, const Stop& stop, ChartGrower& out) {
     std::vector<std::uint32_t> seeds(geometry.area.size());
     std::iota(seeds.begin(), seeds.end(), 0U);
     std::stable_sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
         return geometry.area[a] > geometry.area[b];
     });
     std::uint32_t charts = 0;
-    for (const std::uint32_t seed : seeds)
-        if (out.chartOf[seed] == ~0U)
-            out.grow(seed, charts++);
+    for (std::size_t i = 0; i < seeds.size() && !stop.at(i); ++i)
+        if (out.chartOf[seeds[i]] == ~0U)
+            out.grow(seeds[i], charts++);
 }
 
 /// One vertex per (mesh vertex, chart); the plane coordinates shifted so that each chart starts at
@@ -218,7 +230,7 @@ MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
 
 } // namespace
 
-std::string lightmapUvDefect(const Mesh& mesh) {
+std::string lightmapUvDefect(const Mesh& mesh, const Progress& progress) {
     if (mesh.uv1.empty())
         return "no TEXCOORD_1";
     double total = 0;
@@ -231,6 +243,8 @@ std::string lightmapUvDefect(const Mesh& mesh) {
         const Triangle2 flat = {mesh.uv1[a], mesh.uv1[b], mesh.uv1[c]};
         const glm::vec2 e1 = flat[1] - flat[0], e2 = flat[2] - flat[0];
         const float area = std::abs(e1.x * e2.y - e1.y * e2.x) / 2;
+        if (Stop{progress}.at(t))
+            return "cancelled";
         if (!(area > 1e-12f))
             return "TEXCOORD_1 has triangles without area";
         if (placed.overlaps(flat))
@@ -241,18 +255,20 @@ std::string lightmapUvDefect(const Mesh& mesh) {
     return total > 0 ? "" : "TEXCOORD_1 has no area";
 }
 
-MeshCharts buildCharts(const Mesh& mesh) {
+MeshCharts buildCharts(const Mesh& mesh, const Progress& progress) {
+    const Stop stop{progress};
     const TriangleGeometry geometry = triangleGeometry(mesh);
-    if (lightmapUvDefect(mesh).empty()) {
-        const Adjacency none;
-        ChartGrower grown(mesh, geometry, none);
-        useAuthoredUv(mesh, geometry, grown);
-        return collectVertices(mesh, grown);
-    }
-    const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, false));
-    ChartGrower grown(mesh, geometry, adjacency);
-    unwrap(geometry, grown);
-    return collectVertices(mesh, grown);
+    const bool authored = lightmapUvDefect(mesh, progress).empty();
+    const Adjacency adjacency =
+        authored ? Adjacency() : buildAdjacency(mesh, weld(mesh, false, stop), stop);
+    if (progress.cancelled())
+        return {};
+    ChartGrower grown(mesh, geometry, adjacency, stop);
+    if (authored)
+        useAuthoredUv(mesh, geometry, stop, grown);
+    else
+        unwrap(geometry, stop, grown);
+    return progress.cancelled() ? MeshCharts() : collectVertices(mesh, grown);
 }
 
 } // namespace limn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/lightmap_layout.h"
+#include "engine/core/progress.h"
 #include "engine/scene/mesh.h"
 
 #include <string>
@@ -12,10 +13,11 @@ namespace limn {
 /// where it is valid (within [0, 1], no two triangles overlapping, no degenerate ones), one chart
 /// per island; else projects connected triangles along the normal of a seed, within 60 degrees of
 /// it. Deterministic. chartUv is in object units, to scale.
-MeshCharts buildCharts(const Mesh& mesh);
+/// Empty when cancelled.
+MeshCharts buildCharts(const Mesh& mesh, const Progress& progress = {});
 
 /// Whether TEXCOORD_1 can serve as lightmap coordinates; else why not, for the report. Empty:
-/// valid.
-std::string lightmapUvDefect(const Mesh& mesh);
+/// valid. "cancelled" when cancelled.
+std::string lightmapUvDefect(const Mesh& mesh, const Progress& progress = {});
 
 } // namespace limn

@@ -5,22 +5,16 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <tbb/task_arena.h>
 
 namespace limn {
 
 namespace {
-
-std::vector<SurfelOwners> buildOwners(const Scene& scene, const SurfelSet& set) {
-    std::vector<SurfelOwners> owners(set.meshes.size());
-    for (std::size_t m = 0; m < owners.size(); ++m)
-        if (set.meshes[m].size() > 0)
-            owners[m] = SurfelOwners(scene.assets->meshes[m], set.meshes[m]);
-    return owners;
-}
 
 /// Surfels of instances whose material emits, or none where there are so many that rays meet enough
 /// of them.
@@ -37,47 +31,26 @@ std::vector<std::uint32_t> emissiveSurfels(const Scene& scene, const SurfelSet& 
     return result.size() <= rays ? result : std::vector<std::uint32_t>();
 }
 
-struct Gatherer {
+/// Where a ray starts that leaves a cache's point on the front (or back) of its surface.
+glm::vec3 startOf(const TraceScene& trace, const CachePoints& points, std::uint32_t point,
+                  bool front) {
+    return trace.clearOf(points.position[point],
+                         front ? points.normal[point] : -points.normal[point]);
+}
+
+struct Finisher {
     const TraceScene& trace;
     const SurfelSet& set;
     const Caches& caches;
     const CachePoints& points;
-    std::vector<SurfelOwners> owners;
     std::vector<std::uint32_t> emissive;
+    bool aimedAlready;
     std::vector<bool> isEmissive; ///< per surfel; empty without emissive ones
 
-    std::uint32_t sender(const Ray& ray) const {
-        const Hit hit = trace.closestHit(ray, TraceMask::Static);
-        if (!hit)
-            return std::uint32_t(set.surfels.size()) + skyCellOf(ray.direction);
-        const Scene& scene = trace.scene();
-        const Instance& instance = scene.instances[hit.instance];
-        const bool back = !hit.frontFace;
-        if (back && !isTwoSided(scene.materialOf(instance)))
-            return GatherHits::kBackFace;
-        return set.instanceBegin[hit.instance] +
-               owners[instance.mesh].at(hit.triangle, hit.u, hit.v, back);
-    }
-
-    /// Where a ray starts that leaves a cache's point on the front (or back) of its surface.
-    glm::vec3 start(std::uint32_t point, bool front) const {
-        const glm::vec3 p = points.position[point];
-        const glm::vec3 lift = points.normal[point] * trace.epsilonAt(p);
-        return front ? p + lift : p - lift;
-    }
-
-    void gatherCache(std::uint32_t cache, std::uint32_t rays, std::uint32_t* out) const {
-        const CacheRays directions = raysOf(caches, points, cache, rays);
-        const std::uint32_t first = points.begin[cache];
-        for (std::uint32_t r = 0; r < rays; ++r) {
-            const std::uint32_t k = r % directions.points;
-            const glm::vec3 local = directions.local[r];
-            Ray ray;
-            ray.origin = start(first + k, local.z >= 0);
-            ray.direction = directions.toWorld[k] * local;
-            out[r] = sender(ray);
-        }
-        leaveOutBuried(directions.points, rays, out);
+    static void markBacks(std::uint32_t rays, std::uint32_t* sender) {
+        std::replace_if(
+            sender, sender + rays, [](RawHit hit) { return (hit & kBack) != 0; },
+            GatherHits::kBackFace);
     }
 
     /// Marks the rays of points most of whose rays met backs.
@@ -94,46 +67,49 @@ struct Gatherer {
     }
 
     /// Replaces the few chance hits of emissive surfels by a ray at each, from the cache's points
-    /// in turn.
-    void aimCache(std::uint32_t cache, std::uint32_t rays, std::uint32_t* sender,
-                  std::vector<AimedSample>& aimed) const {
+    /// in turn. Returns the rays traced.
+    std::uint32_t aimCache(std::uint32_t cache, std::uint32_t rays, std::uint32_t* sender,
+                           std::vector<AimedSample>& aimed) const {
         const auto met = [&](std::uint32_t s) { return s < isEmissive.size() && isEmissive[s]; };
         if (emissive.empty() ||
             std::uint32_t(std::count_if(sender, sender + rays, met)) * 16 >= rays)
-            return;
+            return 0;
         std::vector<std::uint32_t> open; // points that are not buried
         for (std::uint32_t k = 0; k < points.begin[cache + 1] - points.begin[cache]; ++k)
             if (sender[k] != GatherHits::kLeftOut)
                 open.push_back(points.begin[cache] + k);
         if (open.empty())
-            return;
+            return 0;
+        std::uint32_t traced = 0;
         std::replace_if(sender, sender + rays, met, GatherHits::kAimed);
+        if (aimedAlready)
+            return 0;
         for (std::size_t i = 0; i < emissive.size(); ++i)
-            aim(caches.kind[cache], open[i % open.size()], emissive[i], aimed);
+            traced += aim(caches.kind[cache], open[i % open.size()], emissive[i], aimed) ? 1 : 0;
+        return traced;
     }
 
 private:
-    void aim(CacheKind kind, std::uint32_t point, std::uint32_t s,
+    /// False where the two do not face each other: no ray is traced.
+    bool aim(CacheKind kind, std::uint32_t point, std::uint32_t s,
              std::vector<AimedSample>& aimed) const {
         const glm::vec3 toSender = set.surfels.position[s] - points.position[point];
         const float d2 = glm::dot(toSender, toSender);
         if (!(d2 > 0))
-            return;
+            return false;
         const glm::vec3 direction = toSender / std::sqrt(d2);
         const float cosTheta = glm::dot(direction, points.normal[point]);
         const float cosSender = -glm::dot(direction, set.surfels.normal[s]);
         if (!(cosSender > 0) || (kind == CacheKind::Hemisphere && !(cosTheta > 0)))
-            return;
-        const glm::vec3 from = start(point, cosTheta >= 0);
-        const glm::vec3 to = set.surfels.position[s] +
-                             set.surfels.normal[s] * trace.epsilonAt(set.surfels.position[s]);
-        const float length = glm::length(to - from);
-        if (!(length > 0) ||
-            trace.occluded({from, (to - from) / length, 0, length}, TraceMask::Static))
-            return;
+            return false;
+        const glm::vec3 from = startOf(trace, points, point, cosTheta >= 0);
+        const glm::vec3 to = trace.clearOf(set.surfels.position[s], set.surfels.normal[s]);
+        if (trace.blocked(from, to, TraceMask::Static))
+            return true;
         const float area = set.surfels.area[s];
         const float solidAngle = area * cosSender / (d2 + area / (2 * std::numbers::pi_v<float>));
         aimed.push_back({s, solidAngle / std::numbers::pi_v<float>, cosTheta, direction});
+        return true;
     }
 };
 
@@ -143,37 +119,86 @@ CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t 
                  std::uint32_t rays) {
     const std::uint32_t first = points.begin[cache], count = points.begin[cache + 1] - first;
     CacheRays result{
-        DirectionSet(rays, caches.kind[cache] != CacheKind::Hemisphere, cache), count, {}};
+        DirectionSet(rays, caches.kind[cache] != CacheKind::Hemisphere, points.seed[cache]),
+        count,
+        {}};
     for (std::uint32_t k = 0; k < count; ++k)
         result.toWorld[k] = basisAround(
             caches.kind[cache] == CacheKind::Grid ? glm::vec3(0, 0, 1) : points.normal[first + k]);
     return result;
 }
 
-bool gather(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-            const CachePoints& points, std::uint32_t rays, const Progress& progress,
-            GatherHits& hits) {
-    Gatherer gatherer{trace,
+const SurfelOwners& RayGatherer::owners(std::uint32_t mesh) const {
+    LazyOwners& lazy = m_owners[mesh];
+    std::call_once(lazy.once, [&] {
+        // Alone: a thread waiting for its helpers must not begin another cache and come back here.
+        tbb::this_task_arena::isolate([&] {
+            lazy.owners = SurfelOwners(m_trace.scene().assets->meshes[mesh], m_set.meshes[mesh]);
+        });
+    });
+    return lazy.owners;
+}
+
+Ray RayGatherer::ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const {
+    const std::uint32_t k = r % directions.points;
+    const glm::vec3 local = directions.local[r];
+    return {startOf(m_trace, m_points, m_points.begin[cache] + k, local.z >= 0),
+            directions.toWorld[k] * local};
+}
+
+RawHit RayGatherer::trace(const Ray& ray) const {
+    const Hit hit = m_trace.closestHit(ray, TraceMask::Static);
+    if (!hit)
+        return std::uint32_t(m_set.surfels.size()) + skyCellOf(ray.direction);
+    const Scene& scene = m_trace.scene();
+    const Instance& instance = scene.instances[hit.instance];
+    const bool back = !hit.frontFace, passes = back && !isTwoSided(scene.materialOf(instance));
+    const std::uint32_t surfel =
+        m_set.instanceBegin[hit.instance] +
+        owners(instance.mesh).at(hit.triangle, hit.u, hit.v, back && !passes);
+    return passes ? surfel | kBack : surfel;
+}
+
+void RayGatherer::traceCache(std::uint32_t cache, RawHit* out) const {
+    const CacheRays rays = directions(cache);
+    for (std::uint32_t r = 0; r < m_rays; ++r)
+        out[r] = trace(ray(rays, cache, r));
+}
+
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, std::uint32_t rays) {
+    return std::uint32_t(emissiveSurfels(scene, set, rays).size());
+}
+
+bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                const CachePoints& points, const Progress& progress, GatherHits& hits,
+                std::uint64_t& aimedRays) {
+    Finisher finisher{trace,
                       set,
                       caches,
                       points,
-                      buildOwners(trace.scene(), set),
-                      emissiveSurfels(trace.scene(), set, rays),
+                      emissiveSurfels(trace.scene(), set, hits.rays),
+                      !hits.aimedBegin.empty(),
                       {}};
-    if (!gatherer.emissive.empty())
-        gatherer.isEmissive.resize(set.surfels.size());
-    for (const std::uint32_t s : gatherer.emissive)
-        gatherer.isEmissive[s] = true;
-    hits.rays = rays;
-    hits.sender.resize(caches.size() * rays);
+    if (!finisher.emissive.empty())
+        finisher.isEmissive.resize(set.surfels.size());
+    for (const std::uint32_t s : finisher.emissive)
+        finisher.isEmissive[s] = true;
     std::vector<std::vector<AimedSample>> aimed(caches.size());
-    const bool done = parallelRanges(
-        caches.size(), 8, progress, "trace", [&](std::size_t begin, std::size_t end) {
+    std::atomic<std::uint64_t> traced = 0;
+    const Progress quiet{.report = {}, .cancel = progress.cancel};
+    const bool done =
+        parallelRanges(caches.size(), 64, quiet, "trace", [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
-                gatherer.gatherCache(std::uint32_t(c), rays, hits.sender.data() + c * rays);
-                gatherer.aimCache(std::uint32_t(c), rays, hits.sender.data() + c * rays, aimed[c]);
+                const auto cache = std::uint32_t(c);
+                std::uint32_t* sender = hits.sender.data() + c * hits.rays;
+                finisher.markBacks(hits.rays, sender);
+                finisher.leaveOutBuried(points.begin[c + 1] - points.begin[c], hits.rays, sender);
+                traced += finisher.aimCache(cache, hits.rays, sender, aimed[c]);
             }
         });
+    aimedRays += traced;
+    if (finisher.aimedAlready)
+        return done;
     hits.aimedBegin = {0};
     hits.aimed.clear();
     for (const std::vector<AimedSample>& a : aimed) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace limn {
@@ -50,17 +51,63 @@ struct CacheRays {
 CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
                  std::uint32_t rays);
 
-/// Shoots `rays` rays per cache at the static scene. A hit is credited to the surfel that owns the
-/// hit point, an escaped ray to its sky cell, a back of a one-sided surface to nobody. Of a cache's
-/// points, those most of whose rays meet backs are left out; where that is all of them the cache is
-/// invalid. Returns false when cancelled.
+/// What one ray met before anything is made of it: a leaf of the ClusterTree, or, with kBack set,
+/// the surfel on the front of the one-sided surface whose back it met. 4 bytes a ray is all that
+/// tracing leaves, so it can be kept and read again.
+using RawHit = std::uint32_t;
+inline constexpr RawHit kBack = 1U << 31;
+
+/// Shoots the rays of caches at the static scene. A hit is credited to the surfel that owns the hit
+/// point, an escaped ray to its sky cell.
+class RayGatherer {
+public:
+    /// Keeps references to all but `rays`, per cache.
+    RayGatherer(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                const CachePoints& points, std::uint32_t rays)
+        : m_trace(trace), m_set(set), m_caches(caches), m_points(points), m_rays(rays),
+          m_owners(set.meshes.size()) {}
+
+    CacheRays directions(std::uint32_t cache) const {
+        return raysOf(m_caches, m_points, cache, m_rays);
+    }
+    Ray ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const;
+
+    RawHit trace(const Ray& ray) const;
+
+    /// All of a cache's rays.
+    void traceCache(std::uint32_t cache, RawHit* out) const;
+
+private:
+    struct LazyOwners {
+        std::once_flag once;
+        SurfelOwners owners;
+    };
+    const SurfelOwners& owners(std::uint32_t mesh) const;
+
+    const TraceScene& m_trace;
+    const SurfelSet& m_set;
+    const Caches& m_caches;
+    const CachePoints& m_points;
+    std::uint32_t m_rays;
+    mutable std::vector<LazyOwners> m_owners; ///< per mesh, built when first met
+};
+
+/// Makes of raw hits, in hits.sender, what a bake needs: backs of one-sided surfaces carry nothing.
+/// Of a cache's points, those most of whose rays meet backs are left out; where that is all of them
+/// the cache is invalid.
 ///
 /// Small bright lamps would be met by a handful of rays: blotches. A cache that meets the emissive
 /// surfels with fewer than a sixteenth of its rays aims one ray at each of them instead, and takes
 /// their bounded solid angle a cos / (d^2 + a / 2 pi). Which materials emit only guides the
 /// sampling: any other sender is met by the rays.
-bool gather(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-            const CachePoints& points, std::uint32_t rays, const Progress& progress,
-            GatherHits& hits);
+///
+/// Where hits.aimedBegin is filled already nothing is traced and hits.aimed stays. Adds the rays
+/// aimed to `aimedRays`. Returns false when cancelled.
+bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                const CachePoints& points, const Progress& progress, GatherHits& hits,
+                std::uint64_t& aimedRays);
+
+/// Greatest number of surfels that one cache aims at.
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, std::uint32_t rays);
 
 } // namespace limn

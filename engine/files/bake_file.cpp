@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/bake_file.h"
 
+#include "engine/bake/stage_archive.h"
+#include "engine/core/archive.h"
 #include "engine/core/hash.h"
-#include "engine/files/replace_file.h"
+#include "engine/core/replace_file.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <type_traits>
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -26,151 +27,69 @@ constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
 constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 36; // per chunk, unpacked: more is damage
 
-/// One list of fields serves both directions: the archive writes, or reads and checks.
-class Writer {
-public:
-    std::string bytes;
-
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(const T& value) {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(const std::vector<T>& v) {
-        (*this)(std::uint64_t(v.size()));
-        bytes.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
-    }
-    void operator()(const std::string& s) {
-        (*this)(std::uint64_t(s.size()));
-        bytes += s;
-    }
-    template <class T, class F>
-    void each(std::vector<T>& v, F field) {
-        (*this)(std::uint64_t(v.size()));
-        for (T& element : v)
-            field(element);
-    }
-};
-
-class Reader {
-public:
-    explicit Reader(const std::string& source) : m_rest(source.data()), m_size(source.size()) {}
-    bool ok = true;
-    bool atEnd() const { return m_size == 0; }
-
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(T& value) { take(&value, sizeof value); }
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(std::vector<T>& v) {
-        v.resize(count(sizeof(T)));
-        take(v.data(), v.size() * sizeof(T));
-    }
-    void operator()(std::string& s) {
-        s.resize(count(1));
-        take(s.data(), s.size());
-    }
-    template <class T, class F>
-    void each(std::vector<T>& v, F field) {
-        v.resize(count(1));
-        for (T& element : v)
-            field(element);
-    }
-
-private:
-    void take(void* out, std::size_t size) {
-        if (size > m_size) {
-            ok = false;
-            m_size = 0;
-            return;
-        }
-        if (size > 0)
-            std::memcpy(out, m_rest, size);
-        m_rest += size;
-        m_size -= size;
-    }
-    /// A count of elements of at least `elementSize` bytes that the rest can hold.
-    std::size_t count(std::size_t elementSize) {
-        std::uint64_t n = 0;
-        take(&n, sizeof n);
-        if (n > m_size / elementSize) {
-            ok = false;
-            return 0;
-        }
-        return std::size_t(n);
-    }
-
-    const char* m_rest;
-    std::size_t m_size;
-};
-
-template <class A>
-void settingsFields(A& a, Bake& b) {
-    BakeSettings& s = b.settings;
+template <class A, class B>
+void settingsFields(A& a, B& b) {
+    auto& s = b.settings;
     a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
     a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
     a(s.grid), a(s.maxBounces), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
-    BakeCounts& c = b.counts;
+    auto& c = b.counts;
     a(c.triangles), a(c.surfels), a(c.clusters), a(c.caches), a(c.invalidCaches), a(c.links),
         a(c.rays);
 }
 
-template <class A>
-void timingFields(A& a, Bake& b) {
+template <class A, class B>
+void timingFields(A& a, B& b) {
     a.each(b.seconds, [&](auto& stage) { a(stage.first), a(stage.second); });
 }
 
-template <class A>
-void lightmapFields(A& a, Bake& b) {
-    LightmapLayout& l = b.lightmap;
+template <class A, class B>
+void lightmapFields(A& a, B& b) {
+    auto& l = b.lightmap;
     a(l.width), a(l.height);
-    a.each(l.meshes, [&](MeshCharts& m) {
-        a(m.sourceVertex), a(m.indices), a(m.chartOfTriangle), a(m.chartUv), a(m.chartSize);
-    });
-    a.each(l.instances, [&](InstanceLightmap& i) { a(i.uv); });
+    a.each(l.meshes, [&](auto& m) { chartFields(a, m); });
+    a.each(l.instances, [&](auto& i) { a(i.uv); });
 }
 
-template <class A>
-void surfelFields(A& a, Bake& b) {
-    Surfels& s = b.surfels;
+template <class A, class B>
+void surfelFields(A& a, B& b) {
+    auto& s = b.surfels;
     a(s.position), a(s.normal), a(s.area), a(s.instance), a(s.triangle), a(s.barycentric),
         a(s.cache);
     a(s.cacheWeight);
 }
 
-template <class A>
-void treeFields(A& a, Bake& b) {
-    ClusterTree& t = b.tree;
+template <class A, class B>
+void treeFields(A& a, B& b) {
+    auto& t = b.tree;
     a(t.surfels), a(t.skyCells), a(t.left), a(t.right), a(t.leftWeight), a(t.parent),
         a(t.skyDirection);
 }
 
-template <class A>
-void cacheFields(A& a, Bake& b) {
-    Caches& c = b.caches;
+template <class A, class B>
+void cacheFields(A& a, B& b) {
+    auto& c = b.caches;
     a(c.lightmapCount), a(c.kind), a(c.position), a(c.normal), a(c.texel), a(c.linkBegin),
         a(c.links);
     a(c.fillBegin), a(c.fillSource), a(c.fillWeight);
 }
 
-/// Calls visit(name, fields) for every chunk; `fields` takes an archive and a Bake.
+/// Calls visit(name, fields) for every chunk; `fields` takes an archive and a Bake, const where it
+/// writes.
 template <class F>
 void forChunks(F visit) {
-    visit("SETTINGS", [](auto& a, Bake& b) { settingsFields(a, b); });
-    visit("TIMINGS ", [](auto& a, Bake& b) { timingFields(a, b); });
-    visit("LIGHTMAP", [](auto& a, Bake& b) { lightmapFields(a, b); });
-    visit("SURFELS ", [](auto& a, Bake& b) { surfelFields(a, b); });
-    visit("CLUSTERS", [](auto& a, Bake& b) { treeFields(a, b); });
-    visit("CACHES  ", [](auto& a, Bake& b) { cacheFields(a, b); });
+    visit("SETTINGS", [](auto& a, auto& b) { settingsFields(a, b); });
+    visit("TIMINGS ", [](auto& a, auto& b) { timingFields(a, b); });
+    visit("LIGHTMAP", [](auto& a, auto& b) { lightmapFields(a, b); });
+    visit("SURFELS ", [](auto& a, auto& b) { surfelFields(a, b); });
+    visit("CLUSTERS", [](auto& a, auto& b) { treeFields(a, b); });
+    visit("CACHES  ", [](auto& a, auto& b) { cacheFields(a, b); });
 }
 
 std::string packChunk(const char* name, const std::string& plain) {
     std::string packed(ZSTD_compressBound(plain.size()), '\0');
     packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 3));
-    Writer out;
+    ByteWriter out;
     out.bytes.append(name, 8);
     out(std::uint64_t(plain.size())), out(std::uint64_t(packed.size())),
         out(hashBytes(packed.data(), packed.size()));
@@ -291,16 +210,15 @@ Result<std::string> unpack(const std::string& path, const char* name, const Chun
 } // namespace
 
 Result<void> writeBake(const std::string& path, const Bake& bake) {
-    Bake copy = bake; // the field lists take a mutable Bake
     std::string chunks;
     std::uint32_t count = 0;
     forChunks([&](const char* name, auto fields) {
-        Writer archive;
-        fields(archive, copy);
+        ByteWriter archive;
+        fields(archive, bake);
         chunks += packChunk(name, archive.bytes);
         ++count;
     });
-    Writer header;
+    ByteWriter header;
     header.bytes.append(kMagic, sizeof kMagic);
     header(kVersion), header(count);
     return replaceFile(path, header.bytes + chunks);
@@ -330,7 +248,7 @@ Result<Bake> readBake(const std::string& path) {
             defect = plain.error().message;
             return;
         }
-        Reader archive(*plain);
+        ByteReader archive(*plain);
         fields(archive, bake);
         if (!archive.ok || !archive.atEnd())
             defect = fmt::format("{}: chunk {}: wrong length", path, name);

@@ -2,7 +2,7 @@
 #include "engine/files/project_file.h"
 
 #include "engine/files/document_json.h"
-#include "engine/files/replace_file.h"
+#include "engine/core/replace_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -47,8 +47,8 @@ std::uint32_t traceLight(const Surfels& surfels, const TraceScene& trace,
             if (!(cosTheta > 0) || !(light.irradiance.x > 0))
                 continue;
             ++mine;
-            const float epsilon = trace.epsilonAt(p);
-            const Ray ray{p + n * epsilon, light.toLight, 0, light.distance - epsilon};
+            const Ray ray{trace.clearOf(p, n), light.toLight, 0,
+                          light.distance - trace.epsilonAt(p)};
             if (!trace.occluded(ray))
                 out.share[s] = light.irradiance.x * cosTheta;
         }

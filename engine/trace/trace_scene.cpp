@@ -85,19 +85,19 @@ struct TraceScene::Impl {
     RTCScene top = nullptr;
     std::map<MeshKey, SharedMesh> meshes; ///< nodes stay where they are: Embree points at the masks
     std::vector<HitFrame> frames;         ///< per instance
-    float magnitude = 0;                  ///< largest coordinate of the scene [m]
+    float magnitude = 0; ///< the power of two above the scene's largest coordinate [m]
 
-    Impl(const Scene& s);
+    Impl(const Scene& s, const std::vector<bool>* only);
     ~Impl();
     MeshKey keyOf(const Instance& instance) const;
-    void placeInstances();
+    void placeInstances(const std::vector<bool>* only);
     void buildMeshes();
     void buildTop();
     RTCGeometry triangles(const Instance& instance, const SharedMesh& shared, bool inWorld) const;
     void setPositions(RTCGeometry geometry, const Instance& instance, bool inWorld) const;
 };
 
-TraceScene::Impl::Impl(const Scene& s) : scene(s) {
+TraceScene::Impl::Impl(const Scene& s, const std::vector<bool>* only) : scene(s) {
     if (!scene.assets)
         scene.assets = std::make_shared<const Assets>();
     device = rtcNewDevice(nullptr);
@@ -106,7 +106,7 @@ TraceScene::Impl::Impl(const Scene& s) : scene(s) {
     rtcSetDeviceErrorFunction(
         device, [](void*, RTCError, const char* text) { logError(std::string("Embree: ") + text); },
         nullptr);
-    placeInstances();
+    placeInstances(only);
     buildMeshes();
     buildTop();
 }
@@ -126,7 +126,7 @@ MeshKey TraceScene::Impl::keyOf(const Instance& instance) const {
 // One tree over the world's triangles beats one per instance by far where instances overlap: a ray
 // through Sponza's 103 meshes enters most of them. Its price is a copy of the vertices, so meshes
 // repeated until they are many stay instances, and so do objects that move.
-void TraceScene::Impl::placeInstances() {
+void TraceScene::Impl::placeInstances(const std::vector<bool>* only) {
     std::vector<std::uint32_t> uses(scene.assets->meshes.size(), 0);
     std::size_t staticTriangles = 0;
     for (const Instance& instance : scene.instances) {
@@ -137,11 +137,14 @@ void TraceScene::Impl::placeInstances() {
     for (const Instance& instance : scene.instances) {
         const glm::mat4& toWorld = instance.toWorld;
         HitFrame frame{toWorld, determinant3(toWorld) < 0 ? -1.f : 1.f};
-        frame.present = !scene.meshOf(instance).indices.empty() && isFinite(toWorld);
+        frame.present = !scene.meshOf(instance).indices.empty() && isFinite(toWorld) &&
+                        (!only || (*only)[frames.size()]);
         const bool copied = !instance.dynamic &&
                             (uses[instance.mesh] == 1 || staticTriangles <= kMaxCopiedTriangles);
         frame.inWorld = copied || !invertsWell(toWorld);
         frames.push_back(frame);
+        if (!frame.present)
+            continue;
         const MeshKey key = keyOf(instance);
         const auto [entry, isNew] = meshes.try_emplace(key);
         if (isNew && key.cutout != ~0u)
@@ -241,10 +244,16 @@ void TraceScene::Impl::buildTop() {
     rtcGetSceneBounds(top, &b);
     const float largest = std::max({std::abs(b.lower_x), std::abs(b.lower_y), std::abs(b.lower_z),
                                     std::abs(b.upper_x), std::abs(b.upper_y), std::abs(b.upper_z)});
-    magnitude = std::isfinite(largest) ? largest : 0; // infinite where there is nothing
+    // Infinite where there is nothing. In powers of two, so that rays of the rest of the scene
+    // seldom depend on an object that moves.
+    magnitude =
+        std::isfinite(largest) && largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
 }
 
-TraceScene::TraceScene(const Scene& scene) : m_impl(std::make_unique<Impl>(scene)) {}
+TraceScene::TraceScene(const Scene& scene) : m_impl(std::make_unique<Impl>(scene, nullptr)) {}
+
+TraceScene::TraceScene(const Scene& scene, const std::vector<bool>& present)
+    : m_impl(std::make_unique<Impl>(scene, &present)) {}
 
 TraceScene::~TraceScene() = default;
 
@@ -306,14 +315,7 @@ bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
 bool TraceScene::blocked(glm::vec3 from, glm::vec3 to, TraceMask mask) const {
     const glm::vec3 way = to - from;
     const float distance = glm::length(way);
-    Ray ray;
-    ray.origin = from;
-    ray.tNear = epsilonAt(from);
-    ray.tFar = distance - epsilonAt(to);
-    if (!(ray.tNear < ray.tFar))
-        return false;
-    ray.direction = way / distance;
-    return occluded(ray, mask);
+    return distance > 0 && occluded({from, way / distance, 0, distance}, mask);
 }
 
 // A hit's position is off by a few 2^-24 of its coordinates; the matrix of an instance and the test

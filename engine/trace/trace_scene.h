@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace limn {
 
@@ -41,6 +42,10 @@ class TraceScene {
 public:
     /// Builds it. O(triangles); uses oneTBB.
     explicit TraceScene(const Scene& scene);
+
+    /// The same with only those `present` of its instances, each met exactly as in the whole scene.
+    TraceScene(const Scene& scene, const std::vector<bool>& present);
+
     ~TraceScene();
     TraceScene(const TraceScene&) = delete;
     TraceScene& operator=(const TraceScene&) = delete;
@@ -50,11 +55,15 @@ public:
     /// True if anything opaque lies in (tNear, tFar).
     bool occluded(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// True if the straight way between two surface points is blocked. Both ends are kept clear of
-    /// their own surface.
+    /// True if anything opaque lies between two points, both clear of their own surfaces.
     bool blocked(glm::vec3 from, glm::vec3 to, TraceMask mask = TraceMask::All) const;
 
-    /// Offset that clears a surface at `p` of float rounding [m]; grows with |p|.
+    /// A point of a surface moved off it along `normal` (unit, or 0 in the air), so that rays from
+    /// or to it miss the surface itself.
+    glm::vec3 clearOf(glm::vec3 p, glm::vec3 normal) const { return p + normal * epsilonAt(p); }
+
+    /// Offset that clears a surface at `p` of float rounding [m]; grows with |p| and in powers of
+    /// two with the scene.
     float epsilonAt(glm::vec3 p) const;
 
     const Scene& scene() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/files/replace_file.h"
+#include "engine/core/replace_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -38,7 +39,8 @@ Result<void> replaceFile(const std::string& path, const std::string& text) {
     std::error_code error;
     const fs::path target =
         fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
-    const std::string temporary = fmt::format("{}.{}.tmp", target.string(), getpid());
+    static std::atomic<unsigned> count = 0; // two threads may replace the same file
+    const std::string temporary = fmt::format("{}.{}.{}.tmp", target.string(), getpid(), ++count);
     const auto failure = [&](const char* what) {
         const int reason = errno;
         unlink(temporary.c_str());

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/gather.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Objects that are new at their place, to find the rays that meet them there.
+class ArrivedObjects {
+public:
+    /// `instances`: of the scene of `trace`, which must outlive this.
+    ArrivedObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances);
+
+    /// Sets met[r] for each ray of the cache whose way without end meets one of the objects;
+    /// leaves the others. Returns the number of rays traced against the objects: those within the
+    /// cone of an object's bounding sphere.
+    std::uint32_t mark(const RayGatherer& gatherer, const CachePoints& points, std::uint32_t cache,
+                       std::vector<std::uint8_t>& met) const;
+
+private:
+    struct Sphere {
+        glm::vec3 centre;
+        float radius;
+    };
+    void markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from, const Sphere& sphere,
+                    std::vector<std::uint8_t>& candidate) const;
+
+    TraceScene m_objects; ///< only they
+    std::vector<Sphere> m_spheres;
+};
+
+} // namespace limn

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/trace_stage.h"
+
+#include "engine/bake/arrived.h"
+#include "engine/bake/input_hash.h"
+#include "engine/bake/trace_record.h"
+#include "engine/core/archive.h"
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace limn {
+
+namespace {
+
+// What of a trace is kept under which key.
+std::uint64_t recordKey(std::uint64_t trace) {
+    return hashValue(trace, 11);
+}
+std::uint64_t blockKey(std::uint64_t trace, std::uint32_t block) {
+    return hashValue(block, hashValue(trace, 12));
+}
+
+/// Of what every trace of a document shares, whatever stands where.
+std::uint64_t documentKey(const TraceInput& in) {
+    return hashValue(in.rays, hashVector(in.meshes, 13));
+}
+
+std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
+    std::uint64_t h = hashValue(trace, 14);
+    for (const Instance& i : in.trace.scene().instances)
+        h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
+    return h;
+}
+
+std::uint64_t physicalBytes() {
+    return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+/// 10585 as "10 585".
+std::string grouped(std::uint64_t n) {
+    const std::string digits = std::to_string(n);
+    std::string s;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0)
+            s += ' ';
+        s += digits[i];
+    }
+    return s;
+}
+
+/// An earlier trace whose hits may still hold.
+struct Base {
+    TraceRecord record;
+    InstanceMatch match;
+    bool aligned = false;     ///< its caches are today's, one by one
+    std::vector<RawHit> hits; ///< of all its caches; empty where aligned
+    std::vector<bool> known;  ///< per block: its hits were found
+    std::unordered_map<std::uint64_t, std::uint32_t> cacheOf; ///< by hash; empty where aligned
+    std::unique_ptr<ArrivedObjects> arrived;
+};
+
+class Tracing {
+public:
+    Tracing(const TraceInput& input, const Progress& progress, StageStore* store, GatherHits& hits)
+        : in(input), m_progress(progress), m_store(store), m_hits(hits),
+          m_gatherer(in.trace, in.set, in.caches, in.points, in.rays),
+          m_record(describeTrace(in.trace, in.set, in.caches, in.points, in.rays, in.meshes)),
+          m_key(hashRecord(m_record)), m_done(m_record.blockCount()), m_changed(m_done.size()),
+          m_left(m_done.size()) {}
+
+    Result<TraceReport> run();
+
+private:
+    std::size_t first(std::uint32_t block) const {
+        return std::size_t(block) * m_record.cachesPerBlock;
+    }
+    std::size_t last(std::uint32_t block) const {
+        return std::min(first(block) + m_record.cachesPerBlock, in.caches.size());
+    }
+    bool loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const;
+    void loadDone();
+    void loadBase();
+    bool loadBaseHits();
+    bool takeFromBase(std::uint32_t cache, RawHit* out) const;
+    std::uint64_t retrace(std::uint32_t cache, RawHit* out);
+    void traceOne(std::uint32_t cache);
+    void keepBlock(std::uint32_t block);
+    void keepRecord();
+    bool finish();
+    void note();
+
+    const TraceInput& in;
+    const Progress& m_progress;
+    StageStore* m_store;
+    GatherHits& m_hits;
+    RayGatherer m_gatherer;
+    TraceRecord m_record;
+    std::uint64_t m_key;
+    bool m_exact = false; ///< all of this very trace was kept
+    std::unique_ptr<Base> m_base;
+    std::vector<std::uint8_t> m_done;               ///< per block: its hits are final
+    std::vector<std::atomic<bool>> m_changed;       ///< per block: not as the base has it
+    std::vector<std::atomic<std::uint32_t>> m_left; ///< per block: caches still to do
+    std::atomic<std::uint64_t> m_rays = 0, m_retraced = 0;
+    TraceReport m_report;
+};
+
+bool Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const {
+    const std::optional<std::string> bytes = m_store->find(key);
+    if (!bytes || bytes->size() != caches * in.rays * sizeof(RawHit))
+        return false;
+    std::memcpy(out, bytes->data(), bytes->size());
+    return true;
+}
+
+/// Blocks of this very trace, finished or stopped.
+void Tracing::loadDone() {
+    TraceRecord kept;
+    const std::optional<std::string> bytes = m_store->find(recordKey(m_key));
+    m_exact = bytes && readRecord(*bytes, kept) && kept.blocks.size() == m_done.size();
+    m_record.blocks.resize(m_done.size());
+    for (std::uint32_t b = 0; b < m_done.size(); ++b)
+        m_record.blocks[b] = m_exact ? kept.blocks[b] : blockKey(m_key, b);
+    parallelRanges(m_done.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            const std::size_t from = first(std::uint32_t(b)), to = last(std::uint32_t(b));
+            m_done[b] = loadBlock(m_record.blocks[b], &m_hits.sender[from * in.rays], to - from);
+        }
+    });
+}
+
+/// The latest finished trace of the document, where its rays start alike.
+void Tracing::loadBase() {
+    std::uint64_t key = 0;
+    const std::optional<std::string> pointer = m_store->find(documentKey(in));
+    if (!pointer || pointer->size() != sizeof key)
+        return;
+    std::memcpy(&key, pointer->data(), sizeof key);
+    auto base = std::make_unique<Base>();
+    const std::optional<std::string> bytes = m_store->find(recordKey(key));
+    if (!bytes || !readRecord(*bytes, base->record) || base->record.rays != m_record.rays ||
+        base->record.cachesPerBlock != m_record.cachesPerBlock ||
+        base->record.clearance != m_record.clearance)
+        return;
+    base->match = matchInstances(base->record, m_record);
+    base->aligned = base->record.caches == m_record.caches;
+    m_base = std::move(base);
+    if (!loadBaseHits()) {
+        m_base = nullptr;
+        return;
+    }
+    if (!m_base->match.arrived.empty())
+        m_base->arrived = std::make_unique<ArrivedObjects>(in.trace, m_base->match.arrived);
+}
+
+/// False where there is no room for them.
+bool Tracing::loadBaseHits() {
+    Base& base = *m_base;
+    const std::size_t caches = base.record.caches.size();
+    if (!base.aligned) {
+        if (caches * in.rays * sizeof(RawHit) > physicalBytes() / 4)
+            return false;
+        base.hits.resize(caches * in.rays);
+        for (std::uint32_t c = 0; c < caches; ++c)
+            base.cacheOf.emplace(base.record.caches[c], c);
+    }
+    std::vector<std::uint8_t> known(base.record.blocks.size());
+    parallelRanges(known.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            if (base.aligned && m_done[b])
+                continue;
+            const std::size_t from = b * m_record.cachesPerBlock;
+            const std::size_t to = std::min<std::size_t>(from + m_record.cachesPerBlock, caches);
+            RawHit* out = (base.aligned ? m_hits.sender : base.hits).data() + from * in.rays;
+            known[b] = loadBlock(base.record.blocks[b], out, to - from);
+        }
+    });
+    base.known.assign(known.begin(), known.end());
+    return true;
+}
+
+/// Copies an earlier cache's hits to `out`, where they are not there already.
+bool Tracing::takeFromBase(std::uint32_t cache, RawHit* out) const {
+    if (!m_base)
+        return false;
+    if (m_base->aligned)
+        return m_base->known[cache / m_record.cachesPerBlock];
+    const auto it = m_base->cacheOf.find(m_record.caches[cache]);
+    if (it == m_base->cacheOf.end() || !m_base->known[it->second / m_record.cachesPerBlock])
+        return false;
+    std::copy_n(m_base->hits.data() + std::size_t(it->second) * in.rays, in.rays, out);
+    return true;
+}
+
+/// Brings an earlier cache's hits up to date; returns the number of rays traced again.
+std::uint64_t Tracing::retrace(std::uint32_t cache, RawHit* out) {
+    const std::vector<std::uint32_t>& now = m_base->match.surfelNow;
+    const auto sky = std::uint32_t(in.set.surfels.size());
+    std::vector<std::uint8_t> again(in.rays);
+    for (std::uint32_t r = 0; r < in.rays; ++r) {
+        const std::uint32_t back = out[r] & kBack, sender = out[r] & ~kBack;
+        const std::uint32_t moved =
+            sender < now.size() ? now[sender] : std::uint32_t(sender - now.size()) + sky;
+        again[r] = moved == InstanceMatch::kGone ? 1 : 0;
+        out[r] = moved | back;
+    }
+    if (m_base->arrived)
+        m_rays += m_base->arrived->mark(m_gatherer, in.points, cache, again);
+    const auto count = std::uint64_t(std::count(again.begin(), again.end(), 1));
+    if (count == 0)
+        return 0;
+    const CacheRays rays = m_gatherer.directions(cache);
+    for (std::uint32_t r = 0; r < in.rays; ++r)
+        if (again[r])
+            out[r] = m_gatherer.trace(m_gatherer.ray(rays, cache, r));
+    return count;
+}
+
+void Tracing::traceOne(std::uint32_t cache) {
+    RawHit* out = &m_hits.sender[std::size_t(cache) * in.rays];
+    const std::uint32_t block = cache / m_record.cachesPerBlock;
+    std::uint64_t rays = in.rays;
+    if (takeFromBase(cache, out))
+        rays = retrace(cache, out);
+    else
+        m_gatherer.traceCache(cache, out);
+    m_rays += rays;
+    m_retraced += rays > 0 ? 1 : 0;
+    if (rays > 0)
+        m_changed[block] = true;
+    if (--m_left[block] == 0 && m_store)
+        keepBlock(block);
+}
+
+void Tracing::keepBlock(std::uint32_t block) {
+    if (m_base && m_base->aligned && m_base->match.identity && !m_changed[block]) {
+        m_record.blocks[block] = m_base->record.blocks[block];
+        return;
+    }
+    m_record.blocks[block] = blockKey(m_key, block);
+    const std::size_t from = first(block) * in.rays, to = last(block) * in.rays;
+    m_store->put(m_record.blocks[block], {reinterpret_cast<const char*>(&m_hits.sender[from]),
+                                          (to - from) * sizeof(RawHit)});
+}
+
+void Tracing::keepRecord() {
+    m_store->put(recordKey(m_key), recordBytes(m_record));
+    m_store->put(documentKey(in), {reinterpret_cast<const char*>(&m_key), sizeof m_key});
+}
+
+/// From raw hits to the cut's, aimed rays included.
+bool Tracing::finish() {
+    const bool aims = mostAimed(in.trace.scene(), in.set, in.rays) > 0;
+    const std::uint64_t key = aimedKey(in, m_key);
+    if (aims && m_store)
+        if (const std::optional<std::string> bytes = m_store->find(key)) {
+            ByteReader reader(*bytes);
+            reader(m_hits.aimedBegin), reader(m_hits.aimed);
+            if (!reader.ok || m_hits.aimedBegin.size() != in.caches.size() + 1)
+                m_hits.aimedBegin.clear();
+        }
+    const bool fresh = m_hits.aimedBegin.empty();
+    std::uint64_t aimed = 0;
+    if (!finishHits(in.trace, in.set, in.caches, in.points, m_progress, m_hits, aimed))
+        return false;
+    m_rays += aimed;
+    if (aims && m_store && fresh) {
+        ByteWriter writer;
+        writer(m_hits.aimedBegin), writer(m_hits.aimed);
+        m_store->put(key, writer.bytes);
+    }
+    return true;
+}
+
+void Tracing::note() {
+    const std::string caches = grouped(in.caches.size());
+    const auto kept = std::size_t(std::count(m_done.begin(), m_done.end(), 1));
+    const std::string why = m_base ? matchWords(m_base->match) : "";
+    if (m_base && m_retraced > 0)
+        m_report.notes.push_back(fmt::format("{}: {} of {} caches re-traced",
+                                             why.empty() ? "Texels or cells changed" : why,
+                                             grouped(m_retraced), caches));
+    else if (m_base && !m_exact)
+        m_report.notes.push_back(fmt::format("{}: no ray of {} caches meets it",
+                                             why.empty() ? "Nothing moved" : why, caches));
+    else if (m_exact && m_retraced == 0)
+        m_report.notes.push_back(fmt::format("Rays kept from an earlier bake: 0 of {} caches "
+                                             "re-traced",
+                                             caches));
+    if (!m_exact && kept > 0)
+        m_report.notes.push_back(fmt::format(
+            "Resumed: {} of {} blocks of caches were traced before", kept, m_done.size()));
+}
+
+Result<TraceReport> Tracing::run() {
+    m_progress.at("trace", 0);
+    m_hits.rays = in.rays;
+    m_hits.sender.resize(in.caches.size() * in.rays);
+    m_hits.aimedBegin.clear();
+    m_record.blocks.resize(m_done.size());
+    if (m_store) {
+        loadDone();
+        if (std::count(m_done.begin(), m_done.end(), 0) > 0)
+            loadBase();
+    }
+    std::vector<std::uint32_t> caches;
+    for (std::uint32_t b = 0; b < m_done.size(); ++b) {
+        m_left[b] = std::uint32_t(last(b) - first(b));
+        for (std::size_t c = first(b); !m_done[b] && c < last(b); ++c)
+            caches.push_back(std::uint32_t(c));
+    }
+    const std::size_t grain = std::clamp<std::size_t>(8192 / in.rays, 1, 8);
+    if (!parallelRanges(caches.size(), grain, m_progress, "trace",
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t i = begin; i < end; ++i)
+                                traceOne(caches[i]);
+                        }))
+        return fail("cancelled");
+    if (m_store && (!m_exact || !caches.empty()))
+        keepRecord();
+    note();
+    if (!finish())
+        return fail("cancelled");
+    m_report.rays = m_rays;
+    return m_report;
+}
+
+} // namespace
+
+Result<TraceReport> traceHits(const TraceInput& in, const Progress& progress, StageStore* store,
+                              GatherHits& hits) {
+    const std::uint64_t caches = in.caches.size(),
+                        aimed = mostAimed(in.trace.scene(), in.set, in.rays),
+                        bytes = caches * (in.rays * sizeof(RawHit) + aimed * sizeof(AimedSample)),
+                        most = physicalBytes() / 2;
+    if (bytes > most)
+        return fail(fmt::format(
+            "bake settings: {} rays for each of {} caches need {:.1f} GiB, more than half of this "
+            "machine's memory ({:.1f} GiB): lower rays, lightmap or grid",
+            in.rays, caches, double(bytes) / (1 << 30), double(most) / (1 << 30)));
+    return Tracing(in, progress, store, hits).run();
+}
+
+} // namespace limn

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// A bake that reads what earlier ones kept equals the bake that does everything, byte for byte.
+#include "engine/bake/bake.h"
+#include "engine/bake/stage_store.h"
+#include "engine/core/parallel.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+/// Where the two blocks of the room stand. A third one is there where asked.
+struct Blocks {
+    glm::mat4 low = glm::translate(glm::mat4(1), glm::vec3(2, 0, 1));
+    glm::mat4 tall = glm::translate(glm::mat4(1), glm::vec3(0.5f, 0, 2.5f));
+    bool third = false;
+};
+
+/// A room of 4 m with a small lamp, a two-sided sheet, blocks of one mesh, and a dynamic ball that
+/// brings a grid.
+Scene room(const Blocks& blocks) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(100)));
+    Material sheet = lambert(glm::vec3(0.7f));
+    sheet.doubleSided = true;
+    b.addMaterial(sheet);
+    b.add(box(glm::vec3(0), glm::vec3(4), true));
+    b.add(quad({1.8f, 3.9f, 1.8f}, {0.2f, 0, 0}, {0, 0, 0.2f}, 1));
+    b.add(quad({3.5f, 0.5f, 0.5f}, {0, 1, 0}, {0, 0, 1}, 2));
+    const std::uint32_t block = b.addMesh(box(glm::vec3(0), glm::vec3(1, 1.2f, 1), false));
+    b.addInstance(block, blocks.low);
+    b.addInstance(block, blocks.tall * glm::scale(glm::mat4(1), glm::vec3(1, 2, 1)));
+    const std::uint32_t ball = b.addMesh(sphere(0.2f, 1, false));
+    b.addInstance(ball, glm::translate(glm::mat4(1), glm::vec3(3, 3, 3)), true);
+    if (blocks.third)
+        b.addInstance(block, glm::translate(glm::mat4(1), glm::vec3(0.2f, 2.7f, 0.3f))).node = 99;
+    Scene scene = b.build();
+    scene.bake.surfels = 900;
+    scene.bake.texelsPerMetre = 2;
+    scene.bake.rays = 128;
+    scene.bake.links = 24;
+    scene.bake.grid = {3, 3, 3};
+    return scene;
+}
+
+Bake baked(const Scene& scene, StageStore* store = nullptr) {
+    Result<Bake> result = bake(TraceScene(scene), {}, store);
+    EXPECT_TRUE(result) << (result ? "" : result.error().message);
+    return result ? std::move(*result) : Bake{};
+}
+
+std::string notesOf(const Bake& bake) {
+    std::string all;
+    for (const std::string& note : bake.notes)
+        all += note + "\n";
+    return all;
+}
+
+TEST(Stages, NothingIsTracedWhenOnlyLinksOrBandsChange) {
+    StageStore store;
+    Scene scene = room({});
+    const Bake first = baked(scene, &store);
+    EXPECT_GT(first.counts.rays, 10000U);
+    EXPECT_EQ(first.hash(), baked(scene).hash());
+    const Bake again = baked(scene, &store);
+    EXPECT_EQ(again.counts.rays, 0U);
+    EXPECT_EQ(again.hash(), first.hash());
+    scene.bake.links = 8;
+    scene.bake.bands = 2;
+    const Bake fewer = baked(scene, &store);
+    EXPECT_EQ(fewer.counts.rays, 0U);
+    EXPECT_EQ(fewer.hash(), baked(scene).hash());
+}
+
+TEST(Stages, OtherRaysTraceEverything) {
+    StageStore store;
+    Scene scene = room({});
+    baked(scene, &store);
+    scene.bake.rays = 130;
+    const Bake more = baked(scene, &store);
+    const Bake full = baked(scene);
+    EXPECT_EQ(more.counts.rays, full.counts.rays);
+    EXPECT_EQ(more.hash(), full.hash());
+}
+
+TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
+    for (const int threads : {1, 2}) {
+        const ThreadLimit limit(threads);
+        StageStore store;
+        Blocks blocks;
+        const Bake start = baked(room(blocks), &store);
+        const glm::mat4 moves[] = {
+            glm::translate(blocks.low, glm::vec3(0.1f, 0, 0.3f)),
+            glm::rotate(blocks.low, 0.4f, glm::vec3(0, 1, 0)),
+            glm::translate(blocks.low, glm::vec3(-1.2f, 0.7f, 1)), // into the other block
+        };
+        for (const glm::mat4& move : moves) {
+            blocks.low = move;
+            const Bake moved = baked(room(blocks), &store);
+            const Bake full = baked(room(blocks));
+            EXPECT_EQ(moved.hash(), full.hash());
+            EXPECT_LT(moved.counts.rays, full.counts.rays / 2);
+            EXPECT_NE(notesOf(moved).find("1 instance moved: "), std::string::npos)
+                << notesOf(moved);
+        }
+        const Bake back = baked(room({}), &store);
+        EXPECT_EQ(back.hash(), start.hash());
+        EXPECT_EQ(back.counts.rays, 0U);
+    }
+}
+
+TEST(Stages, AnObjectThatComesOrGoesTracesOnlyWhatMeetsIt) {
+    StageStore store;
+    Scene without = room({}), with = room({.third = true});
+    const Bake start = baked(without, &store);
+    const Bake added = baked(with, &store);
+    EXPECT_EQ(added.hash(), baked(with).hash());
+    EXPECT_NE(notesOf(added).find("1 instance added"), std::string::npos) << notesOf(added);
+    without.instances[3].toWorld[3].x += 0.25f; // and another moves
+    const Bake removed = baked(without, &store);
+    EXPECT_EQ(removed.hash(), baked(without).hash());
+    EXPECT_NE(notesOf(removed).find("1 instance moved, 1 removed"), std::string::npos)
+        << notesOf(removed);
+}
+
+TEST(Stages, OneSideMoreOrAHoleIsMet) {
+    StageStore store;
+    Scene scene = room({});
+    baked(scene, &store);
+    scene.materials[2].doubleSided = false;
+    EXPECT_EQ(baked(scene, &store).hash(), baked(scene).hash());
+    scene.materials[0].emission = glm::vec3(1); // too many to aim at
+    EXPECT_EQ(baked(scene, &store).hash(), baked(scene).hash());
+}
+
+TEST(Stages, CancelledAtAnyMomentTheNextBakeEqualsTheUndisturbedOne) {
+    Scene scene = room({});
+    scene.bake.rays = 4096;
+    const Bake undisturbed = baked(scene);
+    StageStore store;
+    std::mt19937 random(3);
+    int cancelled = 0;
+    for (int i = 0; i < 12; ++i) {
+        std::atomic<bool> cancel = false;
+        std::jthread stopper([&, delay = random() % 300] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+            cancel = true;
+        });
+        const Result<Bake> result =
+            bake(TraceScene(scene), {.report = {}, .cancel = &cancel}, &store);
+        if (result) {
+            EXPECT_EQ(result->hash(), undisturbed.hash());
+        } else {
+            EXPECT_EQ(result.error().message, "cancelled");
+            ++cancelled;
+        }
+    }
+    EXPECT_GT(cancelled, 0);
+    const Bake last = baked(scene, &store);
+    EXPECT_EQ(last.hash(), undisturbed.hash());
+    EXPECT_LT(last.counts.rays, undisturbed.counts.rays);
+}
+
+TEST(Stages, HitsThatWouldFillTheMemoryAreRefusedByName) {
+    Scene scene = room({});
+    scene.bake.rays = 65536;
+    scene.bake.grid = glm::uvec3(256);
+    const Result<Bake> refused = bake(TraceScene(scene));
+    ASSERT_FALSE(refused);
+    for (const char* word : {"65536 rays", "memory", "lower rays, lightmap or grid"})
+        EXPECT_NE(refused.error().message.find(word), std::string::npos) << refused.error().message;
+}
+
+} // namespace
+} // namespace limn
