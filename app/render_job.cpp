@@ -15,9 +15,25 @@ struct RenderJob::Worker {
     std::unique_ptr<gpu::Device> device;
     std::unique_ptr<Viewport> viewport;
     PictureRequest shown;
+    std::shared_ptr<const OverlayData> overlay; ///< of `shown`; null: none
 
     Image draw(PictureRequest request);
+    void makeOverlay(const PictureRequest& request);
 };
+
+void RenderJob::Worker::makeOverlay(const PictureRequest& request) {
+    // Albedo is the one thing it shows that can change without a bake.
+    const bool newAlbedo = request.overlay.kind == Overlay::Surfels &&
+                           request.scene != shown.scene &&
+                           (!shown.scene || shown.scene->materials != request.scene->materials);
+    if (request.bake == shown.bake && request.overlay == shown.overlay && !newAlbedo)
+        return;
+    overlay = nullptr;
+    if (request.bake && request.overlay.kind != Overlay::None)
+        overlay = std::make_shared<const OverlayData>(limn::makeOverlay(
+            *request.bake, relitScene(*request.bakedScene, *request.scene), request.overlay));
+    viewport->setOverlay(overlay);
+}
 
 Image RenderJob::Worker::draw(PictureRequest request) {
     const bool newScene = request.scene != shown.scene, newLayout = request.layout != shown.layout;
@@ -28,6 +44,7 @@ Image RenderJob::Worker::draw(PictureRequest request) {
     }
     if (request.field != shown.field)
         viewport->setIndirect(request.field ? *request.field : IndirectField{});
+    makeOverlay(request);
     viewport->render(request.options);
     shown = std::move(request);
     return viewport->readTonemapped();
@@ -68,6 +85,7 @@ void RenderJob::publish(Worker& worker, std::shared_ptr<const Image> image) {
     const std::lock_guard lock(m_mutex);
     m_result.image = std::move(image);
     ++m_result.number;
+    m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
     m_result.stats = worker.viewport->stats();
     m_result.running = m_next.has_value();
     m_messages = worker.device->validationMessages();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/overlay/overlay.h"
 #include "engine/render/viewport.h"
 
 #include <condition_variable>
@@ -18,11 +19,15 @@ struct PictureRequest {
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
     std::shared_ptr<const IndirectField> field;   ///< null: no bake
     ViewportOptions options;
+    OverlayOptions overlay;
+    std::shared_ptr<const Bake> bake;        ///< that the overlay shows; null: there is no overlay
+    std::shared_ptr<const Scene> bakedScene; ///< that `bake` was made from
 };
 
 struct DrawnPicture {
     std::shared_ptr<const Image> image; ///< tone-mapped; null: none yet
     std::uint64_t number = 0;           ///< of this picture, from 1
+    OverlayLegend legend;               ///< of its overlay
     ViewportStats stats;
     bool running = false; ///< another one is being drawn
     std::string error;    ///< why there will be no more pictures

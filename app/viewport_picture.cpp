@@ -48,6 +48,7 @@ void ViewportPicture::takeDrawn(EditorState& state) {
     frame.width = image.width;
     frame.height = image.height;
     frame.pictures = m_drawn.number;
+    state.overlay.legend = m_drawn.legend;
 }
 
 void ViewportPicture::update(Session& session) {
@@ -55,8 +56,12 @@ void ViewportPicture::update(Session& session) {
     takeDrawn(state);
     const ViewState& view = state.view;
     const glm::uvec2 full = glm::max(glm::uvec2(view.size), glm::uvec2(1));
-    Shown shown{view.view, view.tonemap,    view.exposureEv,  view.camera,
-                full,      session.scene(), session.layout(), session.field()};
+    Shown shown{view.view,       view.tonemap,     view.exposureEv, view.camera, full,
+                session.scene(), session.layout(), session.field(), {},          nullptr};
+    if (state.overlay.options.kind != Overlay::None) {
+        shown.overlay = state.overlay.options;
+        shown.bake = state.overlay.bake;
+    }
     const bool changed = m_shown != shown;
     const auto now = Clock::now();
     const bool resting = std::chrono::duration<double>(now - m_changed).count() >= kRestSeconds;
@@ -73,7 +78,8 @@ void ViewportPicture::update(Session& session) {
                                 .width = size.x,
                                 .height = size.y,
                                 .tonemap = view.tonemap,
-                                .exposureEv = view.exposureEv}});
+                                .exposureEv = view.exposureEv},
+                shown.overlay, shown.bake, state.overlay.scene});
     m_drawn.running = true;
     m_shown = std::move(shown);
 }

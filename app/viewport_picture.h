@@ -44,6 +44,8 @@ private:
         std::shared_ptr<const Scene> scene;
         std::shared_ptr<const LightmapLayout> layout;
         std::shared_ptr<const IndirectField> field;
+        OverlayOptions overlay;
+        std::shared_ptr<const Bake> bake; ///< of the overlay; null: there is none
 
         bool operator==(const Shown&) const = default;
     };

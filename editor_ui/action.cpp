@@ -154,6 +154,26 @@ template <Tool tool>
 bool hasTool(const EditorState& s) {
     return s.view.tool == tool;
 }
+template <Overlay overlay>
+void showOverlay(EditorState& s) {
+    s.overlay.options.kind = overlay;
+}
+template <Overlay overlay>
+bool showsOverlay(const EditorState& s) {
+    return s.overlay.options.kind == overlay;
+}
+template <Overlay overlay>
+constexpr Action overlayAction(const char* id) {
+    return {id,
+            kOverlays[std::size_t(overlay)].label,
+            Menu::Overlay,
+            {},
+            {},
+            false,
+            always,
+            showOverlay<overlay>,
+            showsOverlay<overlay>};
+}
 void toggleLights(EditorState& s) {
     s.view.showLights = !s.view.showLights;
 }
@@ -239,6 +259,16 @@ constexpr Action kActions[] = {
     {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, setTool<Tool::Move>, hasTool<Tool::Move>},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
+    overlayAction<Overlay::None>("overlay.none"),
+    overlayAction<Overlay::Surfels>("overlay.surfels"),
+    overlayAction<Overlay::SurfelNormals>("overlay.surfel_normals"),
+    overlayAction<Overlay::SurfelOwners>("overlay.surfel_owners"),
+    overlayAction<Overlay::Clusters>("overlay.clusters"),
+    overlayAction<Overlay::Links>("overlay.links"),
+    overlayAction<Overlay::Caches>("overlay.caches"),
+    overlayAction<Overlay::Charts>("overlay.charts"),
+    overlayAction<Overlay::Density>("overlay.density"),
+    overlayAction<Overlay::Overlap>("overlay.overlap"),
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},

@@ -10,8 +10,8 @@ namespace limn {
 
 struct EditorState;
 
-/// Menus that list actions, in the order of the menu bar.
-enum class Menu { File, Edit, Add, View, Bake };
+/// Menus that list actions, in the order of the menu bar; Overlay is a part of View.
+enum class Menu { File, Edit, Add, View, Overlay, Bake };
 
 /// One thing the user can do. Menus, shortcuts and the palette read the same table.
 struct Action {

@@ -4,6 +4,7 @@
 #include "editor_ui/action.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/field.h"
+#include "editor_ui/overlay_panel.h"
 #include "editor_ui/theme.h"
 
 #include <imgui.h>
@@ -50,6 +51,8 @@ static void menu(EditorState& state, const char* label, Menu which) {
         if (which == Menu::File && std::string_view(action.id) == "file.open")
             recentMenu(state);
     }
+    if (which == Menu::View)
+        menu(state, "Overlay", Menu::Overlay);
     ImGui::EndMenu();
 }
 
@@ -100,7 +103,7 @@ static void viewCombo(EditorState& state) {
                                              "Irradiance", "Albedo",      "Normals"};
     static_assert(std::size(kViews) == kViewNames.size());
     int view = int(state.view.view);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8.5f);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
     if (ImGui::Combo("##view", &view, kViews, int(std::size(kViews))))
         state.view.view = View(view);
     wrappedTooltip("What the picture shows");
@@ -112,7 +115,7 @@ static void tonemapCombo(EditorState& state) {
                                                 "Khronos PBR Neutral"};
     static_assert(std::size(kTonemaps) == kTonemapNames.size());
     int tonemap = int(state.view.tonemap);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
     if (ImGui::Combo("##tonemap", &tonemap, kTonemaps, int(std::size(kTonemaps))))
         state.view.tonemap = Tonemap(tonemap);
     wrappedTooltip("How scene light becomes display colours");
@@ -123,13 +126,16 @@ void viewBar(EditorState& state) {
     toolButton(state, "tool.select", "Select");
     toolButton(state, "tool.move", "Move");
     viewCombo(state);
+    overlayCombo(state);
+    ImGui::SameLine();
     tonemapCombo(state);
     ImGui::SetNextItemWidth(
         std::clamp(ImGui::GetContentRegionAvail().x, 60.f, ImGui::GetFontSize() * 11));
-    ImGui::SliderFloat("##exposure", &state.view.exposureEv, -10, 10, "Exposure %+.2f EV",
+    ImGui::SliderFloat("##exposure", &state.view.exposureEv, -10, 10, "%+.2f EV",
                        ImGuiSliderFlags_AlwaysClamp);
-    wrappedTooltip("Light is multiplied by 2 to this power before tone mapping. Double-click or "
-                   "Ctrl-click to type");
+    wrappedTooltip(
+        "Exposure: light is multiplied by 2 to this power before tone mapping. Double-click or "
+        "Ctrl-click to type");
 }
 
 static void bakeProgress(EditorState& state) {

@@ -6,6 +6,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/inspector_panel.h"
 #include "editor_ui/outliner_panel.h"
+#include "editor_ui/overlay_panel.h"
 #include "editor_ui/statistics_panel.h"
 #include "editor_ui/theme.h"
 #include "editor_ui/viewport_panel.h"
@@ -13,6 +14,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -129,6 +131,19 @@ static void picturePanel(EditorState& state, const Rect& place) {
     ImGui::PopStyleVar(2);
 }
 
+static void rightPanels(EditorState& state, Rect place) {
+    const bool overlay = state.overlay.options.kind != Overlay::None;
+    const float inspector = overlay ? std::floor(0.42f * place.h) : place.h;
+    beginFixed("inspector", {place.x, place.y, place.w, inspector});
+    inspectorPanel(state);
+    ImGui::End();
+    if (!overlay)
+        return;
+    beginFixed("overlay", {place.x, place.y + inspector, place.w, place.h - inspector});
+    overlayPanel(state);
+    ImGui::End();
+}
+
 static void panels(EditorState& state, float menuHeight) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     state.layout =
@@ -139,9 +154,7 @@ static void panels(EditorState& state, float menuHeight) {
     beginFixed("outliner", p.left);
     outlinerPanel(state);
     ImGui::End();
-    beginFixed("inspector", p.right);
-    inspectorPanel(state);
-    ImGui::End();
+    rightPanels(state, p.right);
     bottomPanel(state, p.bottom);
     beginFixed("view bar", p.bar, kNoScroll);
     viewBar(state);

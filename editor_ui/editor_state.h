@@ -6,6 +6,7 @@
 #include "editor_ui/gesture.h"
 #include "editor_ui/gizmo_math.h"
 #include "editor_ui/keys.h"
+#include "editor_ui/overlay_state.h"
 #include "editor_ui/statistics.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
@@ -96,6 +97,7 @@ struct EditorState {
     std::optional<Gesture> gesture;  ///< edit in progress: in the document, not yet in history
 
     ViewState view;
+    OverlayState overlay;
     LayoutState layout;
     OutlinerState outliner;
     EulerEdit euler;

@@ -2,6 +2,7 @@
 #include "editor_ui/session.h"
 
 #include "editor_ui/document_edit.h"
+#include "editor_ui/overlay_panel.h"
 #include "editor_ui/recent_files.h"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ void Session::takeOpened() {
     state.layout = before.layout;
     state.view.origin = before.view.origin;
     state.view.size = before.view.size;
+    state.overlay.options.kind = before.overlay.options.kind;
     state.recent =
         addRecentFile(before.recent, file.projectPath.empty() ? file.imported.document.scenePath
                                                               : file.projectPath);
@@ -154,6 +156,7 @@ void Session::useBake(BakedScene baked) {
         for (const auto& [stage, seconds] : bake.seconds)
             state.bake.totalSeconds += seconds;
     }
+    setOverlayBake(state.overlay, m_baked.bake, m_baked.scene);
     fitLayout();
     m_relightJob.setBake(m_baked);
 }

@@ -5,6 +5,7 @@
 #include "editor_ui/document_edit.h"
 #include "editor_ui/gizmo.h"
 #include "editor_ui/icon.h"
+#include "editor_ui/overlay_panel.h"
 #include "editor_ui/picking.h"
 #include "editor_ui/theme.h"
 
@@ -116,8 +117,11 @@ static void release(EditorState& state) {
         return;
     view.pressed = false;
     const ImGuiIO& io = ImGui::GetIO();
-    if (glm::length(mousePosition() - view.pressedAt) <= kClickPixels)
-        pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
+    if (glm::length(mousePosition() - view.pressedAt) > kClickPixels)
+        return;
+    pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
+    if (state.overlay.options.kind == Overlay::Links)
+        pickCacheAt(state, view.pressedAt);
 }
 
 static Icon lightIcon(const Light& light) {

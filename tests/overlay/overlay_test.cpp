@@ -277,7 +277,7 @@ TEST(TexelUses, SurfacesThatLieOverEachOtherAreFound) {
 TEST(TexelUses, ATexelThatTwoChartsLookUpWithoutCoveringItTwiceIsShared) {
     QuadLayout q;
     q.place({0.5f, 0.5f}, {3, 3});
-    q.place({3.8f, 0.5f}, {3, 3}); // reads texel 3 as well
+    q.place({4.2f, 0.5f}, {3, 3}); // reads texel 3 as well
     q.place({10.5f, 4.5f}, {0, 0});
     q.place({10.5f, 4.5f}, {0, 0}); // two charts of one texel
     const TexelUse use = q.use();
