@@ -19,9 +19,9 @@ namespace limn {
 
 namespace {
 
-// Discs of a surfel's own area would hide the surface and one another; of so much of its radius,
-// they let both be seen.
-constexpr float kSurfelScale = 0.6f, kTexelScale = 0.6f;
+// Discs of a surfel's own area and squares of a texel's own would hide the surface and one another;
+// of so much of their radius and side they let both be seen.
+constexpr float kSurfelScale = 0.6f, kTexelScale = 0.3f;
 
 const glm::vec3 kValidTexel(0.13f, 0.57f, 0.9f), kValidCell(0.95f, 0.85f, 0.3f), kInvalid(1, 0, 1),
     kUnlinked(0.25f, 0.25f, 0.27f);
