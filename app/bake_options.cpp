@@ -42,6 +42,11 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
         ->check([](const std::string& text) {
             return gridOf(text) ? "" : fmt::format("\"{}\" is not XxYxZ, each 1 to 256", text);
         });
+    command.add_option("--placement", o.placement, "Where surfels lie: relaxed, halton or random")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, SurfelPlacement>{{"relaxed", SurfelPlacement::Relaxed},
+                                                   {"halton", SurfelPlacement::Halton},
+                                                   {"random", SurfelPlacement::Random}}));
     command.add_option("--clustering", o.clustering, "How surfels are joined: agglomerative or kd")
         ->transform(CLI::CheckedTransformer(std::map<std::string, Clustering>{
             {"agglomerative", Clustering::Agglomerative}, {"kd", Clustering::KdTree}}));
@@ -67,6 +72,7 @@ void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
         s.texelsPerMetre = 0;
     }
     s.texelsPerMetre = o.texelsPerMetre.value_or(s.texelsPerMetre);
+    s.placement = o.placement.value_or(s.placement);
     s.clustering = o.clustering.value_or(s.clustering);
     s.clusterNormalWeight = o.clusterNormalWeight.value_or(s.clusterNormalWeight);
     s.clusterBalanceWeight = o.clusterBalanceWeight.value_or(s.clusterBalanceWeight);

@@ -17,6 +17,7 @@ namespace limn {
 struct BakeOptions {
     std::optional<std::uint32_t> surfels, links, bands, rays, lightmap;
     std::optional<float> texelsPerMetre, clusterNormalWeight, clusterBalanceWeight;
+    std::optional<SurfelPlacement> placement;
     std::optional<Clustering> clustering;
     std::string grid; ///< XxYxZ, checked; empty: the document's
     int threads = 0;  ///< 0: all

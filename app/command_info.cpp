@@ -3,6 +3,7 @@
 #include "app/command.h"
 #include "app/scene_options.h"
 
+#include "engine/bake/surfel_spacing.h"
 #include "engine/bake/tree_shape.h"
 #include "engine/core/hash.h"
 #include "engine/files/bake_file.h"
@@ -111,9 +112,12 @@ static Json describe(const Bake& bake) {
                         {"links", s.links},
                         {"bands", s.bands},
                         {"rays", s.rays},
+                        {"placement", kPlacementNames[std::size_t(s.placement)]},
                         {"clustering", kClusteringNames[std::size_t(s.clustering)]},
                         {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
     json["lightmap"] = {{"width", bake.lightmap.width}, {"height", bake.lightmap.height}};
+    const SurfelSpacing spacing = surfelSpacing(bake.surfels);
+    json["spacing"] = {{"mean", spacing.mean}, {"spread", spacing.spread}};
     const TreeShape tree = treeShapeOf(bake.tree);
     json["tree"] = {
         {"most_depth", tree.mostDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};

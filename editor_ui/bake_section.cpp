@@ -52,6 +52,15 @@ static void gridRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Grid");
 }
 
+static void placementRow(FieldEdit& edit, BakeSettings& s) {
+    int where = int(s.placement);
+    fieldLabel("Placement", "Where surfels lie. Relaxed: Halton points, then spread evenly. Halton "
+                            "and random are there to compare");
+    if (ImGui::Combo("##placement", &where, "Relaxed\0Halton\0Random\0"))
+        s.placement = SurfelPlacement(where);
+    fieldEdited(edit, "Placement");
+}
+
 static void clusterRows(FieldEdit& edit, BakeSettings& s) {
     int how = int(s.clustering);
     fieldLabel("Clustering",
@@ -112,6 +121,7 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
              "Sample points of the surfaces that stand for all bounced light, over the whole "
              "scene. More: finer light, longer bake, more memory",
              s.surfels, 64, 1u << 20, "Surfels");
+    placementRow(edit, s);
     countRow(edit, "Links (n_L)",
              "Clusters of surfels that each cache listens to. More: more accurate, "
              "slower to relight",

@@ -267,11 +267,11 @@ public:
         std::make_heap(m_heap.begin(), m_heap.end());
     }
 
-    MergeTree run() {
+    MergeTree run(const Progress& progress) {
         constexpr float kRebuildAt = 0.7f; // of what was left at the last time
         MergeTree tree;
         std::uint32_t left = m_count, built = m_count;
-        while (left > 1) {
+        while (left > 1 && !(left % 1024 == 0 && progress.cancelled())) {
             const auto [a, b] = closestPair();
             const auto c = std::uint32_t(m_clusters.size());
             m_clusters.push_back(merged(m_clusters[a], m_clusters[b], m_normalWeight));
@@ -352,10 +352,12 @@ MergeTree depthFirst(const MergeTree& tree, std::uint32_t count) {
 
 } // namespace
 
-MergeTree clusterAgglomerative(std::span<const ClusterItem> items, const ClusterMetric& metric) {
+MergeTree clusterAgglomerative(std::span<const ClusterItem> items, const ClusterMetric& metric,
+                               const Progress& progress) {
     if (items.size() < 2)
         return {};
-    return depthFirst(Agglomeration(items, metric).run(), std::uint32_t(items.size()));
+    const MergeTree tree = Agglomeration(items, metric).run(progress);
+    return progress.cancelled() ? MergeTree() : depthFirst(tree, std::uint32_t(items.size()));
 }
 
 } // namespace limn

@@ -3,19 +3,13 @@
 
 #include "engine/bake/lightmap_layout.h"
 #include "engine/core/progress.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/triangle_geometry.h"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace limn {
-
-/// A point of a mesh.
-struct MeshPoint {
-    std::uint32_t triangle;
-    glm::vec2 barycentric; ///< (u, v), weights (1-u-v, u, v)
-};
 
 /// A texel that a bilinear lookup can meet, and the surface it stands for: points spread over the
 /// part of the surface that lies in it; the closest point where none does.

@@ -135,15 +135,17 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         return cancelled();
 
     progress.at("surfels", 0);
-    SurfelSet set = placeSurfels(scene, scene.bake.surfels);
+    SurfelSet set = placeSurfels(scene, scene.bake.surfels, progress);
+    if (progress.cancelled())
+        return cancelled();
     if (set.surfels.size() == 0)
         return fail("nothing to bake: the scene has no static triangles");
     clock.finish("surfels");
-    if (progress.cancelled())
-        return cancelled();
 
     progress.at("clusters", 0);
-    result.tree = buildClusterTree(scene, set);
+    result.tree = buildClusterTree(scene, set, progress);
+    if (progress.cancelled())
+        return cancelled();
     clock.finish("clusters");
 
     result.gridBounds = gridBoundsOf(scene);

@@ -3,10 +3,10 @@
 
 #include "engine/bake/planar_set.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/mesh_topology.h"
 #include "engine/scene/triangle_geometry.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
@@ -33,34 +33,6 @@ struct EdgeHash {
         return mixBits(e.a) * std::size_t(0x9e3779b97f4a7c15ULL) + mixBits(e.b);
     }
 };
-
-struct PointHash {
-    std::size_t operator()(const std::array<std::uint32_t, 5>& p) const {
-        std::size_t h = 0;
-        for (const std::uint32_t v : p)
-            h = (h ^ mixBits(v)) * std::size_t(0x9e3779b97f4a7c15ULL);
-        return h;
-    }
-};
-
-std::uint32_t floatKey(float f) {
-    return std::bit_cast<std::uint32_t>(f + 0.f);
-} // -0 joins 0
-
-/// Number of each vertex after joining those at equal position (and equal uv1 when asked).
-std::vector<std::uint32_t> weld(const Mesh& mesh, bool byUv1, const Stop& stop) {
-    std::unordered_map<std::array<std::uint32_t, 5>, std::uint32_t, PointHash> ids;
-    ids.reserve(mesh.positions.size());
-    std::vector<std::uint32_t> result(mesh.positions.size());
-    for (std::size_t i = 0; i < result.size() && !stop.at(i); ++i) {
-        const glm::vec3 p = mesh.positions[i];
-        const glm::vec2 uv = byUv1 ? mesh.uv1[i] : glm::vec2(0);
-        const std::array<std::uint32_t, 5> key = {floatKey(p.x), floatKey(p.y), floatKey(p.z),
-                                                  floatKey(uv.x), floatKey(uv.y)};
-        result[i] = ids.try_emplace(key, std::uint32_t(ids.size())).first->second;
-    }
-    return result;
-}
 
 /// neighbours[begin[t] … begin[t+1]) share an edge with triangle t.
 struct Adjacency {
@@ -152,7 +124,7 @@ public:
 /// Islands of TEXCOORD_1, to the scale of the surface.
 void useAuthoredUv(const Mesh& mesh, const TriangleGeometry& geometry, const Stop& stop,
                    ChartGrower& out) {
-    const Adjacency adjacency = buildAdjacency(mesh, weld(mesh, true, stop), stop);
+    const Adjacency adjacency = buildAdjacency(mesh, weldVertices(mesh, true, stop.progress), stop);
     if (stop.progress.cancelled())
         return;
     double surface = 0, plane = 0;
@@ -260,7 +232,8 @@ MeshCharts buildCharts(const Mesh& mesh, const Progress& progress) {
     const TriangleGeometry geometry = triangleGeometry(mesh);
     const bool authored = lightmapUvDefect(mesh, progress).empty();
     const Adjacency adjacency =
-        authored ? Adjacency() : buildAdjacency(mesh, weld(mesh, false, stop), stop);
+        authored ? Adjacency()
+                 : buildAdjacency(mesh, weldVertices(mesh, false, stop.progress), stop);
     if (progress.cancelled())
         return {};
     ChartGrower grown(mesh, geometry, adjacency, stop);

@@ -23,7 +23,8 @@ ClusterMetric metricOf(const BakeSettings& settings, glm::vec3 size) {
             settings.clusterBalanceWeight};
 }
 
-MergeTree meshTree(const MeshSurfels& surfels, const BakeSettings& settings) {
+MergeTree meshTree(const MeshSurfels& surfels, const BakeSettings& settings,
+                   const Progress& progress) {
     glm::vec3 lower(1e30f), upper(-1e30f);
     for (const glm::vec3 p : surfels.position) {
         lower = glm::min(lower, p);
@@ -32,7 +33,7 @@ MergeTree meshTree(const MeshSurfels& surfels, const BakeSettings& settings) {
     std::vector<ClusterItem> items(surfels.size());
     for (std::size_t i = 0; i < items.size(); ++i)
         items[i] = {surfels.position[i] - lower, surfels.normal[i], 1};
-    return clusterItems(settings.clustering, items, metricOf(settings, upper - lower));
+    return clusterItems(settings.clustering, items, metricOf(settings, upper - lower), progress);
 }
 
 /// A subtree already in the ClusterTree, seen as one item of the tree above it.
@@ -67,7 +68,7 @@ Root instanceRoot(const Surfels& surfels, std::uint32_t begin, std::uint32_t end
 
 /// Joins the roots of the instances and, last, that of the sky.
 void joinRoots(const std::vector<Root>& roots, const Scene& scene, std::uint32_t sky,
-               ClusterTree& tree) {
+               const Progress& progress, ClusterTree& tree) {
     if (roots.empty())
         return;
     std::vector<ClusterItem> items;
@@ -76,7 +77,8 @@ void joinRoots(const std::vector<Root>& roots, const Scene& scene, std::uint32_t
         items.back().position -= scene.bounds.lower;
     }
     const std::uint32_t top = append(
-        clusterItems(scene.bake.clustering, items, metricOf(scene.bake, scene.bounds.size())),
+        clusterItems(scene.bake.clustering, items, metricOf(scene.bake, scene.bounds.size()),
+                     progress),
         std::uint32_t(roots.size()), [&](std::uint32_t i) { return roots[i].node; }, tree);
     tree.left.push_back(top);
     tree.right.push_back(sky);
@@ -125,16 +127,18 @@ std::uint32_t skyCellOf(glm::vec3 d) {
     return cell(height, kSkyBands) * kSkySectors + cell(turn, kSkySectors);
 }
 
-ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set) {
+ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Progress& progress) {
     ClusterTree tree;
     tree.surfels = std::uint32_t(set.surfels.size());
     tree.skyCells = kSkyCells;
     std::vector<MergeTree> meshes(set.meshes.size());
     parallelRanges(meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m)
-            if (set.meshes[m].size() > 0)
-                meshes[m] = meshTree(set.meshes[m], scene.bake);
+            if (set.meshes[m].size() > 0 && !progress.cancelled())
+                meshes[m] = meshTree(set.meshes[m], scene.bake, progress);
     });
+    if (progress.cancelled())
+        return {};
     std::vector<Root> roots;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const std::uint32_t begin = set.instanceBegin[i], end = set.instanceBegin[i + 1];
@@ -145,7 +149,7 @@ ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set) {
             [&](std::uint32_t k) { return begin + k; }, tree);
         roots.push_back(instanceRoot(set.surfels, begin, end, node));
     }
-    joinRoots(roots, scene, appendSky(tree), tree);
+    joinRoots(roots, scene, appendSky(tree), progress, tree);
     fillWeightsAndParents(set.surfels, tree);
     return tree;
 }

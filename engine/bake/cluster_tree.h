@@ -14,7 +14,8 @@ std::uint32_t skyCellOf(glm::vec3 d);
 /// Trees per mesh, built once in object space and used by each instance, a tree over the instances,
 /// and one over the sky cells, joined at the root. Surfels and instances are clustered as
 /// Scene::bake says, with the diagonal of the mesh's surfels, or of the scene, as the metric's
-/// extent. leftWeight is by area.
-ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set);
+/// extent. leftWeight is by area. Empty when cancelled.
+ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set,
+                             const Progress& progress = {});
 
 } // namespace limn

@@ -58,10 +58,10 @@ MergeTree clusterByMedian(std::span<const ClusterItem> items, const ClusterMetri
 }
 
 MergeTree clusterItems(Clustering how, std::span<const ClusterItem> items,
-                       const ClusterMetric& metric) {
+                       const ClusterMetric& metric, const Progress& progress) {
     switch (how) {
     case Clustering::Agglomerative:
-        return clusterAgglomerative(items, metric);
+        return clusterAgglomerative(items, metric, progress);
     case Clustering::KdTree:
         return clusterByMedian(items, metric);
     }

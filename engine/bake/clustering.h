@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/progress.h"
 #include "engine/scene/bake_settings.h"
 
 #include <array>
@@ -46,7 +47,9 @@ std::array<float, 6> metricCoordinates(const ClusterItem& item, const ClusterMet
 /// as they are made. Exact: each choice is the one that
 /// a search through all pairs would make. The generic algorithm of Müllner. Modern Hierarchical,
 /// Agglomerative Clustering Algorithms. 2011, its nearest neighbours from a tree of boxes.
-MergeTree clusterAgglomerative(std::span<const ClusterItem> items, const ClusterMetric& metric);
+/// Without nodes when cancelled.
+MergeTree clusterAgglomerative(std::span<const ClusterItem> items, const ClusterMetric& metric,
+                               const Progress& progress = {});
 
 /// Splits at the median of the widest of metricCoordinates(). The term for balance has no part: the
 /// median gives it.
@@ -54,6 +57,6 @@ MergeTree clusterByMedian(std::span<const ClusterItem> items, const ClusterMetri
 
 /// One of the two.
 MergeTree clusterItems(Clustering how, std::span<const ClusterItem> items,
-                       const ClusterMetric& metric);
+                       const ClusterMetric& metric, const Progress& progress = {});
 
 } // namespace limn

@@ -14,6 +14,7 @@ struct NearestPoint::Query {
     glm::vec3 p, normal;
     float best = std::numeric_limits<float>::infinity();
     std::uint32_t index = ~0U;
+    std::uint32_t leftOut = ~0U; ///< a point that does not count
 };
 
 NearestPoint::NearestPoint(std::span<const glm::vec3> points, std::span<const glm::vec3> normals,
@@ -43,7 +44,7 @@ void NearestPoint::search(std::uint32_t begin, std::uint32_t end, Query& q) cons
     const glm::vec3 d = m_points[candidate] - q.p;
     const float cost =
         glm::dot(d, d) + m_orientationWeight * (1 - glm::dot(m_normals[candidate], q.normal));
-    if (cost < q.best || (cost == q.best && candidate < q.index)) {
+    if (candidate != q.leftOut && (cost < q.best || (cost == q.best && candidate < q.index))) {
         q.best = cost;
         q.index = candidate;
     }
@@ -60,6 +61,13 @@ std::uint32_t NearestPoint::find(glm::vec3 p, glm::vec3 normal) const {
     Query query{p, normal};
     search(0, std::uint32_t(m_order.size()), query);
     return query.index == ~0U ? 0 : query.index;
+}
+
+std::uint32_t NearestPoint::findOther(std::uint32_t index) const {
+    Query query{m_points[index], m_normals[index]};
+    query.leftOut = index;
+    search(0, std::uint32_t(m_order.size()), query);
+    return query.index;
 }
 
 } // namespace limn

@@ -20,6 +20,9 @@ public:
 
     std::uint32_t find(glm::vec3 p, glm::vec3 normal) const;
 
+    /// The nearest to point `index` but itself; ~0 if there is no other.
+    std::uint32_t findOther(std::uint32_t index) const;
+
 private:
     struct Query;
     void build(std::uint32_t begin, std::uint32_t end);

@@ -2,6 +2,8 @@
 #include "engine/bake/surfels.h"
 
 #include "engine/bake/nearest_point.h"
+#include "engine/bake/relaxation.h"
+#include "engine/bake/surfel_spacing.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/triangle_geometry.h"
@@ -20,8 +22,8 @@ bool sendsLight(const Scene& scene, const Instance& instance) {
     return !instance.dynamic && scene.meshOf(instance).triangleCount() > 0;
 }
 
-/// Counts per mesh from the areas of its instances.
-std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, std::uint32_t target) {
+/// [m^2] of the lit sides in the world, per instance; 0 where no light is sent.
+std::vector<double> litAreas(const Scene& scene) {
     std::vector<double> area(scene.instances.size());
     parallelRanges(area.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
@@ -29,6 +31,12 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, std::uint32_t targ
                 area[i] = worldArea(scene, scene.instances[i]) *
                           (isTwoSided(scene.materialOf(scene.instances[i])) ? 2 : 1);
     });
+    return area;
+}
+
+/// Counts per mesh from the areas of its instances.
+std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<double>& area,
+                                          std::uint32_t target) {
     double total = 0;
     for (const double a : area)
         total += a;
@@ -48,16 +56,56 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, std::uint32_t targ
     return counts;
 }
 
-void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& local,
+/// Marsaglia. Xorshift RNGs. 2003: period 2^32 - 1, the triple 13, 17, 5.
+class Xorshift {
+public:
+    float next() {
+        m_state ^= m_state << 13;
+        m_state ^= m_state >> 17;
+        m_state ^= m_state << 5;
+        return unitFloat(m_state);
+    }
+
+private:
+    std::uint32_t m_state = 2463534242U;
+};
+
+/// Point i lies in the triangle at (i + 1/2)/count of the summed area.
+std::vector<MeshPoint> pointsByArea(const Mesh& mesh, std::uint32_t count, double total,
+                                    SurfelPlacement placement) {
+    std::vector<MeshPoint> points;
+    Xorshift random;
+    double passed = triangleArea(mesh, 0);
+    std::uint32_t t = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double wanted = (i + 0.5) / count * total;
+        while (passed < wanted && t + 1 < mesh.triangleCount())
+            passed += triangleArea(mesh, ++t);
+        glm::vec2 square(radicalInverse(i + 1, 2), radicalInverse(i + 1, 3));
+        if (placement == SurfelPlacement::Random) {
+            square.x = random.next();
+            square.y = random.next();
+        }
+        points.push_back({t, sampleTriangle(square)});
+    }
+    return points;
+}
+
+/// The cofactor matrix stretches a unit patch; the average over the surfels need not meet the
+/// triangles' `area` [m^2] where sides stretch differently, so the sum is put right.
+void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& local, double area,
                     Surfels& out) {
     const Instance& instance = scene.instances[index];
+    double sum = 0;
+    for (const glm::vec3 n : local.normal)
+        sum += double(local.area * glm::length(instance.normalToWorld * n));
+    const double exact = sum > 0 ? area / sum : 1;
     for (std::size_t i = 0; i < local.size(); ++i) {
         const glm::vec3 n = instance.normalToWorld * local.normal[i];
-        const float stretch =
-            glm::length(n); // cofactor matrix: area of a unit patch after the transform
+        const float stretch = glm::length(n);
         out.position.push_back(instance.toWorld * glm::vec4(local.position[i], 1));
         out.normal.push_back(stretch > 0 ? n / stretch : glm::vec3(0, 1, 0));
-        out.area.push_back(std::max(local.area * stretch, 1e-30f));
+        out.area.push_back(std::max(float(double(local.area * stretch) * exact), 1e-30f));
         out.instance.push_back(index);
         out.triangle.push_back(local.triangle[i]);
         out.barycentric.push_back(local.barycentric[i]);
@@ -70,7 +118,8 @@ bool isTwoSided(const Material& material) {
     return material.doubleSided;
 }
 
-MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided) {
+MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
+                         SurfelPlacement placement, const Progress& progress) {
     assert(count >= 1 && mesh.triangleCount() >= 1);
     double total = 0;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
@@ -78,42 +127,38 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided) {
     MeshSurfels result;
     result.frontCount = count;
     result.area = float(total / count);
-    double passed = triangleArea(mesh, 0);
-    std::size_t t = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double wanted = (i + 0.5) / count * total;
-        while (passed < wanted && t + 1 < mesh.triangleCount())
-            passed += triangleArea(mesh, ++t);
-        const glm::vec2 uv = sampleTriangle({radicalInverse(i + 1, 2), radicalInverse(i + 1, 3)});
-        result.position.push_back(trianglePoint(mesh, t, uv));
-        result.normal.push_back(triangleNormal(mesh, t));
-        result.triangle.push_back(std::uint32_t(t));
-        result.barycentric.push_back(uv);
-    }
-    for (std::uint32_t i = 0; twoSided && i < count; ++i) {
-        result.position.push_back(result.position[i]);
-        result.normal.push_back(-result.normal[i]);
-        result.triangle.push_back(result.triangle[i]);
-        result.barycentric.push_back(result.barycentric[i]);
-    }
+    std::vector<MeshPoint> points = pointsByArea(mesh, count, total, placement);
+    if (placement == SurfelPlacement::Relaxed)
+        relax(mesh, hexagonalSpacing(result.area), points, progress);
+    for (std::uint32_t side = 0; side < (twoSided ? 2 : 1); ++side)
+        for (const MeshPoint& p : points) {
+            const glm::vec3 normal = triangleNormal(mesh, p.triangle);
+            result.position.push_back(trianglePoint(mesh, p.triangle, p.barycentric));
+            result.normal.push_back(side == 0 ? normal : -normal);
+            result.triangle.push_back(p.triangle);
+            result.barycentric.push_back(p.barycentric);
+        }
     return result;
 }
 
-SurfelSet placeSurfels(const Scene& scene, std::uint32_t target) {
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress) {
     SurfelSet result;
-    const std::vector<std::uint32_t> counts = surfelsPerMesh(scene, target);
+    const std::vector<double> area = litAreas(scene);
+    const std::vector<std::uint32_t> counts = surfelsPerMesh(scene, area, target);
     result.meshes.resize(counts.size());
     parallelRanges(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m)
-            if (counts[m] > 0)
+            if (counts[m] > 0 && !progress.cancelled())
                 result.meshes[m] =
                     placeSurfels(scene.assets->meshes[m], counts[m],
-                                 isTwoSided(scene.materials[scene.assets->meshes[m].material]));
+                                 isTwoSided(scene.materials[scene.assets->meshes[m].material]),
+                                 scene.bake.placement, progress);
     });
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
         if (sendsLight(scene, scene.instances[i]))
-            appendInstance(scene, i, result.meshes[scene.instances[i].mesh], result.surfels);
+            appendInstance(scene, i, result.meshes[scene.instances[i].mesh], area[i],
+                           result.surfels);
     }
     result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
     return result;
@@ -125,7 +170,10 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels)
     // it at most.
     const float spacing = std::sqrt(std::max(surfels.area, 1e-30f));
     constexpr float kCellsPerSpacing = 3, kMostCells = 1024;
-    std::uint32_t cells = 0;
+    // Needles have long sides and no area. Their cells must not outnumber all else.
+    const double mostInAll =
+        256.0 * double(surfels.frontCount) + 4.0 * double(mesh.triangleCount());
+    double inAll = 0;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
         const auto [a, b, c] = mesh.triangle(t);
         const float longest = std::max(glm::length(mesh.positions[b] - mesh.positions[a]),
@@ -133,8 +181,14 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels)
         const float n =
             std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMostCells);
         m_resolution.push_back(std::uint16_t(n));
+        inAll += double(n) * double(n);
+    }
+    std::uint32_t cells = 0;
+    for (std::uint16_t& n : m_resolution) {
+        if (inAll > mostInAll)
+            n = std::uint16_t(std::max(1.0, n * std::sqrt(mostInAll / inAll)));
         m_begin.push_back(cells);
-        cells += std::uint32_t(n) * std::uint32_t(n);
+        cells += std::uint32_t(n) * n;
     }
     m_owner.resize(cells);
     const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);

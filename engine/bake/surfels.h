@@ -21,11 +21,12 @@ struct MeshSurfels {
     std::size_t size() const { return position.size(); }
 };
 
-/// `count` >= 1 points, area-proportional: point i lies in the triangle at (i + 1/2)/count of the
+/// `count` >= 1 points, area-proportional: point i starts in the triangle at (i + 1/2)/count of the
 /// mesh's summed area, so the areas of small triangles carry over to their neighbours, at a Halton
-/// point (bases 2, 3) of that triangle. Halton. On the Efficiency of Certain Quasi-Random Sequences
-/// of Points in Evaluating Multi-Dimensional Integrals. 1960
-MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided);
+/// point (bases 2, 3) of that triangle, or a random one. Halton. On the Efficiency of Certain
+/// Quasi-Random Sequences of Points in Evaluating Multi-Dimensional Integrals. 1960
+MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
+                         SurfelPlacement placement, const Progress& progress = {});
 
 /// Surfels of every static instance of a scene.
 struct SurfelSet {
@@ -37,8 +38,9 @@ struct SurfelSet {
 
 /// About `target` surfels spread over the static instances by world area, at least one per mesh
 /// side. Instances of a mesh share its points. World areas include the local stretch of the
-/// transform.
-SurfelSet placeSurfels(const Scene& scene, std::uint32_t target);
+/// transform; those of an instance sum to the area of its lit sides.
+/// When cancelled, of no use.
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress = {});
 
 /// Light leaves both sides of such a surface.
 bool isTwoSided(const Material& material);

@@ -22,6 +22,7 @@ inline constexpr FieldRange kUnitRange{0, 1};
 inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp", "mirror"};
 inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
 inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "point", "spot"};
+inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
 inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
@@ -112,6 +113,7 @@ void describeBakeSettings(Fields& fields, T& b) {
     fields("texelsPerMetre", b.texelsPerMetre, kNotNegative);
     fields("grid", b.grid);
     fields("maxBounces", b.maxBounces);
+    fields("placement", b.placement, kPlacementNames);
     fields("clustering", b.clustering, kClusteringNames);
     fields("clusterNormalWeight", b.clusterNormalWeight, FieldRange{0, 100});
     fields("clusterBalanceWeight", b.clusterBalanceWeight, FieldRange{0, 100});

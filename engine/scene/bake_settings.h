@@ -7,6 +7,10 @@
 
 namespace limn {
 
+/// Where surfels lie on their triangles: at Halton points, then spread evenly; at Halton points; at
+/// pseudo-random ones (the paper's Figure 3 compares the latter two).
+enum class SurfelPlacement : std::uint8_t { Relaxed, Halton, Random };
+
 /// How surfels are joined into clusters: the closest two by the paper's metric, again and again, or
 /// by halving at medians.
 enum class Clustering : std::uint8_t { Agglomerative, KdTree };
@@ -24,6 +28,7 @@ struct BakeSettings {
     glm::uvec3 grid{0};            ///< cells of the grid caches; 0: chosen from the bounds
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
 
+    SurfelPlacement placement = SurfelPlacement::Relaxed;
     Clustering clustering = Clustering::KdTree;
     float clusterNormalWeight = 0.1f;   ///< C_n of the clusters' metric; [0, 100]
     float clusterBalanceWeight = 0.02f; ///< C_b, of agglomerative clusters only; [0, 100]

@@ -4,6 +4,7 @@
 #include "engine/scene/scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -16,6 +17,12 @@ float triangleArea(const Mesh& mesh, std::size_t triangle);
 
 /// Unit, of the counter-clockwise side, object space; +Y for a triangle without area.
 glm::vec3 triangleNormal(const Mesh& mesh, std::size_t triangle);
+
+/// A point of a mesh.
+struct MeshPoint {
+    std::uint32_t triangle;
+    glm::vec2 barycentric; ///< (u, v), weights (1-u-v, u, v)
+};
 
 /// The point of weights (1-u-v, u, v), object space.
 glm::vec3 trianglePoint(const Mesh& mesh, std::size_t triangle, glm::vec2 uv);
