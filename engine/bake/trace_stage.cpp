@@ -95,7 +95,7 @@ private:
     std::uint64_t retrace(std::uint32_t cache, RawHit* out);
     void traceOne(std::uint32_t cache);
     void keepBlock(std::uint32_t block);
-    void keepRecord();
+    void keepRecord(bool changed);
     bool finish();
     void note();
 
@@ -253,9 +253,13 @@ void Tracing::keepBlock(std::uint32_t block) {
                                           (to - from) * sizeof(RawHit)});
 }
 
-void Tracing::keepRecord() {
-    m_store->put(recordKey(m_key), recordBytes(m_record));
-    m_store->put(documentKey(in), {reinterpret_cast<const char*>(&m_key), sizeof m_key});
+/// Also names this trace as the latest of the document.
+void Tracing::keepRecord(bool changed) {
+    if (changed)
+        m_store->put(recordKey(m_key), recordBytes(m_record));
+    const std::string latest(reinterpret_cast<const char*>(&m_key), sizeof m_key);
+    if (m_store->find(documentKey(in)) != latest)
+        m_store->put(documentKey(in), latest);
 }
 
 /// From raw hits to the cut's, aimed rays included.
@@ -326,8 +330,8 @@ Result<TraceReport> Tracing::run() {
                                 traceOne(caches[i]);
                         }))
         return fail("cancelled");
-    if (m_store && (!m_exact || !caches.empty()))
-        keepRecord();
+    if (m_store)
+        keepRecord(!m_exact || !caches.empty());
     note();
     if (!finish())
         return fail("cancelled");

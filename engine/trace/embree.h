@@ -8,16 +8,66 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstdint>
+#include <limits>
+
 namespace limn {
 
-inline void embreeIntersect(RTCScene scene, RTCRayHit& rayHit) {
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene, &rayHit);
+using EmbreeContext = RTCRayQueryContext;
+inline constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &rayHit);
+using EmbreeContext = RTCIntersectContext;
+inline constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
+
+/// What every scene needs that is asked for hits.
+inline void setEmbreeFlags(RTCScene scene) {
+    rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilterFlag));
+}
+
+/// The first hit of a ray so far: of equally distant ones that of the lowest instance, then
+/// triangle. Which of coplanar triangles Embree itself settles on depends on its tree, and so on
+/// objects far away.
+struct FirstHit {
+    EmbreeContext context; ///< first: the filter gets its address
+    float t = std::numeric_limits<float>::infinity();
+    std::uint64_t id = ~std::uint64_t(0);
+};
+
+inline void keepFirst(const RTCFilterFunctionNArguments* args) {
+    FirstHit& first = *reinterpret_cast<FirstHit*>(args->context);
+    float& t = RTCRayN_tfar(args->ray, 1, 0);
+    const unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
+    const unsigned top =
+        instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(args->hit, 1, 0) : instance;
+    const std::uint64_t id = std::uint64_t(top) << 32 | RTCHitN_primID(args->hit, 1, 0);
+    if (t > first.t || (t == first.t && id > first.id)) {
+        args->valid[0] = 0;
+        return;
+    }
+    first.t = t;
+    first.id = id;
+    t *= 1 + 0x1p-20f; // lets others come this far: Embree compares with roundings of its own
+}
+
+inline void embreeIntersect(RTCScene scene, RTCRayHit& rayHit) {
+    FirstHit first;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&first.context);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.filter = keepFirst;
+    arguments.context = &first.context;
+    rtcIntersect1(scene, &rayHit, &arguments);
+#else
+    rtcInitIntersectContext(&first.context);
+    first.context.filter = keepFirst;
+    rtcIntersect1(scene, &first.context, &rayHit);
+#endif
+    if (rayHit.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+        rayHit.ray.tfar = first.t;
 }
 
 inline void embreeOccluded(RTCScene scene, RTCRay& ray) {

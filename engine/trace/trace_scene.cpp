@@ -208,7 +208,7 @@ void TraceScene::Impl::buildMeshes() {
             rtcSetGeometryMask(geometry, ~0u);
             rtcCommitGeometry(geometry);
             shared.scene = rtcNewScene(device);
-            rtcSetSceneFlags(shared.scene, RTC_SCENE_FLAG_ROBUST);
+            setEmbreeFlags(shared.scene);
             rtcAttachGeometry(shared.scene, geometry);
             rtcReleaseGeometry(geometry);
             commitAlone(shared.scene);
@@ -218,7 +218,7 @@ void TraceScene::Impl::buildMeshes() {
 
 void TraceScene::Impl::buildTop() {
     top = rtcNewScene(device);
-    rtcSetSceneFlags(top, RTC_SCENE_FLAG_ROBUST);
+    setEmbreeFlags(top);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         if (!frames[i].present)

@@ -226,6 +226,36 @@ TEST(TraceScene, BlockedSeesWhatLiesBetweenAndNotTheEnds) {
     }
 }
 
+TEST(TraceScene, WhichOfCoplanarSurfacesIsMetDependsOnThemAlone) {
+    std::vector<Hit> alone;
+    for (const int others : {0, 30, 300}) {
+        SceneBuilder b;
+        b.addMaterial(lambert(glm::vec3(0.5f)));
+        b.add(quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}));
+        b.add(quad({1, -1, 1}, {0, 2, 0}, {-2, 0, 0})); // the other diagonal
+        b.add(quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}));
+        if (others > 0)
+            b.add(randomTriangles(7, others), glm::translate(glm::mat4(1), glm::vec3(0, 0, 20)));
+        const TraceScene trace(b.build());
+        Random random(8);
+        for (std::size_t i = 0; i < 5000; ++i) {
+            Ray ray;
+            ray.origin = glm::vec3(0, 0, -1) + 0.5f * random.cube();
+            const glm::vec3 to(1.8f * random() - 0.9f, 1.8f * random() - 0.9f, 1);
+            ray.direction = glm::normalize(to - ray.origin);
+            const Hit hit = trace.closestHit(ray);
+            EXPECT_LT(hit.instance, 2u); // the third is the first again
+            if (others == 0) {
+                alone.push_back(hit);
+                continue;
+            }
+            EXPECT_EQ(hit.instance, alone[i].instance);
+            EXPECT_EQ(hit.triangle, alone[i].triangle);
+            EXPECT_EQ(hit.t, alone[i].t);
+        }
+    }
+}
+
 TEST(TraceScene, MasksTellStaticFromDynamic) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f)));
