@@ -2,6 +2,7 @@
 #include "engine/bake/gather.h"
 
 #include "engine/bake/cluster_tree.h"
+#include "engine/bake/stage_archive.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -133,7 +134,13 @@ const SurfelOwners& RayGatherer::owners(std::uint32_t mesh) const {
     std::call_once(lazy.once, [&] {
         // Alone: a thread waiting for its helpers must not begin another cache and come back here.
         tbb::this_task_arena::isolate([&] {
-            lazy.owners = SurfelOwners(m_trace.scene().assets->meshes[mesh], m_set.meshes[mesh]);
+            const Mesh& m = m_trace.scene().assets->meshes[mesh];
+            const std::size_t cells = m.triangleCount() + 9 * m_set.meshes[mesh].size();
+            constexpr std::size_t kWorthKeeping = 2048; // fewer are as fast to make
+            lazy.owners = keptOrMade<SurfelOwners>(
+                cells < kWorthKeeping ? nullptr : m_store, m_store ? m_ownerKeys[mesh] : 0, {},
+                [](auto& a, auto& o) { SurfelOwners::fields(a, o); },
+                [&] { return SurfelOwners(m, m_set.meshes[mesh]); });
         });
     });
     return lazy.owners;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/cache_points.h"
+#include "engine/bake/stage_store.h"
 #include "engine/bake/surfels.h"
 #include "engine/core/progress.h"
 #include "engine/math/sampling.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace limn {
@@ -67,6 +69,12 @@ public:
         : m_trace(trace), m_set(set), m_caches(caches), m_points(points), m_rays(rays),
           m_owners(set.meshes.size()) {}
 
+    /// Tables of owners are taken from `store`, or kept there, under these keys per mesh.
+    void keepOwners(StageStore& store, std::vector<std::uint64_t> keys) {
+        m_store = &store;
+        m_ownerKeys = std::move(keys);
+    }
+
     CacheRays directions(std::uint32_t cache) const {
         return raysOf(m_caches, m_points, cache, m_rays);
     }
@@ -89,6 +97,8 @@ private:
     const Caches& m_caches;
     const CachePoints& m_points;
     std::uint32_t m_rays;
+    StageStore* m_store = nullptr;
+    std::vector<std::uint64_t> m_ownerKeys;
     mutable std::vector<LazyOwners> m_owners; ///< per mesh, built when first met
 };
 

@@ -61,6 +61,12 @@ public:
         return m_owner[m_begin[triangle] + j * n + i] + (back ? m_frontCount : 0);
     }
 
+    /// Lists the tables for an archive.
+    template <class A, class T>
+    static void fields(A& a, T& o) {
+        a(o.m_frontCount), a(o.m_resolution), a(o.m_begin), a(o.m_owner);
+    }
+
 private:
     std::uint32_t m_frontCount = 0;
     std::vector<std::uint16_t> m_resolution; ///< per triangle: cells along u and v

@@ -70,6 +70,14 @@ TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const C
     return record;
 }
 
+std::vector<std::uint64_t> ownerKeys(const SurfelSet& set,
+                                     const std::vector<std::uint64_t>& meshes) {
+    std::vector<std::uint64_t> keys(meshes.size());
+    for (std::size_t m = 0; m < keys.size(); ++m)
+        keys[m] = hashValue(meshes[m], hashSurfels(set.meshes[m]));
+    return keys;
+}
+
 std::uint64_t hashRecord(const TraceRecord& r) {
     std::uint64_t h = hashValue(r.clearance, hashValue(r.rays, 7));
     for (const TracedInstance& i : r.instances) {

@@ -43,6 +43,10 @@ TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const C
                           const CachePoints& points, std::uint32_t rays,
                           const std::vector<std::uint64_t>& meshes);
 
+/// Per mesh, of what its SurfelOwners follow from.
+std::vector<std::uint64_t> ownerKeys(const SurfelSet& set,
+                                     const std::vector<std::uint64_t>& meshes);
+
 /// Of everything but `blocks`.
 std::uint64_t hashRecord(const TraceRecord& record);
 

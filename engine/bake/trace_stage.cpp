@@ -313,6 +313,7 @@ Result<TraceReport> Tracing::run() {
     m_hits.aimedBegin.clear();
     m_record.blocks.resize(m_done.size());
     if (m_store) {
+        m_gatherer.keepOwners(*m_store, ownerKeys(in.set, in.meshes));
         loadDone();
         if (std::count(m_done.begin(), m_done.end(), 0) > 0)
             loadBase();
