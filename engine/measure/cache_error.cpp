@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "engine/measure/cache_error.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+#include "engine/math/sh.h"
+#include "engine/reference/direct_light.h"
+#include "engine/reference/surface_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint32_t kSets = 4; ///< of rays, whose spread is the noise
+
+/// Irradiance at one point from one set of rays, and the share of them that met backs.
+struct PointGather {
+    glm::vec3 irradiance{0};
+    float backs = 0;
+};
+
+PointGather gatherPoint(const TraceScene& trace, glm::vec3 position, glm::vec3 normal,
+                        std::uint32_t rays, std::uint32_t seed) {
+    const DirectionSet directions(rays, false, seed);
+    const glm::mat3 toWorld = basisAround(normal);
+    const glm::vec3 origin = position + normal * trace.epsilonAt(position);
+    PointGather result;
+    std::uint64_t shadowRays = 0;
+    for (std::uint32_t r = 0; r < rays; ++r) {
+        const glm::vec3 local = directions[r];
+        const Hit hit = trace.closestHit({origin, toWorld * local}, TraceMask::Static);
+        const float weight = local.z * directions.solidAngle();
+        if (!hit) {
+            result.irradiance += trace.scene().sky.radiance * weight;
+            continue;
+        }
+        const auto p = surfacePoint(trace, hit);
+        if (!p) {
+            result.backs += 1 / float(rays);
+            continue;
+        }
+        const glm::vec3 B = p->albedo * directIrradiance(trace, *p, shadowRays);
+        result.irradiance += (B / kPi + p->emission) * weight;
+    }
+    return result;
+}
+
+/// Mean over the cache's points, but for those in walls; nothing where all are.
+struct CacheGather {
+    bool valid = false;
+    glm::vec3 mean{0}, variance{0}; ///< variance of the mean
+};
+
+CacheGather gatherCache(const TraceScene& trace, const CachePoints& points, std::uint32_t cache,
+                        std::uint32_t rays) {
+    const std::uint32_t begin = points.begin[cache], end = points.begin[cache + 1];
+    const std::uint32_t each = std::max(1U, rays / kSets / (end - begin));
+    glm::vec3 sum[kSets] = {};
+    std::uint32_t open = 0;
+    for (std::uint32_t p = begin; p < end; ++p) {
+        PointGather sets[kSets];
+        float backs = 0;
+        for (std::uint32_t k = 0; k < kSets; ++k) {
+            sets[k] = gatherPoint(trace, points.position[p], points.normal[p], each,
+                                  mixBits(p * kSets + k + 1));
+            backs += sets[k].backs / kSets;
+        }
+        if (backs > 0.5f)
+            continue;
+        ++open;
+        for (std::uint32_t k = 0; k < kSets; ++k)
+            sum[k] += sets[k].irradiance;
+    }
+    CacheGather result;
+    if (open == 0)
+        return result;
+    result.valid = true;
+    for (const glm::vec3& s : sum)
+        result.mean += s / float(open * kSets);
+    for (const glm::vec3& s : sum) {
+        const glm::vec3 d = s / float(open) - result.mean;
+        result.variance += d * d / float(kSets * (kSets - 1));
+    }
+    return result;
+}
+
+} // namespace
+
+CacheReference referenceIrradiance(const TraceScene& trace, const Caches& caches,
+                                   const CachePoints& points, std::uint32_t count,
+                                   std::uint32_t rays, const Progress& progress) {
+    const std::uint32_t stride =
+        std::max(1U, (caches.lightmapCount + count - 1) / std::max(count, 1U));
+    const std::size_t taken = (caches.lightmapCount + stride - 1) / stride;
+    std::vector<CacheGather> gathered(taken);
+    if (!parallelRanges(taken, 1, progress, "reference", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                gathered[i] = gatherCache(trace, points, std::uint32_t(i) * stride, rays);
+        }))
+        return {};
+    CacheReference result;
+    double variance = 0, mean = 0;
+    for (std::size_t i = 0; i < taken; ++i) {
+        const CacheGather& g = gathered[i];
+        if (!g.valid)
+            continue;
+        result.cache.push_back(std::uint32_t(i) * stride);
+        result.irradiance.push_back(g.mean);
+        variance += double(g.variance.x) + double(g.variance.y) + double(g.variance.z);
+        mean += double(g.mean.x) + double(g.mean.y) + double(g.mean.z);
+    }
+    const double channels = 3 * double(std::max<std::size_t>(result.cache.size(), 1));
+    if (mean > 0)
+        result.noise = std::sqrt(variance / channels) / (mean / channels);
+    return result;
+}
+
+CacheError compareCaches(const CacheReference& reference, const Caches& caches, int bands,
+                         const std::vector<glm::vec3>& sh) {
+    const auto coefficients = std::size_t(bands * bands);
+    std::vector<double> squared;
+    double mean = 0, meanReference = 0;
+    for (std::size_t i = 0; i < reference.cache.size(); ++i) {
+        const std::uint32_t c = reference.cache[i];
+        const glm::vec3 E = glm::max(
+            shIrradiance(bands, sh.data() + c * coefficients, caches.normal[c]), glm::vec3(0));
+        const glm::vec3 truth = reference.irradiance[i], d = E - truth;
+        squared.push_back(double(glm::dot(d, d)));
+        mean += double(E.x) + double(E.y) + double(E.z);
+        meanReference += double(truth.x) + double(truth.y) + double(truth.z);
+    }
+    CacheError error;
+    if (!(meanReference > 0))
+        return error;
+    std::sort(squared.begin(), squared.end());
+    const double channels = 3 * double(squared.size());
+    const double scale = meanReference / channels;
+    double sum = 0;
+    const std::size_t most = squared.size() - squared.size() / 100;
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+        sum += squared[i];
+        if (i + 1 == most)
+            error.nrmseMost = std::sqrt(sum / (3 * double(most))) / scale;
+    }
+    error.nrmse = std::sqrt(sum / channels) / scale;
+    error.bias = mean / meanReference - 1;
+    return error;
+}
+
+} // namespace limn
