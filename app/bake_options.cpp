@@ -47,6 +47,9 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
             std::map<std::string, SurfelPlacement>{{"relaxed", SurfelPlacement::Relaxed},
                                                    {"halton", SurfelPlacement::Halton},
                                                    {"random", SurfelPlacement::Random}}));
+    command.add_option("--cut", o.cut, "Which clusters caches link: detail or solid-angle")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, CutCriterion>{
+            {"detail", CutCriterion::Detail}, {"solid-angle", CutCriterion::SolidAngle}}));
     command.add_option("--clustering", o.clustering, "How surfels are joined: agglomerative or kd")
         ->transform(CLI::CheckedTransformer(std::map<std::string, Clustering>{
             {"agglomerative", Clustering::Agglomerative}, {"kd", Clustering::KdTree}}));
@@ -73,6 +76,7 @@ void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
     }
     s.texelsPerMetre = o.texelsPerMetre.value_or(s.texelsPerMetre);
     s.placement = o.placement.value_or(s.placement);
+    s.cut = o.cut.value_or(s.cut);
     s.clustering = o.clustering.value_or(s.clustering);
     s.clusterNormalWeight = o.clusterNormalWeight.value_or(s.clusterNormalWeight);
     s.clusterBalanceWeight = o.clusterBalanceWeight.value_or(s.clusterBalanceWeight);

@@ -61,6 +61,16 @@ static void placementRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Placement");
 }
 
+static void cutRow(FieldEdit& edit, BakeSettings& s) {
+    int which = int(s.cut);
+    fieldLabel("Cut", "Which clusters a cache links. Detail: those whose differences inside would "
+                      "change its light most; hard caches get more links, easy ones fewer. Solid "
+                      "angle: those that look largest, the same number for every cache");
+    if (ImGui::Combo("##cut", &which, "Detail\0Solid angle\0"))
+        s.cut = CutCriterion(which);
+    fieldEdited(edit, "Cut");
+}
+
 static void clusterRows(FieldEdit& edit, BakeSettings& s) {
     int how = int(s.clustering);
     fieldLabel("Clustering",
@@ -133,6 +143,7 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
              "Rays traced from each cache while baking. More: less noise, longer bake", s.rays, 16,
              65536, "Rays");
     ImGui::Separator();
+    cutRow(edit, s);
     clusterRows(edit, s);
     ImGui::Separator();
     lightmapRows(edit, s);

@@ -127,8 +127,8 @@ BakeBytes bytesOf(const Bake& bake);
 std::uint64_t bakeInputHash(const Scene& scene);
 
 /// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").
-/// Stages reported: charts, surfels, clusters, caches, trace, cut. What `store` knows is not made
-/// again: the result is the same, and counts.rays is what was traced now.
+/// Stages reported: charts, surfels, clusters, caches, trace, training, cut. What `store` knows is
+/// not made again: the result is the same, and counts.rays is what was traced now.
 Result<Bake> bake(const TraceScene& trace, const Progress& progress = {},
                   StageStore* store = nullptr);
 

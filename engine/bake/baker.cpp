@@ -162,8 +162,18 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         return tl::make_unexpected(traced.error());
     result.notes = std::move(traced->notes);
     clock.finish("trace");
-    weighBySight(hits, result.tree);
-    if (!buildLinks(result.tree, hits, points, scene.bake.links, int(scene.bake.bands), progress,
+    const std::vector<float> seen = seenByCaches(hits, result.caches, result.tree);
+    weighBySight(seen, result.tree);
+    const TracedTraining light = keptOrMade<TracedTraining>(
+        store, hashValue(traced->key, 23), progress,
+        [](auto& archive, auto& t) { archive(t.irradiance); },
+        [&] { return traceTraining(trace, set.surfels, progress); });
+    if (progress.cancelled())
+        return cancelled();
+    const TrainingLight training = trainingLight(scene, set.surfels, result.tree, seen, light);
+    clock.finish("training");
+    if (!buildLinks(result.tree, hits, points, training,
+                    {scene.bake.cut, scene.bake.links, int(scene.bake.bands)}, progress,
                     result.caches))
         return cancelled();
     const std::uint32_t invalid = fillInvalid(result.caches);
@@ -171,7 +181,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
 
     result.lightmap = std::move(atlas.layout);
     result.surfels = std::move(set.surfels);
-    result.counts = countOf(scene, result, traced->rays);
+    result.counts = countOf(scene, result, traced->rays + light.rays);
     result.counts.invalidCaches = invalid;
     return result;
 }

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cut.h"
 
+#include "engine/bake/cut_worth.h"
+#include "engine/bake/visible_tree.h"
 #include "engine/core/parallel.h"
 #include "engine/math/cone.h"
 #include "engine/math/packing.h"
 #include "engine/math/sh.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -29,104 +36,12 @@ Link pack(const Cone& cone) {
     return {cone.node, d.x, d.y, floatToHalf(cone.u), floatToHalf(cone.transport)};
 }
 
-/// Sums over the part of the tree that one cache sees. Dense over all nodes; only touched ones are
-/// reset.
-class VisibleTree {
-public:
-    explicit VisibleTree(const ClusterTree& tree)
-        : m_tree(tree), m_weight(tree.size()), m_cosine(tree.size()), m_moment(tree.size()) {}
-
-    /// `weight`: solid angle / pi seen along `direction`, at `cosTheta` to the surface that sees
-    /// it.
-    void add(std::uint32_t leaf, float weight, float cosTheta, glm::vec3 direction) {
-        if (m_weight[leaf] == 0)
-            m_touched.push_back(leaf);
-        m_weight[leaf] += weight;
-        m_cosine[leaf] += weight * cosTheta;
-        m_moment[leaf] += direction * weight;
-    }
-
-    /// Carries the leaves' sums up to the root: children come before parents.
-    void pull() {
-        const std::size_t leaves = m_touched.size();
-        for (std::size_t i = 0; i < leaves; ++i)
-            for (std::uint32_t node = m_tree.parent[m_touched[i]];
-                 node != ~0U && m_weight[node] == 0; node = m_tree.parent[node]) {
-                m_weight[node] = kMarked;
-                m_touched.push_back(node);
-            }
-        std::sort(m_touched.begin(), m_touched.end());
-        for (const std::uint32_t node : m_touched)
-            if (const std::uint32_t parent = m_tree.parent[node]; parent != ~0U) {
-                m_weight[parent] += m_weight[node];
-                m_cosine[parent] += m_cosine[node];
-                m_moment[parent] += m_moment[node];
-            }
-    }
-
-    void clear() {
-        for (const std::uint32_t node : m_touched) {
-            m_weight[node] = m_cosine[node] = 0;
-            m_moment[node] = glm::vec3(0);
-        }
-        m_touched.clear();
-    }
-
-    void cut(std::uint32_t maxLinks, float rayWeight, std::vector<Cone>& cones);
-
-private:
-    /// Far below any ray's weight, far above 0: says that an inner node was reached.
-    static constexpr float kMarked = 1e-20f;
-
-    Cone makeCone(std::uint32_t node, float rayWeight) const {
-        const float weight = m_weight[node], length = glm::length(m_moment[node]);
-        // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; a
-        // single ray has its own solid angle: rayWeight pi = 2 pi u.
-        const float u = std::clamp(2 * (1 - length / weight), std::min(rayWeight / 2, 2.f), 2.f);
-        return {node, length > 0 ? m_moment[node] / length : glm::vec3(0, 0, 1), u, weight,
-                m_cosine[node]};
-    }
-
-    const ClusterTree& m_tree;
-    std::vector<float> m_weight, m_cosine;
-    std::vector<glm::vec3> m_moment;
-    std::vector<std::uint32_t> m_touched;
-    std::vector<std::pair<float, std::uint32_t>> m_heap;
-};
-
-void VisibleTree::cut(std::uint32_t maxLinks, float rayWeight, std::vector<Cone>& cones) {
-    cones.clear();
-    m_heap.clear();
-    const std::uint32_t root = m_tree.size() - 1;
-    std::uint32_t count = 0;
-    const auto put = [&](std::uint32_t node) {
-        if (m_weight[node] == 0)
-            return;
-        ++count;
-        if (node < m_tree.leaves()) {
-            cones.push_back(makeCone(node, rayWeight));
-            return;
-        }
-        m_heap.emplace_back(m_weight[node], ~node); // equal weights: the lower node first
-        std::push_heap(m_heap.begin(), m_heap.end());
-    };
-    put(root);
-    while (!m_heap.empty()) {
-        std::pop_heap(m_heap.begin(), m_heap.end());
-        const std::uint32_t node = ~m_heap.back().second, inner = node - m_tree.leaves();
-        m_heap.pop_back();
-        const std::uint32_t l = m_tree.left[inner], r = m_tree.right[inner];
-        const std::uint32_t children = (m_weight[l] > 0) + (m_weight[r] > 0);
-        if (count - 1 + children > maxLinks) {
-            cones.push_back(makeCone(node, rayWeight));
-            continue;
-        }
-        --count;
-        put(l);
-        put(r);
-    }
-    std::sort(cones.begin(), cones.end(),
-              [](const Cone& a, const Cone& b) { return a.node < b.node; });
+Cone makeCone(std::uint32_t node, const Sight& s, float rayWeight) {
+    const float length = glm::length(s.moment);
+    // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; a single
+    // ray has its own solid angle: rayWeight pi = 2 pi u.
+    const float u = std::clamp(2 * (1 - length / s.weight), std::min(rayWeight / 2, 2.f), 2.f);
+    return {node, length > 0 ? s.moment / length : glm::vec3(0, 0, 1), u, s.weight, s.irradiance};
 }
 
 /// Scales each link of a surface cache so that its sender brings, through the SH, exactly the
@@ -156,72 +71,207 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
 }
 
 /// One thread's working space for linking caches.
-struct Linker {
-    const ClusterTree& tree;
-    const GatherHits& hits;
-    const CachePoints& points;
-    std::uint32_t maxLinks;
-    int bands;
-    VisibleTree seen{tree};
-    std::vector<Cone> cones;
+class Linker {
+public:
+    Linker(const GatherHits& hits, const CachePoints& points, const TrainingLight& training,
+           const CutSettings& settings, const SenderOrder& order)
+        : m_hits(hits), m_points(points), m_training(training), m_settings(settings),
+          m_seen(order) {}
 
-    void link(const Caches& caches, std::uint32_t cache, std::vector<Link>& links) {
-        const std::uint32_t* sender = hits.sender.data() + std::size_t(cache) * hits.rays;
-        const auto kept =
-            hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
-        if (kept == 0)
-            return;
-        const CacheRays rays = raysOf(caches, points, cache, hits.rays);
-        const float weight =
-            rays.local.solidAngle() / std::numbers::pi_v<float> * (float(hits.rays) / float(kept));
-        for (std::uint32_t r = 0; r < hits.rays; ++r)
-            if (sender[r] < GatherHits::kFirstMark) {
-                const glm::vec3 local = rays.local[r];
-                seen.add(sender[r], weight, local.z, rays.toWorld[r % rays.points] * local);
-            }
-        for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k) {
-            const AimedSample& a = hits.aimed[k];
-            seen.add(a.sender, a.transport, a.cosTheta, a.direction);
+    /// Joins what a cache sees and weighs its refinements. False for a cache that sees nothing.
+    bool look(const Caches& caches, std::uint32_t cache) {
+        addRays(caches, cache);
+        for (std::uint32_t k = m_hits.aimedBegin[cache]; k < m_hits.aimedBegin[cache + 1]; ++k) {
+            const AimedSample& a = m_hits.aimed[k];
+            addSight(caches.kind[cache], a.sender, a.transport, a.cosTheta, a.direction);
         }
-        seen.pull();
-        seen.cut(maxLinks, weight, cones);
-        seen.clear();
+        m_seen.build();
+        if (m_seen.size() == 0)
+            return false;
+        if (m_settings.criterion == CutCriterion::SolidAngle)
+            m_worth.bySolidAngle(m_seen);
+        else
+            m_worth.byDetail(m_seen, m_training);
+        return true;
+    }
+
+    std::uint32_t senders() const { return m_seen.leaves(); }
+    const std::vector<float>& worth() const { return m_worth.worth(); }
+
+    /// After look(): refines what is worth more than `bound`, the best `mostLinks` - 1 of them.
+    void link(const Caches& caches, std::uint32_t cache, float bound, std::uint32_t mostLinks,
+              std::vector<Link>& links) {
+        chooseRefined(bound, mostLinks);
+        m_cones.clear();
+        put(m_seen.size() - 1);
+        for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
+            if (m_refined[i])
+                put(m_seen.child(i, 0)), put(m_seen.child(i, 1));
+        std::sort(m_cones.begin(), m_cones.end(),
+                  [](const Cone& a, const Cone& b) { return a.node < b.node; });
         if (caches.kind[cache] == CacheKind::Hemisphere)
-            matchIrradiance(bands, caches.normal[cache], cones);
-        for (const Cone& cone : cones)
+            matchIrradiance(m_settings.bands, caches.normal[cache], m_cones);
+        for (const Cone& cone : m_cones)
             links.push_back(pack(cone));
     }
+
+private:
+    void addRays(const Caches& caches, std::uint32_t cache) {
+        m_seen.clear();
+        const std::uint32_t* sender = m_hits.sender.data() + std::size_t(cache) * m_hits.rays;
+        const auto kept = m_hits.rays - std::uint32_t(std::count(sender, sender + m_hits.rays,
+                                                                 GatherHits::kLeftOut));
+        if (kept == 0)
+            return;
+        const CacheRays rays = raysOf(caches, m_points, cache, m_hits.rays);
+        m_rayWeight = rays.local.solidAngle() / std::numbers::pi_v<float> *
+                      (float(m_hits.rays) / float(kept));
+        for (std::uint32_t r = 0; r < m_hits.rays; ++r)
+            if (sender[r] < GatherHits::kFirstMark) {
+                const glm::vec3 local = rays.local[r];
+                addSight(caches.kind[cache], sender[r], m_rayWeight, local.z,
+                         rays.toWorld[r % rays.points] * local);
+            }
+    }
+
+    void addSight(CacheKind kind, std::uint32_t sender, float weight, float cosTheta,
+                  glm::vec3 direction) {
+        const float share = kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
+        m_seen.add(sender, {weight, weight * share, direction * weight});
+    }
+
+    void chooseRefined(float bound, std::uint32_t mostLinks) {
+        const std::vector<float>& worth = m_worth.worth();
+        m_order.clear();
+        for (std::uint32_t i = 0; i < worth.size(); ++i)
+            if (worth[i] > bound)
+                m_order.emplace_back(-worth[i], ~i); // of equals the parent, which comes last
+        const std::size_t count = std::min<std::size_t>(m_order.size(), mostLinks - 1);
+        if (count < m_order.size())
+            std::nth_element(m_order.begin(), m_order.begin() + std::ptrdiff_t(count),
+                             m_order.end());
+        m_refined.assign(m_seen.size(), false);
+        for (std::size_t k = 0; k < count; ++k)
+            m_refined[m_seen.leaves() + ~m_order[k].second] = true;
+    }
+
+    void put(std::uint32_t i) {
+        if (!m_refined[i])
+            m_cones.push_back(makeCone(m_seen.node[i], m_seen.sight[i], m_rayWeight));
+    }
+
+    const GatherHits& m_hits;
+    const CachePoints& m_points;
+    const TrainingLight& m_training;
+    const CutSettings& m_settings;
+    VisibleTree m_seen;
+    CutWorth m_worth;
+    float m_rayWeight = 0; ///< of one ray: solid angle / pi
+    std::vector<std::pair<float, std::uint32_t>> m_order;
+    std::vector<bool> m_refined;
+    std::vector<Cone> m_cones;
 };
+
+/// How many refinements of all caches are worth how much, in steps of less than 1 % of the worth:
+/// the upper half of a positive float's bits.
+using WorthHistogram = std::vector<std::uint64_t>;
+
+std::uint32_t stepOf(float worth) {
+    return std::bit_cast<std::uint32_t>(worth) >> 16;
+}
+
+/// The worth above which there are at most `budget` refinements.
+float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
+    std::uint64_t used = 0;
+    auto step = std::uint32_t(histogram.size());
+    while (step > 0 && used + histogram[step - 1] <= budget)
+        used += histogram[--step];
+    // Just below the lowest step taken, so that all of it is worth more.
+    return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
+}
+
+/// The bound on the worth of a refinement that gives all caches together as many links as n_L each
+/// would. Nothing when cancelled.
+std::optional<float> sharedBound(tbb::enumerable_thread_specific<Linker>& linkers,
+                                 const Caches& caches, const CutSettings& settings,
+                                 const Progress& progress) {
+    constexpr std::size_t kSteps = 1 << 15;
+    tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
+    std::atomic<std::uint64_t> budget = 0;
+    const bool done = parallelRanges(
+        caches.size(), 8, progress, "budget", [&](std::size_t begin, std::size_t end) {
+            Linker& linker = linkers.local();
+            WorthHistogram& histogram = histograms.local();
+            for (std::size_t c = begin; c < end; ++c) {
+                if (!linker.look(caches, std::uint32_t(c)))
+                    continue;
+                budget += std::min(linker.senders(), settings.links) - 1;
+                for (const float w : linker.worth())
+                    ++histogram[stepOf(w)];
+            }
+        });
+    if (!done)
+        return {};
+    WorthHistogram sum(kSteps, 0);
+    for (const WorthHistogram& h : histograms)
+        std::transform(sum.begin(), sum.end(), h.begin(), sum.begin(), std::plus<>());
+    return boundFor(sum, budget);
+}
 
 } // namespace
 
-void weighBySight(const GatherHits& hits, ClusterTree& tree) {
-    std::vector<double> seen(tree.size());
-    for (const std::uint32_t sender : hits.sender)
-        if (sender < GatherHits::kFirstMark)
-            seen[sender] +=
-                2.0 / hits.rays; // a hemisphere's ray; a sphere's weighs twice that, near enough
+std::vector<float> seenByCaches(const GatherHits& hits, const Caches& caches,
+                                const ClusterTree& tree) {
+    std::vector<double> seen(tree.leaves());
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        const bool hemisphere = caches.kind[c] == CacheKind::Hemisphere;
+        for (std::uint32_t r = 0; r < hits.rays; ++r) {
+            const std::uint32_t sender = hits.sender[c * hits.rays + r];
+            if (sender >= GatherHits::kFirstMark)
+                continue;
+            const double cosTheta = 1 - (r + 0.5) / hits.rays; // as DirectionSet has it
+            seen[sender] += (hemisphere ? 2 * cosTheta : 1) / hits.rays;
+        }
+    }
     for (const AimedSample& a : hits.aimed)
-        seen[a.sender] += double(a.transport);
+        seen[a.sender] += double(a.transport * std::abs(a.cosTheta));
+    return {seen.begin(), seen.end()};
+}
+
+void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
+    std::vector<double> sum(seen.begin(), seen.end());
+    sum.resize(tree.size());
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
-        const double l = seen[tree.left[k]], r = seen[tree.right[k]];
-        seen[tree.leaves() + k] = l + r;
+        const double l = sum[tree.left[k]], r = sum[tree.right[k]];
+        sum[tree.leaves() + k] = l + r;
         if (l + r > 0)
             tree.leftWeight[k] = float(l / (l + r));
     }
 }
 
 bool buildLinks(const ClusterTree& tree, const GatherHits& hits, const CachePoints& points,
-                std::uint32_t maxLinks, int bands, const Progress& progress, Caches& caches) {
+                const TrainingLight& training, const CutSettings& settings,
+                const Progress& progress, Caches& caches) {
+    constexpr std::uint32_t kMostOfBudget = 16; // a cache may have this many times n_L
+    const SenderOrder order(tree);
+    tbb::enumerable_thread_specific<Linker> linkers(
+        [&] { return Linker(hits, points, training, settings, order); });
+    float bound = -1;
+    std::uint32_t mostLinks = settings.links;
+    if (settings.criterion == CutCriterion::Detail) {
+        const std::optional<float> shared = sharedBound(linkers, caches, settings, progress);
+        if (!shared)
+            return false;
+        bound = *shared;
+        mostLinks *= kMostOfBudget;
+    }
     std::vector<std::vector<Link>> links(caches.size());
-    tbb::enumerable_thread_specific<Linker> scratch([&] {
-        return Linker{tree, hits, points, maxLinks, bands};
-    });
     const bool done =
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
-            Linker& linker = scratch.local();
+            Linker& linker = linkers.local();
             for (std::size_t c = begin; c < end; ++c)
-                linker.link(caches, std::uint32_t(c), links[c]);
+                if (linker.look(caches, std::uint32_t(c)))
+                    linker.link(caches, std::uint32_t(c), bound, mostLinks, links[c]);
         });
     if (!done)
         return false;

@@ -2,23 +2,41 @@
 #pragma once
 
 #include "engine/bake/gather.h"
+#include "engine/bake/training_light.h"
 
 namespace limn {
 
-/// Replaces the tree's area weights by how often each sender was met: a cluster's radiosity becomes
-/// the mean over what the caches see of it. So the errors of all links to a cluster sum to zero,
-/// where a mean by area is darkened by what nobody sees: floor under furniture, backs of walls.
-/// Nodes that no ray met keep their weights.
-void weighBySight(const GatherHits& hits, ClusterTree& tree);
+/// How much of each leaf all caches together see, in irradiance: sums over the caches of what a
+/// radiosity of 1 would bring.
+std::vector<float> seenByCaches(const GatherHits& hits, const Caches& caches,
+                                const ClusterTree& tree);
 
-/// Fills linkBegin and links of `caches`: for each valid cache at most `maxLinks` nodes of the tree
-/// that together cover all it saw, by refining the node of the largest visible solid angle first
-/// (the paper's criterion). A cache whose every point lies in a wall is invalid and gets none. The
-/// links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact irradiance
-/// of its rays at the surface's own normal, whatever shines. Traces nothing. Returns false when
-/// cancelled.
+/// Replaces the tree's area weights by how much of each sender is seen: a cluster's radiosity
+/// becomes the mean over what the caches see of it. So the errors of all links to a cluster sum to
+/// zero, where a mean by area is darkened by what nobody sees: floor under furniture, backs of
+/// walls. Nodes that no ray met keep their weights.
+void weighBySight(const std::vector<float>& seen, ClusterTree& tree);
+
+struct CutSettings {
+    CutCriterion criterion = CutCriterion::Detail;
+    std::uint32_t links = 256; ///< n_L
+    int bands = 3;
+};
+
+/// Fills linkBegin and links of `caches`: for each valid cache nodes of the tree that together
+/// cover all it saw. A cache whose every point lies in a wall is invalid and gets none. Traces
+/// nothing. Returns false when cancelled.
+///
+/// SolidAngle, the paper's: each cache refines its node of the largest visible solid angle, down to
+/// at most n_L links. Detail: the refinements of all caches that lower the error of irradiance most
+/// per link (CutWorth::byDetail), as many links in all as SolidAngle has; so hard caches get more
+/// of them, up to 16 n_L, and easy ones fewer.
+///
+/// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
+/// irradiance of its rays at the surface's own normal, whatever shines.
 bool buildLinks(const ClusterTree& tree, const GatherHits& hits, const CachePoints& points,
-                std::uint32_t maxLinks, int bands, const Progress& progress, Caches& caches);
+                const TrainingLight& training, const CutSettings& settings,
+                const Progress& progress, Caches& caches);
 
 /// Fills fillBegin … fillWeight: an invalid cache becomes the mean of its nearest valid ones of the
 /// same kind, weighted by 1 / distance^2; lightmap caches also weigh how well the normals agree.

@@ -307,6 +307,7 @@ void Tracing::note() {
 }
 
 Result<TraceReport> Tracing::run() {
+    m_report.key = m_key;
     m_progress.at("trace", 0);
     m_hits.rays = in.rays;
     m_hits.sender.resize(in.caches.size() * in.rays);

@@ -21,6 +21,7 @@ struct TraceInput {
 };
 
 struct TraceReport {
+    std::uint64_t key = 0;          ///< hash of all that the hits depend on
     std::uint64_t rays = 0;         ///< traced now, whatever for
     std::vector<std::string> notes; ///< what was traced again and why
 };

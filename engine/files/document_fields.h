@@ -23,6 +23,7 @@ inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp"
 inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
 inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "point", "spot"};
 inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
+inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};
 inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
@@ -114,6 +115,7 @@ void describeBakeSettings(Fields& fields, T& b) {
     fields("grid", b.grid);
     fields("maxBounces", b.maxBounces);
     fields("placement", b.placement, kPlacementNames);
+    fields("cut", b.cut, kCutNames);
     fields("clustering", b.clustering, kClusteringNames);
     fields("clusterNormalWeight", b.clusterNormalWeight, FieldRange{0, 100});
     fields("clusterBalanceWeight", b.clusterBalanceWeight, FieldRange{0, 100});

@@ -15,11 +15,15 @@ enum class SurfelPlacement : std::uint8_t { Relaxed, Halton, Random };
 /// by halving at medians.
 enum class Clustering : std::uint8_t { Agglomerative, KdTree };
 
+/// Which clusters a cache links: those whose inner differences would change its light most, as
+/// many links as it is worth; or, as the paper has it, n_L of the largest visible solid angle.
+enum class CutCriterion : std::uint8_t { Detail, SolidAngle };
+
 /// What a bake depends on besides the scene. Part of the document. Defaults suit a room or a small
 /// building.
 struct BakeSettings {
     std::uint32_t surfels = 16384; ///< n_S, target over the scene; [64, 1 << 20]
-    std::uint32_t links = 256;     ///< n_L per cache; [1, 4096]
+    std::uint32_t links = 256;     ///< n_L per cache, a mean with CutCriterion::Detail; [1, 4096]
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
     std::uint32_t rays = 1024;     ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
@@ -29,6 +33,8 @@ struct BakeSettings {
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
 
     SurfelPlacement placement = SurfelPlacement::Relaxed;
+    CutCriterion cut = CutCriterion::Detail;
+
     Clustering clustering = Clustering::KdTree;
     float clusterNormalWeight = 0.1f;   ///< C_n of the clusters' metric; [0, 100]
     float clusterBalanceWeight = 0.02f; ///< C_b, of agglomerative clusters only; [0, 100]

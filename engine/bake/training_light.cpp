@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/training_light.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kSuns = 20, kLamps = 32, kSkies = 4, kEmitters = 8;
+static_assert(kSuns + kLamps == TracedTraining::kCount);
+static_assert(kSuns + kLamps + kSkies + kEmitters == TrainingLight::kCount);
+
+std::vector<Light> suns() {
+    std::vector<Light> result;
+    const DirectionSet upward(kSuns, false, 1);
+    for (std::uint32_t k = 0; k < kSuns; ++k) {
+        const glm::vec3 d = upward[k];
+        Light sun;
+        sun.kind = LightKind::Directional;
+        sun.direction = -glm::vec3(d.x, d.z, d.y);
+        sun.strength = 1;
+        result.push_back(sun);
+    }
+    return result;
+}
+
+/// Each lamp hangs half way between a surfel and what it faces, so in the open. Surfels share the
+/// area evenly, so lamps share the rooms.
+std::vector<Light> lamps(const TraceScene& trace, const Surfels& surfels) {
+    std::vector<Light> result;
+    const float extent = glm::length(trace.scene().bounds.size());
+    for (std::uint32_t k = 0; k < kLamps; ++k) {
+        const std::size_t s = (2 * k + 1) * surfels.size() / (2 * kLamps);
+        const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
+        const Hit hit = trace.closestHit({p + n * trace.epsilonAt(p), n}, TraceMask::Static);
+        Light lamp;
+        lamp.kind = LightKind::Point;
+        lamp.position = p + n * ((hit ? hit.t : extent / 4) / 2);
+        lamp.strength = 1;
+        result.push_back(lamp);
+    }
+    return result;
+}
+
+/// Adds the shadow ray, where one is needed, to `rays`.
+float irradiance(const TraceScene& trace, const Light& light, glm::vec3 p, glm::vec3 n,
+                 std::uint64_t& rays) {
+    const LightSample sample = sampleLight(light, p);
+    const float cosTheta = glm::dot(n, sample.toLight);
+    if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
+        return 0;
+    ++rays;
+    const float epsilon = trace.epsilonAt(p);
+    const Ray ray{p + n * epsilon, sample.toLight, 0, sample.distance - epsilon};
+    return trace.occluded(ray, TraceMask::Static) ? 0 : sample.irradiance.x * cosTheta;
+}
+
+/// Number of each emissive instance, counted from 0; ~0 for the others.
+std::vector<std::uint32_t> emitterNumbers(const Scene& scene) {
+    std::vector<std::uint32_t> result;
+    std::uint32_t next = 0;
+    for (const Instance& i : scene.instances) {
+        const glm::vec3 e = scene.materialOf(i).emission;
+        result.push_back(e.x > 0 || e.y > 0 || e.z > 0 ? next++ : ~0U);
+    }
+    return result;
+}
+
+void lightSurfels(const Scene& scene, const Surfels& surfels, const TracedTraining& traced,
+                  TrainingLight& out) {
+    const std::vector<std::uint32_t> emitters = emitterNumbers(scene);
+    for (std::size_t s = 0; s < surfels.size(); ++s) {
+        float* row = out.radiosity.data() + s * TrainingLight::kCount;
+        std::copy_n(traced.irradiance.data() + s * TracedTraining::kCount, TracedTraining::kCount,
+                    row);
+        if (const std::uint32_t e = emitters[surfels.instance[s]]; e != ~0U)
+            row[kSuns + kLamps + kSkies + e % kEmitters] = 1;
+    }
+}
+
+/// Skies: even, and brighter towards three sides.
+void lightSky(const ClusterTree& tree, TrainingLight& out) {
+    for (std::uint32_t c = 0; c < tree.skyCells; ++c) {
+        const glm::vec3 d = tree.skyDirection[c];
+        float* row = out.radiosity.data() + std::size_t(tree.surfels + c) * TrainingLight::kCount +
+                     kSuns + kLamps;
+        row[0] = 1;
+        row[1] = std::max(d.y, 0.f);
+        row[2] = std::max(d.x, 0.f);
+        row[3] = std::max(d.z, 0.f);
+    }
+}
+
+void normalise(const std::vector<float>& seen, TrainingLight& out) {
+    double mean[TrainingLight::kCount] = {}, total = 0;
+    for (std::size_t leaf = 0; leaf < seen.size(); ++leaf) {
+        total += double(seen[leaf]);
+        for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
+            mean[t] += double(seen[leaf]) * double(out.row(std::uint32_t(leaf))[t]);
+    }
+    float scale[TrainingLight::kCount];
+    for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
+        scale[t] = mean[t] > 0 ? float(total / mean[t]) : 0;
+    for (std::size_t i = 0; i < seen.size() * TrainingLight::kCount; ++i)
+        out.radiosity[i] *= scale[i % TrainingLight::kCount];
+}
+
+void pull(const ClusterTree& tree, TrainingLight& out) {
+    for (std::size_t k = 0; k < tree.left.size(); ++k) {
+        const float *l = out.row(tree.left[k]), *r = out.row(tree.right[k]);
+        float* to = out.radiosity.data() + (tree.leaves() + k) * TrainingLight::kCount;
+        const float w = tree.leftWeight[k];
+        for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
+            to[t] = r[t] + (l[t] - r[t]) * w;
+    }
+}
+
+} // namespace
+
+TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
+                             const Progress& progress) {
+    std::vector<Light> lights = suns();
+    for (const Light& lamp : lamps(trace, surfels))
+        lights.push_back(lamp);
+    TracedTraining result;
+    result.irradiance.resize(surfels.size() * TracedTraining::kCount);
+    std::atomic<std::uint64_t> rays = kLamps;
+    const bool done = parallelRanges(
+        surfels.size(), 256, progress, "training", [&](std::size_t begin, std::size_t end) {
+            std::uint64_t mine = 0;
+            for (std::size_t s = begin; s < end; ++s)
+                for (std::size_t k = 0; k < lights.size(); ++k)
+                    result.irradiance[s * TracedTraining::kCount + k] =
+                        irradiance(trace, lights[k], surfels.position[s], surfels.normal[s], mine);
+            rays += mine;
+        });
+    result.rays = rays;
+    return done ? result : TracedTraining{};
+}
+
+TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,
+                            const std::vector<float>& seen, const TracedTraining& traced) {
+    TrainingLight result;
+    result.radiosity.assign(std::size_t(tree.size()) * TrainingLight::kCount, 0);
+    lightSurfels(scene, surfels, traced, result);
+    lightSky(tree, result);
+    normalise(seen, result);
+    pull(tree, result);
+    return result;
+}
+
+} // namespace limn

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/cut.h"
+
+#include "engine/bake/atlas.h"
+#include "engine/bake/charts.h"
+#include "engine/bake/cluster_tree.h"
+#include "engine/bake/cut_worth.h"
+#include "engine/bake/input_hash.h"
+#include "engine/bake/trace_stage.h"
+#include "engine/math/packing.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+Scene roomWithBlock() {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(0), glm::vec3(2, 2, 3), true));
+    b.add(box(glm::vec3(0.6f, 0.2f, 0.6f), glm::vec3(1, 1, 1.2f), false));
+    return b.build();
+}
+
+/// A bake up to its links.
+struct Fixture {
+    Scene scene = roomWithBlock();
+    TraceScene trace{scene};
+    SurfelSet set = placeSurfels(scene, 1500);
+    ClusterTree tree = buildClusterTree(scene, set);
+    CachePoints points;
+    Caches caches;
+    GatherHits hits;
+    TrainingLight training;
+
+    Fixture() {
+        scene.bake.lightmapCaches = 300;
+        std::vector<MeshCharts> charts;
+        for (const Mesh& m : scene.assets->meshes)
+            charts.push_back(buildCharts(m));
+        const Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
+        caches = placeCaches(scene, atlas, glm::uvec3(2), gridBoundsOf(scene), points);
+        EXPECT_TRUE(
+            traceHits({trace, set, caches, points, 256, hashMeshes(scene)}, {}, nullptr, hits));
+        const std::vector<float> seen = seenByCaches(hits, caches, tree);
+        weighBySight(seen, tree);
+        training =
+            trainingLight(scene, set.surfels, tree, seen, traceTraining(trace, set.surfels, {}));
+    }
+    Caches cut(CutCriterion criterion, std::uint32_t links) const {
+        Caches result = caches;
+        buildLinks(tree, hits, points, training, {criterion, links, 3}, {}, result);
+        return result;
+    }
+};
+
+const Fixture& fixture() {
+    static const Fixture f;
+    return f;
+}
+
+bool isBelow(const ClusterTree& tree, std::uint32_t node, std::uint32_t above) {
+    while (node != ~0U && node != above)
+        node = tree.parent[node];
+    return node == above;
+}
+
+TEST(SenderOrder, FindsTheLowestNodeAboveTwoLeaves) {
+    const ClusterTree& tree = fixture().tree;
+    const SenderOrder order(tree);
+    std::mt19937 rng(3);
+    for (int i = 0; i < 2000; ++i) {
+        std::uint32_t a = std::uint32_t(rng()) % tree.leaves(),
+                      b = std::uint32_t(rng()) % tree.leaves();
+        if (a == b)
+            continue;
+        EXPECT_EQ(order.leafAt(order.rank(a)), a);
+        std::uint32_t lowest = tree.parent[a];
+        while (!isBelow(tree, b, lowest))
+            lowest = tree.parent[lowest];
+        const auto [first, second] = std::minmax({order.rank(a), order.rank(b)});
+        EXPECT_EQ(order.ancestor(first, second), lowest);
+    }
+}
+
+/// What a random cache might see.
+void look(std::mt19937& rng, const ClusterTree& tree, std::uint32_t senders, VisibleTree& seen) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    seen.clear();
+    for (std::uint32_t k = 0; k < senders; ++k) {
+        const float weight = unit(rng);
+        seen.add(std::uint32_t(rng()) % tree.leaves(),
+                 {weight, weight * unit(rng), glm::vec3(unit(rng), unit(rng), unit(rng))});
+    }
+    seen.build();
+}
+
+TEST(VisibleTree, JoinsWhatIsSeenAtItsLowestCommonNodes) {
+    const ClusterTree& tree = fixture().tree;
+    const SenderOrder order(tree);
+    VisibleTree seen(order);
+    std::mt19937 rng(4);
+    for (int i = 0; i < 50; ++i) {
+        look(rng, tree, 1 + std::uint32_t(rng()) % 60, seen);
+        ASSERT_EQ(seen.size(), 2 * seen.leaves() - 1);
+        for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
+            const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
+            ASSERT_LT(l, n);
+            ASSERT_LT(r, n);
+            const std::uint32_t inner = seen.node[n] - tree.leaves();
+            EXPECT_TRUE(isBelow(tree, seen.node[l], tree.left[inner]));
+            EXPECT_TRUE(isBelow(tree, seen.node[r], tree.right[inner]));
+            EXPECT_NEAR(seen.sight[n].weight, seen.sight[l].weight + seen.sight[r].weight, 1e-5);
+        }
+    }
+}
+
+/// Most of gain - bound * refinements that any cut of the subtree can have.
+double bestCut(const VisibleTree& seen, const std::vector<double>& gain, std::uint32_t node,
+               double bound) {
+    if (node < seen.leaves())
+        return 0;
+    const double below = bestCut(seen, gain, seen.child(node, 0), bound) +
+                         bestCut(seen, gain, seen.child(node, 1), bound);
+    return std::max(0.0, gain[node] - bound + below);
+}
+
+TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
+    const Fixture& f = fixture();
+    const SenderOrder order(f.tree);
+    VisibleTree seen(order);
+    CutWorth worth;
+    std::mt19937 rng(5);
+    for (int i = 0; i < 30; ++i) {
+        look(rng, f.tree, 80, seen);
+        worth.byDetail(seen, f.training);
+        // Gains by the definition, in doubles.
+        std::vector<std::array<double, TrainingLight::kCount>> brought(seen.size());
+        std::vector<double> error(seen.size()), gain(seen.size());
+        for (std::uint32_t n = 0; n < seen.size(); ++n)
+            for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
+                const double linked =
+                    double(seen.sight[n].irradiance) * double(f.training.row(seen.node[n])[t]);
+                brought[n][t] = n < seen.leaves()
+                                    ? linked
+                                    : brought[seen.child(n, 0)][t] + brought[seen.child(n, 1)][t];
+                error[n] +=
+                    (brought[n][t] - linked) * (brought[n][t] - linked) / TrainingLight::kCount;
+            }
+        double all = 0;
+        for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
+            const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
+            gain[n] = error[n] - error[l] - error[r] +
+                      0.1 * double(seen.sight[l].irradiance) * double(seen.sight[r].irradiance);
+            all += std::abs(gain[n]);
+        }
+        for (const float bound : worth.worth()) {
+            double reached = 0;
+            for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n)
+                if (worth.worth()[n - seen.leaves()] > bound)
+                    reached += gain[n] - double(bound);
+            EXPECT_NEAR(reached, bestCut(seen, gain, seen.size() - 1, double(bound)), 1e-5 * all);
+        }
+    }
+}
+
+TEST(CutWorth, NeverFallsTowardsTheRoot) {
+    const Fixture& f = fixture();
+    const SenderOrder order(f.tree);
+    VisibleTree seen(order);
+    CutWorth worth;
+    std::mt19937 rng(6);
+    for (int i = 0; i < 50; ++i) {
+        look(rng, f.tree, 200, seen);
+        for (const bool detail : {false, true}) {
+            detail ? worth.byDetail(seen, f.training) : worth.bySolidAngle(seen);
+            for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n)
+                for (int side = 0; side < 2; ++side)
+                    if (const std::uint32_t c = seen.child(n, side); c >= seen.leaves()) {
+                        EXPECT_GE(worth.worth()[n - seen.leaves()],
+                                  worth.worth()[c - seen.leaves()]);
+                    }
+        }
+    }
+}
+
+/// Marks the leaves below every link of a cache; fails where one is marked twice.
+std::vector<bool> covered(const ClusterTree& tree, const Caches& caches, std::uint32_t cache) {
+    std::vector<bool> mark(tree.leaves());
+    for (std::uint32_t k = caches.linkBegin[cache]; k < caches.linkBegin[cache + 1]; ++k) {
+        std::vector<std::uint32_t> stack = {caches.links[k].node};
+        while (!stack.empty()) {
+            const std::uint32_t n = stack.back();
+            stack.pop_back();
+            if (n >= tree.leaves()) {
+                stack.push_back(tree.left[n - tree.leaves()]);
+                stack.push_back(tree.right[n - tree.leaves()]);
+                continue;
+            }
+            EXPECT_FALSE(mark[n]) << "cache " << cache << ", leaf " << n;
+            mark[n] = true;
+        }
+    }
+    return mark;
+}
+
+TEST(Cut, CoversEverySenderInSightOnceAndKeepsToItsBudget) {
+    for (const std::uint32_t links : {1U, 2U, 10U, 50U}) {
+        const Fixture& f = fixture();
+        const std::size_t budget = f.cut(CutCriterion::SolidAngle, links).links.size();
+        for (const CutCriterion criterion : {CutCriterion::SolidAngle, CutCriterion::Detail}) {
+            const Caches caches = f.cut(criterion, links);
+            EXPECT_LE(caches.links.size(), budget);
+            EXPECT_GT(caches.links.size(), budget * 97 / 100);
+            for (std::uint32_t c = 0; c < caches.size(); ++c) {
+                const std::uint32_t own = caches.linkBegin[c + 1] - caches.linkBegin[c];
+                EXPECT_LE(own, criterion == CutCriterion::Detail ? 16 * links : links);
+                const std::vector<bool> mark = covered(f.tree, caches, c);
+                for (std::uint32_t r = 0; own > 0 && r < f.hits.rays; ++r)
+                    if (const std::uint32_t s = f.hits.sender[c * f.hits.rays + r];
+                        s < GatherHits::kFirstMark) {
+                        EXPECT_TRUE(mark[s]);
+                    }
+            }
+        }
+    }
+}
+
+TEST(Cut, OfAsManyLinksAsSendersIsTheSendersThemselves) {
+    const Fixture& f = fixture();
+    for (const CutCriterion criterion : {CutCriterion::SolidAngle, CutCriterion::Detail}) {
+        for (const Link& l : f.cut(criterion, 4096).links)
+            EXPECT_LT(l.node, f.tree.leaves());
+    }
+}
+
+TEST(Cut, TransportSumsToTheSolidAngleOfAnEnclosure) {
+    const Fixture& f = fixture();
+    const Caches caches = f.cut(CutCriterion::Detail, 40);
+    for (std::uint32_t c = caches.lightmapCount; c < caches.size(); ++c) {
+        float sum = 0;
+        for (std::uint32_t k = caches.linkBegin[c]; k < caches.linkBegin[c + 1]; ++k)
+            sum += halfToFloat(caches.links[k].transport);
+        if (sum > 0) { // a cell of the grid in the open: all around, over pi
+            EXPECT_NEAR(sum, 4, 4e-3);
+        }
+    }
+}
+
+TEST(TrainingLight, HasAMeanOfOneOverWhatIsSeen) {
+    const Fixture& f = fixture();
+    const std::vector<float> seen = seenByCaches(f.hits, f.caches, f.tree);
+    double total = 0;
+    std::vector<double> mean(TrainingLight::kCount);
+    for (std::uint32_t leaf = 0; leaf < f.tree.leaves(); ++leaf) {
+        total += double(seen[leaf]);
+        for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
+            mean[t] += double(seen[leaf]) * double(f.training.row(leaf)[t]);
+    }
+    int lit = 0;
+    for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
+        lit += mean[t] > 0;
+        if (mean[t] > 0) {
+            EXPECT_NEAR(mean[t] / total, 1, 1e-3);
+            // The root's weights are those of sight, so its radiosity is that mean.
+            EXPECT_NEAR(f.training.row(f.tree.size() - 1)[t], 1, 1e-2);
+        }
+    }
+    EXPECT_GE(lit, 32); // a closed room: every lamp, no sun, no sky
+}
+
+} // namespace
+} // namespace limn
