@@ -47,8 +47,9 @@ protected:
     /// Runs `limn arguments` as a shell would.
     Outcome limn(const std::string& arguments) const {
         const std::string out = path("stdout"), err = path("stderr");
-        const std::string command = std::string("'") + LIMN_EXECUTABLE + "' " + arguments +
-                                    " </dev/null >'" + out + "' 2>'" + err + "'";
+        const std::string command = "XDG_CACHE_HOME='" + path("cache") +
+                                    "' '" LIMN_EXECUTABLE "' " + arguments + " </dev/null >'" +
+                                    out + "' 2>'" + err + "'";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
     }
