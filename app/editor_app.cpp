@@ -6,6 +6,7 @@
 #include "app/viewport_picture.h"
 #include "editor_ui/editor.h"
 #include "editor_ui/theme.h"
+#include "engine/bake/stage_store.h"
 #include "engine/core/log.h"
 
 #include <imgui.h>
@@ -54,7 +55,8 @@ public:
         : m_options(options), m_window(std::move(window)), m_device(std::move(device)),
           m_swapchain(*m_device, surface), m_imgui(*m_window), m_renderer(*m_device, m_swapchain),
           m_picture(*m_device, options.validate, [this] { m_window->wake(); }),
-          m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake}) {}
+          m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake,
+                     defaultStageFolder()}) {}
 
     void run();
     void writeStats() const;

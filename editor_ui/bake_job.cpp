@@ -9,26 +9,8 @@ namespace limn {
 
 using Clock = std::chrono::steady_clock;
 
-namespace {
-
-/// Shares of a bake of Sponza with default settings; only the time left depends on them.
-constexpr std::pair<const char*, float> kShares[] = {{"charts", 0.08f},   {"surfels", 0.03f},
-                                                     {"clusters", 0.05f}, {"caches", 0.04f},
-                                                     {"trace", 0.6f},     {"cut", 0.2f}};
-
-} // namespace
-
-float bakeFraction(const std::string& stage, float fraction) {
-    float before = 0;
-    for (const auto& [name, share] : kShares) {
-        if (stage == name)
-            return before + share * fraction;
-        before += share;
-    }
-    return 0;
-}
-
-BakeJob::BakeJob(std::function<void()> wake) : m_wake(std::move(wake)) {}
+BakeJob::BakeJob(std::function<void()> wake, StageStoreOptions store)
+    : m_wake(std::move(wake)), m_store(std::move(store)) {}
 
 BakeJob::~BakeJob() {
     m_cancel = true;
@@ -36,7 +18,8 @@ BakeJob::~BakeJob() {
         m_thread.join();
 }
 
-bool BakeJob::start(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace) {
+bool BakeJob::start(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
+                    bool preview) {
     if (m_running)
         return false;
     if (m_thread.joinable())
@@ -48,40 +31,66 @@ bool BakeJob::start(std::shared_ptr<const Scene> scene, std::shared_ptr<const Tr
         const std::lock_guard lock(m_mutex);
         m_stage.clear();
         m_stageFraction = 0;
+        m_stageStart = m_start;
         m_result.reset();
     }
-    m_thread = std::thread([this, scene = std::move(scene), trace = std::move(trace)]() mutable {
-        work(std::move(scene), std::move(trace));
-    });
+    m_thread =
+        std::thread([this, preview, scene = std::move(scene), trace = std::move(trace)]() mutable {
+            work(std::move(scene), std::move(trace), preview);
+        });
     return true;
 }
 
-void BakeJob::work(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace) {
-    lowerThreadPriority();
+Result<Bake> BakeJob::bakeWith(const BakeSettings& settings, const TraceScene& trace) {
     auto shown = Clock::now();
     Progress progress;
     progress.cancel = &m_cancel;
     progress.report = [&](const char* stage, float fraction) {
+        const auto now = Clock::now();
         {
             const std::lock_guard lock(m_mutex);
+            if (m_stage != stage)
+                m_stageStart = now;
             m_stage = stage;
             m_stageFraction = fraction;
         }
-        if (const auto now = Clock::now(); now - shown > std::chrono::milliseconds(100)) {
+        if (now - shown > std::chrono::milliseconds(100)) {
             shown = now;
             m_wake();
         }
     };
+    return bake(trace, progress, &m_store, &settings);
+}
+
+void BakeJob::put(Result<BakedScene> result) {
+    const std::lock_guard lock(m_mutex);
+    m_result = std::move(result);
+}
+
+void BakeJob::work(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
+                   bool preview) {
+    lowerThreadPriority();
     if (!trace)
         trace = std::make_shared<const TraceScene>(*scene);
-    Result<Bake> result = bake(*trace, progress);
-    {
+    const BakeSettings first = previewSettings(scene->bake);
+    if (preview && first != scene->bake)
+        if (Result<Bake> rough = bakeWith(first, *trace)) {
+            {
+                const std::lock_guard lock(m_mutex);
+                m_expected = expectedSeconds(*rough, scene->bake);
+            }
+            put(BakedScene{std::make_shared<const Bake>(std::move(*rough)), scene, trace, true});
+            m_wake();
+        }
+    Result<Bake> result = bakeWith(scene->bake, *trace);
+    if (result) {
         const std::lock_guard lock(m_mutex);
-        if (result)
-            m_result = BakedScene{std::make_shared<const Bake>(std::move(*result)), scene, trace};
-        else
-            m_result = tl::make_unexpected(result.error());
+        m_expected = expectedSeconds(*result, scene->bake);
     }
+    if (result)
+        put(BakedScene{std::make_shared<const Bake>(std::move(*result)), scene, trace});
+    else
+        put(tl::make_unexpected(result.error()));
     m_running = false;
     m_wake();
 }
@@ -98,13 +107,14 @@ void BakeJob::report(BakeStatus& status) const {
     const std::lock_guard lock(m_mutex);
     status.stage = m_stage;
     status.stageFraction = m_stageFraction;
-    status.fraction = bakeFraction(m_stage, m_stageFraction);
-    status.elapsedSeconds = std::chrono::duration<double>(Clock::now() - m_start).count();
-    // Before a twentieth is done the estimate would jump about.
-    status.secondsLeft =
-        status.fraction < 0.05f
-            ? -1
-            : status.elapsedSeconds * (1 - double(status.fraction)) / double(status.fraction);
+    const auto now = Clock::now();
+    status.elapsedSeconds = std::chrono::duration<double>(now - m_start).count();
+    status.secondsLeft = secondsLeft(m_expected, m_stage, double(m_stageFraction),
+                                     std::chrono::duration<double>(now - m_stageStart).count());
+    status.fraction =
+        status.secondsLeft < 0
+            ? 0
+            : float(status.elapsedSeconds / (status.elapsedSeconds + status.secondsLeft));
 }
 
 } // namespace limn

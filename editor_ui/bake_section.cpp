@@ -100,22 +100,28 @@ static void bakeStateLine(EditorState& state) {
     const BakeStatus& bake = state.bake;
     ImGui::Spacing();
     ImGui::PushTextWrapPos(0);
-    switch (bake.freshness) {
-    case BakeFreshness::None:
-        ImGui::TextColored(ImColor(color::kWarning),
-                           "Bake needed: nothing is baked yet, so there is no bounced light.");
-        break;
-    case BakeFreshness::Checking:
-        ImGui::TextDisabled("Comparing with the last bake...");
-        break;
-    case BakeFreshness::UpToDate:
-        ImGui::TextColored(ImColor(color::kGood), "The bake is up to date.");
-        break;
-    case BakeFreshness::Needed:
-        ImGui::TextColored(ImColor(color::kWarning),
-                           "Bake needed: objects or settings changed since the last one.");
-        break;
-    }
+    const bool refining = bake.preview && bake.running;
+    if (refining)
+        ImGui::TextDisabled("A first look of few rays; the full bake is being made.");
+    else
+        switch (bake.freshness) {
+        case BakeFreshness::None:
+            ImGui::TextColored(ImColor(color::kWarning),
+                               "Bake needed: nothing is baked yet, so there is no bounced light.");
+            break;
+        case BakeFreshness::Checking:
+            ImGui::TextDisabled("Comparing with the last bake...");
+            break;
+        case BakeFreshness::UpToDate:
+            ImGui::TextColored(ImColor(color::kGood), "The bake is up to date.");
+            break;
+        case BakeFreshness::Needed:
+            ImGui::TextColored(ImColor(color::kWarning),
+                               "Bake needed: objects or settings changed since the last one.");
+            break;
+        }
+    for (const std::string& note : bake.notes)
+        ImGui::TextDisabled("%s", note.c_str());
     if (!bake.error.empty())
         ImGui::TextColored(ImColor(color::kError), "Last bake: %s", bake.error.c_str());
     ImGui::PopTextWrapPos();

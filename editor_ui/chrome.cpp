@@ -141,7 +141,8 @@ void viewBar(EditorState& state) {
 static void bakeProgress(EditorState& state) {
     const BakeStatus& bake = state.bake;
     ImGui::AlignTextToFramePadding();
-    ImGui::Text("Baking: %s", bake.stage.empty() ? "starting" : bake.stage.c_str());
+    ImGui::Text("%s: %s", bake.preview ? "Refining" : "Baking",
+                bake.stage.empty() ? "starting" : bake.stage.c_str());
     ImGui::SameLine(ImGui::GetFontSize() * 11);
     const std::string percent = fmt::format("{:.0f} % of the stage, {:.0f} % in all",
                                             100 * bake.stageFraction, 100 * bake.fraction);

@@ -38,7 +38,7 @@ LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapL
 
 Session::Session(SessionOptions options)
     : m_options(std::move(options)), m_files(m_options.projectsFolder, m_options.wake),
-      m_bakeJob(m_options.wake), m_relightJob(m_options.wake) {
+      m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}), m_relightJob(m_options.wake) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
@@ -68,7 +68,7 @@ void Session::handle(const Request& request) {
         open(request.path);
         break;
     case Request::Kind::Save:
-        if (m_files.save(request.path, state.document, m_baked.bake))
+        if (m_files.save(request.path, state.document, m_baked.preview ? nullptr : m_baked.bake))
             m_savingTo = request.path;
         else
             log(LogLine::Level::Warning, "Busy with another file; try again in a moment");
@@ -153,6 +153,8 @@ void Session::useBake(BakedScene baked) {
         state.bake.counts = bake.counts;
         state.bake.bytes = bytesOf(bake);
         state.bake.seconds = bake.seconds;
+        state.bake.notes = bake.notes;
+        state.bake.preview = m_baked.preview;
         for (const auto& [stage, seconds] : bake.seconds)
             state.bake.totalSeconds += seconds;
     }
@@ -176,11 +178,16 @@ void Session::takeBaked() {
     auto result = m_bakeJob.takeResult();
     if (!result)
         return;
-    m_bakeSecondsDone += std::exchange(m_bakeSecondsRunning, 0);
+    const bool preview = *result && (*result)->preview;
+    if (!preview)
+        m_bakeSecondsDone += std::exchange(m_bakeSecondsRunning, 0);
     if (!*result) {
         state.bake.error = result->error().message;
         log(LogLine::Level::Warning, "Bake: " + state.bake.error);
     } else if ((*result)->scene->assets == state.assets) {
+        if (!preview)
+            for (const std::string& note : (*result)->bake->notes)
+                log(LogLine::Level::Info, "Baked. " + note);
         useBake(std::move(**result));
     }
 }
@@ -229,7 +236,7 @@ void Session::showStatus() {
         state.bake.error.clear();
         // The baker reads the settings of the scene that the rays meet.
         const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
-        m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr);
+        m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr, m_baked.bake == nullptr);
         m_bakeJob.report(state.bake);
     }
 }

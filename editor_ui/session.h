@@ -14,6 +14,7 @@ struct SessionOptions {
     std::function<void()>
         wake;               ///< called from any thread when update() has something new to take in
     bool bakeOnOpen = true; ///< a scene without a bake is baked as soon as it is open
+    std::string bakeFolder; ///< keeps finished stages of bakes; empty: memory does
 };
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No

@@ -33,6 +33,8 @@ struct BakeStatus {
     BakeBytes bytes;
     std::vector<std::pair<std::string, double>> seconds; ///< per stage
     double totalSeconds = 0;
+    std::vector<std::string> notes; ///< what it made again and why
+    bool preview = false;           ///< it is a first look; the full one is being made
     bool lightEdited = false; ///< since the scene was opened
     double secondsSinceLightEdit =
         0;             ///< spent baking since a light, material or sky was last edited

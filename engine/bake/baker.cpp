@@ -115,8 +115,11 @@ BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
 
 } // namespace
 
-Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore* store) {
-    const Scene& scene = trace.scene();
+Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore* store,
+                  const BakeSettings* settings) {
+    Scene scene = trace.scene();
+    if (settings)
+        scene.bake = *settings;
     if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
         return fail(defect);
     const auto cancelled = [] { return fail("cancelled"); };

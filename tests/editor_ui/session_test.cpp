@@ -230,13 +230,59 @@ TEST_F(SessionTest, AFileThatCannotBeOpenedIsAnErrorInTheLogAndTheDocumentStays)
     EXPECT_EQ(session.state.document, before);
 }
 
-TEST(BakeFraction, GrowsFromStageToStageUpToOne) {
-    float last = -1;
-    for (const char* stage : {"charts", "surfels", "clusters", "caches", "trace", "cut"}) {
-        EXPECT_GT(bakeFraction(stage, 0.5f), last);
-        last = bakeFraction(stage, 1);
-    }
-    EXPECT_NEAR(last, 1, 1e-5f);
+TEST_F(SessionTest, AFirstLookOfFewRaysComesBeforeTheFullBake) {
+    Document document = smallDocument();
+    for (auto& [id, object] : document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object))
+            settings->rays = 1024, settings->lightmapCaches = 2000;
+    ASSERT_TRUE(saveProject(project, document));
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntil(session, [&] { return session.state.bake.preview && session.field(); }));
+    EXPECT_TRUE(session.state.bake.running);
+    EXPECT_LT(session.state.bake.counts.rays, 64U * 4000);
+    EXPECT_NE(session.state.bake.freshness, BakeFreshness::UpToDate);
+    lamp(session).strength = 3; // light follows meanwhile
+    const auto calls = session.state.relight.calls;
+    ASSERT_TRUE(runUntil(session, [&] { return session.state.relight.calls > calls; }));
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_FALSE(session.state.bake.preview);
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+    EXPECT_GT(session.state.bake.counts.rays, 1024U * 1500);
+}
+
+TEST_F(SessionTest, AnotherNumberOfLinksTracesNoRay) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_GT(session.state.bake.counts.rays, 0U);
+    for (auto& [id, object] : session.state.document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object))
+            settings->links = 24;
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::Needed; }));
+    runAction(session.state, actionById("bake.start"));
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
+    EXPECT_EQ(session.state.bake.counts.rays, 0U);
+    ASSERT_FALSE(session.state.bake.notes.empty());
+}
+
+TEST(BakeEstimate, FollowsTheStagesPaceAndWhatLaterOnesTook) {
+    const StageSeconds expected = {{"charts", 1}, {"trace", 10}, {"cut", 2}};
+    EXPECT_LT(secondsLeft({}, "charts", 0.5, 1), 0);
+    EXPECT_NEAR(secondsLeft(expected, "charts", 0, 0.1), 12.9, 1e-9);
+    EXPECT_NEAR(secondsLeft(expected, "trace", 0.5, 3), 3 + 2, 1e-9); // faster than expected
+    EXPECT_NEAR(secondsLeft(expected, "cut", 1, 2), 0, 1e-9);
+    Bake before;
+    before.settings.rays = 64;
+    before.settings.surfels = 100;
+    before.seconds = {{"surfels", 1}, {"trace", 2}, {"cut", 3}};
+    BakeSettings wanted = before.settings;
+    wanted.rays = 1024;
+    wanted.surfels = 200;
+    EXPECT_EQ(expectedSeconds(before, wanted),
+              (StageSeconds{{"surfels", 2}, {"trace", 32}, {"cut", 12}}));
 }
 
 } // namespace
