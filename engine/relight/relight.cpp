@@ -102,8 +102,8 @@ bool Relighter::State::updateMaterials(const Scene& scene) {
     parallelRanges(s.size(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const SurfaceMaterial m =
-                surfaceMaterial(scene, scene.instances[s.instance[i]], s.triangle[i],
-                                s.barycentric[i].x, s.barycentric[i].y);
+                surfaceMaterialOver(scene, scene.instances[s.instance[i]], s.triangle[i],
+                                    s.barycentric[i].x, s.barycentric[i].y, s.area[i]);
             albedo[i] = glm::min(m.albedo, glm::vec3(0.99f));
             emitted[i] = m.emission * kPi;
         }

@@ -4,6 +4,7 @@
 #include "engine/scene/document.h"
 #include "engine/scene/image.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/texture.h"
 
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@ namespace limn {
 struct Assets {
     std::vector<Mesh> meshes;
     std::vector<Image> images;
+    MipStore mips; ///< of `images`, made when first needed
 };
 
 /// One mesh placed in the world.
@@ -62,10 +64,6 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets);
 /// `camera name`d, or the first, or one that shows the whole scene from a corner.
 Camera chooseCamera(const Scene& scene, const std::optional<std::string>& name);
 
-/// Bilinear lookups that follow the glTF rules (wrap, texture transform, sRGB decoding).
-/// `uv` is the mesh's coordinate before the texture transform. Without an image: white.
-glm::vec4 sampleTexture(const Assets& assets, const TextureRef& texture, glm::vec2 uv, bool srgb);
-
 /// Alpha from which a Blend texel counts as solid: transport knows no partial cover.
 inline constexpr float kBlendCutoff = 0.5f;
 
@@ -87,5 +85,10 @@ struct SurfaceMaterial {
 /// At barycentrics (u, v) of `triangle` (weights 1-u-v, u, v).
 SurfaceMaterial surfaceMaterial(const Scene& scene, const Instance& instance,
                                 std::uint32_t triangle, float u, float v);
+
+/// The mean over a footprint of `area` [m^2, world] there, as textures have it; vertex colours
+/// count at the point. Of a cutout, the mean of what is there besides the holes.
+SurfaceMaterial surfaceMaterialOver(const Scene& scene, const Instance& instance,
+                                    std::uint32_t triangle, float u, float v, float area);
 
 } // namespace limn

@@ -42,16 +42,22 @@ TriangleGeometry triangleGeometry(const Mesh& mesh) {
     return g;
 }
 
+static float stretchedArea(const Mesh& mesh, const glm::mat3& m, std::size_t triangle) {
+    const auto [a, b, c] = mesh.triangle(triangle);
+    return glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),
+                                  m * (mesh.positions[c] - mesh.positions[a]))) /
+           2;
+}
+
+float triangleWorldArea(const Scene& scene, const Instance& instance, std::size_t triangle) {
+    return stretchedArea(scene.meshOf(instance), glm::mat3(instance.toWorld), triangle);
+}
+
 double worldArea(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshOf(instance);
-    const glm::mat3 m(instance.toWorld);
     double area = 0;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-        const auto [a, b, c] = mesh.triangle(t);
-        area += glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),
-                                       m * (mesh.positions[c] - mesh.positions[a]))) /
-                2;
-    }
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
+        area += stretchedArea(mesh, glm::mat3(instance.toWorld), t);
     return area;
 }
 

@@ -34,6 +34,9 @@ struct TriangleGeometry {
 };
 TriangleGeometry triangleGeometry(const Mesh& mesh);
 
+/// Area of one side in the world [m^2].
+float triangleWorldArea(const Scene& scene, const Instance& instance, std::size_t triangle);
+
 /// Summed area of one side of the instance's triangles in the world [m^2].
 double worldArea(const Scene& scene, const Instance& instance);
 
