@@ -138,7 +138,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         return cancelled();
 
     progress.at("surfels", 0);
-    SurfelSet set = placeSurfels(scene, scene.bake.surfels, progress);
+    SurfelSet set = placeSurfels(scene, scene.bake.surfels, progress, store);
     if (progress.cancelled())
         return cancelled();
     if (set.surfels.size() == 0)
@@ -146,7 +146,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     clock.finish("surfels");
 
     progress.at("clusters", 0);
-    result.tree = buildClusterTree(scene, set, progress);
+    result.tree = buildClusterTree(scene, set, progress, store);
     if (progress.cancelled())
         return cancelled();
     clock.finish("clusters");

@@ -2,6 +2,8 @@
 #include "engine/bake/cluster_tree.h"
 
 #include "engine/bake/clustering.h"
+#include "engine/bake/stage_archive.h"
+#include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -34,6 +36,19 @@ MergeTree meshTree(const MeshSurfels& surfels, const BakeSettings& settings,
     for (std::size_t i = 0; i < items.size(); ++i)
         items[i] = {surfels.position[i] - lower, surfels.normal[i], 1};
     return clusterItems(settings.clustering, items, metricOf(settings, upper - lower), progress);
+}
+
+MergeTree keptMeshTree(const MeshSurfels& surfels, const BakeSettings& settings,
+                       const Progress& progress, StageStore* store) {
+    std::uint64_t key = hashVector(surfels.position, hashVector(surfels.normal, 25));
+    key = hashValue(settings.clusterNormalWeight, hashValue(settings.clusterBalanceWeight, key));
+    key = hashValue(std::uint32_t(settings.clustering), key);
+    constexpr std::size_t kWorthKeeping = 64; // of fewer, or halved ones, it is as fast to make
+    const bool slow =
+        settings.clustering == Clustering::Agglomerative && surfels.size() >= kWorthKeeping;
+    return keptOrMade<MergeTree>(
+        slow ? store : nullptr, key, progress, [](auto& a, auto& t) { a(t.left), a(t.right); },
+        [&] { return meshTree(surfels, settings, progress); });
 }
 
 /// A subtree already in the ClusterTree, seen as one item of the tree above it.
@@ -127,7 +142,8 @@ std::uint32_t skyCellOf(glm::vec3 d) {
     return cell(height, kSkyBands) * kSkySectors + cell(turn, kSkySectors);
 }
 
-ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Progress& progress) {
+ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Progress& progress,
+                             StageStore* store) {
     ClusterTree tree;
     tree.surfels = std::uint32_t(set.surfels.size());
     tree.skyCells = kSkyCells;
@@ -135,7 +151,7 @@ ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Pro
     parallelRanges(meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m)
             if (set.meshes[m].size() > 0 && !progress.cancelled())
-                meshes[m] = meshTree(set.meshes[m], scene.bake, progress);
+                meshes[m] = keptMeshTree(set.meshes[m], scene.bake, progress, store);
     });
     if (progress.cancelled())
         return {};

@@ -15,7 +15,8 @@ std::uint32_t skyCellOf(glm::vec3 d);
 /// and one over the sky cells, joined at the root. Surfels and instances are clustered as
 /// Scene::bake says, with the diagonal of the mesh's surfels, or of the scene, as the metric's
 /// extent. leftWeight is by area. Empty when cancelled.
+/// Trees of meshes that `store` knows are not built again.
 ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set,
-                             const Progress& progress = {});
+                             const Progress& progress = {}, StageStore* store = nullptr);
 
 } // namespace limn

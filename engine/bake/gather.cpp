@@ -138,9 +138,9 @@ const SurfelOwners& RayGatherer::owners(std::uint32_t mesh) const {
             const std::size_t cells = m.triangleCount() + 9 * m_set.meshes[mesh].size();
             constexpr std::size_t kWorthKeeping = 2048; // fewer are as fast to make
             lazy.owners = keptOrMade<SurfelOwners>(
-                cells < kWorthKeeping ? nullptr : m_store, m_store ? m_ownerKeys[mesh] : 0, {},
-                [](auto& a, auto& o) { SurfelOwners::fields(a, o); },
-                [&] { return SurfelOwners(m, m_set.meshes[mesh]); });
+                cells < kWorthKeeping ? nullptr : m_store, m_store ? m_ownerKeys[mesh] : 0,
+                m_progress, [](auto& a, auto& o) { SurfelOwners::fields(a, o); },
+                [&] { return SurfelOwners(m, m_set.meshes[mesh], m_progress); });
         });
     });
     return lazy.owners;

@@ -75,6 +75,9 @@ public:
         m_ownerKeys = std::move(keys);
     }
 
+    /// What it finds after `progress` was cancelled is of no use.
+    void stopWith(const Progress& progress) { m_progress = {.cancel = progress.cancel}; }
+
     CacheRays directions(std::uint32_t cache) const {
         return raysOf(m_caches, m_points, cache, m_rays);
     }
@@ -97,6 +100,7 @@ private:
     const Caches& m_caches;
     const CachePoints& m_points;
     std::uint32_t m_rays;
+    Progress m_progress;
     StageStore* m_store = nullptr;
     std::vector<std::uint64_t> m_ownerKeys;
     mutable std::vector<LazyOwners> m_owners; ///< per mesh, built when first met

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/surfels.h"
 
+#include "engine/bake/input_hash.h"
 #include "engine/bake/nearest_point.h"
 #include "engine/bake/relaxation.h"
+#include "engine/bake/stage_archive.h"
 #include "engine/bake/surfel_spacing.h"
+#include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/triangle_geometry.h"
@@ -141,7 +144,24 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
     return result;
 }
 
-SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress) {
+static MeshSurfels meshSurfels(const Scene& scene, std::size_t m, std::uint32_t count,
+                               const Progress& progress, StageStore* store) {
+    const Mesh& mesh = scene.assets->meshes[m];
+    const bool twoSided = isTwoSided(scene.materials[mesh.material]);
+    const SurfelPlacement placement = scene.bake.placement;
+    const std::uint64_t key = hashValue(std::uint32_t(placement) << 1 | std::uint32_t(twoSided),
+                                        hashValue(count, hashValue(hashMesh(mesh), 24)));
+    constexpr std::uint32_t kWorthKeeping = 64; // fewer are as fast to place
+    return keptOrMade<MeshSurfels>(
+        count < kWorthKeeping ? nullptr : store, key, progress,
+        [](auto& a, auto& s) {
+            a(s.position), a(s.normal), a(s.triangle), a(s.barycentric), a(s.frontCount), a(s.area);
+        },
+        [&] { return placeSurfels(mesh, count, twoSided, placement, progress); });
+}
+
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress,
+                       StageStore* store) {
     SurfelSet result;
     const std::vector<double> area = litAreas(scene);
     const std::vector<std::uint32_t> counts = surfelsPerMesh(scene, area, target);
@@ -149,10 +169,7 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress&
     parallelRanges(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m)
             if (counts[m] > 0 && !progress.cancelled())
-                result.meshes[m] =
-                    placeSurfels(scene.assets->meshes[m], counts[m],
-                                 isTwoSided(scene.materials[scene.assets->meshes[m].material]),
-                                 scene.bake.placement, progress);
+                result.meshes[m] = meshSurfels(scene, m, counts[m], progress, store);
     });
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
@@ -164,7 +181,7 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress&
     return result;
 }
 
-SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels)
+SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
     : m_frontCount(surfels.frontCount) {
     // Cells of a third of the surfels' spacing: the border between two owners is off by a sixth of
     // it at most.
@@ -198,7 +215,7 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels)
         for (std::size_t t = begin; t < end; ++t) {
             const std::uint32_t n = m_resolution[t];
             const glm::vec3 normal = triangleNormal(mesh, t);
-            for (std::uint32_t j = 0; j < n; ++j)
+            for (std::uint32_t j = 0; j < n && !progress.cancelled(); ++j)
                 for (std::uint32_t i = 0; i < n; ++i) {
                     glm::vec2 uv = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
                     if (i + j >= n) { // outside: only rounding asks here

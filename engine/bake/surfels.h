@@ -8,6 +8,8 @@
 
 namespace limn {
 
+class StageStore;
+
 /// Sample points of one mesh in object space, front sides first; a two-sided mesh repeats them with
 /// the normal turned.
 struct MeshSurfels {
@@ -39,8 +41,9 @@ struct SurfelSet {
 /// About `target` surfels spread over the static instances by world area, at least one per mesh
 /// side. Instances of a mesh share its points. World areas include the local stretch of the
 /// transform; those of an instance sum to the area of its lit sides.
-/// When cancelled, of no use.
-SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress = {});
+/// When cancelled, of no use. Points of meshes that `store` knows are not placed again.
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress = {},
+                       StageStore* store = nullptr);
 
 /// Light leaves both sides of such a surface.
 bool isTwoSided(const Material& material);
@@ -50,7 +53,8 @@ bool isTwoSided(const Material& material);
 class SurfelOwners {
 public:
     SurfelOwners() = default;
-    SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels);
+    /// When cancelled, of no use.
+    SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress = {});
 
     /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
     /// ones.

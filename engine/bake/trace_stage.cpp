@@ -238,7 +238,7 @@ void Tracing::traceOne(std::uint32_t cache) {
     m_retraced += rays > 0 ? 1 : 0;
     if (rays > 0)
         m_changed[block] = true;
-    if (--m_left[block] == 0 && m_store)
+    if (--m_left[block] == 0 && m_store && !m_progress.cancelled())
         keepBlock(block);
 }
 
@@ -309,6 +309,7 @@ void Tracing::note() {
 Result<TraceReport> Tracing::run() {
     m_report.key = m_key;
     m_progress.at("trace", 0);
+    m_gatherer.stopWith(m_progress);
     m_hits.rays = in.rays;
     m_hits.sender.resize(in.caches.size() * in.rays);
     m_hits.aimedBegin.clear();

@@ -146,18 +146,25 @@ TEST(Stages, OneSideMoreOrAHoleIsMet) {
 TEST(Stages, CancelledAtAnyMomentTheNextBakeEqualsTheUndisturbedOne) {
     Scene scene = room({});
     scene.bake.rays = 4096;
+    const auto start = std::chrono::steady_clock::now();
     const Bake undisturbed = baked(scene);
+    const auto whole = std::chrono::steady_clock::now() - start;
     StageStore store;
     std::mt19937 random(3);
     int cancelled = 0;
     for (int i = 0; i < 12; ++i) {
         std::atomic<bool> cancel = false;
-        std::jthread stopper([&, delay = random() % 300] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+        std::jthread stopper([&, delay = whole * (random() % 100) / 100] {
+            std::this_thread::sleep_for(delay);
             cancel = true;
         });
+        // The last is sure to be stopped late in the trace.
+        const auto report = [&](const char* stage, float fraction) {
+            if (i == 11 && std::string(stage) == "trace" && fraction > 0.8f)
+                cancel = true;
+        };
         const Result<Bake> result =
-            bake(TraceScene(scene), {.report = {}, .cancel = &cancel}, &store);
+            bake(TraceScene(scene), {.report = report, .cancel = &cancel}, &store);
         if (result) {
             EXPECT_EQ(result->hash(), undisturbed.hash());
         } else {
@@ -174,7 +181,7 @@ TEST(Stages, CancelledAtAnyMomentTheNextBakeEqualsTheUndisturbedOne) {
 TEST(Stages, HitsThatWouldFillTheMemoryAreRefusedByName) {
     Scene scene = room({});
     scene.bake.rays = 65536;
-    scene.bake.grid = glm::uvec3(256);
+    scene.bake.grid = glm::uvec3(100);
     const Result<Bake> refused = bake(TraceScene(scene));
     ASSERT_FALSE(refused);
     for (const char* word : {"65536 rays", "memory", "lower rays, lightmap or grid"})
