@@ -17,10 +17,12 @@ StageSeconds expectedSeconds(const Bake& before, const BakeSettings& wanted) {
 
 double secondsLeft(const StageSeconds& expected, const std::string& stage, double fraction,
                    double stageSeconds) {
-    const auto at = std::find_if(expected.begin(), expected.end(),
-                                 [&](const auto& entry) { return entry.first == stage; });
-    if (at == expected.end())
+    if (expected.empty())
         return -1;
+    auto at = std::find_if(expected.begin(), expected.end(),
+                           [&](const auto& entry) { return entry.first == stage; });
+    if (at == expected.end())
+        return std::max(0.0, expected.back().second - stageSeconds);
     double left = std::max(0.0, at->second - stageSeconds);
     // A pace read off sooner would jump about.
     if (fraction > 0.05 && stageSeconds > 0.2)

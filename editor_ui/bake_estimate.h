@@ -17,7 +17,8 @@ using StageSeconds = std::vector<std::pair<std::string, double>>;
 StageSeconds expectedSeconds(const Bake& before, const BakeSettings& wanted);
 
 /// Seconds left at `fraction` of `stage`, which has taken `stageSeconds` so far: its own pace once
-/// that shows, and what is expected of the stages after it. Negative: not known.
+/// that shows, and what is expected of the stages after it. A stage that is not listed is a part of
+/// the last one. Negative: not known.
 double secondsLeft(const StageSeconds& expected, const std::string& stage, double fraction,
                    double stageSeconds);
 
