@@ -47,6 +47,10 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
             std::map<std::string, SurfelPlacement>{{"relaxed", SurfelPlacement::Relaxed},
                                                    {"halton", SurfelPlacement::Halton},
                                                    {"random", SurfelPlacement::Random}}));
+    command
+        .add_option("--linker", o.linker, "How caches find what they see: gather or form-factor")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Linker>{
+            {"gather", Linker::Gather}, {"form-factor", Linker::FormFactor}}));
     command.add_option("--cut", o.cut, "Which clusters caches link: detail or solid-angle")
         ->transform(CLI::CheckedTransformer(std::map<std::string, CutCriterion>{
             {"detail", CutCriterion::Detail}, {"solid-angle", CutCriterion::SolidAngle}}));
@@ -76,6 +80,7 @@ void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
     }
     s.texelsPerMetre = o.texelsPerMetre.value_or(s.texelsPerMetre);
     s.placement = o.placement.value_or(s.placement);
+    s.linker = o.linker.value_or(s.linker);
     s.cut = o.cut.value_or(s.cut);
     s.clustering = o.clustering.value_or(s.clustering);
     s.clusterNormalWeight = o.clusterNormalWeight.value_or(s.clusterNormalWeight);

@@ -18,6 +18,7 @@ struct BakeOptions {
     std::optional<std::uint32_t> surfels, links, bands, rays, lightmap;
     std::optional<float> texelsPerMetre, clusterNormalWeight, clusterBalanceWeight;
     std::optional<SurfelPlacement> placement;
+    std::optional<Linker> linker;
     std::optional<CutCriterion> cut;
     std::optional<Clustering> clustering;
     std::string grid; ///< XxYxZ, checked; empty: the document's

@@ -16,6 +16,7 @@ enum class Exit : int { Done = 0, Failed = 1, Usage = 2 };
 using Run = std::function<Exit()>;
 
 void addBakeCommand(CLI::App& app, Run& run);
+void addBenchCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addReferenceCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);

@@ -113,6 +113,7 @@ static Json describe(const Bake& bake) {
                         {"bands", s.bands},
                         {"rays", s.rays},
                         {"placement", kPlacementNames[std::size_t(s.placement)]},
+                        {"linker", kLinkerNames[std::size_t(s.linker)]},
                         {"cut", kCutNames[std::size_t(s.cut)]},
                         {"clustering", kClusteringNames[std::size_t(s.clustering)]},
                         {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};

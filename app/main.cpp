@@ -16,6 +16,7 @@ static int runLimn(int argc, char** argv) {
     app.require_subcommand(1);
     Run run;
     addBakeCommand(app, run);
+    addBenchCommand(app, run);
     addCompareCommand(app, run);
 #ifdef LIMN_EDITOR
     addEditCommand(app, run);

@@ -18,6 +18,10 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command
         .add_option("scene", options.scene, ".gltf, .glb or .limn file, or the name of a project")
         ->required();
+    addLightOptions(command, options);
+}
+
+void addLightOptions(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--light", options.lights,
                     "adds a light: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "

@@ -22,6 +22,9 @@ struct SceneOptions {
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
+/// The flags without the scene.
+void addLightOptions(CLI::App& command, SceneOptions& options);
+
 /// Imports, adds the lights and the sky, logs the repairs.
 Result<ImportedScene> openScene(const SceneOptions& options);
 

@@ -61,6 +61,16 @@ static void placementRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Placement");
 }
 
+static void linkerRow(FieldEdit& edit, BakeSettings& s) {
+    int which = int(s.linker);
+    fieldLabel("Linker",
+               "How a cache finds what it sees. Gather: rays that leave it. Form factor: a "
+               "ray towards every surfel, many times slower; there to compare");
+    if (ImGui::Combo("##linker", &which, "Gather\0Form factor\0"))
+        s.linker = Linker(which);
+    fieldEdited(edit, "Linker");
+}
+
 static void cutRow(FieldEdit& edit, BakeSettings& s) {
     int which = int(s.cut);
     fieldLabel("Cut", "Which clusters a cache links. Detail: those whose differences inside would "
@@ -149,6 +159,7 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
              "Rays traced from each cache while baking. More: less noise, longer bake", s.rays, 16,
              65536, "Rays");
     ImGui::Separator();
+    linkerRow(edit, s);
     cutRow(edit, s);
     clusterRows(edit, s);
     ImGui::Separator();

@@ -23,7 +23,7 @@ std::uint64_t hashSettings(const BakeSettings& s, std::uint64_t h) {
     for (const std::uint32_t v :
          {s.surfels, s.links, s.bands, s.rays, s.lightmapCaches, s.grid.x, s.grid.y, s.grid.z})
         h = hashValue(v, h);
-    h = hashValue(s.placement, hashValue(s.cut, h));
+    h = hashValue(s.placement, hashValue(s.linker, hashValue(s.cut, h)));
     h = hashValue(s.clustering, hashValue(s.clusterNormalWeight, h));
     h = hashValue(s.clusterBalanceWeight, h);
     return hashValue(s.texelsPerMetre, h);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/bake.h"
 
-#include "engine/bake/atlas.h"
+#include "engine/bake/atlas_stage.h"
 #include "engine/bake/cache_points.h"
-#include "engine/bake/charts.h"
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut.h"
 #include "engine/bake/input_hash.h"
@@ -13,7 +12,9 @@
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 
+#include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -64,41 +65,11 @@ std::string settingsDefect(const BakeSettings& s) {
     return {};
 }
 
-/// Charts of every mesh that a static instance uses. Returns false when cancelled.
-bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
-                 const Progress& progress, StageStore* store, std::vector<MeshCharts>& charts) {
-    charts.assign(meshes.size(), {});
-    std::vector<bool> used(charts.size());
-    for (const Instance& i : scene.instances)
-        used[i.mesh] = used[i.mesh] || !i.dynamic;
-    return parallelRanges(
-        charts.size(), 1, progress, "charts", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t m = begin; m < end; ++m)
-                if (used[m])
-                    charts[m] = keptOrMade<MeshCharts>(
-                        store, hashValue(meshes[m], 21), progress,
-                        [](auto& a, auto& c) { chartFields(a, c); },
-                        [&] { return buildCharts(scene.assets->meshes[m], progress); });
-        });
-}
-
-/// Of all that buildAtlas reads.
-std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes) {
-    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 22);
-    h = hashValue(scene.bake.texelsPerMetre, h);
-    for (const Instance& i : scene.instances)
-        h = hashValue(std::uint32_t(i.dynamic),
-                      hashValue(atlasScale(i), hashValue(meshes[i.mesh], h)));
-    return h;
-}
-
-Atlas makeAtlas(const Scene& scene, const std::vector<std::uint64_t>& meshes,
-                std::vector<MeshCharts> charts, const Progress& progress, StageStore* store) {
-    Atlas atlas = keptOrMade<Atlas>(
-        store, atlasKey(scene, meshes), progress, [](auto& a, auto& t) { atlasFields(a, t); },
-        [&] { return buildAtlas(scene, charts, scene.bake, progress); });
-    atlas.layout.meshes = std::move(charts);
-    return atlas;
+/// The form factor linker's rays only tell which points lie in walls.
+std::uint32_t raysPerCache(const BakeSettings& settings) {
+    constexpr std::uint32_t kFormFactorRays = 112; // 16 for each point of a texel
+    return settings.linker == Linker::Gather ? settings.rays
+                                             : std::min(settings.rays, kFormFactorRays);
 }
 
 BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
@@ -129,13 +100,11 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     StageClock clock(result.seconds);
 
     const std::vector<std::uint64_t> meshes = hashMeshes(scene);
-    std::vector<MeshCharts> charts;
-    if (!chartMeshes(scene, meshes, progress, store, charts))
+    std::optional<Atlas> made = atlasStage(scene, meshes, progress, store);
+    if (!made)
         return cancelled();
-    Atlas atlas = makeAtlas(scene, meshes, std::move(charts), progress, store);
+    Atlas& atlas = *made;
     clock.finish("charts");
-    if (progress.cancelled())
-        return cancelled();
 
     progress.at("surfels", 0);
     SurfelSet set = placeSurfels(scene, scene.bake.surfels, progress, store);
@@ -160,12 +129,14 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
 
     GatherHits hits;
     Result<TraceReport> traced = traceHits(
-        {trace, set, result.caches, points, scene.bake.rays, meshes}, progress, store, hits);
+        {trace, set, result.caches, points, scene.bake.linker, raysPerCache(scene.bake), meshes},
+        progress, store, hits);
     if (!traced)
         return tl::make_unexpected(traced.error());
     result.notes = std::move(traced->notes);
     clock.finish("trace");
-    const std::vector<float> seen = seenByCaches(hits, result.caches, result.tree);
+    const std::vector<float> seen =
+        seenByCaches(set.surfels, hits, points, result.caches, result.tree);
     weighBySight(seen, result.tree);
     const TracedTraining light = keptOrMade<TracedTraining>(
         store, hashValue(traced->key, 23), progress,
@@ -175,7 +146,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         return cancelled();
     const TrainingLight training = trainingLight(scene, set.surfels, result.tree, seen, light);
     clock.finish("training");
-    if (!buildLinks(result.tree, hits, points, training,
+    if (!buildLinks(set.surfels, result.tree, hits, points, training,
                     {scene.bake.cut, scene.bake.links, int(scene.bake.bands)}, progress,
                     result.caches))
         return cancelled();

@@ -104,11 +104,7 @@ void joinRoots(const std::vector<Root>& roots, const Scene& scene, std::uint32_t
 std::uint32_t appendSky(ClusterTree& tree) {
     std::vector<ClusterItem> items;
     for (std::uint32_t c = 0; c < kSkyCells; ++c) {
-        const float height = (float(c / kSkySectors) + 0.5f) / kSkyBands * 2 - 1;
-        const float angle =
-            ((float(c % kSkySectors) + 0.5f) / kSkySectors - 0.5f) * 2 * std::numbers::pi_v<float>;
-        const float r = std::sqrt(1 - height * height);
-        tree.skyDirection.emplace_back(r * std::cos(angle), height, r * std::sin(angle));
+        tree.skyDirection.push_back(skyCellDirection(c));
         items.push_back({tree.skyDirection.back(), glm::vec3(0), 1});
     }
     return append(
@@ -140,6 +136,14 @@ std::uint32_t skyCellOf(glm::vec3 d) {
         return std::min(std::uint32_t(std::max(x, 0.f) * float(n)), n - 1);
     };
     return cell(height, kSkyBands) * kSkySectors + cell(turn, kSkySectors);
+}
+
+glm::vec3 skyCellDirection(std::uint32_t cell) {
+    const float height = (float(cell / kSkySectors) + 0.5f) / kSkyBands * 2 - 1;
+    const float angle =
+        ((float(cell % kSkySectors) + 0.5f) / kSkySectors - 0.5f) * 2 * std::numbers::pi_v<float>;
+    const float r = std::sqrt(1 - height * height);
+    return {r * std::cos(angle), height, r * std::sin(angle)};
 }
 
 ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Progress& progress,

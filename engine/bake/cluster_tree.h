@@ -11,6 +11,9 @@ inline constexpr std::uint32_t kSkyCells = 256;
 /// The cell of the sky in direction `d` (unit): equal-area bands of height by sectors about +Y.
 std::uint32_t skyCellOf(glm::vec3 d);
 
+/// The middle of a cell, unit. `cell` < kSkyCells.
+glm::vec3 skyCellDirection(std::uint32_t cell);
+
 /// Trees per mesh, built once in object space and used by each instance, a tree over the instances,
 /// and one over the sky cells, joined at the root. Surfels and instances are clustered as
 /// Scene::bake says, with the diagonal of the mesh's surfels, or of the scene, as the metric's

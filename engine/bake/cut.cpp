@@ -36,11 +36,11 @@ Link pack(const Cone& cone) {
     return {cone.node, d.x, d.y, floatToHalf(cone.u), floatToHalf(cone.transport)};
 }
 
-Cone makeCone(std::uint32_t node, const Sight& s, float rayWeight) {
+Cone makeCone(std::uint32_t node, const Sight& s) {
     const float length = glm::length(s.moment);
-    // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; a single
-    // ray has its own solid angle: rayWeight pi = 2 pi u.
-    const float u = std::clamp(2 * (1 - length / s.weight), std::min(rayWeight / 2, 2.f), 2.f);
+    // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; but none is
+    // narrower than the solid angle seen: weight pi = 2 pi u.
+    const float u = std::clamp(2 * (1 - length / s.weight), std::min(s.weight / 2, 2.f), 2.f);
     return {node, length > 0 ? s.moment / length : glm::vec3(0, 0, 1), u, s.weight, s.irradiance};
 }
 
@@ -70,38 +70,49 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
     }
 }
 
-/// One thread's working space for linking caches.
-class Linker {
-public:
-    Linker(const GatherHits& hits, const CachePoints& points, const TrainingLight& training,
-           const CutSettings& settings, const SenderOrder& order)
-        : m_hits(hits), m_points(points), m_training(training), m_settings(settings),
-          m_seen(order) {}
+/// Irradiance, over its solid angle / pi, of a sender of radiosity 1; for a cache without one side
+/// (two-sided, grid) the mean over all normals that see it, by half.
+float irradianceShare(CacheKind kind, float cosTheta) {
+    return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
+}
 
-    /// Joins what a cache sees and weighs its refinements. False for a cache that sees nothing.
+/// One thread's working space for linking caches.
+class CacheLinker {
+public:
+    CacheLinker(const Surfels& surfels, const GatherHits& hits, const CachePoints& points,
+                const TrainingLight& training, const CutSettings& settings,
+                const SenderOrder& order)
+        : m_surfels(surfels), m_hits(hits), m_points(points), m_training(training),
+          m_settings(settings), m_seen(order) {}
+
+    /// Joins what a cache sees. False for a cache that sees nothing.
     bool look(const Caches& caches, std::uint32_t cache) {
         addRays(caches, cache);
         for (std::uint32_t k = m_hits.aimedBegin[cache]; k < m_hits.aimedBegin[cache + 1]; ++k) {
             const AimedSample& a = m_hits.aimed[k];
-            addSight(caches.kind[cache], a.sender, a.transport, a.cosTheta, a.direction);
+            const SenderView v = viewOf(m_surfels, m_points, caches.kind[cache], a);
+            addSight(caches.kind[cache], a.sender, v.transport, v.cosTheta, v.direction);
         }
         m_seen.build();
-        if (m_seen.size() == 0)
-            return false;
+        return m_seen.size() > 0;
+    }
+
+    /// After look(): leaves that it found.
+    std::uint32_t senders() const { return m_seen.leaves(); }
+
+    /// After look(): what each refinement is worth.
+    const std::vector<float>& weigh() {
         if (m_settings.criterion == CutCriterion::SolidAngle)
             m_worth.bySolidAngle(m_seen);
         else
             m_worth.byDetail(m_seen, m_training);
-        return true;
+        return m_worth.worth();
     }
 
-    std::uint32_t senders() const { return m_seen.leaves(); }
-    const std::vector<float>& worth() const { return m_worth.worth(); }
-
     /// After look(): refines what is worth more than `bound`, the best `mostLinks` - 1 of them.
-    void link(const Caches& caches, std::uint32_t cache, float bound, std::uint32_t mostLinks,
-              std::vector<Link>& links) {
-        chooseRefined(bound, mostLinks);
+    void link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
+              float bound, std::uint32_t mostLinks, std::vector<Link>& links) {
+        chooseRefined(worth, bound, mostLinks);
         m_cones.clear();
         put(m_seen.size() - 1);
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
@@ -124,24 +135,22 @@ private:
         if (kept == 0)
             return;
         const CacheRays rays = raysOf(caches, m_points, cache, m_hits.rays);
-        m_rayWeight = rays.local.solidAngle() / std::numbers::pi_v<float> *
-                      (float(m_hits.rays) / float(kept));
+        const float weight = rays.local.solidAngle() / std::numbers::pi_v<float> *
+                             (float(m_hits.rays) / float(kept));
         for (std::uint32_t r = 0; r < m_hits.rays; ++r)
             if (sender[r] < GatherHits::kFirstMark) {
                 const glm::vec3 local = rays.local[r];
-                addSight(caches.kind[cache], sender[r], m_rayWeight, local.z,
+                addSight(caches.kind[cache], sender[r], weight, local.z,
                          rays.toWorld[r % rays.points] * local);
             }
     }
 
     void addSight(CacheKind kind, std::uint32_t sender, float weight, float cosTheta,
                   glm::vec3 direction) {
-        const float share = kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
-        m_seen.add(sender, {weight, weight * share, direction * weight});
+        m_seen.add(sender, {weight, weight * irradianceShare(kind, cosTheta), direction * weight});
     }
 
-    void chooseRefined(float bound, std::uint32_t mostLinks) {
-        const std::vector<float>& worth = m_worth.worth();
+    void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t mostLinks) {
         m_order.clear();
         for (std::uint32_t i = 0; i < worth.size(); ++i)
             if (worth[i] > bound)
@@ -157,16 +166,16 @@ private:
 
     void put(std::uint32_t i) {
         if (!m_refined[i])
-            m_cones.push_back(makeCone(m_seen.node[i], m_seen.sight[i], m_rayWeight));
+            m_cones.push_back(makeCone(m_seen.node[i], m_seen.sight[i]));
     }
 
+    const Surfels& m_surfels;
     const GatherHits& m_hits;
     const CachePoints& m_points;
     const TrainingLight& m_training;
     const CutSettings& m_settings;
     VisibleTree m_seen;
     CutWorth m_worth;
-    float m_rayWeight = 0; ///< of one ray: solid angle / pi
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
     std::vector<Cone> m_cones;
@@ -190,23 +199,24 @@ float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// The bound on the worth of a refinement that gives all caches together as many links as n_L each
-/// would. Nothing when cancelled.
-std::optional<float> sharedBound(tbb::enumerable_thread_specific<Linker>& linkers,
+/// Fills `worth` per cache and finds the bound on it that gives all caches together as many links
+/// as n_L each would. Nothing when cancelled.
+std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
                                  const Caches& caches, const CutSettings& settings,
-                                 const Progress& progress) {
+                                 const Progress& progress, std::vector<std::vector<float>>& worth) {
     constexpr std::size_t kSteps = 1 << 15;
     tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
     std::atomic<std::uint64_t> budget = 0;
     const bool done = parallelRanges(
         caches.size(), 8, progress, "budget", [&](std::size_t begin, std::size_t end) {
-            Linker& linker = linkers.local();
+            CacheLinker& linker = linkers.local();
             WorthHistogram& histogram = histograms.local();
             for (std::size_t c = begin; c < end; ++c) {
                 if (!linker.look(caches, std::uint32_t(c)))
                     continue;
                 budget += std::min(linker.senders(), settings.links) - 1;
-                for (const float w : linker.worth())
+                worth[c] = linker.weigh();
+                for (const float w : worth[c])
                     ++histogram[stepOf(w)];
             }
         });
@@ -220,21 +230,25 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<Linker>& linker
 
 } // namespace
 
-std::vector<float> seenByCaches(const GatherHits& hits, const Caches& caches,
+std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
+                                const CachePoints& points, const Caches& caches,
                                 const ClusterTree& tree) {
     std::vector<double> seen(tree.leaves());
-    for (std::size_t c = 0; c < caches.size(); ++c) {
-        const bool hemisphere = caches.kind[c] == CacheKind::Hemisphere;
+    for (std::uint32_t c = 0; c < caches.size(); ++c) {
+        const CacheKind kind = caches.kind[c];
+        const bool sphere = kind != CacheKind::Hemisphere;
+        const DirectionSet rays(hits.rays, sphere, 0); // its turn changes no height
         for (std::uint32_t r = 0; r < hits.rays; ++r) {
-            const std::uint32_t sender = hits.sender[c * hits.rays + r];
-            if (sender >= GatherHits::kFirstMark)
-                continue;
-            const double cosTheta = 1 - (r + 0.5) / hits.rays; // as DirectionSet has it
-            seen[sender] += (hemisphere ? 2 * cosTheta : 1) / hits.rays;
+            const std::uint32_t sender = hits.sender[std::size_t(c) * hits.rays + r];
+            if (sender < GatherHits::kFirstMark)
+                seen[sender] += double((sphere ? 4.f : 2.f) / float(hits.rays) *
+                                       irradianceShare(kind, rays.height(r)));
+        }
+        for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
+            const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
+            seen[hits.aimed[k].sender] += double(v.transport * irradianceShare(kind, v.cosTheta));
         }
     }
-    for (const AimedSample& a : hits.aimed)
-        seen[a.sender] += double(a.transport * std::abs(a.cosTheta));
     return {seen.begin(), seen.end()};
 }
 
@@ -249,29 +263,32 @@ void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
     }
 }
 
-bool buildLinks(const ClusterTree& tree, const GatherHits& hits, const CachePoints& points,
-                const TrainingLight& training, const CutSettings& settings,
-                const Progress& progress, Caches& caches) {
+bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
+                const CachePoints& points, const TrainingLight& training,
+                const CutSettings& settings, const Progress& progress, Caches& caches) {
     constexpr std::uint32_t kMostOfBudget = 16; // a cache may have this many times n_L
     const SenderOrder order(tree);
-    tbb::enumerable_thread_specific<Linker> linkers(
-        [&] { return Linker(hits, points, training, settings, order); });
+    tbb::enumerable_thread_specific<CacheLinker> linkers(
+        [&] { return CacheLinker(surfels, hits, points, training, settings, order); });
+    const bool shared = settings.criterion == CutCriterion::Detail;
+    std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
     float bound = -1;
     std::uint32_t mostLinks = settings.links;
-    if (settings.criterion == CutCriterion::Detail) {
-        const std::optional<float> shared = sharedBound(linkers, caches, settings, progress);
-        if (!shared)
+    if (shared) {
+        const std::optional<float> found = sharedBound(linkers, caches, settings, progress, worth);
+        if (!found)
             return false;
-        bound = *shared;
+        bound = *found;
         mostLinks *= kMostOfBudget;
     }
     std::vector<std::vector<Link>> links(caches.size());
     const bool done =
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
-            Linker& linker = linkers.local();
+            CacheLinker& linker = linkers.local();
             for (std::size_t c = begin; c < end; ++c)
                 if (linker.look(caches, std::uint32_t(c)))
-                    linker.link(caches, std::uint32_t(c), bound, mostLinks, links[c]);
+                    linker.link(caches, std::uint32_t(c), shared ? worth[c] : linker.weigh(), bound,
+                                mostLinks, links[c]);
         });
     if (!done)
         return false;

@@ -8,7 +8,8 @@ namespace limn {
 
 /// How much of each leaf all caches together see, in irradiance: sums over the caches of what a
 /// radiosity of 1 would bring.
-std::vector<float> seenByCaches(const GatherHits& hits, const Caches& caches,
+std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
+                                const CachePoints& points, const Caches& caches,
                                 const ClusterTree& tree);
 
 /// Replaces the tree's area weights by how much of each sender is seen: a cluster's radiosity
@@ -34,9 +35,9 @@ struct CutSettings {
 ///
 /// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
 /// irradiance of its rays at the surface's own normal, whatever shines.
-bool buildLinks(const ClusterTree& tree, const GatherHits& hits, const CachePoints& points,
-                const TrainingLight& training, const CutSettings& settings,
-                const Progress& progress, Caches& caches);
+bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
+                const CachePoints& points, const TrainingLight& training,
+                const CutSettings& settings, const Progress& progress, Caches& caches);
 
 /// Fills fillBegin … fillWeight: an invalid cache becomes the mean of its nearest valid ones of the
 /// same kind, weighted by 1 / distance^2; lightmap caches also weigh how well the normals agree.

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <tbb/task_arena.h>
@@ -44,9 +45,10 @@ struct Finisher {
     const SurfelSet& set;
     const Caches& caches;
     const CachePoints& points;
-    std::vector<std::uint32_t> emissive;
+    Linker linker;
+    std::vector<std::uint32_t> targets; ///< senders to aim at
     bool aimedAlready;
-    std::vector<bool> isEmissive; ///< per surfel; empty without emissive ones
+    std::vector<bool> isTarget; ///< per sender; empty without targets
 
     static void markBacks(std::uint32_t rays, std::uint32_t* sender) {
         std::replace_if(
@@ -67,13 +69,14 @@ struct Finisher {
         }
     }
 
-    /// Replaces the few chance hits of emissive surfels by a ray at each, from the cache's points
-    /// in turn. Returns the rays traced.
+    /// Replaces the few chance hits of the targets by a ray at each, from the cache's points in
+    /// turn. Returns the rays traced.
     std::uint32_t aimCache(std::uint32_t cache, std::uint32_t rays, std::uint32_t* sender,
                            std::vector<AimedSample>& aimed) const {
-        const auto met = [&](std::uint32_t s) { return s < isEmissive.size() && isEmissive[s]; };
-        if (emissive.empty() ||
-            std::uint32_t(std::count_if(sender, sender + rays, met)) * 16 >= rays)
+        const auto met = [&](std::uint32_t s) { return s < isTarget.size() && isTarget[s]; };
+        if (targets.empty() ||
+            (linker == Linker::Gather &&
+             std::uint32_t(std::count_if(sender, sender + rays, met)) * 16 >= rays))
             return 0;
         std::vector<std::uint32_t> open; // points that are not buried
         for (std::uint32_t k = 0; k < points.begin[cache + 1] - points.begin[cache]; ++k)
@@ -85,34 +88,39 @@ struct Finisher {
         std::replace_if(sender, sender + rays, met, GatherHits::kAimed);
         if (aimedAlready)
             return 0;
-        for (std::size_t i = 0; i < emissive.size(); ++i)
-            traced += aim(caches.kind[cache], open[i % open.size()], emissive[i], aimed) ? 1 : 0;
+        for (std::size_t i = 0; i < targets.size(); ++i)
+            traced += aim(caches.kind[cache], {targets[i], open[i % open.size()]}, aimed) ? 1 : 0;
         return traced;
     }
 
 private:
     /// False where the two do not face each other: no ray is traced.
-    bool aim(CacheKind kind, std::uint32_t point, std::uint32_t s,
-             std::vector<AimedSample>& aimed) const {
-        const glm::vec3 toSender = set.surfels.position[s] - points.position[point];
-        const float d2 = glm::dot(toSender, toSender);
-        if (!(d2 > 0))
+    bool aim(CacheKind kind, const AimedSample& sample, std::vector<AimedSample>& aimed) const {
+        const SenderView view = viewOf(set.surfels, points, kind, sample);
+        if (!(view.transport > 0))
             return false;
-        const glm::vec3 direction = toSender / std::sqrt(d2);
-        const float cosTheta = glm::dot(direction, points.normal[point]);
-        const float cosSender = -glm::dot(direction, set.surfels.normal[s]);
-        if (!(cosSender > 0) || (kind == CacheKind::Hemisphere && !(cosTheta > 0)))
-            return false;
-        const glm::vec3 from = startOf(trace, points, point, cosTheta >= 0);
-        const glm::vec3 to = trace.clearOf(set.surfels.position[s], set.surfels.normal[s]);
-        if (trace.blocked(from, to, TraceMask::Static))
-            return true;
-        const float area = set.surfels.area[s];
-        const float solidAngle = area * cosSender / (d2 + area / (2 * std::numbers::pi_v<float>));
-        aimed.push_back({s, solidAngle / std::numbers::pi_v<float>, cosTheta, direction});
+        const glm::vec3 from = startOf(trace, points, sample.point, view.cosTheta >= 0);
+        const std::uint32_t s = sample.sender;
+        const bool hidden =
+            s >= set.surfels.size()
+                ? trace.occluded({from, view.direction}, TraceMask::Static)
+                : trace.blocked(from, trace.clearOf(set.surfels.position[s], set.surfels.normal[s]),
+                                TraceMask::Static);
+        if (!hidden)
+            aimed.push_back(sample);
         return true;
     }
 };
+
+/// What caches aim at.
+std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, Linker linker,
+                                      std::uint32_t rays) {
+    if (linker == Linker::Gather)
+        return emissiveSurfels(scene, set, rays);
+    std::vector<std::uint32_t> all(set.surfels.size() + kSkyCells);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+}
 
 } // namespace
 
@@ -172,29 +180,56 @@ void RayGatherer::traceCache(std::uint32_t cache, RawHit* out) const {
         out[r] = trace(ray(rays, cache, r));
 }
 
-std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, std::uint32_t rays) {
-    return std::uint32_t(emissiveSurfels(scene, set, rays).size());
+SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+                  const AimedSample& sample) {
+    constexpr float kPi = std::numbers::pi_v<float>;
+    const std::uint32_t s = sample.sender;
+    SenderView view;
+    if (s >= surfels.size()) {
+        view.direction = skyCellDirection(s - std::uint32_t(surfels.size()));
+        view.transport = 4 / float(kSkyCells);
+    } else {
+        const glm::vec3 way = surfels.position[s] - points.position[sample.point];
+        const float d2 = glm::dot(way, way);
+        if (!(d2 > 0))
+            return {};
+        view.direction = way / std::sqrt(d2);
+        const float cosSender = -glm::dot(view.direction, surfels.normal[s]);
+        if (!(cosSender > 0))
+            return {};
+        view.transport = surfels.area[s] * cosSender / (d2 + surfels.area[s] / (2 * kPi)) / kPi;
+    }
+    view.cosTheta = glm::dot(view.direction, points.normal[sample.point]);
+    return kind == CacheKind::Hemisphere && !(view.cosTheta > 0) ? SenderView{} : view;
+}
+
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker,
+                        std::uint32_t rays) {
+    return std::uint32_t(aimTargets(scene, set, linker, rays).size());
 }
 
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, const Progress& progress, GatherHits& hits,
-                std::uint64_t& aimedRays) {
+                const CachePoints& points, Linker linker, const Progress& progress,
+                GatherHits& hits, std::uint64_t& aimedRays) {
     Finisher finisher{trace,
                       set,
                       caches,
                       points,
-                      emissiveSurfels(trace.scene(), set, hits.rays),
+                      linker,
+                      aimTargets(trace.scene(), set, linker, hits.rays),
                       !hits.aimedBegin.empty(),
                       {}};
-    if (!finisher.emissive.empty())
-        finisher.isEmissive.resize(set.surfels.size());
-    for (const std::uint32_t s : finisher.emissive)
-        finisher.isEmissive[s] = true;
+    if (!finisher.targets.empty())
+        finisher.isTarget.resize(set.surfels.size() + kSkyCells);
+    for (const std::uint32_t s : finisher.targets)
+        finisher.isTarget[s] = true;
     std::vector<std::vector<AimedSample>> aimed(caches.size());
     std::atomic<std::uint64_t> traced = 0;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
-    const bool done =
-        parallelRanges(caches.size(), 64, quiet, "trace", [&](std::size_t begin, std::size_t end) {
+    const std::size_t grain = std::clamp<std::size_t>(65536 / (finisher.targets.size() + 1), 1, 64);
+    const bool done = parallelRanges(
+        caches.size(), grain, linker == Linker::Gather ? quiet : progress, "trace",
+        [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 const auto cache = std::uint32_t(c);
                 std::uint32_t* sender = hits.sender.data() + c * hits.rays;

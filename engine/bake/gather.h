@@ -16,14 +16,23 @@
 
 namespace limn {
 
-/// A sender sampled by a ray towards it rather than met by chance.
+/// A sender in sight of one of a cache's points, found by a ray towards it.
 struct AimedSample {
-    std::uint32_t sender;
-    float transport; ///< visible solid angle / pi
-    float cosTheta;  ///< at the point of the cache it was aimed from; negative behind a two-sided
-                     ///< surface
-    glm::vec3 direction; ///< unit, away from the cache
+    std::uint32_t sender; ///< leaf of the ClusterTree
+    std::uint32_t point;  ///< of CachePoints
 };
+
+/// How a sender would look from a point if nothing stood between.
+struct SenderView {
+    float transport = 0; ///< solid angle / pi; 0: they do not face each other
+    float cosTheta = 0;  ///< at the point; negative behind a two-sided surface, 0 for the grid
+    glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
+};
+
+/// Of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which tends to 2 pi at contact; of
+/// a sky cell its own. A point of a Hemisphere cache sees nothing behind it.
+SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+                  const AimedSample& sample);
 
 /// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree or one
 /// of the marks below. Ray r of a cache runs along CacheRays[r], so directions need not be stored.
@@ -110,18 +119,21 @@ private:
 /// Of a cache's points, those most of whose rays meet backs are left out; where that is all of them
 /// the cache is invalid.
 ///
-/// Small bright lamps would be met by a handful of rays: blotches. A cache that meets the emissive
-/// surfels with fewer than a sixteenth of its rays aims one ray at each of them instead, and takes
-/// their bounded solid angle a cos / (d^2 + a / 2 pi). Which materials emit only guides the
-/// sampling: any other sender is met by the rays.
+/// Linker::Gather: small bright lamps would be met by a handful of rays: blotches. A cache that
+/// meets the emissive surfels with fewer than a sixteenth of its rays aims one ray at each of them
+/// instead. Which materials emit only guides the sampling: any other sender is met by the rays.
+///
+/// Linker::FormFactor: every cache aims a ray at every surfel and sky cell that faces it, and the
+/// rays only tell which of its points are in walls.
 ///
 /// Where hits.aimedBegin is filled already nothing is traced and hits.aimed stays. Adds the rays
 /// aimed to `aimedRays`. Returns false when cancelled.
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, const Progress& progress, GatherHits& hits,
-                std::uint64_t& aimedRays);
+                const CachePoints& points, Linker linker, const Progress& progress,
+                GatherHits& hits, std::uint64_t& aimedRays);
 
-/// Greatest number of surfels that one cache aims at.
-std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, std::uint32_t rays);
+/// Greatest number of senders that one cache aims at.
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker,
+                        std::uint32_t rays);
 
 } // namespace limn

@@ -16,6 +16,7 @@ struct TraceInput {
     const SurfelSet& set;
     const Caches& caches;
     const CachePoints& points;
+    Linker linker;
     std::uint32_t rays;                       ///< per cache
     const std::vector<std::uint64_t>& meshes; ///< hashMeshes of the scene
 };

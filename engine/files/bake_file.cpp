@@ -31,7 +31,7 @@ template <class A, class B>
 void settingsFields(A& a, B& b) {
     auto& s = b.settings;
     a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
-    a(s.placement), a(s.cut), a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
+    a(s.placement), a(s.linker), a(s.cut), a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
     a(s.grid), a(s.maxBounces), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
     auto& c = b.counts;
     a(c.triangles), a(c.surfels), a(c.clusters), a(c.caches), a(c.invalidCaches), a(c.links),
@@ -113,6 +113,8 @@ std::string indexDefect(const Bake& b) {
                 return "SURFELS: cache out of range";
     if (b.settings.placement > SurfelPlacement::Random)
         return "SETTINGS: unknown placement";
+    if (b.settings.linker > Linker::FormFactor)
+        return "SETTINGS: unknown linker";
     if (b.settings.cut > CutCriterion::SolidAngle)
         return "SETTINGS: unknown cut";
     if (b.settings.clustering > Clustering::KdTree)

@@ -23,6 +23,7 @@ inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp"
 inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
 inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "point", "spot"};
 inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
+inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
 inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};
 inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
 
@@ -115,6 +116,7 @@ void describeBakeSettings(Fields& fields, T& b) {
     fields("grid", b.grid);
     fields("maxBounces", b.maxBounces);
     fields("placement", b.placement, kPlacementNames);
+    fields("linker", b.linker, kLinkerNames);
     fields("cut", b.cut, kCutNames);
     fields("clustering", b.clustering, kClusteringNames);
     fields("clusterNormalWeight", b.clusterNormalWeight, FieldRange{0, 100});

@@ -55,10 +55,14 @@ struct DirectionSet {
     DirectionSet(std::uint32_t n, bool wholeSphere, std::uint32_t seed)
         : count(n), sphere(wholeSphere), turn(unitFloat(mixBits(seed))) {}
 
+    /// z of direction i.
+    float height(std::uint32_t i) const {
+        const float stratum = (float(i) + 0.5f) / float(count);
+        return sphere ? 1 - 2 * stratum : 1 - stratum;
+    }
     glm::vec3 operator[](std::uint32_t i) const {
         const double golden = std::numbers::phi - 1;
-        const float stratum = (float(i) + 0.5f) / float(count);
-        const float z = sphere ? 1 - 2 * stratum : 1 - stratum;
+        const float z = height(i);
         double whole;
         const float angle = 2 * std::numbers::pi_v<float> *
                             float(std::modf(double(i) * golden + double(turn), &whole));

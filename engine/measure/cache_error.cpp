@@ -5,6 +5,7 @@
 #include "engine/math/sampling.h"
 #include "engine/math/sh.h"
 #include "engine/reference/direct_light.h"
+#include "engine/reference/emitters.h"
 #include "engine/reference/surface_point.h"
 
 #include <algorithm>
@@ -27,12 +28,37 @@ struct PointGather {
     float backs = 0;
 };
 
-PointGather gatherPoint(const TraceScene& trace, glm::vec3 position, glm::vec3 normal,
-                        std::uint32_t rays, std::uint32_t seed) {
+/// What emissive surfaces send to a point themselves, from as many of their points as there are
+/// rays: gathering would meet a small lamp by chance.
+glm::vec3 emitterIrradiance(const TraceScene& trace, const Emitters& emitters, glm::vec3 origin,
+                            glm::vec3 normal, std::uint32_t rays, std::uint32_t seed) {
+    glm::vec3 sum{0};
+    const glm::vec3 shift{unitFloat(mixBits(3 * seed)), unitFloat(mixBits(3 * seed + 1)),
+                          unitFloat(mixBits(3 * seed + 2))};
+    for (std::uint32_t r = 0; r < rays; ++r) {
+        const glm::vec3 u = glm::fract(
+            shift + glm::vec3(radicalInverse(r, 2), radicalInverse(r, 3), radicalInverse(r, 5)));
+        const EmitterSample s =
+            sampleEmitter(emitters, trace.scene(), origin, u.z, glm::vec2(u.x, u.y));
+        const glm::vec3 way = s.position + s.normal * trace.epsilonAt(s.position) - origin;
+        const float distance = glm::length(way);
+        const float cosTheta = glm::dot(normal, way) / distance;
+        if (s.radiance == glm::vec3(0) || !(cosTheta > 0) || !(s.pdf > 0) ||
+            trace.occluded({origin, way / distance, 0, distance}, TraceMask::Static))
+            continue;
+        sum += s.radiance * (cosTheta / s.pdf / float(rays));
+    }
+    return sum;
+}
+
+PointGather gatherPoint(const TraceScene& trace, const Emitters& emitters, glm::vec3 position,
+                        glm::vec3 normal, std::uint32_t rays, std::uint32_t seed) {
     const DirectionSet directions(rays, false, seed);
     const glm::mat3 toWorld = basisAround(normal);
     const glm::vec3 origin = position + normal * trace.epsilonAt(position);
     PointGather result;
+    glm::vec3 emitted{0};
+    std::uint32_t lamps = 0; // rays that met one
     std::uint64_t shadowRays = 0;
     for (std::uint32_t r = 0; r < rays; ++r) {
         const glm::vec3 local = directions[r];
@@ -47,9 +73,13 @@ PointGather gatherPoint(const TraceScene& trace, glm::vec3 position, glm::vec3 n
             result.backs += 1 / float(rays);
             continue;
         }
-        const glm::vec3 B = p->albedo * directIrradiance(trace, *p, shadowRays);
-        result.irradiance += (B / kPi + p->emission) * weight;
+        result.irradiance += p->albedo * directIrradiance(trace, *p, shadowRays) * (weight / kPi);
+        emitted += p->emission * weight;
+        lamps += p->emission != glm::vec3(0);
     }
+    if (!emitters.empty() && lamps * 16 < rays)
+        emitted = emitterIrradiance(trace, emitters, origin, normal, rays, seed);
+    result.irradiance += emitted;
     return result;
 }
 
@@ -59,8 +89,8 @@ struct CacheGather {
     glm::vec3 mean{0}, variance{0}; ///< variance of the mean
 };
 
-CacheGather gatherCache(const TraceScene& trace, const CachePoints& points, std::uint32_t cache,
-                        std::uint32_t rays) {
+CacheGather gatherCache(const TraceScene& trace, const Emitters& emitters,
+                        const CachePoints& points, std::uint32_t cache, std::uint32_t rays) {
     const std::uint32_t begin = points.begin[cache], end = points.begin[cache + 1];
     const std::uint32_t each = std::max(1U, rays / kSets / (end - begin));
     glm::vec3 sum[kSets] = {};
@@ -69,7 +99,7 @@ CacheGather gatherCache(const TraceScene& trace, const CachePoints& points, std:
         PointGather sets[kSets];
         float backs = 0;
         for (std::uint32_t k = 0; k < kSets; ++k) {
-            sets[k] = gatherPoint(trace, points.position[p], points.normal[p], each,
+            sets[k] = gatherPoint(trace, emitters, points.position[p], points.normal[p], each,
                                   mixBits(p * kSets + k + 1));
             backs += sets[k].backs / kSets;
         }
@@ -101,9 +131,10 @@ CacheReference referenceIrradiance(const TraceScene& trace, const Caches& caches
         std::max(1U, (caches.lightmapCount + count - 1) / std::max(count, 1U));
     const std::size_t taken = (caches.lightmapCount + stride - 1) / stride;
     std::vector<CacheGather> gathered(taken);
+    const Emitters emitters = findEmitters(trace);
     if (!parallelRanges(taken, 1, progress, "reference", [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                gathered[i] = gatherCache(trace, points, std::uint32_t(i) * stride, rays);
+                gathered[i] = gatherCache(trace, emitters, points, std::uint32_t(i) * stride, rays);
         }))
         return {};
     CacheReference result;

@@ -15,6 +15,10 @@ enum class SurfelPlacement : std::uint8_t { Relaxed, Halton, Random };
 /// by halving at medians.
 enum class Clustering : std::uint8_t { Agglomerative, KdTree };
 
+/// How a cache finds what it sees: by rays that leave it, or, as the paper has it, by a ray towards
+/// every surfel.
+enum class Linker : std::uint8_t { Gather, FormFactor };
+
 /// Which clusters a cache links: those whose inner differences would change its light most, as
 /// many links as it is worth; or, as the paper has it, n_L of the largest visible solid angle.
 enum class CutCriterion : std::uint8_t { Detail, SolidAngle };
@@ -33,9 +37,10 @@ struct BakeSettings {
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
 
     SurfelPlacement placement = SurfelPlacement::Relaxed;
+    Linker linker = Linker::Gather;
     CutCriterion cut = CutCriterion::Detail;
 
-    Clustering clustering = Clustering::KdTree;
+    Clustering clustering = Clustering::Agglomerative;
     float clusterNormalWeight = 0.1f;   ///< C_n of the clusters' metric; [0, 100]
     float clusterBalanceWeight = 0.02f; ///< C_b, of agglomerative clusters only; [0, 100]
 

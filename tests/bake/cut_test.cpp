@@ -46,16 +46,16 @@ struct Fixture {
             charts.push_back(buildCharts(m));
         const Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
         caches = placeCaches(scene, atlas, glm::uvec3(2), gridBoundsOf(scene), points);
-        EXPECT_TRUE(
-            traceHits({trace, set, caches, points, 256, hashMeshes(scene)}, {}, nullptr, hits));
-        const std::vector<float> seen = seenByCaches(hits, caches, tree);
+        EXPECT_TRUE(traceHits({trace, set, caches, points, Linker::Gather, 256, hashMeshes(scene)},
+                              {}, nullptr, hits));
+        const std::vector<float> seen = seenByCaches(set.surfels, hits, points, caches, tree);
         weighBySight(seen, tree);
         training =
             trainingLight(scene, set.surfels, tree, seen, traceTraining(trace, set.surfels, {}));
     }
     Caches cut(CutCriterion criterion, std::uint32_t links) const {
         Caches result = caches;
-        buildLinks(tree, hits, points, training, {criterion, links, 3}, {}, result);
+        buildLinks(set.surfels, tree, hits, points, training, {criterion, links, 3}, {}, result);
         return result;
     }
 };
@@ -255,7 +255,7 @@ TEST(Cut, TransportSumsToTheSolidAngleOfAnEnclosure) {
 
 TEST(TrainingLight, HasAMeanOfOneOverWhatIsSeen) {
     const Fixture& f = fixture();
-    const std::vector<float> seen = seenByCaches(f.hits, f.caches, f.tree);
+    const std::vector<float> seen = seenByCaches(f.set.surfels, f.hits, f.points, f.caches, f.tree);
     double total = 0;
     std::vector<double> mean(TrainingLight::kCount);
     for (std::uint32_t leaf = 0; leaf < f.tree.leaves(); ++leaf) {

@@ -144,6 +144,7 @@ private:
             b.grid = {below(100), below(100), below(100)};
             b.maxBounces = std::uint32_t(m_random());
             b.placement = SurfelPlacement(below(3));
+            b.linker = Linker(below(2));
             b.cut = CutCriterion(below(2));
             b.clustering = Clustering(below(2));
             b.clusterNormalWeight = unit();
