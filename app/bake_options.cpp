@@ -29,6 +29,10 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
     command.add_option("--surfels", o.surfels, "Surfels n_S")->check(CLI::Range(64, 1 << 20));
     command.add_option("--links", o.links, "Links per cache n_L")->check(CLI::Range(1, 4096));
     command.add_option("--bands", o.bands, "SH bands of the caches")->check(CLI::Range(2, 8));
+    command
+        .add_option("--chroma-bands", o.chromaBands,
+                    "SH bands of the lit caches' chrominance; 0: as many as --bands")
+        ->check(CLI::Range(0, 8));
     command.add_option("--rays", o.rays, "Gather rays per cache")->check(CLI::Range(16, 65536));
     auto* lightmap =
         command.add_option("--lightmap", o.lightmap, "Wanted number of lightmap caches")
@@ -54,6 +58,11 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
     command.add_option("--cut", o.cut, "Which clusters caches link: detail or solid-angle")
         ->transform(CLI::CheckedTransformer(std::map<std::string, CutCriterion>{
             {"detail", CutCriterion::Detail}, {"solid-angle", CutCriterion::SolidAngle}}));
+    command
+        .add_option("--storage", o.storage,
+                    "How links are kept: rtp, small, or sh, quicker to light in few bands")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, LinkStorage>{
+            {"rtp", LinkStorage::Rtp}, {"sh", LinkStorage::Sh}}));
     command.add_option("--clustering", o.clustering, "How surfels are joined: agglomerative or kd")
         ->transform(CLI::CheckedTransformer(std::map<std::string, Clustering>{
             {"agglomerative", Clustering::Agglomerative}, {"kd", Clustering::KdTree}}));
@@ -73,6 +82,7 @@ void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
     s.surfels = o.surfels.value_or(s.surfels);
     s.links = o.links.value_or(s.links);
     s.bands = o.bands.value_or(s.bands);
+    s.chromaBands = o.chromaBands.value_or(s.chromaBands);
     s.rays = o.rays.value_or(s.rays);
     if (o.lightmap) {
         s.lightmapCaches = *o.lightmap;
@@ -82,11 +92,20 @@ void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
     s.placement = o.placement.value_or(s.placement);
     s.linker = o.linker.value_or(s.linker);
     s.cut = o.cut.value_or(s.cut);
+    s.storage = o.storage.value_or(s.storage);
     s.clustering = o.clustering.value_or(s.clustering);
     s.clusterNormalWeight = o.clusterNormalWeight.value_or(s.clusterNormalWeight);
     s.clusterBalanceWeight = o.clusterBalanceWeight.value_or(s.clusterBalanceWeight);
     if (!o.grid.empty())
         s.grid = *gridOf(o.grid);
+}
+
+nlohmann::json bytesSummary(const BakeBytes& b) {
+    return {{"surfels", b.surfels},
+            {"clusters", b.clusters},
+            {"links", b.links},
+            {"caches", b.caches},
+            {"total", b.total()}};
 }
 
 nlohmann::json bakeSummary(const Bake& bake) {
@@ -98,7 +117,6 @@ nlohmann::json bakeSummary(const Bake& bake) {
     }
     seconds["total"] = total;
     const BakeCounts& c = bake.counts;
-    const BakeBytes b = bytesOf(bake);
     return {{"seconds", seconds},
             {"counts",
              {{"triangles", c.triangles},
@@ -108,12 +126,7 @@ nlohmann::json bakeSummary(const Bake& bake) {
               {"invalid_caches", c.invalidCaches},
               {"links", c.links},
               {"rays", c.rays}}},
-            {"bytes",
-             {{"surfels", b.surfels},
-              {"clusters", b.clusters},
-              {"links", b.links},
-              {"caches", b.caches},
-              {"total", b.total()}}},
+            {"bytes", bytesSummary(bytesOf(bake))},
             {"notes", bake.notes},
             {"hash", hexHash(bake.hash())}};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/bake.h"
+#include "engine/bake/bake_bytes.h"
 
 #include <CLI/CLI.hpp>
 
@@ -15,11 +15,12 @@ namespace limn {
 
 /// Flags that replace the document's bake settings.
 struct BakeOptions {
-    std::optional<std::uint32_t> surfels, links, bands, rays, lightmap;
+    std::optional<std::uint32_t> surfels, links, bands, chromaBands, rays, lightmap;
     std::optional<float> texelsPerMetre, clusterNormalWeight, clusterBalanceWeight;
     std::optional<SurfelPlacement> placement;
     std::optional<Linker> linker;
     std::optional<CutCriterion> cut;
+    std::optional<LinkStorage> storage;
     std::optional<Clustering> clustering;
     std::string grid; ///< XxYxZ, checked; empty: the document's
     int threads = 0;  ///< 0: all
@@ -28,6 +29,9 @@ void addBakeOptions(CLI::App& command, BakeOptions& options);
 
 /// Puts what was given on the command line, and checked there, into `settings`.
 void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
+
+/// {"surfels", "clusters", "links", "caches", "total"}.
+nlohmann::json bytesSummary(const BakeBytes& bytes);
 
 /// {"seconds", "counts", "bytes", "notes", "hash"}.
 nlohmann::json bakeSummary(const Bake& bake);

@@ -4,6 +4,7 @@
 #include "app/scene_options.h"
 
 #include "engine/bake/atlas_stage.h"
+#include "engine/bake/bake_bytes.h"
 #include "engine/bake/input_hash.h"
 #include "engine/core/parallel.h"
 #include "engine/core/replace_file.h"

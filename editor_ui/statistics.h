@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/bake.h"
+#include "engine/bake/bake_bytes.h"
 #include "engine/relight/relight.h"
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct BakeStatus {
     double totalSeconds = 0;
     std::vector<std::string> notes; ///< what it made again and why
     bool preview = false;           ///< it is a first look; the full one is being made
-    bool lightEdited = false; ///< since the scene was opened
+    bool lightEdited = false;       ///< since the scene was opened
     double secondsSinceLightEdit =
         0;             ///< spent baking since a light, material or sky was last edited
     std::string error; ///< why the last bake gave nothing; empty: it gave something

@@ -55,11 +55,13 @@ struct ClusterTree {
 
 /// One link, runtime projection: `node` sends its radiosity B to the cache through a cone.
 /// The cache's SH grow by B * transport * cone(u, direction) / (cone's solid angle).
+/// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
+/// with Chrominance Compression. 2016
 struct Link {
     std::uint32_t node;
     std::uint16_t octX, octY; ///< direction to the sender, octahedral, 16-bit snorm
     std::uint16_t u;          ///< half: 1 - cos of the cone's half-angle
-    std::uint16_t transport;  ///< half: visible solid angle / pi [1]
+    std::uint16_t transport;  ///< half: visible solid angle / pi [1], times the cache's scale
 
     bool operator==(const Link&) const = default;
 };
@@ -76,8 +78,15 @@ struct Caches {
     std::vector<glm::vec3> position;      ///< world
     std::vector<glm::vec3> normal;        ///< unit geometric normal of the front; 0 for Grid
     std::vector<std::uint32_t> texel;     ///< lightmap: y * width + x; grid: cell index
-    std::vector<std::uint32_t> linkBegin; ///< size()+1 offsets into `links`
-    std::vector<Link> links;
+    std::vector<std::uint32_t> linkBegin; ///< size()+1 offsets into its links
+    /// The scale of a cache's halfs is 2^linkExponent: its largest one lies in [2^14, 2^15), so
+    /// that not even a link 2^-28 of that is denormal. 0 for caches without links.
+    std::vector<std::int8_t> linkExponent;
+    std::vector<Link> links; ///< LinkStorage::Rtp; else empty
+    /// LinkStorage::Sh, else empty: the node of each link, and what its radiosity of 1 adds to the
+    /// cache's SH, bands^2 halfs per link, times the cache's scale.
+    std::vector<std::uint32_t> shNode;
+    std::vector<std::uint16_t> shCoefficients;
     /// An invalid cache has no links and copies these valid ones, weights summing to 1 (none where
     /// no cache is valid); fillBegin has size()+1 offsets. Valid caches have none.
     std::vector<std::uint32_t> fillBegin;
@@ -85,6 +94,7 @@ struct Caches {
     std::vector<float> fillWeight;
 
     std::size_t size() const { return position.size(); }
+    std::size_t linkCount() const { return links.size() + shNode.size(); }
     bool operator==(const Caches&) const = default;
 };
 
@@ -115,12 +125,6 @@ struct Bake {
     /// known before.
     std::uint64_t hash() const;
 };
-
-struct BakeBytes {
-    std::uint64_t surfels = 0, clusters = 0, links = 0, caches = 0;
-    std::uint64_t total() const { return surfels + clusters + links + caches; }
-};
-BakeBytes bytesOf(const Bake& bake);
 
 /// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Not
 /// lights, albedo, emission.

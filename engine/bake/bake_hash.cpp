@@ -26,6 +26,7 @@ std::uint64_t hashSettings(const BakeSettings& s, std::uint64_t h) {
     h = hashValue(s.placement, hashValue(s.linker, hashValue(s.cut, h)));
     h = hashValue(s.clustering, hashValue(s.clusterNormalWeight, h));
     h = hashValue(s.clusterBalanceWeight, h);
+    h = hashValue(s.storage, hashValue(s.chromaBands, h));
     return hashValue(s.texelsPerMetre, h);
 }
 
@@ -55,6 +56,7 @@ std::uint64_t Bake::hash() const {
     const Caches& c = caches;
     h = hashVector(c.kind, hashVector(c.position, hashVector(c.normal, hashVector(c.texel, h))));
     h = hashVector(c.linkBegin, hashVector(c.links, hashValue(c.lightmapCount, h)));
+    h = hashVector(c.linkExponent, hashVector(c.shNode, hashVector(c.shCoefficients, h)));
     return hashVector(c.fillBegin, hashVector(c.fillSource, hashVector(c.fillWeight, h)));
 }
 

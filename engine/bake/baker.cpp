@@ -47,6 +47,8 @@ std::string settingsDefect(const BakeSettings& s) {
         return fmt::format("bake settings: links {} is outside [1, 4096]", s.links);
     if (outside(s.bands, 2, 8))
         return fmt::format("bake settings: bands {} is outside [2, 8]", s.bands);
+    if (outside(s.chromaBands, 0, 8))
+        return fmt::format("bake settings: chromaBands {} is outside [0, 8]", s.chromaBands);
     if (outside(s.rays, 16, 65536))
         return fmt::format("bake settings: rays {} is outside [16, 65536]", s.rays);
     for (const float weight : {s.clusterNormalWeight, s.clusterBalanceWeight})
@@ -79,7 +81,7 @@ BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
     counts.surfels = bake.surfels.size();
     counts.clusters = bake.tree.left.size();
     counts.caches = bake.caches.size();
-    counts.links = bake.caches.links.size();
+    counts.links = bake.caches.linkCount();
     counts.rays = rays;
     return counts;
 }
@@ -147,8 +149,8 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     const TrainingLight training = trainingLight(scene, set.surfels, result.tree, seen, light);
     clock.finish("training");
     if (!buildLinks(set.surfels, result.tree, hits, points, training,
-                    {scene.bake.cut, scene.bake.links, int(scene.bake.bands)}, progress,
-                    result.caches))
+                    {scene.bake.cut, scene.bake.links, int(scene.bake.bands), scene.bake.storage},
+                    progress, result.caches))
         return cancelled();
     const std::uint32_t invalid = fillInvalid(result.caches);
     clock.finish("cut");
@@ -158,22 +160,6 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.counts = countOf(scene, result, traced->rays + light.rays);
     result.counts.invalidCaches = invalid;
     return result;
-}
-
-BakeBytes bytesOf(const Bake& bake) {
-    const auto bytes = [](const auto& v) { return std::uint64_t(v.size() * sizeof v[0]); };
-    BakeBytes b;
-    const Surfels& s = bake.surfels;
-    b.surfels = bytes(s.position) + bytes(s.normal) + bytes(s.area) + bytes(s.instance) +
-                bytes(s.triangle) + bytes(s.barycentric) + bytes(s.cache) + bytes(s.cacheWeight);
-    const ClusterTree& t = bake.tree;
-    b.clusters = bytes(t.left) + bytes(t.right) + bytes(t.leftWeight) + bytes(t.parent) +
-                 bytes(t.skyDirection);
-    const Caches& c = bake.caches;
-    b.links = bytes(c.links) + bytes(c.linkBegin);
-    b.caches = bytes(c.kind) + bytes(c.position) + bytes(c.normal) + bytes(c.texel) +
-               bytes(c.fillBegin) + bytes(c.fillSource) + bytes(c.fillWeight);
-    return b;
 }
 
 } // namespace limn

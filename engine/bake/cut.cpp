@@ -2,10 +2,10 @@
 #include "engine/bake/cut.h"
 
 #include "engine/bake/cut_worth.h"
+#include "engine/bake/link_storage.h"
 #include "engine/bake/visible_tree.h"
 #include "engine/core/parallel.h"
 #include "engine/math/cone.h"
-#include "engine/math/packing.h"
 #include "engine/math/sh.h"
 
 #include <algorithm>
@@ -21,20 +21,6 @@
 namespace limn {
 
 namespace {
-
-/// A link before packing.
-struct Cone {
-    std::uint32_t node;
-    glm::vec3 direction; ///< unit
-    float u;             ///< 1 - cos(half-angle)
-    float transport;     ///< visible solid angle / pi
-    float irradiance; ///< exact, at unit radiosity: the rays' sum of solid angle / pi times cosine
-};
-
-Link pack(const Cone& cone) {
-    const Oct16 d = packOct(cone.direction);
-    return {cone.node, d.x, d.y, floatToHalf(cone.u), floatToHalf(cone.transport)};
-}
 
 Cone makeCone(std::uint32_t node, const Sight& s) {
     const float length = glm::length(s.moment);
@@ -110,8 +96,8 @@ public:
     }
 
     /// After look(): refines what is worth more than `bound`, the best `mostLinks` - 1 of them.
-    void link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
-              float bound, std::uint32_t mostLinks, std::vector<Link>& links) {
+    PackedLinks link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
+                     float bound, std::uint32_t mostLinks) {
         chooseRefined(worth, bound, mostLinks);
         m_cones.clear();
         put(m_seen.size() - 1);
@@ -122,8 +108,7 @@ public:
                   [](const Cone& a, const Cone& b) { return a.node < b.node; });
         if (caches.kind[cache] == CacheKind::Hemisphere)
             matchIrradiance(m_settings.bands, caches.normal[cache], m_cones);
-        for (const Cone& cone : m_cones)
-            links.push_back(pack(cone));
+        return packLinks(m_settings.storage, m_settings.bands, m_cones);
     }
 
 private:
@@ -281,23 +266,18 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
         bound = *found;
         mostLinks *= kMostOfBudget;
     }
-    std::vector<std::vector<Link>> links(caches.size());
+    std::vector<PackedLinks> links(caches.size());
     const bool done =
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
             for (std::size_t c = begin; c < end; ++c)
                 if (linker.look(caches, std::uint32_t(c)))
-                    linker.link(caches, std::uint32_t(c), shared ? worth[c] : linker.weigh(), bound,
-                                mostLinks, links[c]);
+                    links[c] = linker.link(caches, std::uint32_t(c),
+                                           shared ? worth[c] : linker.weigh(), bound, mostLinks);
         });
     if (!done)
         return false;
-    caches.linkBegin = {0};
-    caches.links.clear();
-    for (const std::vector<Link>& l : links) {
-        caches.links.insert(caches.links.end(), l.begin(), l.end());
-        caches.linkBegin.push_back(std::uint32_t(caches.links.size()));
-    }
+    joinLinks(links, caches);
     return true;
 }
 

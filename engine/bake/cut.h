@@ -22,11 +22,12 @@ struct CutSettings {
     CutCriterion criterion = CutCriterion::Detail;
     std::uint32_t links = 256; ///< n_L
     int bands = 3;
+    LinkStorage storage = LinkStorage::Rtp;
 };
 
-/// Fills linkBegin and links of `caches`: for each valid cache nodes of the tree that together
-/// cover all it saw. A cache whose every point lies in a wall is invalid and gets none. Traces
-/// nothing. Returns false when cancelled.
+/// Fills the links of `caches`, in the settings' storage: for each valid cache nodes of the tree
+/// that together cover all it saw. A cache whose every point lies in a wall is invalid and gets
+/// none. Traces nothing. Returns false when cancelled.
 ///
 /// SolidAngle, the paper's: each cache refines its node of the largest visible solid angle, down to
 /// at most n_L links. Detail: the refinements of all caches that lower the error of irradiance most

@@ -31,7 +31,8 @@ template <class A, class B>
 void settingsFields(A& a, B& b) {
     auto& s = b.settings;
     a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
-    a(s.placement), a(s.linker), a(s.cut), a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
+    a(s.placement), a(s.linker), a(s.cut), a(s.storage), a(s.chromaBands);
+    a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
     a(s.grid), a(s.maxBounces), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
     auto& c = b.counts;
     a(c.triangles), a(c.surfels), a(c.clusters), a(c.caches), a(c.invalidCaches), a(c.links),
@@ -69,8 +70,8 @@ void treeFields(A& a, B& b) {
 template <class A, class B>
 void cacheFields(A& a, B& b) {
     auto& c = b.caches;
-    a(c.lightmapCount), a(c.kind), a(c.position), a(c.normal), a(c.texel), a(c.linkBegin),
-        a(c.links);
+    a(c.lightmapCount), a(c.kind), a(c.position), a(c.normal), a(c.texel);
+    a(c.linkBegin), a(c.linkExponent), a(c.links), a(c.shNode), a(c.shCoefficients);
     a(c.fillBegin), a(c.fillSource), a(c.fillWeight);
 }
 
@@ -96,6 +97,25 @@ std::string packChunk(const char* name, const std::string& plain) {
     return out.bytes + packed;
 }
 
+/// The links are of the settings' storage, whole, and of nodes that there are.
+std::string linkDefect(const Bake& b) {
+    const Caches& c = b.caches;
+    const bool rtp = b.settings.storage == LinkStorage::Rtp;
+    const std::size_t coefficients = std::size_t(b.settings.bands) * b.settings.bands;
+    if (c.linkExponent.size() != c.size() || !(rtp ? c.shNode.empty() : c.links.empty()) ||
+        c.shCoefficients.size() != c.shNode.size() * coefficients)
+        return "CACHES: links of another storage";
+    if (c.linkBegin.front() != 0 || c.linkBegin.back() != c.linkCount())
+        return "CACHES: offsets do not cover the links";
+    for (const Link& l : c.links)
+        if (l.node >= b.tree.size())
+            return "CACHES: link out of range";
+    for (const std::uint32_t node : c.shNode)
+        if (node >= b.tree.size())
+            return "CACHES: link out of range";
+    return {};
+}
+
 /// Every index that relighting follows lies within its array.
 std::string indexDefect(const Bake& b) {
     const Surfels& s = b.surfels;
@@ -117,6 +137,10 @@ std::string indexDefect(const Bake& b) {
         return "SETTINGS: unknown linker";
     if (b.settings.cut > CutCriterion::SolidAngle)
         return "SETTINGS: unknown cut";
+    if (b.settings.storage > LinkStorage::Sh)
+        return "SETTINGS: unknown storage";
+    if (b.settings.bands < 2 || b.settings.bands > 8)
+        return "SETTINGS: bands out of range";
     if (b.settings.clustering > Clustering::KdTree)
         return "SETTINGS: unknown clustering";
     if (t.surfels != n || t.skyDirection.size() != t.skyCells || t.right.size() != t.left.size() ||
@@ -137,16 +161,12 @@ std::string indexDefect(const Bake& b) {
         if (c.linkBegin[i] > c.linkBegin[i + 1] || c.fillBegin[i] > c.fillBegin[i + 1])
             return "CACHES: offsets run backwards";
     }
-    if (c.linkBegin.front() != 0 || c.linkBegin.back() != c.links.size() ||
-        c.fillBegin.front() != 0 || c.fillBegin.back() != c.fillSource.size())
-        return "CACHES: offsets do not cover the links";
-    for (const Link& l : c.links)
-        if (l.node >= nodes)
-            return "CACHES: link out of range";
+    if (c.fillBegin.front() != 0 || c.fillBegin.back() != c.fillSource.size())
+        return "CACHES: offsets do not cover the sources";
     for (const std::uint32_t source : c.fillSource)
         if (source >= caches)
             return "CACHES: fill source out of range";
-    return {};
+    return linkDefect(b);
 }
 
 std::string layoutDefect(const LightmapLayout& l) {

@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "
 inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
 inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
 inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};
+inline constexpr std::array<std::string_view, 2> kStorageNames = {"rtp", "sh"};
 inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
@@ -118,6 +119,8 @@ void describeBakeSettings(Fields& fields, T& b) {
     fields("placement", b.placement, kPlacementNames);
     fields("linker", b.linker, kLinkerNames);
     fields("cut", b.cut, kCutNames);
+    fields("storage", b.storage, kStorageNames);
+    fields("chromaBands", b.chromaBands, FieldRange{0, 8});
     fields("clustering", b.clustering, kClusteringNames);
     fields("clusterNormalWeight", b.clusterNormalWeight, FieldRange{0, 100});
     fields("clusterBalanceWeight", b.clusterBalanceWeight, FieldRange{0, 100});

@@ -18,8 +18,8 @@ std::uint16_t floatToHalf(float value);
 inline float halfToFloat(std::uint16_t h) {
     // Exponent and mantissa moved into a float are 2^112 too small; denormals come out right as
     // well.
-    const float magnitude = std::bit_cast<float>(std::uint32_t(h & 0x7fffU) << 13) * 0x1p112f;
-    return (h & 0x8000U) ? -magnitude : magnitude;
+    const std::uint32_t bits = (h & 0x7fffU) << 13 | (h & 0x8000U) << 16;
+    return std::bit_cast<float>(bits) * 0x1p112f;
 }
 
 /// Unit vector <-> octahedron in 2 x 16-bit snorm; error below 6.5e-5 rad.

@@ -2,7 +2,7 @@
 #include "engine/overlay/link_cut.h"
 
 #include "engine/bake/atlas.h"
-#include "engine/math/packing.h"
+#include "engine/bake/link_storage.h"
 
 #include <algorithm>
 #include <map>
@@ -40,9 +40,9 @@ LinkCut linkCut(const Bake& bake, std::uint32_t cache) {
     cut.nodeWeight.assign(bake.tree.leaves(), 0);
     std::map<std::uint32_t, float> weights;
     for (std::uint32_t k = caches.linkBegin[cache]; k < caches.linkBegin[cache + 1]; ++k) {
-        const float transport = halfToFloat(caches.links[k].transport);
-        weights[caches.links[k].node] += transport;
-        cut.total += double(transport);
+        const LinkWeight link = linkWeight(caches, cache, k);
+        weights[link.node] += link.transport;
+        cut.total += double(link.transport);
     }
     for (const auto& [node, weight] : weights)
         cut.nodes.push_back({node, weight, addLeaves(bake.tree, node, weight, cut)});

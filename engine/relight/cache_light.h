@@ -12,10 +12,23 @@ namespace limn {
 /// `radiosity` has one entry per node, leaves filled in.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec3>& radiosity);
 
+/// How many bands are lit; chroma in [1, luma].
+struct LightBands {
+    int luma = 3, chroma = 3;
+};
+
 /// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links of
-/// B transport g_l(u) Y_i(direction). Invalid caches in the range are left 0.
-void lightCaches(const Caches& caches, const std::vector<glm::vec3>& radiosity, int bands,
+/// B transport g_l(u) Y_i(direction), bands = bands.luma, with links of either storage. From band
+/// bands.chroma on the light is grey: its luma alone, half of which is green. Invalid caches in the
+/// range are left 0.
+/// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
+/// with Chrominance Compression. 2016
+void lightCaches(const Caches& caches, const std::vector<glm::vec3>& radiosity, LightBands bands,
                  std::uint32_t begin, std::uint32_t end, std::vector<glm::vec3>& sh);
+
+/// Makes the bands of the caches [begin, end) from bands.chroma on grey.
+void dropChroma(LightBands bands, std::uint32_t begin, std::uint32_t end,
+                std::vector<glm::vec3>& sh);
 
 /// Fills the invalid caches of [begin, end) from the valid ones that stand in for them.
 void fillInvalidCaches(const Caches& caches, int bands, std::uint32_t begin, std::uint32_t end,

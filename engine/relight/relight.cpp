@@ -39,6 +39,7 @@ private:
 struct Relighter::State {
     std::shared_ptr<const Bake> bake;
     int bands;
+    LightBands bounceBands, finalBands;
     bool started = false, converged = false;
     std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
 
@@ -63,6 +64,10 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake) : m_state(std::make_uniqu
     State& s = *m_state;
     s.bake = std::move(bake);
     s.bands = int(s.bake->settings.bands);
+    s.finalBands = {s.bands, int(chromaBandsOf(s.bake->settings))};
+    // A surface gets half of its irradiance from the second band: without its colour every bounce
+    // would grey the light.
+    s.bounceBands = {s.bands, std::max(s.finalBands.chroma, 2)};
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
     s.radiosity.assign(s.bake->tree.size(), glm::vec3(0));
     s.sh.assign(s.bake->caches.size() * std::size_t(s.bands * s.bands), glm::vec3(0));
@@ -199,7 +204,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         stats.surfelLightMs += timer.lap();
         pullRadiosity(s.bake->tree, s.radiosity);
         stats.pullMs += timer.lap();
-        lightCaches(caches, s.radiosity, s.bands, 0, caches.lightmapCount, s.sh);
+        lightCaches(caches, s.radiosity, s.bounceBands, 0, caches.lightmapCount, s.sh);
         fillInvalidCaches(caches, s.bands, 0, caches.lightmapCount, s.sh);
         stats.cacheLightMs += timer.lap();
         s.readCaches();
@@ -208,7 +213,9 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         if (progress.cancelled())
             break;
     }
-    lightCaches(caches, s.radiosity, s.bands, caches.lightmapCount, all, s.sh);
+    if (s.finalBands.chroma < s.bounceBands.chroma)
+        dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);
+    lightCaches(caches, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh);
     fillInvalidCaches(caches, s.bands, caches.lightmapCount, all, s.sh);
     s.writeField();
     stats.cacheLightMs += timer.lap();

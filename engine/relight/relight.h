@@ -41,7 +41,7 @@ public:
     const std::vector<glm::vec3>& radiosity() const;
 
     /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
-    /// the bake's settings.
+    /// the bake's settings. From band chromaBandsOf(settings) on they are grey.
     const std::vector<glm::vec3>& cacheSh() const;
 
 private:

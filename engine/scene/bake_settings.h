@@ -23,6 +23,11 @@ enum class Linker : std::uint8_t { Gather, FormFactor };
 /// many links as it is worth; or, as the paper has it, n_L of the largest visible solid angle.
 enum class CutCriterion : std::uint8_t { Detail, SolidAngle };
 
+/// How links are kept. Rtp: as cones whose spherical harmonics are worked out while lighting, 12
+/// bytes each. Sh: as those spherical harmonics, 4 + 2 bands^2 bytes each. They give the same light
+/// up to the rounding of halfs.
+enum class LinkStorage : std::uint8_t { Rtp, Sh };
+
 /// What a bake depends on besides the scene. Part of the document. Defaults suit a room or a small
 /// building.
 struct BakeSettings {
@@ -40,11 +45,21 @@ struct BakeSettings {
     Linker linker = Linker::Gather;
     CutCriterion cut = CutCriterion::Detail;
 
+    LinkStorage storage = LinkStorage::Rtp;
+    /// Bands of the lit caches' chrominance, [0, 8]; 0, or more than `bands`: as many as `bands`.
+    /// With 1 surfaces show half of the bounced light's colour.
+    std::uint32_t chromaBands = 0;
+
     Clustering clustering = Clustering::Agglomerative;
     float clusterNormalWeight = 0.1f;   ///< C_n of the clusters' metric; [0, 100]
     float clusterBalanceWeight = 0.02f; ///< C_b, of agglomerative clusters only; [0, 100]
 
     bool operator==(const BakeSettings&) const = default;
 };
+
+/// The number of bands that `chromaBands` stands for, [1, bands].
+inline std::uint32_t chromaBandsOf(const BakeSettings& s) {
+    return s.chromaBands == 0 || s.chromaBands > s.bands ? s.bands : s.chromaBands;
+}
 
 } // namespace limn

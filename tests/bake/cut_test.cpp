@@ -6,8 +6,8 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut_worth.h"
 #include "engine/bake/input_hash.h"
+#include "engine/bake/link_storage.h"
 #include "engine/bake/trace_stage.h"
-#include "engine/math/packing.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -246,7 +246,7 @@ TEST(Cut, TransportSumsToTheSolidAngleOfAnEnclosure) {
     for (std::uint32_t c = caches.lightmapCount; c < caches.size(); ++c) {
         float sum = 0;
         for (std::uint32_t k = caches.linkBegin[c]; k < caches.linkBegin[c + 1]; ++k)
-            sum += halfToFloat(caches.links[k].transport);
+            sum += linkWeight(caches, c, k).transport;
         if (sum > 0) { // a cell of the grid in the open: all around, over pi
             EXPECT_NEAR(sum, 4, 4e-3);
         }

@@ -70,6 +70,35 @@ TEST_F(BakeFile, LoadsBackToIdenticalResults) {
     EXPECT_EQ(first.field(), second.field());
 }
 
+TEST_F(BakeFile, LoadsBackLinksInShStorage) {
+    scene.bake.storage = LinkStorage::Sh;
+    scene.bake.chromaBands = 2;
+    baked = *bake(TraceScene(scene));
+    ASSERT_FALSE(baked.caches.shNode.empty());
+    ASSERT_TRUE(writeBake(path, baked));
+    const Result<Bake> loaded = readBake(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->settings, baked.settings);
+    EXPECT_EQ(loaded->caches, baked.caches);
+    EXPECT_EQ(loaded->hash(), baked.hash());
+
+    const auto refusal = [&](auto damage) {
+        Bake broken = baked;
+        damage(broken);
+        EXPECT_TRUE(writeBake(path, broken));
+        const Result<Bake> read = readBake(path);
+        return read ? "nothing" : read.error().message;
+    };
+    EXPECT_NE(refusal([](Bake& b) { b.caches.shNode[3] = 1U << 30; }).find("link out of range"),
+              std::string::npos);
+    for (const std::string& message :
+         {refusal([](Bake& b) { b.caches.shCoefficients.pop_back(); }),
+          refusal([](Bake& b) { b.settings.bands = 4; }),
+          refusal([](Bake& b) { b.settings.storage = LinkStorage::Rtp; }),
+          refusal([](Bake& b) { b.caches.linkExponent.pop_back(); })})
+        EXPECT_NE(message.find("links of another storage"), std::string::npos) << message;
+}
+
 TEST_F(BakeFile, EveryTruncationIsAnErrorThatNamesTheFile) {
     ASSERT_TRUE(writeBake(path, baked));
     const std::string whole = contents();

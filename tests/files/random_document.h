@@ -146,6 +146,8 @@ private:
             b.placement = SurfelPlacement(below(3));
             b.linker = Linker(below(2));
             b.cut = CutCriterion(below(2));
+            b.storage = LinkStorage(below(2));
+            b.chromaBands = below(9);
             b.clustering = Clustering(below(2));
             b.clusterNormalWeight = unit();
             b.clusterBalanceWeight = unit();

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight/cache_light.h"
+
+#include "engine/math/ycocg.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+Bake bakedRoom(LinkStorage storage, std::uint32_t bands) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    b.add(box(glm::vec3(1, 0.3f, 1), glm::vec3(2, 2, 2), false));
+    Scene scene = b.build();
+    scene.bake.storage = storage;
+    scene.bake.bands = bands;
+    scene.bake.surfels = 500;
+    scene.bake.lightmapCaches = 200;
+    scene.bake.rays = 128;
+    scene.bake.links = 24;
+    scene.bake.grid = {3, 2, 3};
+    Result<Bake> baked = bake(TraceScene(scene));
+    EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
+    return baked ? std::move(*baked) : Bake{};
+}
+
+/// Radiosity of very different strengths, pulled up the tree.
+std::vector<glm::vec3> randomRadiosity(const ClusterTree& tree, bool grey) {
+    std::mt19937 rng(9);
+    std::exponential_distribution<float> strength;
+    std::vector<glm::vec3> radiosity(tree.size());
+    for (std::uint32_t s = 0; s < tree.leaves(); ++s)
+        radiosity[s] = grey ? glm::vec3(strength(rng))
+                            : glm::vec3(strength(rng), strength(rng), strength(rng));
+    pullRadiosity(tree, radiosity);
+    if (grey) // exactly, whatever the pull rounds
+        for (glm::vec3& b : radiosity)
+            b = glm::vec3(b.x);
+    return radiosity;
+}
+
+std::vector<glm::vec3> lit(const Bake& baked, const std::vector<glm::vec3>& radiosity,
+                           LightBands bands) {
+    const auto all = std::uint32_t(baked.caches.size());
+    std::vector<glm::vec3> sh(all * std::size_t(bands.luma * bands.luma));
+    lightCaches(baked.caches, radiosity, bands, 0, all, sh);
+    fillInvalidCaches(baked.caches, bands.luma, 0, all, sh);
+    return sh;
+}
+
+TEST(LightCaches, GivesTheSameLightFromEitherStorage) {
+    for (std::uint32_t bands = 2; bands <= 8; ++bands) {
+        const Bake cones = bakedRoom(LinkStorage::Rtp, bands),
+                   harmonics = bakedRoom(LinkStorage::Sh, bands);
+        EXPECT_TRUE(cones.caches.shNode.empty());
+        EXPECT_TRUE(harmonics.caches.links.empty());
+        EXPECT_EQ(cones.caches.linkBegin, harmonics.caches.linkBegin);
+        const std::vector<glm::vec3> radiosity = randomRadiosity(cones.tree, false);
+        const auto a = lit(cones, radiosity, {int(bands), int(bands)}),
+                   b = lit(harmonics, radiosity, {int(bands), int(bands)});
+        const std::size_t count = std::size_t(bands) * bands;
+        double worst = 0;
+        for (std::size_t c = 0; c < cones.caches.size(); ++c) {
+            double difference = 0, size = 0;
+            for (std::size_t i = c * count; i < (c + 1) * count; ++i) {
+                difference += double(glm::dot(a[i] - b[i], a[i] - b[i]));
+                size += double(glm::dot(a[i], a[i]));
+            }
+            worst = std::max(worst, std::sqrt(difference / std::max(size, 1e-30)));
+        }
+        EXPECT_LT(worst, 2e-3) << bands << " bands";
+        EXPECT_GT(worst, 0) << "halfs round differently";
+    }
+}
+
+TEST(LightCaches, GreyLightIsTheSameHoweverFewBandsKeepTheirColour) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        for (const int bands : {2, 3, 4, 8}) {
+            const Bake baked = bakedRoom(storage, std::uint32_t(bands));
+            const std::vector<glm::vec3> radiosity = randomRadiosity(baked.tree, true);
+            const auto whole = lit(baked, radiosity, {bands, bands});
+            for (int chroma = 1; chroma < bands; ++chroma)
+                EXPECT_TRUE(lit(baked, radiosity, {bands, chroma}) == whole)
+                    << bands << " bands, " << chroma << " of chrominance";
+        }
+}
+
+TEST(LightCaches, FewerChromaBandsLoseOnlyTheColourAboveThem) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        for (int bands = 2; bands <= 8; ++bands) {
+            const Bake baked = bakedRoom(storage, std::uint32_t(bands));
+            const std::vector<glm::vec3> radiosity = randomRadiosity(baked.tree, false);
+            const auto whole = lit(baked, radiosity, {bands, bands});
+            const auto count = std::size_t(bands * bands);
+            double lost = 0;
+            for (int chroma = 1; chroma < bands; ++chroma) {
+                const auto few = lit(baked, radiosity, {bands, chroma});
+                for (std::size_t i = 0; i < few.size(); ++i) {
+                    const YCoCg is = toYCoCg(few[i]), was = toYCoCg(whole[i]);
+                    const bool kept = int(i % count) < chroma * chroma;
+                    // Against the cache's mean radiance: rounding of sums.
+                    const float near = 2e-5f * whole[i / count * count].y;
+                    ASSERT_NEAR(is.y, was.y, near) << bands << " bands, " << chroma;
+                    ASSERT_NEAR(is.co, kept ? was.co : 0, near) << bands << " bands, " << chroma;
+                    ASSERT_NEAR(is.cg, kept ? was.cg : 0, near) << bands << " bands, " << chroma;
+                    lost += kept ? 0 : std::abs(double(was.co));
+                }
+            }
+            EXPECT_GT(lost, 0) << "the light has colour in its higher bands";
+        }
+}
+
+} // namespace
+} // namespace limn
