@@ -30,6 +30,11 @@ struct BakeCommand {
     bool json = false;
 };
 
+void printBytes(const nlohmann::json& bytes) {
+    for (const auto& [name, count] : bytes.items())
+        fmt::print("{:<10} {:8.2f} MiB\n", name, double(count.get<std::uint64_t>()) / (1 << 20));
+}
+
 void print(const Bake& bake) {
     const nlohmann::json summary = bakeSummary(bake);
     for (const auto& [stage, seconds] : bake.seconds)
@@ -37,8 +42,7 @@ void print(const Bake& bake) {
     fmt::print("{:<10} {:8.2f} s\n", "total", summary["seconds"]["total"].get<double>());
     for (const auto& [name, count] : summary["counts"].items())
         fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
-    for (const auto& [name, bytes] : summary["bytes"].items())
-        fmt::print("{:<10} {:8.2f} MiB\n", name, double(bytes.get<std::uint64_t>()) / (1 << 20));
+    printBytes(summary["bytes"]);
     for (const std::string& note : bake.notes)
         fmt::print("{}\n", note);
     fmt::print("hash {}\n", summary["hash"].get<std::string>());
@@ -58,6 +62,14 @@ Exit runBake(const BakeCommand& command) {
     if (command.noStore)
         options.folder.clear();
     StageStore store(options);
+    const std::uint64_t caches = expectedCaches(scene);
+    const nlohmann::json predicted =
+        bytesSummary(predictBytes(scene.bake, scene.bake.surfels, caches));
+    if (!command.json) {
+        fmt::print("About {} caches; at most\n", caches);
+        printBytes(predicted);
+        std::fflush(stdout);
+    }
     const Result<Bake> baked =
         bake(TraceScene(scene), progressOnStderr(), command.noStore ? nullptr : &store);
     endProgressLine();
@@ -68,10 +80,13 @@ Exit runBake(const BakeCommand& command) {
         return failed(fmt::format("{}: {}", command.scene.scene, baked.error().message));
     if (const Result<void> written = writeBake(command.output, *baked); !written)
         return failed(written.error().message);
-    if (command.json)
-        fmt::print("{}\n", bakeSummary(*baked).dump());
-    else
+    if (command.json) {
+        nlohmann::json summary = bakeSummary(*baked);
+        summary["predicted_bytes"] = predicted;
+        fmt::print("{}\n", summary.dump());
+    } else {
         print(*baked);
+    }
     return Exit::Done;
 }
 

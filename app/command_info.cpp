@@ -104,6 +104,23 @@ static Result<Json> describeResult(const Result<T>& read) {
     return describe(*read);
 }
 
+// What the bake's links and all of it would take in either storage, as Table 4 of Jendersie, Kuri,
+// Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition with Chrominance
+// Compression. 2016
+static Json storageTable(const Bake& bake) {
+    Json table = Json::array();
+    for (std::uint32_t bands = 2; bands <= 8; ++bands) {
+        const BakeBytes rtp = bytesOf(bake, LinkStorage::Rtp, bands),
+                        sh = bytesOf(bake, LinkStorage::Sh, bands);
+        table.push_back({{"bands", bands},
+                         {"rtp_links", rtp.links},
+                         {"sh_links", sh.links},
+                         {"rtp_total", rtp.total()},
+                         {"sh_total", sh.total()}});
+    }
+    return table;
+}
+
 static Json describe(const Bake& bake) {
     Json json;
     json["kind"] = "bake";
@@ -114,6 +131,8 @@ static Json describe(const Bake& bake) {
                         {"rays", s.rays},
                         {"placement", kPlacementNames[std::size_t(s.placement)]},
                         {"linker", kLinkerNames[std::size_t(s.linker)]},
+                        {"storage", kStorageNames[std::size_t(s.storage)]},
+                        {"chroma_bands", chromaBandsOf(s)},
                         {"cut", kCutNames[std::size_t(s.cut)]},
                         {"clustering", kClusteringNames[std::size_t(s.clustering)]},
                         {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
@@ -127,6 +146,7 @@ static Json describe(const Bake& bake) {
     const nlohmann::json summary = bakeSummary(bake);
     for (const auto& [key, value] : summary.items())
         json[key] = value;
+    json["storage_bytes"] = storageTable(bake);
     return json;
 }
 
@@ -146,9 +166,23 @@ static std::string valueText(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+static void printStorageTable(const Json& table) {
+    fmt::print("\n{:>5} {:>15} {:>14} {:>15} {:>14}\n", "bands", "RTP links [MiB]",
+               "SH links [MiB]", "RTP total [MiB]", "SH total [MiB]");
+    const auto mib = [](const Json& bytes) {
+        return double(bytes.get<std::uint64_t>()) / (1 << 20);
+    };
+    for (const Json& row : table)
+        fmt::print("{:>5} {:>15.2f} {:>14.2f} {:>15.2f} {:>14.2f}\n", row["bands"].dump(),
+                   mib(row["rtp_links"]), mib(row["sh_links"]), mib(row["rtp_total"]),
+                   mib(row["sh_total"]));
+}
+
 static void printForPeople(const Json& json) {
     for (const auto& [key, value] : json.items()) {
-        if (value.is_object()) {
+        if (key == "storage_bytes") {
+            printStorageTable(value);
+        } else if (value.is_object()) {
             for (const auto& [inner, number] : value.items())
                 fmt::print("{:<12} {} {}\n", key, inner, valueText(number));
         } else if (value.is_array()) {

@@ -81,6 +81,17 @@ static void cutRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Cut");
 }
 
+static void storageRow(FieldEdit& edit, BakeSettings& s) {
+    int how = int(s.storage);
+    fieldLabel("Link storage",
+               "How links are kept. Cones (RTP): 12 bytes each, turned into SH whenever light "
+               "changes. SH: turned once by the bake, 4 + 2 l\u00b2 bytes each. Both give the same "
+               "light");
+    if (ImGui::Combo("##storage", &how, "Cones (RTP)\0SH\0"))
+        s.storage = LinkStorage(how);
+    fieldEdited(edit, "Link storage");
+}
+
 static void clusterRows(FieldEdit& edit, BakeSettings& s) {
     int how = int(s.clustering);
     fieldLabel("Clustering",
@@ -104,6 +115,17 @@ static void clusterRows(FieldEdit& edit, BakeSettings& s) {
         weightRow("Balance weight (C_b)",
                   "How much clusters of like area are joined first. More: a tree of less depth",
                   s.clusterBalanceWeight);
+}
+
+static void memoryLine(const EditorState& state, const BakeSettings& s) {
+    const BakeBytes b = predictBytes(s, s.surfels, state.expectedCaches);
+    ImGui::Spacing();
+    ImGui::TextDisabled("Memory: up to %s", byteText(b.total()).c_str());
+    wrappedTooltip(("What a bake with these settings takes at most. Links " + byteText(b.links) +
+                    ", surfels " + byteText(b.surfels) + ", clusters " + byteText(b.clusters) +
+                    ", caches " + byteText(b.caches) + ", of which there will be about " +
+                    groupedNumber(state.expectedCaches))
+                       .c_str());
 }
 
 static void bakeStateLine(EditorState& state) {
@@ -155,12 +177,17 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
     countRow(edit, "SH bands",
              "Bands of spherical harmonics per cache, l\u00b2 numbers each. 3 for diffuse light",
              s.bands, 2, 8, "SH bands");
+    countRow(edit, "Chroma bands",
+             "Bands that keep their colour; what lies above is grey. Fewer: quicker to relight. "
+             "0: all of them",
+             s.chromaBands, 0, s.bands, "Chroma bands");
     countRow(edit, "Rays per cache",
              "Rays traced from each cache while baking. More: less noise, longer bake", s.rays, 16,
              65536, "Rays");
     ImGui::Separator();
     linkerRow(edit, s);
     cutRow(edit, s);
+    storageRow(edit, s);
     clusterRows(edit, s);
     ImGui::Separator();
     lightmapRows(edit, s);
@@ -168,6 +195,7 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
     ImGui::Separator();
     countRow(edit, "Most bounces", "Relighting stops earlier once the light no longer changes",
              s.maxBounces, 1, 256, "Bounces");
+    memoryLine(edit.state, s);
     bakeStateLine(edit.state);
 }
 

@@ -107,6 +107,7 @@ struct EditorState {
     std::string paletteFilter;
     bool autoBake = false;
 
+    std::uint64_t expectedCaches = 0;        ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;
     BakeStatus bake;

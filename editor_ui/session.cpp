@@ -124,6 +124,7 @@ void Session::takeOpened() {
     m_followed = state.document.objects;
     state.view.camera = chooseCamera(*m_scene, {});
     state.sceneBounds = m_scene->bounds;
+    state.expectedCaches = expectedCaches(*m_scene);
     state.view.flySpeed = std::max(glm::length(m_scene->bounds.size()) / 8, 0.01f);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
@@ -204,6 +205,7 @@ void Session::followDocument() {
     const bool sameList = sameInstances(*m_scene, *scene);
     m_scene = std::move(scene);
     state.sceneBounds = m_scene->bounds;
+    state.expectedCaches = expectedCaches(*m_scene);
     if (!sameList)
         fitLayout();
     m_relightJob.setScene(m_scene);

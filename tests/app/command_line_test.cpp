@@ -93,7 +93,8 @@ TEST_F(CommandLine, ExitsWith2OnBadUsage) {
          {"", "nonsense", "bake", "bake cornell", "bake cornell -o x --frobnicate",
           "bake cornell -o x --surfels many", "bake cornell -o x --surfels -5",
           "bake cornell -o x --grid 3x3", "bake cornell -o x --grid -1x3x3",
-          "bake cornell -o x --bands 9", "reference cornell",
+          "bake cornell -o x --bands 9", "bake cornell -o x --storage zip",
+          "bake cornell -o x --chroma-bands 9", "reference cornell",
           "reference cornell -o x.exr --spp none", "reference cornell -o x.exr --view nonsense",
           "compare one.exr", "info"}) {
         const Outcome run = limn(arguments);
@@ -155,7 +156,11 @@ TEST_F(CommandLine, BakeRefusesWhatItCannotReadOrWrite) {
 TEST_F(CommandLine, BakePrintsOneJsonObjectAndInfoReadsTheFile) {
     const std::string bake = path("box.limnbake");
     const nlohmann::json baked = json("bake cornell" + kCoarse + "--json -o " + bake);
-    expectKeys(baked, {"seconds", "counts", "bytes", "hash"});
+    expectKeys(baked, {"seconds", "counts", "bytes", "predicted_bytes", "hash"});
+    for (const char* part : {"surfels", "clusters", "links", "caches", "total"})
+        EXPECT_NEAR(baked["predicted_bytes"][part], baked["bytes"][part],
+                    0.1 * baked["bytes"][part].get<double>())
+            << part;
     expectKeys(baked["seconds"], {"total"});
     expectKeys(baked["counts"],
                {"triangles", "surfels", "clusters", "caches", "invalid_caches", "links", "rays"});
@@ -164,7 +169,20 @@ TEST_F(CommandLine, BakePrintsOneJsonObjectAndInfoReadsTheFile) {
     EXPECT_EQ(json("bake cornell" + kCoarse + "--threads 1 --json -o " + bake)["hash"],
               baked["hash"]);
 
-    EXPECT_FALSE(json("info --json " + bake).empty());
+    const nlohmann::json info = json("info --json " + bake);
+    EXPECT_EQ(info["settings"]["storage"], "rtp");
+    ASSERT_EQ(info["storage_bytes"].size(), 7u);
+    EXPECT_EQ(info["storage_bytes"][1]["bands"], 3);
+    EXPECT_EQ(info["storage_bytes"][1]["rtp_links"], baked["bytes"]["links"]);
+    EXPECT_EQ(info["storage_bytes"][1]["rtp_total"], baked["bytes"]["total"]);
+    EXPECT_NE(limn("info " + bake).out.find("SH links [MiB]"), std::string::npos);
+
+    const std::string harmonics = path("sh.limnbake");
+    const nlohmann::json sh =
+        json("bake cornell" + kCoarse + "--storage sh --chroma-bands 2 --json -o " + harmonics);
+    EXPECT_EQ(info["storage_bytes"][1]["sh_total"], sh["bytes"]["total"]);
+    EXPECT_EQ(json("info --json " + harmonics)["settings"]["storage"], "sh");
+    EXPECT_EQ(json("info --json " + harmonics)["settings"]["chroma_bands"], 2);
     const std::string whole = contents(bake);
     write(bake, whole.substr(0, whole.size() / 2));
     expectRefusal("info " + bake, "box.limnbake");
