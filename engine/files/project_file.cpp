@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/project_file.h"
 
-#include "engine/files/document_json.h"
 #include "engine/core/replace_file.h"
+#include "engine/files/document_json.h"
 
 #include <cerrno>
 #include <cstring>
