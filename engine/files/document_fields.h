@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/files/enum_names.h"
 #include "engine/scene/document.h"
 
-#include <array>
 #include <limits>
 #include <string_view>
 
@@ -18,15 +18,6 @@ struct FieldRange {
 };
 inline constexpr FieldRange kNotNegative{0};
 inline constexpr FieldRange kUnitRange{0, 1};
-
-inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp", "mirror"};
-inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
-inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "point", "spot"};
-inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
-inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
-inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};
-inline constexpr std::array<std::string_view, 2> kStorageNames = {"rtp", "sh"};
-inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace limn {
+
+// What files and flags call the values of the document's enumerations, in their order.
+
+inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp", "mirror"};
+inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
+inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "point", "spot"};
+inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
+inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
+inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};
+inline constexpr std::array<std::string_view, 2> kStorageNames = {"rtp", "sh"};
+inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
+
+} // namespace limn
