@@ -9,7 +9,6 @@
 #include "engine/core/parallel.h"
 #include "engine/core/replace_file.h"
 #include "engine/files/document_fields.h"
-#include "engine/math/sh.h"
 #include "engine/measure/cache_error.h"
 #include "engine/relight/relight.h"
 
@@ -18,7 +17,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 namespace limn {
@@ -82,10 +80,7 @@ CacheReference withoutCut(const TraceScene& trace, const std::shared_ptr<const B
     CacheReference result;
     for (std::uint32_t c = 0; c < bake->caches.lightmapCount; ++c) {
         result.cache.push_back(c);
-        result.irradiance.push_back(
-            glm::max(shIrradiance(bands, sh.data() + std::size_t(c) * std::size_t(bands * bands),
-                                  bake->caches.normal[c]),
-                     glm::vec3(0)));
+        result.irradiance.push_back(cacheIrradiance(bake->caches, bands, sh, c));
     }
     return result;
 }

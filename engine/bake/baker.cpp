@@ -140,13 +140,18 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     const std::vector<float> seen =
         seenByCaches(set.surfels, hits, points, result.caches, result.tree);
     weighBySight(seen, result.tree);
-    const TracedTraining light = keptOrMade<TracedTraining>(
-        store, hashValue(traced->key, 23), progress,
-        [](auto& archive, auto& t) { archive(t.irradiance); },
-        [&] { return traceTraining(trace, set.surfels, progress); });
-    if (progress.cancelled())
-        return cancelled();
-    const TrainingLight training = trainingLight(scene, set.surfels, result.tree, seen, light);
+    TrainingLight training; // read by the detail cut alone
+    std::uint64_t trainingRays = 0;
+    if (scene.bake.cut == CutCriterion::Detail) {
+        const TracedTraining light = keptOrMade<TracedTraining>(
+            store, hashValue(traced->key, 23), progress,
+            [](auto& archive, auto& t) { archive(t.irradiance); },
+            [&] { return traceTraining(trace, set.surfels, progress); });
+        if (progress.cancelled())
+            return cancelled();
+        training = trainingLight(scene, set.surfels, result.tree, seen, light);
+        trainingRays = light.rays;
+    }
     clock.finish("training");
     if (!buildLinks(set.surfels, result.tree, hits, points, training,
                     {scene.bake.cut, scene.bake.links, int(scene.bake.bands), scene.bake.storage},
@@ -157,7 +162,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
 
     result.lightmap = std::move(atlas.layout);
     result.surfels = std::move(set.surfels);
-    result.counts = countOf(scene, result, traced->rays + light.rays);
+    result.counts = countOf(scene, result, traced->rays + trainingRays);
     result.counts.invalidCaches = invalid;
     return result;
 }

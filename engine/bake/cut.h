@@ -27,7 +27,7 @@ struct CutSettings {
 
 /// Fills the links of `caches`, in the settings' storage: for each valid cache nodes of the tree
 /// that together cover all it saw. A cache whose every point lies in a wall is invalid and gets
-/// none. Traces nothing. Returns false when cancelled.
+/// none. Traces nothing. Returns false when cancelled. `training` is read for Detail only.
 ///
 /// SolidAngle, the paper's: each cache refines its node of the largest visible solid angle, down to
 /// at most n_L links. Detail: the refinements of all caches that lower the error of irradiance most

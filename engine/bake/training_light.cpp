@@ -40,7 +40,7 @@ std::vector<Light> lamps(const TraceScene& trace, const Surfels& surfels) {
     for (std::uint32_t k = 0; k < kLamps; ++k) {
         const std::size_t s = (2 * k + 1) * surfels.size() / (2 * kLamps);
         const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
-        const Hit hit = trace.closestHit({p + n * trace.epsilonAt(p), n}, TraceMask::Static);
+        const Hit hit = trace.closestHit({trace.clearOf(p, n), n}, TraceMask::Static);
         Light lamp;
         lamp.kind = LightKind::Point;
         lamp.position = p + n * ((hit ? hit.t : extent / 4) / 2);
@@ -58,8 +58,7 @@ float irradiance(const TraceScene& trace, const Light& light, glm::vec3 p, glm::
     if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
         return 0;
     ++rays;
-    const float epsilon = trace.epsilonAt(p);
-    const Ray ray{p + n * epsilon, sample.toLight, 0, sample.distance - epsilon};
+    const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
     return trace.occluded(ray, TraceMask::Static) ? 0 : sample.irradiance.x * cosTheta;
 }
 

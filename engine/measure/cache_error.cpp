@@ -40,7 +40,7 @@ glm::vec3 emitterIrradiance(const TraceScene& trace, const Emitters& emitters, g
             shift + glm::vec3(radicalInverse(r, 2), radicalInverse(r, 3), radicalInverse(r, 5)));
         const EmitterSample s =
             sampleEmitter(emitters, trace.scene(), origin, u.z, glm::vec2(u.x, u.y));
-        const glm::vec3 way = s.position + s.normal * trace.epsilonAt(s.position) - origin;
+        const glm::vec3 way = trace.clearOf(s.position, s.normal) - origin;
         const float distance = glm::length(way);
         const float cosTheta = glm::dot(normal, way) / distance;
         if (s.radiance == glm::vec3(0) || !(cosTheta > 0) || !(s.pdf > 0) ||
@@ -55,7 +55,7 @@ PointGather gatherPoint(const TraceScene& trace, const Emitters& emitters, glm::
                         glm::vec3 normal, std::uint32_t rays, std::uint32_t seed) {
     const DirectionSet directions(rays, false, seed);
     const glm::mat3 toWorld = basisAround(normal);
-    const glm::vec3 origin = position + normal * trace.epsilonAt(position);
+    const glm::vec3 origin = trace.clearOf(position, normal);
     PointGather result;
     glm::vec3 emitted{0};
     std::uint32_t lamps = 0; // rays that met one
@@ -154,15 +154,19 @@ CacheReference referenceIrradiance(const TraceScene& trace, const Caches& caches
     return result;
 }
 
+glm::vec3 cacheIrradiance(const Caches& caches, int bands, const std::vector<glm::vec3>& sh,
+                          std::uint32_t cache) {
+    const std::size_t first = std::size_t(cache) * std::size_t(bands * bands);
+    return glm::max(shIrradiance(bands, sh.data() + first, caches.normal[cache]), glm::vec3(0));
+}
+
 CacheError compareCaches(const CacheReference& reference, const Caches& caches, int bands,
                          const std::vector<glm::vec3>& sh) {
-    const auto coefficients = std::size_t(bands * bands);
     std::vector<double> squared;
     double mean = 0, meanReference = 0;
     for (std::size_t i = 0; i < reference.cache.size(); ++i) {
         const std::uint32_t c = reference.cache[i];
-        const glm::vec3 E = glm::max(
-            shIrradiance(bands, sh.data() + c * coefficients, caches.normal[c]), glm::vec3(0));
+        const glm::vec3 E = cacheIrradiance(caches, bands, sh, c);
         const glm::vec3 truth = reference.irradiance[i], d = E - truth;
         squared.push_back(double(glm::dot(d, d)));
         mean += double(E.x) + double(E.y) + double(E.z);

@@ -27,6 +27,11 @@ CacheReference referenceIrradiance(const TraceScene& trace, const Caches& caches
                                    const CachePoints& points, std::uint32_t count,
                                    std::uint32_t rays, const Progress& progress = {});
 
+/// Irradiance [W m^-2] at a cache's own normal, never negative. `sh`: bands^2 coefficients per
+/// cache.
+glm::vec3 cacheIrradiance(const Caches& caches, int bands, const std::vector<glm::vec3>& sh,
+                          std::uint32_t cache);
+
 /// Error of the caches' irradiance at their own normals.
 struct CacheError {
     double nrmse = 0;     ///< rms(E - E_ref) / mean(E_ref), all channels
