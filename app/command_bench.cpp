@@ -10,6 +10,7 @@
 #include "engine/core/replace_file.h"
 #include "engine/files/document_fields.h"
 #include "engine/measure/cache_error.h"
+#include "engine/measure/seams.h"
 #include "engine/relight/relight.h"
 
 #include <algorithm>
@@ -66,16 +67,11 @@ std::vector<BakeSettings> sweep(const ErrorBench& o) {
     return rows;
 }
 
-/// SH of light reflected once, under the scene's lights.
-std::vector<glm::vec3> lightOnce(const TraceScene& trace, const std::shared_ptr<const Bake>& bake) {
-    Relighter relighter(bake);
-    relighter.relight(trace.scene(), trace, 1);
-    return relighter.cacheSh();
-}
-
 /// What the same bake gives with a link to every sender in sight, to tell the cut's own error.
 CacheReference withoutCut(const TraceScene& trace, const std::shared_ptr<const Bake>& bake) {
-    const std::vector<glm::vec3> sh = lightOnce(trace, bake);
+    Relighter relighter(bake);
+    relighter.relight(trace.scene(), trace, 1); // reflected once
+    const std::vector<glm::vec3>& sh = relighter.cacheSh();
     const int bands = int(bake->settings.bands);
     CacheReference result;
     for (std::uint32_t c = 0; c < bake->caches.lightmapCount; ++c) {
@@ -112,15 +108,16 @@ Json describe(const std::string& scene, const BakeSettings& s, const Bake& bake,
 
 void printRow(const Json& r) {
     fmt::print("{:<14.14} {:>7} {:<11} {:<13} {:<11} {:>5} {:>8.4f} {:>8.4f} {:>+7.2f} % {:>8.4f} "
-               "{:>8.4f} {:>7.2f} "
+               "{:>8.4f} {:>6.3f} {:>7.2f} "
                "{:>6.2f} {:>8.2f}\n",
                r["name"].get<std::string>(), r["surfels"].get<std::uint32_t>(),
                r["linker"].get<std::string>(), r["clustering"].get<std::string>(),
                r["cut"].get<std::string>(), r["links"].get<std::uint32_t>(),
                r["nrmse"].get<double>(), r["nrmse_without_worst_percent"].get<double>(),
                100 * r["bias"].get<double>(), r["cut_nrmse"].get<double>(),
-               r["cut_nrmse_without_worst_percent"].get<double>(), r["seconds"].get<double>(),
-               r["cut_seconds"].get<double>(), double(r["bytes"].get<std::uint64_t>()) / (1 << 20));
+               r["cut_nrmse_without_worst_percent"].get<double>(), r["seam"].get<double>(),
+               r["seconds"].get<double>(), r["cut_seconds"].get<double>(),
+               double(r["bytes"].get<std::uint64_t>()) / (1 << 20));
     std::fflush(stdout);
 }
 
@@ -140,7 +137,8 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
         scene.bake = settings;
         const TraceScene trace(scene);
         if (reference.cache.empty()) {
-            const auto atlas = atlasStage(scene, hashMeshes(scene), {}, &store);
+            std::uint64_t rays = 0;
+            const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, &store, rays);
             CachePoints points;
             const Caches caches =
                 placeCaches(scene, *atlas, glm::uvec3(0), gridBoundsOf(scene), points);
@@ -166,11 +164,14 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
         if (!made)
             return fail(fmt::format("{}: {}", path, made.error().message));
         const auto baked = std::make_shared<const Bake>(std::move(*made));
-        const std::vector<glm::vec3> sh = lightOnce(trace, baked);
+        Relighter relighter(baked);
+        relighter.relight(trace.scene(), trace, 1); // reflected once
+        const std::vector<glm::vec3>& sh = relighter.cacheSh();
         const int bands = int(settings.bands);
         Json row =
             describe(name, settings, *baked, compareCaches(reference, baked->caches, bands, sh),
                      compareCaches(uncut, baked->caches, bands, sh));
+        row["seam"] = measureSeams(scene, baked->lightmap, relighter.field()).relative();
         row["reference_noise"] = reference.noise;
         if (!o.json)
             printRow(row);
@@ -202,10 +203,11 @@ Exit runErrorBench(const ErrorBench& o) {
         return failed(fmt::format("{}: {}", o.output, error.message()));
     const ThreadLimit threads(o.threads);
     if (!o.json)
-        fmt::print("{:<14} {:>7} {:<11} {:<13} {:<11} {:>5} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7} "
-                   "{:>6} {:>8}\n",
-                   "scene", "surfels", "linker", "clustering", "cut", "links", "nRMSE", "-1 %",
-                   "bias", "cut only", "-1 %", "bake s", "cut s", "MiB");
+        fmt::print(
+            "{:<14} {:>7} {:<11} {:<13} {:<11} {:>5} {:>8} {:>8} {:>9} {:>8} {:>8} {:>6} {:>7} "
+            "{:>6} {:>8}\n",
+            "scene", "surfels", "linker", "clustering", "cut", "links", "nRMSE", "-1 %", "bias",
+            "cut only", "-1 %", "seam", "bake s", "cut s", "MiB");
     Json rows = Json::array();
     for (const std::string& scene : o.scenes)
         if (const Result<void> measured = measureScene(o, scene, rows); !measured)

@@ -136,7 +136,11 @@ static Json describe(const Bake& bake) {
                         {"cut", kCutNames[std::size_t(s.cut)]},
                         {"clustering", kClusteringNames[std::size_t(s.clustering)]},
                         {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
-    json["lightmap"] = {{"width", bake.lightmap.width}, {"height", bake.lightmap.height}};
+    const LightmapLayout& map = bake.lightmap;
+    json["lightmap"] = {{"width", map.width},
+                        {"height", map.height},
+                        {"utilisation", double(bake.caches.lightmapCount) /
+                                            std::max(1., double(map.width) * double(map.height))}};
     const SurfelSpacing spacing = surfelSpacing(bake.surfels);
     json["spacing"] = {{"mean", spacing.mean}, {"spread", spacing.spread}};
     const TreeShape tree = treeShapeOf(bake.tree);

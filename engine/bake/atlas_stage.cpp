@@ -2,6 +2,8 @@
 #include "engine/bake/atlas_stage.h"
 
 #include "engine/bake/charts.h"
+#include "engine/bake/input_hash.h"
+#include "engine/bake/open_points.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -30,7 +32,7 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
 
 /// Of all that buildAtlas reads.
 std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes) {
-    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 22);
+    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 24);
     h = hashValue(scene.bake.texelsPerMetre, h);
     for (const Instance& i : scene.instances)
         h = hashValue(std::uint32_t(i.dynamic),
@@ -38,19 +40,39 @@ std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& mes
     return h;
 }
 
+/// Of all that withOpenPoints reads.
+std::uint64_t openPointsKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
+                            std::uint64_t atlas) {
+    const Scene& scene = trace.scene();
+    std::uint64_t h = hashValue(trace.epsilonAt(glm::vec3(0)), hashValue(atlas, 25));
+    for (const Instance& i : scene.instances) {
+        h = hashValue(std::uint32_t(i.dynamic), hashValue(i.node, hashValue(meshes[i.mesh], h)));
+        h = hashSurface(scene, scene.materialOf(i), hashBytes(&i.toWorld, sizeof i.toWorld, h));
+    }
+    return h;
+}
+
 } // namespace
 
-std::optional<Atlas> atlasStage(const Scene& scene, const std::vector<std::uint64_t>& meshes,
-                                const Progress& progress, StageStore* store) {
+std::optional<Atlas> atlasStage(const TraceScene& trace, const Scene& scene,
+                                const std::vector<std::uint64_t>& meshes, const Progress& progress,
+                                StageStore* store, std::uint64_t& rays) {
     std::vector<MeshCharts> charts;
     if (!chartMeshes(scene, meshes, progress, store, charts))
         return {};
+    const std::uint64_t key = atlasKey(scene, meshes);
     Atlas atlas = keptOrMade<Atlas>(
-        store, atlasKey(scene, meshes), progress, [](auto& a, auto& t) { atlasFields(a, t); },
+        store, key, progress, [](auto& a, auto& t) { atlasFields(a, t); },
         [&] { return buildAtlas(scene, charts, scene.bake, progress); });
     if (progress.cancelled())
         return {};
     atlas.layout.meshes = std::move(charts);
+    using Texels = std::vector<AtlasTexel>;
+    atlas.texels = keptOrMade<Texels>(
+        store, openPointsKey(trace, meshes, key), progress, [](auto& a, auto& t) { a(t); },
+        [&] { return withOpenPoints(trace, progress, atlas, rays); });
+    if (progress.cancelled())
+        return {};
     return atlas;
 }
 

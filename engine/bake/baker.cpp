@@ -5,6 +5,7 @@
 #include "engine/bake/cache_points.h"
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut.h"
+#include "engine/bake/fill_invalid.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
@@ -102,7 +103,8 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     StageClock clock(result.seconds);
 
     const std::vector<std::uint64_t> meshes = hashMeshes(scene);
-    std::optional<Atlas> made = atlasStage(scene, meshes, progress, store);
+    std::uint64_t rays = 0;
+    std::optional<Atlas> made = atlasStage(trace, scene, meshes, progress, store, rays);
     if (!made)
         return cancelled();
     Atlas& atlas = *made;
@@ -140,8 +142,8 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     const std::vector<float> seen =
         seenByCaches(set.surfels, hits, points, result.caches, result.tree);
     weighBySight(seen, result.tree);
+    rays += traced->rays;
     TrainingLight training; // read by the detail cut alone
-    std::uint64_t trainingRays = 0;
     if (scene.bake.cut == CutCriterion::Detail) {
         const TracedTraining light = keptOrMade<TracedTraining>(
             store, hashValue(traced->key, 23), progress,
@@ -150,19 +152,19 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         if (progress.cancelled())
             return cancelled();
         training = trainingLight(scene, set.surfels, result.tree, seen, light);
-        trainingRays = light.rays;
+        rays += light.rays;
     }
     clock.finish("training");
     if (!buildLinks(set.surfels, result.tree, hits, points, training,
                     {scene.bake.cut, scene.bake.links, int(scene.bake.bands), scene.bake.storage},
                     progress, result.caches))
         return cancelled();
-    const std::uint32_t invalid = fillInvalid(result.caches);
+    const std::uint32_t invalid = fillInvalid(result.caches, 1 / atlas.texelsPerMetre);
     clock.finish("cut");
 
     result.lightmap = std::move(atlas.layout);
     result.surfels = std::move(set.surfels);
-    result.counts = countOf(scene, result, traced->rays + trainingRays);
+    result.counts = countOf(scene, result, rays);
     result.counts.invalidCaches = invalid;
     return result;
 }

@@ -13,18 +13,15 @@
 
 namespace limn {
 
-namespace {
-
-void addPoint(const Instance& instance, const Mesh& mesh, const MeshPoint& point,
-              CachePoints& out) {
+WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point) {
+    const Mesh& mesh = scene.meshOf(instance);
     const auto [a, b, c] = mesh.triangle(point.triangle);
     const glm::vec3 pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
     const glm::vec2 uv = point.barycentric;
     const glm::vec3 n = instance.normalToWorld * glm::cross(pb - pa, pc - pa);
     const float length = glm::length(n);
-    out.position.push_back(instance.toWorld *
-                           glm::vec4(pa * (1 - uv.x - uv.y) + pb * uv.x + pc * uv.y, 1));
-    out.normal.push_back(length > 0 ? n / length : glm::vec3(0, 1, 0));
+    return {instance.toWorld * glm::vec4(pa * (1 - uv.x - uv.y) + pb * uv.x + pc * uv.y, 1),
+            length > 0 ? n / length : glm::vec3(0, 1, 0)};
 }
 
 std::uint32_t seedOf(const Instance& instance, const MeshPoint& point) {
@@ -36,15 +33,19 @@ std::uint32_t seedOf(const Instance& instance, const MeshPoint& point) {
     return seed;
 }
 
+namespace {
+
 void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
                       CachePoints& points) {
     const Instance& instance = scene.instances[texel.instance];
     const std::size_t first = points.position.size();
     glm::vec3 position{0}, normal{0};
     for (std::uint32_t k = 0; k < texel.count; ++k) {
-        addPoint(instance, scene.meshOf(instance), texel.points[k], points);
-        position += points.position.back() / float(texel.count);
-        normal += points.normal.back();
+        const WorldPoint p = worldPoint(scene, instance, texel.points[k]);
+        points.position.push_back(p.position);
+        points.normal.push_back(p.normal);
+        position += p.position / float(texel.count);
+        normal += p.normal;
     }
     const float length = glm::length(normal);
     points.begin.push_back(std::uint32_t(points.position.size()));

@@ -17,6 +17,14 @@ struct CachePoints {
     std::vector<std::uint32_t> seed;
 };
 
+struct WorldPoint {
+    glm::vec3 position, normal; ///< unit geometric normal of the front
+};
+WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point);
+
+/// Of a cache whose first point is `point`.
+std::uint32_t seedOf(const Instance& instance, const MeshPoint& point);
+
 /// The caches of an atlas' texels, then those of the grid: kind, mean position, mean normal and
 /// texel are filled.
 Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,

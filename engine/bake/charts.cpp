@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 #include <glm/geometric.hpp>
 
@@ -23,50 +22,50 @@ struct Stop {
     bool at(std::size_t i) const { return i % 4096 == 0 && progress.cancelled(); }
 };
 
-/// Two triangles belong together when they share an edge of equal end points.
-struct EdgeKey {
-    std::uint32_t a, b;
-    bool operator==(const EdgeKey&) const = default;
-};
-struct EdgeHash {
-    std::size_t operator()(const EdgeKey& e) const {
-        return mixBits(e.a) * std::size_t(0x9e3779b97f4a7c15ULL) + mixBits(e.b);
-    }
-};
-
 /// neighbours[begin[t] … begin[t+1]) share an edge with triangle t.
 struct Adjacency {
     std::vector<std::uint32_t> begin, neighbours;
 };
 
+/// Triangles belong together when they share an edge of equal end points.
 Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& point,
                          const Stop& stop) {
-    const std::size_t count = mesh.triangleCount();
-    std::unordered_map<EdgeKey, std::vector<std::uint32_t>, EdgeHash> edges;
-    edges.reserve(count * 2);
-    const auto edge = [&](std::size_t t, std::size_t k) {
-        const std::uint32_t a = point[mesh.indices[3 * t + k]],
-                            b = point[mesh.indices[3 * t + (k + 1) % 3]];
-        return EdgeKey{std::min(a, b), std::max(a, b)};
+    constexpr std::size_t kMostSheets = 8; // more share no neighbourhood worth the quadratic walk
+    const std::size_t corners = mesh.indices.size() / 3 * 3;
+    const auto edge = [&](std::size_t i) {
+        return std::minmax(point[mesh.indices[i]], point[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]]);
     };
-    for (std::size_t t = 0; t < count && !stop.at(t); ++t)
-        for (std::size_t k = 0; k < 3; ++k)
-            edges[edge(t, k)].push_back(std::uint32_t(t));
-    Adjacency result;
-    result.begin.reserve(count + 1);
-    for (std::size_t t = 0; t < count && !stop.at(t); ++t) {
-        result.begin.push_back(std::uint32_t(result.neighbours.size()));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto& sharing = edges[edge(t, k)];
-            if (sharing.size() >
-                8) // a fan of many sheets: no neighbourhood worth the quadratic walk
-                continue;
-            for (const std::uint32_t other : sharing)
-                if (other != t)
-                    result.neighbours.push_back(other);
-        }
+    // Edges in buckets by their lesser point, sorted by the other one, then by triangle.
+    std::vector<std::uint32_t> begin(point.size() + 1, 0);
+    for (std::size_t i = 0; i < corners; ++i)
+        ++begin[edge(i).first + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted(corners); // point, corner
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t i = 0; i < corners && !stop.at(i); ++i) {
+        const auto [a, b] = edge(i);
+        sorted[next[a]++] = {b, std::uint32_t(i)};
     }
-    result.begin.push_back(std::uint32_t(result.neighbours.size()));
+    for (std::size_t a = 0; a + 1 < begin.size() && !stop.at(a); ++a)
+        std::sort(sorted.begin() + begin[a], sorted.begin() + begin[a + 1]);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> sheets(corners); // range in sorted
+    for (std::size_t i = 0, end; i < corners; i = end) {
+        const std::uint32_t bucketEnd = begin[edge(sorted[i].second).first + 1];
+        for (end = i + 1; end < bucketEnd && sorted[end].first == sorted[i].first; ++end) {
+        }
+        for (std::size_t k = i; k < end; ++k)
+            sheets[sorted[k].second] = {std::uint32_t(i), std::uint32_t(end)};
+    }
+    Adjacency result;
+    result.begin.push_back(0);
+    for (std::size_t i = 0; i < corners; ++i) {
+        const auto [from, to] = sheets[i];
+        for (std::uint32_t k = from; to - from <= kMostSheets && k < to; ++k)
+            if (sorted[k].second / 3 != i / 3)
+                result.neighbours.push_back(sorted[k].second / 3);
+        if (i % 3 == 2)
+            result.begin.push_back(std::uint32_t(result.neighbours.size()));
+    }
     return result;
 }
 
@@ -183,17 +182,23 @@ MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
         lower[chart] = glm::min(lower[chart], grown.corner[i]);
         upper[chart] = glm::max(upper[chart], grown.corner[i]);
     }
-    std::unordered_map<EdgeKey, std::uint32_t, EdgeHash> vertexOf;
-    vertexOf.reserve(mesh.positions.size());
+    // Copies of a vertex, one per chart, as chains: latest copy of each, and the one before each.
+    constexpr std::uint32_t kNone = ~0U;
+    std::vector<std::uint32_t> latest(mesh.positions.size(), kNone), before, chartOf;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::uint32_t chart = grown.chartOf[i / 3];
-        const auto [it, fresh] = vertexOf.try_emplace({mesh.indices[i], chart},
-                                                      std::uint32_t(result.sourceVertex.size()));
-        if (fresh) {
-            result.sourceVertex.push_back(mesh.indices[i]);
+        const std::uint32_t chart = grown.chartOf[i / 3], vertex = mesh.indices[i];
+        std::uint32_t copy = latest[vertex];
+        while (copy != kNone && chartOf[copy] != chart)
+            copy = before[copy];
+        if (copy == kNone) {
+            copy = std::uint32_t(result.sourceVertex.size());
+            before.push_back(latest[vertex]);
+            chartOf.push_back(chart);
+            latest[vertex] = copy;
+            result.sourceVertex.push_back(vertex);
             result.chartUv.push_back(grown.corner[i] - lower[chart]);
         }
-        result.indices.push_back(it->second);
+        result.indices.push_back(copy);
     }
     for (std::uint32_t c = 0; c < charts; ++c)
         result.chartSize.push_back(upper[c] - lower[c]);

@@ -40,9 +40,4 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches);
 
-/// Fills fillBegin … fillWeight: an invalid cache becomes the mean of its nearest valid ones of the
-/// same kind, weighted by 1 / distance^2; lightmap caches also weigh how well the normals agree.
-/// Returns the number of invalid caches.
-std::uint32_t fillInvalid(Caches& caches);
-
 } // namespace limn

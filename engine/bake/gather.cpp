@@ -50,7 +50,10 @@ struct Finisher {
     bool aimedAlready;
     std::vector<bool> isTarget; ///< per sender; empty without targets
 
+    /// Of a buried cache the other hits do not count, known or not.
     static void markBacks(std::uint32_t rays, std::uint32_t* sender) {
+        if (isBuried(sender, rays))
+            std::fill_n(sender, rays, kBack);
         std::replace_if(
             sender, sender + rays, [](RawHit hit) { return (hit & kBack) != 0; },
             GatherHits::kBackFace);
@@ -122,7 +125,21 @@ std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, 
     return all;
 }
 
+/// Number of the k-th probe's ray.
+std::uint32_t probeRay(std::uint32_t k, std::uint32_t rays) {
+    return std::uint32_t(std::uint64_t(k) * rays / kProbes);
+}
+
 } // namespace
+
+bool isBuried(const RawHit* hits, std::uint32_t rays) {
+    if (rays < 2 * kProbes)
+        return false;
+    for (std::uint32_t k = 0; k < kProbes; ++k)
+        if (!(hits[probeRay(k, rays)] & kBack))
+            return false;
+    return true;
+}
 
 CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
                  std::uint32_t rays) {
@@ -174,10 +191,30 @@ RawHit RayGatherer::trace(const Ray& ray) const {
     return passes ? surfel | kBack : surfel;
 }
 
-void RayGatherer::traceCache(std::uint32_t cache, RawHit* out) const {
+std::uint32_t RayGatherer::traceCache(std::uint32_t cache, RawHit* out) const {
+    std::fill_n(out, m_rays, kUntraced);
+    std::uint32_t probes = 0;
+    if (m_rays >= 2 * kProbes) {
+        const CacheRays rays = directions(cache);
+        for (; probes < kProbes; ++probes) {
+            const std::uint32_t r = probeRay(probes, m_rays);
+            out[r] = trace(ray(rays, cache, r));
+        }
+    }
+    return probes + traceRest(cache, out);
+}
+
+std::uint32_t RayGatherer::traceRest(std::uint32_t cache, RawHit* hits) const {
+    if (isBuried(hits, m_rays))
+        return 0;
+    std::uint32_t traced = 0;
     const CacheRays rays = directions(cache);
     for (std::uint32_t r = 0; r < m_rays; ++r)
-        out[r] = trace(ray(rays, cache, r));
+        if (hits[r] == kUntraced) {
+            hits[r] = trace(ray(rays, cache, r));
+            ++traced;
+        }
+    return traced;
 }
 
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,

@@ -67,6 +67,13 @@ CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t 
 /// tracing leaves, so it can be kept and read again.
 using RawHit = std::uint32_t;
 inline constexpr RawHit kBack = 1U << 31;
+/// Not traced: the cache is buried.
+inline constexpr RawHit kUntraced = ~0U;
+
+/// A cache all of whose probes, every so many of its rays, meet backs lies in a solid: its other
+/// rays tell nothing more. Not asked of caches with fewer than twice the rays.
+inline constexpr std::uint32_t kProbes = 64;
+bool isBuried(const RawHit* hits, std::uint32_t rays);
 
 /// Shoots the rays of caches at the static scene. A hit is credited to the surfel that owns the hit
 /// point, an escaped ray to its sky cell.
@@ -94,8 +101,11 @@ public:
 
     RawHit trace(const Ray& ray) const;
 
-    /// All of a cache's rays.
-    void traceCache(std::uint32_t cache, RawHit* out) const;
+    /// All of a cache's rays; of a buried one only the probes. Returns how many.
+    std::uint32_t traceCache(std::uint32_t cache, RawHit* out) const;
+
+    /// Traces those rays of a cache that are kUntraced, unless it is buried. Returns how many.
+    std::uint32_t traceRest(std::uint32_t cache, RawHit* hits) const;
 
 private:
     struct LazyOwners {

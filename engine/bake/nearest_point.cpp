@@ -3,7 +3,6 @@
 
 #include "engine/bake/median_split.h"
 
-#include <limits>
 #include <numeric>
 
 #include <glm/geometric.hpp>
@@ -12,9 +11,21 @@ namespace limn {
 
 struct NearestPoint::Query {
     glm::vec3 p, normal;
-    float best = std::numeric_limits<float>::infinity();
-    std::uint32_t index = ~0U;
+    std::span<Near> best;        ///< in order
+    std::size_t found = 0;       ///< of `best`
     std::uint32_t leftOut = ~0U; ///< a point that does not count
+
+    void offer(const Near& near) {
+        if (near.point == leftOut || (found == best.size() && !(near < best.back())))
+            return;
+        std::size_t at = found < best.size() ? found++ : found - 1;
+        for (; at > 0 && near < best[at - 1]; --at)
+            best[at] = best[at - 1];
+        best[at] = near;
+    }
+    bool mayHold(float distance2) const {
+        return found < best.size() || distance2 <= best.back().cost;
+    }
 };
 
 NearestPoint::NearestPoint(std::span<const glm::vec3> points, std::span<const glm::vec3> normals,
@@ -42,32 +53,34 @@ void NearestPoint::search(std::uint32_t begin, std::uint32_t end, Query& q) cons
         return;
     const std::uint32_t middle = begin + (end - begin) / 2, candidate = m_order[middle];
     const glm::vec3 d = m_points[candidate] - q.p;
-    const float cost =
-        glm::dot(d, d) + m_orientationWeight * (1 - glm::dot(m_normals[candidate], q.normal));
-    if (candidate != q.leftOut && (cost < q.best || (cost == q.best && candidate < q.index))) {
-        q.best = cost;
-        q.index = candidate;
-    }
+    q.offer({glm::dot(d, d) + m_orientationWeight * (1 - glm::dot(m_normals[candidate], q.normal)),
+             candidate});
     if (end - begin == 1)
         return;
     const float side = -d[m_axis[middle]];
     const bool lowerFirst = side <= 0;
     lowerFirst ? search(begin, middle, q) : search(middle + 1, end, q);
-    if (side * side <= q.best)
+    if (q.mayHold(side * side))
         lowerFirst ? search(middle + 1, end, q) : search(begin, middle, q);
 }
 
-std::uint32_t NearestPoint::find(glm::vec3 p, glm::vec3 normal) const {
-    Query query{p, normal};
+std::size_t NearestPoint::findSome(glm::vec3 p, glm::vec3 normal, std::span<Near> out) const {
+    Query query{p, normal, out};
     search(0, std::uint32_t(m_order.size()), query);
-    return query.index == ~0U ? 0 : query.index;
+    return query.found;
+}
+
+std::uint32_t NearestPoint::find(glm::vec3 p, glm::vec3 normal) const {
+    Near nearest{0, 0};
+    findSome(p, normal, {&nearest, 1});
+    return nearest.point;
 }
 
 std::uint32_t NearestPoint::findOther(std::uint32_t index) const {
-    Query query{m_points[index], m_normals[index]};
-    query.leftOut = index;
+    Near nearest{0, ~0U};
+    Query query{m_points[index], m_normals[index], {&nearest, 1}, 0, index};
     search(0, std::uint32_t(m_order.size()), query);
-    return query.index;
+    return nearest.point;
 }
 
 } // namespace limn

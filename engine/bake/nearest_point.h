@@ -14,7 +14,16 @@ namespace limn {
 /// deterministic, ties go to the lower index.
 class NearestPoint {
 public:
-    /// Spans must outlive the object, be of equal length and not empty.
+    struct Near {
+        float cost; ///< the sum above
+        std::uint32_t point;
+
+        bool operator<(const Near& o) const {
+            return cost != o.cost ? cost < o.cost : point < o.point;
+        }
+    };
+
+    /// Spans must outlive the object and be of equal length; not empty for find.
     NearestPoint(std::span<const glm::vec3> points, std::span<const glm::vec3> normals,
                  float spacing);
 
@@ -22,6 +31,9 @@ public:
 
     /// The nearest to point `index` but itself; ~0 if there is no other.
     std::uint32_t findOther(std::uint32_t index) const;
+
+    /// The nearest points in order, as many as there are and `out` holds. Returns how many.
+    std::size_t findSome(glm::vec3 p, glm::vec3 normal, std::span<Near> out) const;
 
 private:
     struct Query;

@@ -42,6 +42,10 @@ float extent(const Triangle2& t) {
 } // namespace
 
 bool trianglesOverlap(const Triangle2& a, const Triangle2& b) {
+    for (int k = 0; k < 2; ++k) // bounds first: most pairs lie apart
+        if (std::max({a[0][k], a[1][k], a[2][k]}) < std::min({b[0][k], b[1][k], b[2][k]}) ||
+            std::max({b[0][k], b[1][k], b[2][k]}) < std::min({a[0][k], a[1][k], a[2][k]}))
+            return false;
     const float slack = 1e-3f * std::min(extent(a), extent(b));
     return !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
@@ -72,13 +76,9 @@ bool PlanarSet::overlaps(const Triangle2& t) const {
     bool found = false;
     forCells(t, [&](std::uint64_t key) {
         const auto it = found ? m_cells.end() : m_cells.find(key);
-        if (it == m_cells.end())
-            return;
-        for (const std::uint32_t i : it->second)
-            if (trianglesOverlap(t, m_triangles[i])) {
-                found = true;
-                return;
-            }
+        for (std::uint32_t e = it == m_cells.end() ? ~0U : it->second; !found && e != ~0U;
+             e = m_entries[e].next)
+            found = trianglesOverlap(t, m_triangles[m_entries[e].triangle]);
     });
     return found;
 }
@@ -89,7 +89,11 @@ void PlanarSet::insert(const Triangle2& t) {
     if (coversManyCells(t, m_cellSize, kMaxCells))
         m_large.push_back(index);
     else
-        forCells(t, [&](std::uint64_t key) { m_cells[key].push_back(index); });
+        forCells(t, [&](std::uint64_t key) {
+            std::uint32_t& first = m_cells.try_emplace(key, ~0U).first->second;
+            m_entries.push_back({index, first});
+            first = std::uint32_t(m_entries.size() - 1);
+        });
 }
 
 } // namespace limn

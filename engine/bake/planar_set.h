@@ -35,7 +35,11 @@ private:
     float m_cellSize;
     std::vector<Triangle2> m_triangles;
     std::vector<std::uint32_t> m_large;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> m_cells;
+    struct Entry {
+        std::uint32_t triangle, next; ///< next in the same cell; ~0: none
+    };
+    std::vector<Entry> m_entries;
+    std::unordered_map<std::uint64_t, std::uint32_t> m_cells; ///< first entry of each
 };
 
 } // namespace limn

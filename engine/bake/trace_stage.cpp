@@ -208,32 +208,31 @@ std::uint64_t Tracing::retrace(std::uint32_t cache, RawHit* out) {
     const auto sky = std::uint32_t(in.set.surfels.size());
     std::vector<std::uint8_t> again(in.rays);
     for (std::uint32_t r = 0; r < in.rays; ++r) {
+        if (out[r] == kUntraced)
+            continue;
         const std::uint32_t back = out[r] & kBack, sender = out[r] & ~kBack;
         const std::uint32_t moved =
             sender < now.size() ? now[sender] : std::uint32_t(sender - now.size()) + sky;
         again[r] = moved == InstanceMatch::kGone ? 1 : 0;
-        out[r] = moved | back;
+        out[r] = again[r] ? 0 : moved | back;
     }
     if (m_base->arrived)
         m_rays += m_base->arrived->mark(m_gatherer, in.points, cache, again);
-    const auto count = std::uint64_t(std::count(again.begin(), again.end(), 1));
-    if (count == 0)
-        return 0;
+    std::uint64_t count = 0;
     const CacheRays rays = m_gatherer.directions(cache);
     for (std::uint32_t r = 0; r < in.rays; ++r)
-        if (again[r])
+        if (again[r] && out[r] != kUntraced) {
             out[r] = m_gatherer.trace(m_gatherer.ray(rays, cache, r));
-    return count;
+            ++count;
+        }
+    return count > 0 ? count + m_gatherer.traceRest(cache, out) : 0;
 }
 
 void Tracing::traceOne(std::uint32_t cache) {
     RawHit* out = &m_hits.sender[std::size_t(cache) * in.rays];
     const std::uint32_t block = cache / m_record.cachesPerBlock;
-    std::uint64_t rays = in.rays;
-    if (takeFromBase(cache, out))
-        rays = retrace(cache, out);
-    else
-        m_gatherer.traceCache(cache, out);
+    const std::uint64_t rays =
+        takeFromBase(cache, out) ? retrace(cache, out) : m_gatherer.traceCache(cache, out);
     m_rays += rays;
     m_retraced += rays > 0 ? 1 : 0;
     if (rays > 0)

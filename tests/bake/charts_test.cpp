@@ -2,6 +2,7 @@
 #include "engine/bake/atlas.h"
 #include "engine/bake/charts.h"
 #include "engine/bake/planar_set.h"
+#include "engine/scene/triangle_geometry.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -105,6 +106,8 @@ Scene awkwardScene() {
     b.addInstance(mesh);
     b.addInstance(mesh, glm::mat4(glm::vec4(0, 0, 3, 0), glm::vec4(0, -2, 0, 0),
                                   glm::vec4(1, 0, 0, 0), glm::vec4(9, 0, 0, 1)));
+    b.addInstance(mesh, glm::mat4(glm::vec4(-1, 0, 0, 0), glm::vec4(0, 1, 0, 0),
+                                  glm::vec4(0, 0, 1, 0), glm::vec4(0, 9, 0, 1))); // mirrored
     b.add(box(glm::vec3(-5), glm::vec3(15), true));
     return b.build();
 }
@@ -116,15 +119,28 @@ Atlas atlasOf(const Scene& scene, const BakeSettings& settings) {
     return buildAtlas(scene, charts, settings);
 }
 
-TEST(Atlas, ALookupAnywhereOnASurfaceMeetsOnlyTexelsOfItsOwnChart) {
+/// Axis and sign of the largest component of a chart's summed normal: -3 … -1, 1 … 3.
+int sideOf(const Mesh& mesh, const MeshCharts& charts, std::uint32_t chart) {
+    glm::vec3 sum(0);
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
+        if (charts.chartOfTriangle[t] == chart)
+            sum += triangleNormal(mesh, t) * triangleArea(mesh, t);
+    const glm::vec3 size = glm::abs(sum);
+    const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    return sum[axis] < 0 ? -1 - axis : 1 + axis;
+}
+
+TEST(Atlas, ALookupMeetsTexelsOfItsOwnChartOrOfNeighboursThatFaceTheSameSide) {
     const Scene scene = awkwardScene();
     BakeSettings settings;
     settings.lightmapCaches = 3000;
     const Atlas atlas = atlasOf(scene, settings);
-    // (instance, chart) that a texel serves. Tiny charts may share one texel, but then nothing else
-    // uses it.
-    std::vector<std::set<std::pair<std::uint32_t, std::uint32_t>>> users(
-        std::size_t(atlas.layout.width) * atlas.layout.height);
+    struct Users { // of a texel
+        std::set<std::uint32_t> instances;
+        std::set<std::uint32_t> charts;
+        glm::vec3 lower{1e30f}, upper{-1e30f}; ///< of the points, object space
+    };
+    std::vector<Users> users(std::size_t(atlas.layout.width) * atlas.layout.height);
     std::vector<bool> cached(users.size());
     for (const AtlasTexel& t : atlas.texels)
         cached[t.texel] = true;
@@ -144,20 +160,33 @@ TEST(Atlas, ALookupAnywhereOnASurfaceMeetsOnlyTexelsOfItsOwnChart) {
                     if (lookup.weight[c] < 1e-3f) // rounding at a texel centre
                         continue;
                     EXPECT_TRUE(cached[lookup.texel[c]]);
-                    users[lookup.texel[c]].insert({i, charts.chartOfTriangle[t]});
+                    Users& u = users[lookup.texel[c]];
+                    const glm::vec3 p = trianglePoint(scene.assets->meshes[mesh], t, b);
+                    u.instances.insert(i);
+                    u.charts.insert(charts.chartOfTriangle[t]);
+                    u.lower = glm::min(u.lower, p);
+                    u.upper = glm::max(u.upper, p);
                 }
             }
     }
+    // A texel's lookups reach 2 texels; sides are rounded to whole texels, so a texel may be up to
+    // twice as wide as wanted. Charts that share it lie in a slab of 1 + 2 texels.
     std::size_t shared = 0;
-    for (const auto& u : users)
-        if (u.size() > 1) {
-            ++shared;
-            for (const auto& [instance, chart] : u) { // only charts without any texel of their own
-                const glm::vec2 size =
-                    atlas.layout.meshes[scene.instances[instance].mesh].chartSize[chart];
-                EXPECT_LT(std::max(size.x, size.y) * atlas.texelsPerMetre, 2.f);
-            }
-        }
+    for (const Users& u : users) {
+        EXPECT_LE(u.instances.size(), 1U);
+        if (u.charts.size() < 2)
+            continue;
+        ++shared;
+        const std::uint32_t mesh = scene.instances[*u.instances.begin()].mesh;
+        std::set<int> sides;
+        for (const std::uint32_t c : u.charts)
+            sides.insert(sideOf(scene.assets->meshes[mesh], atlas.layout.meshes[mesh], c));
+        EXPECT_EQ(sides.size(), 1U);
+        const float texel =
+            1 / (atlas.texelsPerMetre * atlasScale(scene.instances[*u.instances.begin()]));
+        const glm::vec3 size = (u.upper - u.lower) / texel;
+        EXPECT_LT(std::max({size.x, size.y, size.z}), 4.f);
+    }
     EXPECT_LT(shared, atlas.texels.size() / 10);
 }
 

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -80,7 +82,20 @@ TEST(NearestPoint, AgreesWithBruteForce) {
         for (std::uint32_t k = 0; k < points.size(); ++k)
             best = std::min(best, cost(k));
         EXPECT_NEAR(cost(nearest.find(p, n)), best, 1e-6);
+        std::vector<float> all;
+        for (std::uint32_t k = 0; k < points.size(); ++k)
+            all.push_back(cost(k));
+        std::sort(all.begin(), all.end());
+        std::array<NearestPoint::Near, 5> some;
+        ASSERT_EQ(nearest.findSome(p, n, some), 5U);
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            EXPECT_NEAR(some[k].cost, all[k], 1e-6);
+            EXPECT_EQ(some[k].cost, cost(some[k].point));
+        }
     }
+    std::array<NearestPoint::Near, 501> more;
+    EXPECT_EQ(nearest.findSome(glm::vec3(0), glm::vec3(0, 0, 1), more), 500U);
+    EXPECT_EQ(NearestPoint({}, {}, 1).findSome(glm::vec3(0), glm::vec3(0, 0, 1), more), 0U);
 }
 
 TEST(SurfelOwners, GiveANearbySurfelOfTheSameFace) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/atlas.h"
+#include "engine/bake/chart_places.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// A texel of a place, with the surface points it stands for.
+struct LocalTexel {
+    glm::uvec2 at;
+    std::uint32_t count;
+    std::array<MeshPoint, AtlasTexel::kMostPoints> points;
+};
+
+/// Texels of `place` that a bilinear lookup on its triangles can meet.
+std::vector<LocalTexel> coverTexels(const AtlasInput& in, const ChartPlace& place);
+
+/// How many those are, without looking for their points. `scratch`: working space.
+std::uint32_t countTexels(const AtlasInput& in, const ChartPlace& place,
+                          std::vector<std::uint8_t>& scratch);
+
+} // namespace limn
