@@ -56,29 +56,51 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
     }
 }
 
+glm::mat3 turnAboutZ(float turns) {
+    const float angle = 2 * std::numbers::pi_v<float> * turns;
+    const float c = std::cos(angle), s = std::sin(angle);
+    return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+}
+
 /// Irradiance, over its solid angle / pi, of a sender of radiosity 1; for a cache without one side
 /// (two-sided, grid) the mean over all normals that see it, by half.
 float irradianceShare(CacheKind kind, float cosTheta) {
     return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
 }
 
+/// The directions of a cache's rays but for its own turn about z and its surface.
+std::vector<glm::vec3> unturnedRays(std::uint32_t rays, bool sphere) {
+    DirectionSet set(rays, sphere, 0);
+    set.turn = 0;
+    std::vector<glm::vec3> result(rays);
+    for (std::uint32_t r = 0; r < rays; ++r)
+        result[r] = set[r];
+    return result;
+}
+
+/// What all caches are linked from.
+struct LinkInput {
+    const Surfels& surfels;
+    const GatherHits& hits;
+    const CachePoints& points;
+    const TrainingLight& training;
+    const CutSettings& settings;
+    SenderOrder order;
+    std::vector<glm::vec3> hemisphere, sphere; ///< unturned rays
+};
+
 /// One thread's working space for linking caches.
 class CacheLinker {
 public:
-    CacheLinker(const Surfels& surfels, const GatherHits& hits, const CachePoints& points,
-                const TrainingLight& training, const CutSettings& settings,
-                const SenderOrder& order)
-        : m_surfels(surfels), m_hits(hits), m_points(points), m_training(training),
-          m_settings(settings), m_seen(order) {}
+    explicit CacheLinker(const LinkInput& input) : in(input), m_seen(input.order) {}
+
+    enum class Look { Amounts, Directions }; ///< without directions moments stay 0
 
     /// Joins what a cache sees. False for a cache that sees nothing.
-    bool look(const Caches& caches, std::uint32_t cache) {
-        addRays(caches, cache);
-        for (std::uint32_t k = m_hits.aimedBegin[cache]; k < m_hits.aimedBegin[cache + 1]; ++k) {
-            const AimedSample& a = m_hits.aimed[k];
-            const SenderView v = viewOf(m_surfels, m_points, caches.kind[cache], a);
-            addSight(caches.kind[cache], a.sender, v.transport, v.cosTheta, v.direction);
-        }
+    bool look(const Caches& caches, std::uint32_t cache, Look what) {
+        addRays(caches, cache, what);
+        for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
+            addAimed(caches.kind[cache], in.hits.aimed[k]);
         m_seen.build();
         return m_seen.size() > 0;
     }
@@ -88,10 +110,10 @@ public:
 
     /// After look(): what each refinement is worth.
     const std::vector<float>& weigh() {
-        if (m_settings.criterion == CutCriterion::SolidAngle)
+        if (in.settings.criterion == CutCriterion::SolidAngle)
             m_worth.bySolidAngle(m_seen);
         else
-            m_worth.byDetail(m_seen, m_training);
+            m_worth.byDetail(m_seen, in.training);
         return m_worth.worth();
     }
 
@@ -107,32 +129,39 @@ public:
         std::sort(m_cones.begin(), m_cones.end(),
                   [](const Cone& a, const Cone& b) { return a.node < b.node; });
         if (caches.kind[cache] == CacheKind::Hemisphere)
-            matchIrradiance(m_settings.bands, caches.normal[cache], m_cones);
-        return packLinks(m_settings.storage, m_settings.bands, m_cones);
+            matchIrradiance(in.settings.bands, caches.normal[cache], m_cones);
+        return packLinks(in.settings.storage, in.settings.bands, m_cones);
     }
 
 private:
-    void addRays(const Caches& caches, std::uint32_t cache) {
-        m_seen.clear();
-        const std::uint32_t* sender = m_hits.sender.data() + std::size_t(cache) * m_hits.rays;
-        const auto kept = m_hits.rays - std::uint32_t(std::count(sender, sender + m_hits.rays,
-                                                                 GatherHits::kLeftOut));
+    void addRays(const Caches& caches, std::uint32_t cache, Look what) {
+        const std::uint32_t count = in.hits.rays;
+        const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * count;
+        const auto kept =
+            count - std::uint32_t(std::count(sender, sender + count, GatherHits::kLeftOut));
         if (kept == 0)
             return;
-        const CacheRays rays = raysOf(caches, m_points, cache, m_hits.rays);
-        const float weight = rays.local.solidAngle() / std::numbers::pi_v<float> *
-                             (float(m_hits.rays) / float(kept));
-        for (std::uint32_t r = 0; r < m_hits.rays; ++r)
-            if (sender[r] < GatherHits::kFirstMark) {
-                const glm::vec3 local = rays.local[r];
-                addSight(caches.kind[cache], sender[r], weight, local.z,
-                         rays.toWorld[r % rays.points] * local);
-            }
+        const CacheRays rays = raysOf(caches, in.points, cache, count);
+        const float weight =
+            rays.local.solidAngle() / std::numbers::pi_v<float> * (float(count) / float(kept));
+        const float half = weight * irradianceShare(CacheKind::Grid, 0);
+        const bool sphere = rays.local.sphere, directions = what == Look::Directions;
+        const glm::vec3* local = (sphere ? in.sphere : in.hemisphere).data();
+        std::array<glm::mat3, AtlasTexel::kMostPoints> toMoment{};
+        for (std::uint32_t k = 0; directions && k < rays.points; ++k)
+            toMoment[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * weight;
+        for (std::uint32_t r = 0, k = 0; r < count; ++r) {
+            if (sender[r] < GatherHits::kFirstMark)
+                m_seen.add(sender[r], {weight, sphere ? half : weight * local[r].z,
+                                       directions ? toMoment[k] * local[r] : glm::vec3(0)});
+            k = k + 1 == rays.points ? 0 : k + 1;
+        }
     }
 
-    void addSight(CacheKind kind, std::uint32_t sender, float weight, float cosTheta,
-                  glm::vec3 direction) {
-        m_seen.add(sender, {weight, weight * irradianceShare(kind, cosTheta), direction * weight});
+    void addAimed(CacheKind kind, const AimedSample& sample) {
+        const SenderView v = viewOf(in.surfels, in.points, kind, sample);
+        m_seen.add(sample.sender, {v.transport, v.transport * irradianceShare(kind, v.cosTheta),
+                                   v.direction * v.transport});
     }
 
     void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t mostLinks) {
@@ -154,11 +183,7 @@ private:
             m_cones.push_back(makeCone(m_seen.node[i], m_seen.sight[i]));
     }
 
-    const Surfels& m_surfels;
-    const GatherHits& m_hits;
-    const CachePoints& m_points;
-    const TrainingLight& m_training;
-    const CutSettings& m_settings;
+    const LinkInput& in;
     VisibleTree m_seen;
     CutWorth m_worth;
     std::vector<std::pair<float, std::uint32_t>> m_order;
@@ -197,7 +222,7 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
             CacheLinker& linker = linkers.local();
             WorthHistogram& histogram = histograms.local();
             for (std::size_t c = begin; c < end; ++c) {
-                if (!linker.look(caches, std::uint32_t(c)))
+                if (!linker.look(caches, std::uint32_t(c), CacheLinker::Look::Amounts))
                     continue;
                 budget += std::min(linker.senders(), settings.links) - 1;
                 worth[c] = linker.weigh();
@@ -252,9 +277,15 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches) {
     constexpr std::uint32_t kMostOfBudget = 16; // a cache may have this many times n_L
-    const SenderOrder order(tree);
-    tbb::enumerable_thread_specific<CacheLinker> linkers(
-        [&] { return CacheLinker(surfels, hits, points, training, settings, order); });
+    const LinkInput input{surfels,
+                          hits,
+                          points,
+                          training,
+                          settings,
+                          SenderOrder(tree),
+                          unturnedRays(hits.rays, false),
+                          unturnedRays(hits.rays, true)};
+    tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
     const bool shared = settings.criterion == CutCriterion::Detail;
     std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
     float bound = -1;
@@ -271,7 +302,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
             for (std::size_t c = begin; c < end; ++c)
-                if (linker.look(caches, std::uint32_t(c)))
+                if (linker.look(caches, std::uint32_t(c), CacheLinker::Look::Directions))
                     links[c] = linker.link(caches, std::uint32_t(c),
                                            shared ? worth[c] : linker.weigh(), bound, mostLinks);
         });

@@ -51,24 +51,31 @@ void CutWorth::byDetail(const VisibleTree& seen, const TrainingLight& training) 
 }
 
 void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& training) {
-    m_brought.resize(std::size_t(seen.size()) * kLightings);
     m_error.assign(seen.size(), 0);
     m_groups.assign(seen.size() - seen.leaves(), Group{});
-    for (std::uint32_t i = 0; i < seen.size(); ++i) {
-        float* brought = m_brought.data() + std::size_t(i) * kLightings;
-        const float* radiosity = training.row(seen.node[i]);
-        const float share = seen.sight[i].irradiance;
-        if (i < seen.leaves()) {
+    // Inner nodes come in post-order: of what their inner children brought the right one's lies on
+    // top of the stack.
+    std::size_t depth = 0;
+    std::array<float, kLightings> leaf;
+    const auto add = [&](std::uint32_t node, float* sum) {
+        const float* from = leaf.data();
+        if (node >= seen.leaves())
+            from = m_brought.data() + --depth * kLightings;
+        else
             for (std::uint32_t t = 0; t < kLightings; ++t)
-                brought[t] = share * radiosity[t];
-            continue;
-        }
-        const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
-        const float* left = m_brought.data() + std::size_t(l) * kLightings;
-        const float* right = m_brought.data() + std::size_t(r) * kLightings;
+                leaf[t] = seen.sight[node].irradiance * training.row(seen.node[node])[t];
         for (std::uint32_t t = 0; t < kLightings; ++t)
-            brought[t] = left[t] + right[t];
-        m_error[i] = squaredError(brought, share, radiosity);
+            sum[t] += from[t];
+    };
+    for (std::uint32_t i = seen.leaves(); i < seen.size(); ++i) {
+        const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
+        std::array<float, kLightings> sum{};
+        add(r, sum.data());
+        add(l, sum.data());
+        if (m_brought.size() < (depth + 1) * kLightings)
+            m_brought.resize((depth + 1) * kLightings);
+        std::copy(sum.begin(), sum.end(), m_brought.data() + depth++ * kLightings);
+        m_error[i] = squaredError(sum.data(), seen.sight[i].irradiance, training.row(seen.node[i]));
         m_groups[i - seen.leaves()].gain =
             m_error[i] - m_error[l] - m_error[r] +
             kPrior * seen.sight[l].irradiance * seen.sight[r].irradiance;

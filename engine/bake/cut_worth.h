@@ -51,7 +51,7 @@ private:
     std::uint32_t merge(std::uint32_t a, std::uint32_t b);
 
     std::vector<float> m_worth;
-    std::vector<float> m_brought; ///< per node and training lighting, what its senders truly bring
+    std::vector<float> m_brought; ///< what senders of nodes truly bring in each lighting; a stack
     std::vector<float> m_error;   ///< squared, of one link to the node
     std::vector<Group> m_groups;
 };

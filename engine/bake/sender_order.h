@@ -15,6 +15,8 @@ public:
     /// O(n log n) in time and memory; 17 MiB for 128 k leaves.
     explicit SenderOrder(const ClusterTree& tree);
 
+    std::uint32_t size() const { return std::uint32_t(m_leaf.size()); } ///< leaves
+
     /// Place of a leaf in the row.
     std::uint32_t rank(std::uint32_t leaf) const { return m_rank[leaf]; }
     std::uint32_t leafAt(std::uint32_t rank) const { return m_leaf[rank]; }

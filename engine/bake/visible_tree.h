@@ -33,9 +33,18 @@ public:
     /// `order` must outlive the object.
     explicit VisibleTree(const SenderOrder& order);
 
-    void clear();
-    void add(std::uint32_t leaf, const Sight& sight);
-    /// After the last add(): joins the leaves.
+    void add(std::uint32_t leaf, const Sight& s) {
+        const std::uint32_t rank = m_order.rank(leaf);
+        std::uint32_t& entry = m_entry[rank];
+        if (entry == kNone) {
+            entry = std::uint32_t(m_added.size());
+            m_inSight[rank / 64] |= std::uint64_t(1) << rank % 64;
+            m_added.push_back(s);
+        } else {
+            m_added[entry] += s;
+        }
+    }
+    /// Joins the leaves that were added since the last call.
     void build();
 
     std::uint32_t leaves() const { return m_leaves; }
@@ -47,9 +56,12 @@ public:
     std::vector<Sight> sight;
 
 private:
+    static constexpr std::uint32_t kNone = ~0U;
+
     const SenderOrder& m_order;
     std::uint32_t m_leaves = 0;
-    std::vector<std::uint64_t> m_seen; ///< rank in the upper half, entry of m_added in the lower
+    std::vector<std::uint32_t> m_entry;   ///< per rank, of m_added; kNone: not in sight
+    std::vector<std::uint64_t> m_inSight; ///< per rank, one bit
     std::vector<Sight> m_added;
     std::vector<std::array<std::uint32_t, 2>> m_child;
     struct Open {

@@ -92,7 +92,6 @@ TEST(SenderOrder, FindsTheLowestNodeAboveTwoLeaves) {
 /// What a random cache might see.
 void look(std::mt19937& rng, const ClusterTree& tree, std::uint32_t senders, VisibleTree& seen) {
     std::uniform_real_distribution<float> unit(0, 1);
-    seen.clear();
     for (std::uint32_t k = 0; k < senders; ++k) {
         const float weight = unit(rng);
         seen.add(std::uint32_t(rng()) % tree.leaves(),
