@@ -94,19 +94,20 @@ class CacheLinker {
 public:
     explicit CacheLinker(const LinkInput& input) : in(input), m_seen(input.order) {}
 
-    enum class Look { Amounts, Directions }; ///< without directions moments stay 0
-
     /// Joins what a cache sees. False for a cache that sees nothing.
-    bool look(const Caches& caches, std::uint32_t cache, Look what) {
-        addRays(caches, cache, what);
+    bool look(const Caches& caches, std::uint32_t cache) {
+        addRays(caches, cache);
         for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
             addAimed(caches.kind[cache], in.hits.aimed[k]);
         m_seen.build();
         return m_seen.size() > 0;
     }
 
-    /// After look(): leaves that it found.
-    std::uint32_t senders() const { return m_seen.leaves(); }
+    /// The same of what an earlier look() found.
+    void lookAgain(const std::vector<SeenLeaf>& found) { m_seen.build(found); }
+
+    /// After look(), not lookAgain().
+    const std::vector<SeenLeaf>& found() const { return m_seen.found(); }
 
     /// After look(): what each refinement is worth.
     const std::vector<float>& weigh() {
@@ -134,7 +135,7 @@ public:
     }
 
 private:
-    void addRays(const Caches& caches, std::uint32_t cache, Look what) {
+    void addRays(const Caches& caches, std::uint32_t cache) {
         const std::uint32_t count = in.hits.rays;
         const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * count;
         const auto kept =
@@ -145,15 +146,15 @@ private:
         const float weight =
             rays.local.solidAngle() / std::numbers::pi_v<float> * (float(count) / float(kept));
         const float half = weight * irradianceShare(CacheKind::Grid, 0);
-        const bool sphere = rays.local.sphere, directions = what == Look::Directions;
+        const bool sphere = rays.local.sphere;
         const glm::vec3* local = (sphere ? in.sphere : in.hemisphere).data();
         std::array<glm::mat3, AtlasTexel::kMostPoints> toMoment{};
-        for (std::uint32_t k = 0; directions && k < rays.points; ++k)
+        for (std::uint32_t k = 0; k < rays.points; ++k)
             toMoment[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * weight;
         for (std::uint32_t r = 0, k = 0; r < count; ++r) {
             if (sender[r] < GatherHits::kFirstMark)
-                m_seen.add(sender[r], {weight, sphere ? half : weight * local[r].z,
-                                       directions ? toMoment[k] * local[r] : glm::vec3(0)});
+                m_seen.add(sender[r],
+                           {weight, sphere ? half : weight * local[r].z, toMoment[k] * local[r]});
             k = k + 1 == rays.points ? 0 : k + 1;
         }
     }
@@ -209,25 +210,36 @@ float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// Fills `worth` per cache and finds the bound on it that gives all caches together as many links
-/// as n_L each would. Nothing when cancelled.
+/// What is known of a cache before the bound is.
+struct Weighed {
+    std::vector<float> worth;
+    std::vector<SeenLeaf> found; ///< empty: not kept
+};
+
+/// Fills `weighed` per cache and finds the bound on the worth that gives all caches together as
+/// many links as n_L each would. Nothing when cancelled.
 std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
                                  const Caches& caches, const CutSettings& settings,
-                                 const Progress& progress, std::vector<std::vector<float>>& worth) {
+                                 const Progress& progress, std::vector<Weighed>& weighed) {
     constexpr std::size_t kSteps = 1 << 15;
+    constexpr std::size_t kMostKept = (std::size_t(1) << 29) / sizeof(SeenLeaf); // half a GiB
     tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
     std::atomic<std::uint64_t> budget = 0;
+    std::atomic<std::size_t> kept = 0;
     const bool done = parallelRanges(
         caches.size(), 8, progress, "budget", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
             WorthHistogram& histogram = histograms.local();
             for (std::size_t c = begin; c < end; ++c) {
-                if (!linker.look(caches, std::uint32_t(c), CacheLinker::Look::Amounts))
+                if (!linker.look(caches, std::uint32_t(c)))
                     continue;
-                budget += std::min(linker.senders(), settings.links) - 1;
-                worth[c] = linker.weigh();
-                for (const float w : worth[c])
+                const std::vector<SeenLeaf>& found = linker.found();
+                budget += std::min<std::size_t>(found.size(), settings.links) - 1;
+                weighed[c].worth = linker.weigh();
+                for (const float w : weighed[c].worth)
                     ++histogram[stepOf(w)];
+                if (kept.fetch_add(found.size()) + found.size() <= kMostKept)
+                    weighed[c].found = found;
             }
         });
     if (!done)
@@ -287,11 +299,11 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                           unturnedRays(hits.rays, true)};
     tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
     const bool shared = settings.criterion == CutCriterion::Detail;
-    std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
+    std::vector<Weighed> weighed(shared ? caches.size() : 0);
     float bound = -1;
     std::uint32_t mostLinks = settings.links;
     if (shared) {
-        const std::optional<float> found = sharedBound(linkers, caches, settings, progress, worth);
+        const auto found = sharedBound(linkers, caches, settings, progress, weighed);
         if (!found)
             return false;
         bound = *found;
@@ -301,10 +313,17 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
     const bool done =
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
-            for (std::size_t c = begin; c < end; ++c)
-                if (linker.look(caches, std::uint32_t(c), CacheLinker::Look::Directions))
-                    links[c] = linker.link(caches, std::uint32_t(c),
-                                           shared ? worth[c] : linker.weigh(), bound, mostLinks);
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto c = std::uint32_t(i);
+                if (shared && !weighed[c].found.empty())
+                    linker.lookAgain(weighed[c].found);
+                else if (!linker.look(caches, c))
+                    continue;
+                links[c] = linker.link(caches, c, shared ? weighed[c].worth : linker.weigh(), bound,
+                                       mostLinks);
+                if (shared)
+                    weighed[c] = {};
+            }
         });
     if (!done)
         return false;
