@@ -18,13 +18,22 @@ constexpr std::uint32_t kLightings = TrainingLight::kCount;
 /// links: 0.011 and 0.014, 0.011 and 0.017, 0.011 and 0.020.
 constexpr float kPrior = 0.3f;
 
-/// Mean square of truth[t] - share * radiosity[t]. Eight sums, so that SIMD can take them at once.
-float squaredError(const float* truth, float share, const float* radiosity) {
+/// Radiosities as one cache receives them: share * radiosity[t].
+struct Received {
+    float share;
+    const float* radiosity;
+};
+
+/// Fills brought[t] with what two senders bring; returns the mean square of its difference to what
+/// a link to both in one brings. Eight sums, so that SIMD can take them at once.
+float bringBoth(const Received& a, const Received& b, const Received& link, float* brought) {
     std::array<float, 8> sums{};
     static_assert(kLightings % sums.size() == 0);
     for (std::size_t t = 0; t < kLightings; t += sums.size())
         for (std::size_t k = 0; k < sums.size(); ++k) {
-            const float d = truth[t + k] - share * radiosity[t + k];
+            const float truth = a.share * a.radiosity[t + k] + b.share * b.radiosity[t + k];
+            const float d = truth - link.share * link.radiosity[t + k];
+            brought[t + k] = truth;
             sums[k] += d * d;
         }
     float sum = 0;
@@ -56,26 +65,34 @@ void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& traini
     // Inner nodes come in post-order: of what their inner children brought the right one's lies on
     // top of the stack.
     std::size_t depth = 0;
-    std::array<float, kLightings> leaf;
-    const auto add = [&](std::uint32_t node, float* sum) {
-        const float* from = leaf.data();
+    const auto received = [&](std::uint32_t node) -> Received {
         if (node >= seen.leaves())
-            from = m_brought.data() + --depth * kLightings;
-        else
-            for (std::uint32_t t = 0; t < kLightings; ++t)
-                leaf[t] = seen.sight[node].irradiance * training.row(seen.node[node])[t];
-        for (std::uint32_t t = 0; t < kLightings; ++t)
-            sum[t] += from[t];
+            return {1, m_brought.data() + --depth * kLightings};
+        return {seen.sight[node].irradiance, training.row(seen.node[node])};
     };
+    // The rows lie far apart in memory: asked for some nodes ahead.
+    const auto fetch = [&](std::uint32_t node) {
+        constexpr std::uint32_t kPerLine = 64 / sizeof(float);
+        const float* row = training.row(seen.node[node]);
+        for (std::uint32_t t = 0; t < kLightings; t += kPerLine)
+            __builtin_prefetch(row + t);
+    };
+    constexpr std::uint32_t kAhead = 4;
     for (std::uint32_t i = seen.leaves(); i < seen.size(); ++i) {
+        if (const std::uint32_t next = i + kAhead; next < seen.size()) {
+            fetch(next);
+            for (int side = 0; side < 2; ++side)
+                if (const std::uint32_t c = seen.child(next, side); c < seen.leaves())
+                    fetch(c);
+        }
         const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
-        std::array<float, kLightings> sum{};
-        add(r, sum.data());
-        add(l, sum.data());
+        const Received right = received(r), left = received(l);
+        std::array<float, kLightings> brought;
+        m_error[i] = bringBoth(left, right, {seen.sight[i].irradiance, training.row(seen.node[i])},
+                               brought.data());
         if (m_brought.size() < (depth + 1) * kLightings)
             m_brought.resize((depth + 1) * kLightings);
-        std::copy(sum.begin(), sum.end(), m_brought.data() + depth++ * kLightings);
-        m_error[i] = squaredError(sum.data(), seen.sight[i].irradiance, training.row(seen.node[i]));
+        std::copy(brought.begin(), brought.end(), m_brought.data() + depth++ * kLightings);
         m_groups[i - seen.leaves()].gain =
             m_error[i] - m_error[l] - m_error[r] +
             kPrior * seen.sight[l].irradiance * seen.sight[r].irradiance;
