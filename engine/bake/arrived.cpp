@@ -16,25 +16,29 @@ static std::vector<bool> maskOf(std::size_t count, const std::vector<std::uint32
     return mask;
 }
 
+BoundingSphere sphereAround(const TraceScene& trace, const Mesh& mesh, const glm::mat4& toWorld) {
+    glm::vec3 lower(1e30f), upper(-1e30f);
+    for (const glm::vec3 p : mesh.positions) {
+        const glm::vec3 world = toWorld * glm::vec4(p, 1);
+        lower = glm::min(lower, world);
+        upper = glm::max(upper, world);
+    }
+    const glm::vec3 centre = (lower + upper) * 0.5f;
+    return {centre, glm::length(upper - lower) * 0.505f + trace.epsilonAt(centre) * 4};
+}
+
 ArrivedObjects::ArrivedObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances)
     : m_objects(trace.scene(), maskOf(trace.scene().instances.size(), instances)) {
     for (const std::uint32_t i : instances) {
         const Instance& instance = trace.scene().instances[i];
-        glm::vec3 lower(1e30f), upper(-1e30f);
-        for (const glm::vec3 p : trace.scene().meshOf(instance).positions) {
-            const glm::vec3 world = instance.toWorld * glm::vec4(p, 1);
-            lower = glm::min(lower, world);
-            upper = glm::max(upper, world);
-        }
-        const glm::vec3 centre = (lower + upper) * 0.5f;
-        m_spheres.push_back(
-            {centre, glm::length(upper - lower) * 0.505f + trace.epsilonAt(centre) * 4});
+        m_spheres.push_back(sphereAround(trace, trace.scene().meshOf(instance), instance.toWorld));
     }
 }
 
 // z falls evenly along the lattice, so a cone's rays lie within one run of it.
 void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from,
-                                const Sphere& sphere, std::vector<std::uint8_t>& candidate) const {
+                                const BoundingSphere& sphere,
+                                std::vector<std::uint8_t>& candidate) const {
     const glm::vec3 way = sphere.centre - from;
     const float distance = glm::length(way);
     const auto count = std::uint32_t(candidate.size());
@@ -65,7 +69,7 @@ std::uint32_t ArrivedObjects::mark(const RayGatherer& gatherer, const CachePoint
     const CacheRays rays = gatherer.directions(cache);
     std::vector<std::uint8_t> candidate(met.size());
     for (std::uint32_t k = 0; k < rays.points; ++k)
-        for (const Sphere& sphere : m_spheres)
+        for (const BoundingSphere& sphere : m_spheres)
             markInCone(rays, k, points.position[points.begin[cache] + k], sphere, candidate);
     std::uint32_t traced = 0;
     for (std::uint32_t r = 0; r < met.size(); ++r) {

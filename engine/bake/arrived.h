@@ -8,6 +8,14 @@
 
 namespace limn {
 
+struct BoundingSphere {
+    glm::vec3 centre;
+    float radius;
+};
+
+/// Of a mesh at a place, wider by a little for rays that start or end clear of surfaces.
+BoundingSphere sphereAround(const TraceScene& trace, const Mesh& mesh, const glm::mat4& toWorld);
+
 /// Objects that are new at their place, to find the rays that meet them there.
 class ArrivedObjects {
 public:
@@ -21,15 +29,11 @@ public:
                        std::vector<std::uint8_t>& met) const;
 
 private:
-    struct Sphere {
-        glm::vec3 centre;
-        float radius;
-    };
-    void markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from, const Sphere& sphere,
-                    std::vector<std::uint8_t>& candidate) const;
+    void markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from,
+                    const BoundingSphere& sphere, std::vector<std::uint8_t>& candidate) const;
 
     TraceScene m_objects; ///< only they
-    std::vector<Sphere> m_spheres;
+    std::vector<BoundingSphere> m_spheres;
 };
 
 } // namespace limn

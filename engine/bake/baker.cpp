@@ -75,6 +75,20 @@ std::uint32_t raysPerCache(const BakeSettings& settings) {
                                              : std::min(settings.rays, kFormFactorRays);
 }
 
+/// The training lights as shadow rays see them; traced again only near what moved.
+TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, TraceReport& traced,
+                             const Progress& progress, StageStore* store) {
+    const auto fields = [](auto& archive, auto& t) { archive(t.irradiance), archive(t.lamps); };
+    const auto key = [](std::uint64_t of) { return hashValue(of, 23); };
+    return keptOrMade<TracedTraining>(store, key(traced.key), progress, fields, [&] {
+        std::optional<EarlierTraining> earlier;
+        if (traced.moved)
+            if (auto light = kept<TracedTraining>(*store, key(traced.moved->key), fields))
+                earlier = {std::move(*light), std::move(*traced.moved)};
+        return traceTraining(trace, surfels, earlier ? &*earlier : nullptr, progress);
+    });
+}
+
 BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
     BakeCounts counts;
     for (const Instance& i : scene.instances)
@@ -145,10 +159,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     rays += traced->rays;
     TrainingLight training; // read by the detail cut alone
     if (scene.bake.cut == CutCriterion::Detail) {
-        const TracedTraining light = keptOrMade<TracedTraining>(
-            store, hashValue(traced->key, 23), progress,
-            [](auto& archive, auto& t) { archive(t.irradiance); },
-            [&] { return traceTraining(trace, set.surfels, progress); });
+        const TracedTraining light = trainingStage(trace, set.surfels, *traced, progress, store);
         if (progress.cancelled())
             return cancelled();
         training = trainingLight(scene, set.surfels, result.tree, seen, light);

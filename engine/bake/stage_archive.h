@@ -6,6 +6,7 @@
 #include "engine/core/archive.h"
 #include "engine/core/progress.h"
 
+#include <optional>
 #include <utility>
 
 namespace limn {
@@ -22,19 +23,27 @@ void atlasFields(A& a, T& t) {
     a.each(t.layout.instances, [&](auto& i) { a(i.uv); });
 }
 
+/// What is kept under `key`, or nothing. `fields(archive, T)` lists T's fields.
+template <class T, class Fields>
+std::optional<T> kept(StageStore& store, std::uint64_t key, Fields fields) {
+    if (const auto bytes = store.find(key)) {
+        T value{};
+        ByteReader reader(*bytes);
+        fields(reader, value);
+        if (reader.ok && reader.atEnd())
+            return value;
+    }
+    return {};
+}
+
 /// What is kept under `key`; else what make() returns, kept from now on unless the bake was
-/// cancelled meanwhile. `store` may be null. `fields(archive, T)` lists T's fields.
+/// cancelled meanwhile. `store` may be null.
 template <class T, class Fields, class Make>
 T keptOrMade(StageStore* store, std::uint64_t key, const Progress& progress, Fields fields,
              Make make) {
     if (store)
-        if (const auto bytes = store->find(key)) {
-            T value{};
-            ByteReader reader(*bytes);
-            fields(reader, value);
-            if (reader.ok && reader.atEnd())
-                return value;
-        }
+        if (std::optional<T> value = kept<T>(*store, key, fields))
+            return std::move(*value);
     T value = make();
     if (store && !progress.cancelled()) {
         ByteWriter writer;

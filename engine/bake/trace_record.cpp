@@ -121,10 +121,16 @@ InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) 
         for (std::uint32_t s = 0; s < old.surfelCount; ++s)
             match.surfelNow.push_back(sampled ? firstNow[same->second] + s : InstanceMatch::kGone);
         match.resampled += there && !sampled ? 1 : 0;
-        if (there)
+        if (there) {
             waiting.erase(same);
-        else
+        } else {
             ++left[old.shape];
+            const auto alike =
+                std::find_if(now.instances.begin(), now.instances.end(),
+                             [&](const TracedInstance& i) { return i.shape == old.shape; });
+            match.left.push_back(
+                {old.toWorld, alike != now.instances.end() ? alike->instance : ~0U});
+        }
     }
     for (const auto& [shape, i] : waiting) {
         match.arrived.push_back(now.instances[i].instance);
@@ -138,7 +144,8 @@ InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) 
     for (const auto& [shape, count] : left)
         match.removed += count;
     for (std::uint32_t s = 0; s < match.surfelNow.size(); ++s)
-        match.identity = match.identity && match.surfelNow[s] == s;
+        match.identity = match.identity &&
+                         (match.surfelNow[s] == s || match.surfelNow[s] == InstanceMatch::kGone);
     match.identity = match.identity && before.surfels() == now.surfels();
     return match;
 }

@@ -62,7 +62,13 @@ struct InstanceMatch {
     std::vector<std::uint32_t> surfelNow;
     std::vector<std::uint32_t> arrived; ///< Scene::instances that are new at their place
     std::uint32_t moved = 0, added = 0, removed = 0, resampled = 0; ///< for people
-    bool identity = true; ///< no surfel's number has changed
+    /// Instances that are no longer at their place.
+    struct Left {
+        glm::mat4 toWorld;
+        std::uint32_t alike; ///< of Scene::instances now, one of the same shape; ~0: none
+    };
+    std::vector<Left> left;
+    bool identity = true; ///< no surfel has another number; some are elsewhere
 };
 InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now);
 

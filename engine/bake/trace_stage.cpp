@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/trace_stage.h"
 
-#include "engine/bake/arrived.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/trace_record.h"
 #include "engine/core/archive.h"
@@ -58,13 +57,21 @@ std::string grouped(std::uint64_t n) {
     return s;
 }
 
+/// How a block of caches lies in the store: all its hits, or, where few caches differ from an
+/// earlier block, that one's key and the hits of those.
+struct KeptBlock {
+    bool known = false;                 ///< its hits were found
+    std::uint64_t root = 0;             ///< key of all hits, its own or the earlier block's
+    std::vector<std::uint32_t> patched; ///< caches that differ from it, from the block's first
+};
+
 /// An earlier trace whose hits may still hold.
 struct Base {
     TraceRecord record;
     InstanceMatch match;
-    bool aligned = false;     ///< its caches are today's, one by one
+    bool aligned = false;     ///< most of its caches are today's, one by one
     std::vector<RawHit> hits; ///< of all its caches; empty where aligned
-    std::vector<bool> known;  ///< per block: its hits were found
+    std::vector<KeptBlock> blocks;
     std::unordered_map<std::uint64_t, std::uint32_t> cacheOf; ///< by hash; empty where aligned
     std::unique_ptr<ArrivedObjects> arrived;
 };
@@ -75,7 +82,7 @@ public:
         : in(input), m_progress(progress), m_store(store), m_hits(hits),
           m_gatherer(in.trace, in.set, in.caches, in.points, in.rays),
           m_record(describeTrace(in.trace, in.set, in.caches, in.points, in.rays, in.meshes)),
-          m_key(hashRecord(m_record)), m_done(m_record.blockCount()), m_changed(m_done.size()),
+          m_key(hashRecord(m_record)), m_done(m_record.blockCount()), m_changed(in.caches.size()),
           m_left(m_done.size()) {}
 
     Result<TraceReport> run();
@@ -87,10 +94,11 @@ private:
     std::size_t last(std::uint32_t block) const {
         return std::min(first(block) + m_record.cachesPerBlock, in.caches.size());
     }
-    bool loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const;
+    KeptBlock loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const;
     void loadDone();
     void loadBase();
     bool loadBaseHits();
+    void noteMoved(std::uint64_t key);
     bool takeFromBase(std::uint32_t cache, RawHit* out) const;
     std::uint64_t retrace(std::uint32_t cache, RawHit* out);
     void traceOne(std::uint32_t cache);
@@ -109,18 +117,34 @@ private:
     bool m_exact = false; ///< all of this very trace was kept
     std::unique_ptr<Base> m_base;
     std::vector<std::uint8_t> m_done;               ///< per block: its hits are final
-    std::vector<std::atomic<bool>> m_changed;       ///< per block: not as the base has it
+    std::vector<std::uint8_t> m_changed;            ///< per cache: not as the base has it
     std::vector<std::atomic<std::uint32_t>> m_left; ///< per block: caches still to do
     std::atomic<std::uint64_t> m_rays = 0, m_retraced = 0;
     TraceReport m_report;
 };
 
-bool Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const {
-    const std::optional<std::string> bytes = m_store->find(key);
-    if (!bytes || bytes->size() != caches * in.rays * sizeof(RawHit))
-        return false;
+KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const {
+    const std::size_t bytesPerCache = in.rays * sizeof(RawHit);
+    KeptBlock block{.known = false, .root = key, .patched = {}};
+    std::optional<std::string> bytes = m_store->find(key);
+    std::vector<RawHit> hits;
+    if (bytes && bytes->size() != caches * bytesPerCache) { // a patch has fewer
+        ByteReader reader(*bytes);
+        reader(block.root), reader(block.patched), reader(hits);
+        if (!reader.ok || !reader.atEnd() || hits.size() != block.patched.size() * in.rays)
+            return block;
+        bytes = m_store->find(block.root);
+    }
+    if (!bytes || bytes->size() != caches * bytesPerCache)
+        return block;
     std::memcpy(out, bytes->data(), bytes->size());
-    return true;
+    for (std::size_t i = 0; i < block.patched.size(); ++i) {
+        if (block.patched[i] >= caches)
+            return block;
+        std::copy_n(&hits[i * in.rays], in.rays, out + block.patched[i] * std::size_t(in.rays));
+    }
+    block.known = true;
+    return block;
 }
 
 /// Blocks of this very trace, finished or stopped.
@@ -134,9 +158,18 @@ void Tracing::loadDone() {
     parallelRanges(m_done.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t from = first(std::uint32_t(b)), to = last(std::uint32_t(b));
-            m_done[b] = loadBlock(m_record.blocks[b], &m_hits.sender[from * in.rays], to - from);
+            m_done[b] =
+                loadBlock(m_record.blocks[b], &m_hits.sender[from * in.rays], to - from).known;
         }
     });
+}
+
+/// Whether more of the caches have kept their number than not.
+bool alignedCaches(const TraceRecord& before, const TraceRecord& now) {
+    std::size_t same = 0;
+    for (std::size_t c = 0; c < std::min(before.caches.size(), now.caches.size()); ++c)
+        same += before.caches[c] == now.caches[c] ? 1 : 0;
+    return before.caches.size() == now.caches.size() && 2 * same > now.caches.size();
 }
 
 /// The latest finished trace of the document, where its rays start alike.
@@ -153,12 +186,13 @@ void Tracing::loadBase() {
         base->record.clearance != m_record.clearance)
         return;
     base->match = matchInstances(base->record, m_record);
-    base->aligned = base->record.caches == m_record.caches;
+    base->aligned = alignedCaches(base->record, m_record);
     m_base = std::move(base);
     if (!loadBaseHits()) {
         m_base = nullptr;
         return;
     }
+    noteMoved(key);
     if (!m_base->match.arrived.empty())
         m_base->arrived = std::make_unique<ArrivedObjects>(in.trace, m_base->match.arrived);
 }
@@ -174,19 +208,40 @@ bool Tracing::loadBaseHits() {
         for (std::uint32_t c = 0; c < caches; ++c)
             base.cacheOf.emplace(base.record.caches[c], c);
     }
-    std::vector<std::uint8_t> known(base.record.blocks.size());
-    parallelRanges(known.size(), 1, [&](std::size_t begin, std::size_t end) {
+    base.blocks.resize(base.record.blocks.size());
+    parallelRanges(base.blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             if (base.aligned && m_done[b])
                 continue;
             const std::size_t from = b * m_record.cachesPerBlock;
             const std::size_t to = std::min<std::size_t>(from + m_record.cachesPerBlock, caches);
             RawHit* out = (base.aligned ? m_hits.sender : base.hits).data() + from * in.rays;
-            known[b] = loadBlock(base.record.blocks[b], out, to - from);
+            base.blocks[b] = loadBlock(base.record.blocks[b], out, to - from);
         }
     });
-    base.known.assign(known.begin(), known.end());
     return true;
+}
+
+/// Says what moved since the base, `key`, where that can be told.
+void Tracing::noteMoved(std::uint64_t key) {
+    const InstanceMatch& match = m_base->match;
+    if (!match.identity)
+        return;
+    const Scene& scene = in.trace.scene();
+    MovedSince moved{.key = key, .elsewhere = {}, .places = {}};
+    for (const std::uint32_t s : match.surfelNow)
+        moved.elsewhere.push_back(s == InstanceMatch::kGone ? 1 : 0);
+    for (const InstanceMatch::Left& left : match.left) {
+        if (left.alike == ~0U)
+            return;
+        const Mesh& mesh = scene.meshOf(scene.instances[left.alike]);
+        moved.places.push_back(sphereAround(in.trace, mesh, left.toWorld));
+    }
+    for (const std::uint32_t i : match.arrived) {
+        const Instance& instance = scene.instances[i];
+        moved.places.push_back(sphereAround(in.trace, scene.meshOf(instance), instance.toWorld));
+    }
+    m_report.moved = std::move(moved);
 }
 
 /// Copies an earlier cache's hits to `out`, where they are not there already.
@@ -194,9 +249,10 @@ bool Tracing::takeFromBase(std::uint32_t cache, RawHit* out) const {
     if (!m_base)
         return false;
     if (m_base->aligned)
-        return m_base->known[cache / m_record.cachesPerBlock];
+        return m_base->blocks[cache / m_record.cachesPerBlock].known &&
+               m_base->record.caches[cache] == m_record.caches[cache];
     const auto it = m_base->cacheOf.find(m_record.caches[cache]);
-    if (it == m_base->cacheOf.end() || !m_base->known[it->second / m_record.cachesPerBlock])
+    if (it == m_base->cacheOf.end() || !m_base->blocks[it->second / m_record.cachesPerBlock].known)
         return false;
     std::copy_n(m_base->hits.data() + std::size_t(it->second) * in.rays, in.rays, out);
     return true;
@@ -235,21 +291,44 @@ void Tracing::traceOne(std::uint32_t cache) {
         takeFromBase(cache, out) ? retrace(cache, out) : m_gatherer.traceCache(cache, out);
     m_rays += rays;
     m_retraced += rays > 0 ? 1 : 0;
-    if (rays > 0)
-        m_changed[block] = true;
+    m_changed[cache] = rays > 0 ? 1 : 0;
     if (--m_left[block] == 0 && m_store && !m_progress.cancelled())
         keepBlock(block);
 }
 
+/// As little as tells it from what the base has.
 void Tracing::keepBlock(std::uint32_t block) {
-    if (m_base && m_base->aligned && m_base->match.identity && !m_changed[block]) {
+    const std::size_t begin = first(block), caches = last(block) - begin;
+    const RawHit* hits = &m_hits.sender[begin * in.rays];
+    const bool known =
+        m_base && m_base->aligned && m_base->match.identity && m_base->blocks[block].known;
+    std::vector<std::uint8_t> patched(m_changed.begin() + std::ptrdiff_t(begin),
+                                      m_changed.begin() + std::ptrdiff_t(begin + caches));
+    if (known && std::count(patched.begin(), patched.end(), 1) == 0) {
         m_record.blocks[block] = m_base->record.blocks[block];
         return;
     }
     m_record.blocks[block] = blockKey(m_key, block);
-    const std::size_t from = first(block) * in.rays, to = last(block) * in.rays;
-    m_store->put(m_record.blocks[block], {reinterpret_cast<const char*>(&m_hits.sender[from]),
-                                          (to - from) * sizeof(RawHit)});
+    if (known)
+        for (const std::uint32_t c : m_base->blocks[block].patched)
+            patched[c] = 1;
+    if (const auto count = std::size_t(std::count(patched.begin(), patched.end(), 1));
+        known && 2 * count < caches) {
+        std::vector<std::uint32_t> which;
+        std::vector<RawHit> theirs;
+        for (std::uint32_t c = 0; c < caches; ++c)
+            if (patched[c]) {
+                which.push_back(c);
+                theirs.insert(theirs.end(), hits + std::size_t(c) * in.rays,
+                              hits + std::size_t(c + 1) * in.rays);
+            }
+        ByteWriter writer;
+        writer(m_base->blocks[block].root), writer(which), writer(theirs);
+        m_store->put(m_record.blocks[block], writer.bytes);
+        return;
+    }
+    m_store->put(m_record.blocks[block],
+                 {reinterpret_cast<const char*>(hits), caches * in.rays * sizeof(RawHit)});
 }
 
 /// Also names this trace as the latest of the document.

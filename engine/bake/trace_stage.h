@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/gather.h"
+#include "engine/bake/arrived.h"
 #include "engine/bake/stage_store.h"
 #include "engine/core/result.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,18 @@ struct TraceInput {
     const std::vector<std::uint64_t>& meshes; ///< hashMeshes of the scene
 };
 
+/// What moved since an earlier trace in which all surfels had the same numbers.
+struct MovedSince {
+    std::uint64_t key = 0;               ///< of that trace
+    std::vector<std::uint8_t> elsewhere; ///< per surfel: it was not where it is
+    std::vector<BoundingSphere> places;  ///< around all that moved, where it was and where it is
+};
+
 struct TraceReport {
-    std::uint64_t key = 0;          ///< hash of all that the hits depend on
-    std::uint64_t rays = 0;         ///< traced now, whatever for
-    std::vector<std::string> notes; ///< what was traced again and why
+    std::uint64_t key = 0;           ///< hash of all that the hits depend on
+    std::uint64_t rays = 0;          ///< traced now, whatever for
+    std::vector<std::string> notes;  ///< what was traced again and why
+    std::optional<MovedSince> moved; ///< where hits of such a trace were used
 };
 
 /// The trace stage: fills `hits` from what the store knows and traces the rest. Hits are stored in

@@ -50,17 +50,38 @@ std::vector<Light> lamps(const TraceScene& trace, const Surfels& surfels) {
     return result;
 }
 
-/// Adds the shadow ray, where one is needed, to `rays`.
-float irradiance(const TraceScene& trace, const Light& light, glm::vec3 p, glm::vec3 n,
-                 std::uint64_t& rays) {
-    const LightSample sample = sampleLight(light, p);
-    const float cosTheta = glm::dot(n, sample.toLight);
-    if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
-        return 0;
-    ++rays;
-    const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
-    return trace.occluded(ray, TraceMask::Static) ? 0 : sample.irradiance.x * cosTheta;
+bool meets(const Ray& ray, const std::vector<BoundingSphere>& spheres) {
+    return std::any_of(spheres.begin(), spheres.end(), [&](const BoundingSphere& s) {
+        const glm::vec3 way = s.centre - ray.origin;
+        const float along = std::clamp(glm::dot(way, ray.direction), 0.f, ray.tFar);
+        const glm::vec3 apart = way - ray.direction * along;
+        return glm::dot(apart, apart) <= s.radius * s.radius;
+    });
 }
+
+/// Lights one surfel after the other.
+struct Trainer {
+    const TraceScene& trace;
+    const Surfels& surfels;
+    std::vector<Light> lights;
+    const EarlierTraining* earlier;
+    std::vector<bool> sameLight; ///< as in `earlier`
+
+    /// Adds the shadow ray, where one is needed, to `rays`.
+    float irradiance(std::size_t s, std::size_t light, std::uint64_t& rays) const {
+        const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
+        const LightSample sample = sampleLight(lights[light], p);
+        const float cosTheta = glm::dot(n, sample.toLight);
+        if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
+            return 0;
+        const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
+        if (earlier && sameLight[light] && !earlier->moved.elsewhere[s] &&
+            !meets(ray, earlier->moved.places))
+            return earlier->light.irradiance[s * TracedTraining::kCount + light];
+        ++rays;
+        return trace.occluded(ray, TraceMask::Static) ? 0 : sample.irradiance.x * cosTheta;
+    }
+};
 
 /// Number of each emissive instance, counted from 0; ~0 for the others.
 std::vector<std::uint32_t> emitterNumbers(const Scene& scene) {
@@ -125,22 +146,31 @@ void pull(const ClusterTree& tree, TrainingLight& out) {
 } // namespace
 
 TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
-                             const Progress& progress) {
-    std::vector<Light> lights = suns();
-    for (const Light& lamp : lamps(trace, surfels))
-        lights.push_back(lamp);
+                             const EarlierTraining* earlier, const Progress& progress) {
     TracedTraining result;
-    result.irradiance.resize(surfels.size() * TracedTraining::kCount);
+    Trainer trainer{trace, surfels, suns(), earlier, std::vector<bool>(kSuns, true)};
+    const std::size_t values = surfels.size() * TracedTraining::kCount;
+    if (earlier &&
+        (earlier->light.irradiance.size() != values || earlier->light.lamps.size() != kLamps ||
+         earlier->moved.elsewhere.size() != surfels.size()))
+        trainer.earlier = nullptr;
+    for (const Light& lamp : lamps(trace, surfels)) {
+        trainer.sameLight.push_back(trainer.earlier &&
+                                    earlier->light.lamps[result.lamps.size()] == lamp.position);
+        trainer.lights.push_back(lamp);
+        result.lamps.push_back(lamp.position);
+    }
+    result.irradiance.resize(values);
     std::atomic<std::uint64_t> rays = kLamps;
-    const bool done = parallelRanges(
-        surfels.size(), 256, progress, "training", [&](std::size_t begin, std::size_t end) {
-            std::uint64_t mine = 0;
-            for (std::size_t s = begin; s < end; ++s)
-                for (std::size_t k = 0; k < lights.size(); ++k)
-                    result.irradiance[s * TracedTraining::kCount + k] =
-                        irradiance(trace, lights[k], surfels.position[s], surfels.normal[s], mine);
-            rays += mine;
-        });
+    const bool done = parallelRanges(surfels.size(), 256, progress, "training",
+                                     [&](std::size_t begin, std::size_t end) {
+                                         std::uint64_t mine = 0;
+                                         for (std::size_t s = begin; s < end; ++s)
+                                             for (std::size_t k = 0; k < trainer.lights.size(); ++k)
+                                                 result.irradiance[s * TracedTraining::kCount + k] =
+                                                     trainer.irradiance(s, k, mine);
+                                         rays += mine;
+                                     });
     result.rays = rays;
     return done ? result : TracedTraining{};
 }

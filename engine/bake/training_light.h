@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/surfels.h"
+#include "engine/bake/trace_stage.h"
 #include "engine/core/progress.h"
 #include "engine/trace/trace_scene.h"
 
@@ -32,10 +33,20 @@ struct TracedTraining {
     static constexpr std::uint32_t kCount = 52;
 
     std::vector<float> irradiance; ///< [surfel * kCount + light]; empty when cancelled
-    std::uint64_t rays = 0;        ///< shadow rays traced for it
+    std::vector<glm::vec3> lamps;  ///< where they hang
+    std::uint64_t rays = 0;        ///< traced for it
 };
+
+/// An earlier training light of the same document, and what moved since.
+struct EarlierTraining {
+    TracedTraining light;
+    MovedSince moved;
+};
+
+/// With `earlier`, which may be null, only shadow rays that come near what moved are traced; the
+/// result is the same.
 TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
-                             const Progress& progress);
+                             const EarlierTraining* earlier, const Progress& progress);
 
 /// `seen`: how much of each leaf all caches together see, in irradiance.
 TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,

@@ -50,8 +50,8 @@ struct Fixture {
                               {}, nullptr, hits));
         const std::vector<float> seen = seenByCaches(set.surfels, hits, points, caches, tree);
         weighBySight(seen, tree);
-        training =
-            trainingLight(scene, set.surfels, tree, seen, traceTraining(trace, set.surfels, {}));
+        training = trainingLight(scene, set.surfels, tree, seen,
+                                 traceTraining(trace, set.surfels, nullptr, {}));
     }
     Caches cut(CutCriterion criterion, std::uint32_t links) const {
         Caches result = caches;

@@ -4,21 +4,26 @@
 #include "engine/bake/bake.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_store.h"
+#include "engine/bake/training_light.h"
 #include "engine/core/parallel.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <map>
 #include <random>
 #include <thread>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <unistd.h>
 
 namespace limn {
 namespace {
 
 using namespace simple;
+namespace fs = std::filesystem;
 
 /// Where the two blocks of the room stand. A third one is there where asked.
 struct Blocks {
@@ -127,6 +132,85 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
         EXPECT_EQ(back.hash(), start.hash());
         EXPECT_EQ(back.counts.rays, 0U);
     }
+}
+
+std::map<std::string, std::uintmax_t> filesOf(const fs::path& folder) {
+    std::map<std::string, std::uintmax_t> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        files[entry.path().string()] = entry.file_size();
+    return files;
+}
+
+TEST(Stages, ASmallMoveKeepsOnlyTheCachesItChangedAndEqualsAFullBakeWithoutTheRest) {
+    const fs::path folder = fs::temp_directory_path() / ("limn_patch" + std::to_string(getpid()));
+    const auto bakeWith = [&](const Scene& scene) {
+        StageStore store({.folder = folder.string()});
+        return baked(scene, &store);
+    };
+    const auto rooms = [](float x) { // closed ones; a block stands in the small one
+        SceneBuilder b;
+        b.addMaterial(lambert(glm::vec3(0.5f)));
+        b.add(box(glm::vec3(0), glm::vec3(6), true));
+        b.add(box(glm::vec3(8, 0, 0), glm::vec3(9, 1, 1), true));
+        const std::uint32_t block = b.addMesh(box(glm::vec3(0), glm::vec3(0.3f), false));
+        b.addInstance(block, glm::translate(glm::mat4(1), glm::vec3(x, 0.1f, 0.2f)));
+        Scene scene = b.build();
+        scene.bake.surfels = 600;
+        scene.bake.texelsPerMetre = 2;
+        scene.bake.rays = 1024;
+        scene.bake.links = 16;
+        return scene;
+    };
+    bakeWith(rooms(8.1f));
+    const auto before = filesOf(folder);
+    std::uintmax_t all = 0, added = 0;
+    for (const auto& [name, size] : before)
+        all += size;
+    for (const float x : {8.2f, 8.3f}) // the second patches what is patched already
+        EXPECT_EQ(bakeWith(rooms(x)).hash(), baked(rooms(x)).hash());
+    for (const auto& [name, size] : filesOf(folder))
+        added += before.contains(name) ? 0 : size;
+    EXPECT_LT(added, all); // of two moves
+    for (const auto& [name, size] : before)
+        fs::remove(name);
+    const Bake again = bakeWith(rooms(8.3f));
+    EXPECT_GT(again.counts.rays, 0U) << "the files removed were not needed";
+    EXPECT_EQ(again.hash(), baked(rooms(8.3f)).hash());
+    fs::remove_all(folder);
+}
+
+TEST(Stages, TrainingShadowsAreTracedAgainOnlyNearWhatMoved) {
+    Blocks blocks;
+    const Scene before = room(blocks);
+    blocks.tall[3].x += 0.3f;
+    const Scene after = room(blocks);
+    StageStore store;
+    const auto traced = [&](const Scene& scene, SurfelSet& set) {
+        const TraceScene trace(scene);
+        const auto meshes = hashMeshes(scene);
+        set = placeSurfels(scene, 900);
+        std::uint64_t rays = 0;
+        const auto atlas = atlasStage(trace, scene, meshes, {}, &store, rays);
+        CachePoints points;
+        Caches caches = placeCaches(scene, *atlas, glm::uvec3(0), gridBoundsOf(scene), points);
+        GatherHits hits;
+        return traceHits({trace, set, caches, points, Linker::Gather, 128, meshes}, {}, &store,
+                         hits);
+    };
+    SurfelSet was, is;
+    ASSERT_TRUE(traced(before, was));
+    Result<TraceReport> report = traced(after, is);
+    ASSERT_TRUE(report);
+    ASSERT_TRUE(report->moved);
+    EXPECT_EQ(report->moved->places.size(), 2U);
+    const TraceScene trace(after);
+    const EarlierTraining earlier{traceTraining(TraceScene(before), was.surfels, nullptr, {}),
+                                  std::move(*report->moved)};
+    const TracedTraining full = traceTraining(trace, is.surfels, nullptr, {});
+    const TracedTraining again = traceTraining(trace, is.surfels, &earlier, {});
+    EXPECT_EQ(again.irradiance, full.irradiance);
+    EXPECT_NE(again.irradiance, earlier.light.irradiance);
+    EXPECT_LT(again.rays, full.rays * 2 / 3);
 }
 
 TEST(Stages, AnObjectThatComesOrGoesTracesOnlyWhatMeetsIt) {
