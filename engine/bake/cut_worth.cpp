@@ -12,11 +12,11 @@ namespace {
 constexpr std::uint32_t kLightings = TrainingLight::kCount;
 
 /// Mean square radiosity by which the halves of a cluster may differ though no training lighting
-/// shows it; they are scaled to a mean of 1. Without it, what all of them leave dark would never be
-/// told apart. Error of the cut in Cornell with a lamp and in sunlit Sponza, agglomerative trees,
-/// at 32 links: 0.093 and 0.53 with 0.02; 0.078 and 0.35 with 0.3; 0.082 and 0.37 with 1.5. At 256
-/// links: 0.011 and 0.014, 0.011 and 0.017, 0.011 and 0.020.
-constexpr float kPrior = 0.3f;
+/// shows it; they are scaled to a mean square of 1. Without it, what all of them leave dark would
+/// never be told apart. Error of the cut in sunlit Sponza and in Cornell with a lamp, agglomerative
+/// trees, at 32 links: 0.30 and 0.073 with 0.01, 0.28 and 0.072 with 0.003; at 256 links 0.0121 and
+/// 0.0096, 0.0113 and 0.0092.
+constexpr float kPrior = 0.003f;
 
 /// Radiosities as one cache receives them: share * radiosity[t].
 struct Received {

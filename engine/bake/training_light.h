@@ -20,7 +20,8 @@ struct TrainingLight {
     static constexpr std::uint32_t kCount = 64;
 
     /// radiosity[node * kCount + t]: leaves as the tree numbers them, then inner nodes. Each
-    /// lighting's mean over what the caches see is 1, or it is 0 everywhere.
+    /// lighting's mean square over what the caches see is 1, that of emitters 256, or it is 0
+    /// everywhere.
     std::vector<float> radiosity;
 
     const float* row(std::uint32_t node) const {
