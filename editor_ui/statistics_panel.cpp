@@ -43,7 +43,9 @@ static void timeTable(const EditorState& state) {
     const FrameStatus& f = state.frame;
     if (!beginTable("time", "Time per step"))
         return;
-    row("Surfel light", ms(r.surfelLightMs), "Lights onto the surfels, with shadow rays");
+    row("Direct light", ms(r.directMs), "Lights onto the surfels, with shadow rays");
+    row("Surfel light", ms(r.surfelLightMs + r.surfelReadMs),
+        "Bounced light at the surfels, and what they send on");
     row("Pull", ms(r.pullMs), "Sums flux up the cluster tree");
     row("Cache light", ms(r.cacheLightMs), "Gathers linked clusters into the caches");
     row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");

@@ -184,7 +184,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     const bool directChanged = updateSurfelLight(s.bake->surfels, scene, trace, s.direct);
     stats.lightsTraced = s.direct.lightsTraced;
     stats.shadowRays = s.direct.raysTraced;
-    stats.surfelLightMs = timer.lap();
+    stats.directMs = timer.lap();
     if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged) {
         stats.converged = stats.skipped = true;
         stats.totalMs = total.lap();
@@ -208,7 +208,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         fillInvalidCaches(caches, s.bands, 0, caches.lightmapCount, s.sh);
         stats.cacheLightMs += timer.lap();
         s.readCaches();
-        stats.surfelLightMs += timer.lap();
+        stats.surfelReadMs += timer.lap();
         ++stats.bounces;
         if (progress.cancelled())
             break;
@@ -217,8 +217,9 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);
     lightCaches(caches, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh);
     fillInvalidCaches(caches, s.bands, caches.lightmapCount, all, s.sh);
-    s.writeField();
     stats.cacheLightMs += timer.lap();
+    s.writeField();
+    stats.fieldMs = timer.lap();
     stats.converged = s.converged;
     stats.totalMs = total.lap();
     return stats;

@@ -11,7 +11,13 @@ namespace limn {
 
 /// Milliseconds and counters of one relight() call, for the statistics panel and --json.
 struct RelightStats {
-    double surfelLightMs = 0, pullMs = 0, cacheLightMs = 0, totalMs = 0;
+    double directMs = 0;      ///< lights onto the surfels, with shadow rays
+    double surfelLightMs = 0; ///< what the surfels send: their light times their albedo
+    double pullMs = 0;        ///< up the cluster tree
+    double cacheLightMs = 0;  ///< links into the caches
+    double surfelReadMs = 0;  ///< bounced light at the surfels, from the caches
+    double fieldMs = 0;       ///< what the viewport samples
+    double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint32_t shadowRays = 0;
     bool converged =

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/command.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+void addErrorBench(CLI::App& bench, Run& run);
+void addRelightBench(CLI::App& bench, Run& run);
+
+/// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made
+/// where it is missing, and on stdout where `json` is asked for.
+Exit writeRows(const Json& rows, const std::string& folder, const std::string& name, bool json);
+
+/// Precondition: the name is one of `names`.
+template <class Enum, class Names>
+Enum named(const Names& names, const std::string& name) {
+    return Enum(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+template <class Names>
+CLI::IsMember oneOf(const Names& names) {
+    return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+} // namespace limn
