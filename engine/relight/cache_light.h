@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/bake.h"
+#include "engine/relight/light_links.h"
 
 #include <cstdint>
 #include <vector>
@@ -9,13 +10,9 @@
 namespace limn {
 
 /// Radiosity of the inner nodes from their children's: the weighted mean, in one sweep.
-/// `radiosity` has one entry per node, leaves filled in.
-void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec3>& radiosity);
-
-/// How many bands are lit; chroma in [1, luma].
-struct LightBands {
-    int luma = 3, chroma = 3;
-};
+/// `radiosity` has one entry per node, leaves filled in: RGB in xyz [W m^-2], w = 0, so that a
+/// vector register takes one at a time.
+void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
 /// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links of
 /// B transport g_l(u) Y_i(direction), bands = bands.luma, with links of either storage. From band
@@ -23,7 +20,7 @@ struct LightBands {
 /// range are left 0.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016
-void lightCaches(const Caches& caches, const std::vector<glm::vec3>& radiosity, LightBands bands,
+void lightCaches(const Caches& caches, const std::vector<glm::vec4>& radiosity, LightBands bands,
                  std::uint32_t begin, std::uint32_t end, std::vector<glm::vec3>& sh);
 
 /// Makes the bands of the caches [begin, end) from bands.chroma on grey.

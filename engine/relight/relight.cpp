@@ -2,9 +2,9 @@
 #include "engine/relight/relight.h"
 
 #include "engine/core/parallel.h"
-#include "engine/math/sh.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/surfel_light.h"
+#include "engine/relight/surfel_read.h"
 
 #include <algorithm>
 #include <chrono>
@@ -49,14 +49,13 @@ struct Relighter::State {
     Sky sky;
     SurfelLight direct;
     std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
-    std::vector<glm::vec3> radiosity; ///< per node
+    std::vector<glm::vec4> radiosity; ///< per node
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
     IndirectField field;
 
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
     double lightSurfels();
-    void readCaches();
     void writeField();
 };
 
@@ -69,7 +68,7 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake) : m_state(std::make_uniqu
     // would grey the light.
     s.bounceBands = {s.bands, std::max(s.finalBands.chroma, 2)};
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
-    s.radiosity.assign(s.bake->tree.size(), glm::vec3(0));
+    s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
     s.sh.assign(s.bake->caches.size() * std::size_t(s.bands * s.bands), glm::vec3(0));
     s.field.lightmapWidth = s.bake->lightmap.width;
     s.field.lightmapHeight = s.bake->lightmap.height;
@@ -90,7 +89,7 @@ const IndirectField& Relighter::field() const {
 const Bake& Relighter::bake() const {
     return *m_state->bake;
 }
-const std::vector<glm::vec3>& Relighter::radiosity() const {
+const std::vector<glm::vec4>& Relighter::radiosity() const {
     return m_state->radiosity;
 }
 const std::vector<glm::vec3>& Relighter::cacheSh() const {
@@ -121,7 +120,7 @@ bool Relighter::State::updateSky(const Scene& scene) {
         return false;
     sky = scene.sky;
     const ClusterTree& tree = bake->tree;
-    std::fill_n(radiosity.begin() + tree.surfels, tree.skyCells, sky.radiance * kPi);
+    std::fill_n(radiosity.begin() + tree.surfels, tree.skyCells, glm::vec4(sky.radiance * kPi, 0));
     return true;
 }
 
@@ -131,31 +130,12 @@ double Relighter::State::lightSurfels() {
     double change = 0, total = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
-        const glm::vec3 d = glm::abs(b - radiosity[i]);
+        const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
         change += double(d.x + d.y + d.z) * s.area[i];
         total += double(b.x + b.y + b.z) * s.area[i];
-        radiosity[i] = b;
+        radiosity[i] = glm::vec4(b, 0);
     }
     return total > 0 ? change / total : (change > 0 ? 1 : 0);
-}
-
-void Relighter::State::readCaches() {
-    const Surfels& s = bake->surfels;
-    const auto coefficients = std::size_t(bands * bands);
-    parallelRanges(s.size(), 256, [&](std::size_t begin, std::size_t end) {
-        glm::vec3 mixed[kMaxCoefficients];
-        for (std::size_t i = begin; i < end; ++i) {
-            std::fill_n(mixed, coefficients, glm::vec3(0));
-            for (int k = 0; k < 4; ++k) {
-                if (s.cache[i][k] == ~0U)
-                    continue;
-                const glm::vec3* c = sh.data() + std::size_t(s.cache[i][k]) * coefficients;
-                for (std::size_t j = 0; j < coefficients; ++j)
-                    mixed[j] += c[j] * s.cacheWeight[i][k];
-            }
-            indirect[i] = glm::max(shIrradiance(bands, mixed, s.normal[i]), glm::vec3(0));
-        }
-    });
 }
 
 void Relighter::State::writeField() {
@@ -207,7 +187,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         lightCaches(caches, s.radiosity, s.bounceBands, 0, caches.lightmapCount, s.sh);
         fillInvalidCaches(caches, s.bands, 0, caches.lightmapCount, s.sh);
         stats.cacheLightMs += timer.lap();
-        s.readCaches();
+        readCaches(s.bake->surfels, s.sh, s.bands, s.indirect);
         stats.surfelReadMs += timer.lap();
         ++stats.bounces;
         if (progress.cancelled())

@@ -43,8 +43,8 @@ public:
     const IndirectField& field() const;
     const Bake& bake() const;
 
-    /// Radiosity of the tree's nodes [W m^-2], one per node; valid after relight().
-    const std::vector<glm::vec3>& radiosity() const;
+    /// Radiosity of the tree's nodes, RGB in xyz [W m^-2], w = 0; valid after relight().
+    const std::vector<glm::vec4>& radiosity() const;
 
     /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
     /// the bake's settings. From band chromaBandsOf(settings) on they are grey.

@@ -33,21 +33,21 @@ Bake bakedRoom(LinkStorage storage, std::uint32_t bands) {
 }
 
 /// Radiosity of very different strengths, pulled up the tree.
-std::vector<glm::vec3> randomRadiosity(const ClusterTree& tree, bool grey) {
+std::vector<glm::vec4> randomRadiosity(const ClusterTree& tree, bool grey) {
     std::mt19937 rng(9);
     std::exponential_distribution<float> strength;
-    std::vector<glm::vec3> radiosity(tree.size());
+    std::vector<glm::vec4> radiosity(tree.size());
     for (std::uint32_t s = 0; s < tree.leaves(); ++s)
-        radiosity[s] = grey ? glm::vec3(strength(rng))
-                            : glm::vec3(strength(rng), strength(rng), strength(rng));
+        radiosity[s] = grey ? glm::vec4(glm::vec3(strength(rng)), 0)
+                            : glm::vec4(strength(rng), strength(rng), strength(rng), 0);
     pullRadiosity(tree, radiosity);
     if (grey) // exactly, whatever the pull rounds
-        for (glm::vec3& b : radiosity)
-            b = glm::vec3(b.x);
+        for (glm::vec4& b : radiosity)
+            b = glm::vec4(glm::vec3(b.x), 0);
     return radiosity;
 }
 
-std::vector<glm::vec3> lit(const Bake& baked, const std::vector<glm::vec3>& radiosity,
+std::vector<glm::vec3> lit(const Bake& baked, const std::vector<glm::vec4>& radiosity,
                            LightBands bands) {
     const auto all = std::uint32_t(baked.caches.size());
     std::vector<glm::vec3> sh(all * std::size_t(bands.luma * bands.luma));
@@ -63,7 +63,7 @@ TEST(LightCaches, GivesTheSameLightFromEitherStorage) {
         EXPECT_TRUE(cones.caches.shNode.empty());
         EXPECT_TRUE(harmonics.caches.links.empty());
         EXPECT_EQ(cones.caches.linkBegin, harmonics.caches.linkBegin);
-        const std::vector<glm::vec3> radiosity = randomRadiosity(cones.tree, false);
+        const std::vector<glm::vec4> radiosity = randomRadiosity(cones.tree, false);
         const auto a = lit(cones, radiosity, {int(bands), int(bands)}),
                    b = lit(harmonics, radiosity, {int(bands), int(bands)});
         const std::size_t count = std::size_t(bands) * bands;
@@ -85,7 +85,7 @@ TEST(LightCaches, GreyLightIsTheSameHoweverFewBandsKeepTheirColour) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
         for (const int bands : {2, 3, 4, 8}) {
             const Bake baked = bakedRoom(storage, std::uint32_t(bands));
-            const std::vector<glm::vec3> radiosity = randomRadiosity(baked.tree, true);
+            const std::vector<glm::vec4> radiosity = randomRadiosity(baked.tree, true);
             const auto whole = lit(baked, radiosity, {bands, bands});
             for (int chroma = 1; chroma < bands; ++chroma)
                 EXPECT_TRUE(lit(baked, radiosity, {bands, chroma}) == whole)
@@ -97,7 +97,7 @@ TEST(LightCaches, FewerChromaBandsLoseOnlyTheColourAboveThem) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
         for (int bands = 2; bands <= 8; ++bands) {
             const Bake baked = bakedRoom(storage, std::uint32_t(bands));
-            const std::vector<glm::vec3> radiosity = randomRadiosity(baked.tree, false);
+            const std::vector<glm::vec4> radiosity = randomRadiosity(baked.tree, false);
             const auto whole = lit(baked, radiosity, {bands, bands});
             const auto count = std::size_t(bands * bands);
             double lost = 0;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace limn {
+
+/// How many bands are lit: luma in [2, kMaxBands], chroma in [1, luma].
+struct LightBands {
+    int luma = 3, chroma = 3;
+};
+
+/// The sums of lightCaches for the caches [begin, end), on one thread, by the widest vectors that
+/// this machine has: cones (LinkStorage::Rtp) one link per lane, harmonics one coefficient per
+/// lane. The order of a cache's sums depends on the machine's vectors, so results of two kinds of
+/// machine agree to rounding only.
+void lightLinks(const Caches& caches, const std::vector<glm::vec4>& radiosity, LightBands bands,
+                std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
+
+} // namespace limn
