@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/cache_light.h"
 
+#include "engine/math/cone.h"
+#include "engine/math/packing.h"
+#include "engine/math/sh.h"
 #include "engine/math/ycocg.h"
+#include "engine/relight/surfel_read.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -116,6 +120,77 @@ TEST(LightCaches, FewerChromaBandsLoseOnlyTheColourAboveThem) {
             }
             EXPECT_GT(lost, 0) << "the light has colour in its higher bands";
         }
+}
+
+/// The sum as the header states it, in doubles, from the cones.
+std::vector<glm::dvec3> summed(const Bake& baked, const std::vector<glm::vec4>& radiosity,
+                               std::uint32_t c, int bands) {
+    const Caches& caches = baked.caches;
+    std::vector<glm::dvec3> sum(std::size_t(bands * bands), glm::dvec3(0));
+    for (std::uint32_t k = caches.linkBegin[c]; k < caches.linkBegin[c + 1]; ++k) {
+        const Link& link = caches.links[k];
+        float y[kMaxCoefficients], g[kMaxBands];
+        shBasis(bands, unpackOct(link.octX, link.octY), y);
+        coneFactors(bands, halfToFloat(link.u), g);
+        const double transport =
+            double(halfToFloat(link.transport)) * std::exp2(-double(caches.linkExponent[c]));
+        for (int l = 0, i = 0; l < bands; ++l)
+            for (; i < (l + 1) * (l + 1); ++i)
+                sum[std::size_t(i)] +=
+                    glm::dvec3(radiosity[link.node]) * (transport * double(g[l]) * double(y[i]));
+    }
+    return sum;
+}
+
+TEST(LightCaches, IsTheSumOverTheLinks) {
+    for (int bands = 2; bands <= 8; ++bands) {
+        const Bake baked = bakedRoom(LinkStorage::Rtp, std::uint32_t(bands));
+        const std::vector<glm::vec4> radiosity = randomRadiosity(baked.tree, false);
+        const auto sh = lit(baked, radiosity, {bands, bands});
+        const auto count = std::size_t(bands * bands);
+        for (std::uint32_t c = 0; c < baked.caches.size(); ++c) {
+            if (baked.caches.linkBegin[c] == baked.caches.linkBegin[c + 1])
+                continue;
+            const std::vector<glm::dvec3> sum = summed(baked, radiosity, c, bands);
+            // Rounding of sums: against the largest, the mean radiance.
+            const double near = 2e-5 * (sum[0].x + sum[0].y + sum[0].z);
+            for (std::size_t i = 0; i < count; ++i)
+                for (int k = 0; k < 3; ++k)
+                    ASSERT_NEAR(sh[c * count + i][k], sum[i][k], near) << bands << " " << c;
+        }
+    }
+}
+
+TEST(ReadCaches, IsTheIrradianceOfTheWeightedCaches) {
+    std::mt19937 rng(5);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int bands = 2; bands <= 8; ++bands) {
+        const auto count = std::size_t(bands * bands);
+        std::vector<glm::vec3> sh(9 * count);
+        for (glm::vec3& c : sh)
+            c = {any(rng), any(rng), any(rng)};
+        for (std::size_t c = 0; c < 9; ++c)
+            sh[c * count] += 2.f; // mostly bright
+        Surfels s;
+        for (int i = 0; i < 500; ++i) {
+            s.position.emplace_back(0);
+            s.normal.push_back(glm::normalize(glm::vec3(any(rng), any(rng), any(rng))));
+            s.cache.emplace_back(rng() % 9, rng() % 9, rng() % 9, i % 7 == 0 ? ~0U : rng() % 9);
+            s.cacheWeight.emplace_back(0.4f, 0.3f, 0.2f, i % 7 == 0 ? 0 : 0.1f);
+        }
+        std::vector<glm::vec3> irradiance(s.size());
+        readCaches(s, sh, bands, irradiance);
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            std::vector<glm::vec3> mixed(count, glm::vec3(0));
+            for (int k = 0; k < 4; ++k)
+                for (std::size_t j = 0; s.cache[i][k] != ~0U && j < count; ++j)
+                    mixed[j] += s.cacheWeight[i][k] * sh[s.cache[i][k] * count + j];
+            const glm::vec3 e =
+                glm::max(shIrradiance(bands, mixed.data(), s.normal[i]), glm::vec3(0));
+            for (int k = 0; k < 3; ++k)
+                ASSERT_NEAR(irradiance[i][k], e[k], 2e-5f) << bands;
+        }
+    }
 }
 
 } // namespace
