@@ -156,7 +156,7 @@ TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
             gain[n] = error[n] - error[l] - error[r] +
-                      0.003 * double(seen.sight[l].irradiance) * double(seen.sight[r].irradiance);
+                      0.03 * double(seen.sight[l].irradiance) * double(seen.sight[r].irradiance);
             all += std::abs(gain[n]);
         }
         for (const float bound : worth.worth()) {
