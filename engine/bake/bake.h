@@ -78,7 +78,8 @@ struct Caches {
     std::vector<glm::vec3> position;      ///< world
     std::vector<glm::vec3> normal;        ///< unit geometric normal of the front; 0 for Grid
     std::vector<std::uint32_t> texel;     ///< lightmap: y * width + x; grid: cell index
-    std::vector<std::uint32_t> linkBegin; ///< size()+1 offsets into its links
+    /// size()+1 offsets into its links; those to nothing but sky come last.
+    std::vector<std::uint32_t> linkBegin;
     /// The scale of a cache's halfs is 2^linkExponent: its largest one lies in [2^14, 2^15), so
     /// that not even a link 2^-28 of that is denormal. 0 for caches without links.
     std::vector<std::int8_t> linkExponent;

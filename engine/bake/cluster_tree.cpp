@@ -174,4 +174,13 @@ ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Pro
     return tree;
 }
 
+std::vector<bool> skyNodes(const ClusterTree& tree) {
+    std::vector<bool> sky(tree.size());
+    for (std::uint32_t i = tree.surfels; i < tree.leaves(); ++i)
+        sky[i] = true;
+    for (std::uint32_t k = 0; k < tree.left.size(); ++k)
+        sky[tree.leaves() + k] = sky[tree.left[k]] && sky[tree.right[k]];
+    return sky;
+}
+
 } // namespace limn

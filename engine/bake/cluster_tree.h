@@ -22,4 +22,8 @@ glm::vec3 skyCellDirection(std::uint32_t cell);
 ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set,
                              const Progress& progress = {}, StageStore* store = nullptr);
 
+/// Per node whether nothing but sky is below it: a link to it brings nothing while the sky is
+/// black.
+std::vector<bool> skyNodes(const ClusterTree& tree);
+
 } // namespace limn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cut.h"
 
+#include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut_worth.h"
 #include "engine/bake/link_storage.h"
 #include "engine/bake/visible_tree.h"
@@ -86,6 +87,7 @@ struct LinkInput {
     const TrainingLight& training;
     const CutSettings& settings;
     SenderOrder order;
+    std::vector<bool> sky;                     ///< skyNodes
     std::vector<glm::vec3> hemisphere, sphere; ///< unturned rays
 };
 
@@ -127,8 +129,9 @@ public:
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
             if (m_refined[i])
                 put(m_seen.child(i, 0)), put(m_seen.child(i, 1));
-        std::sort(m_cones.begin(), m_cones.end(),
-                  [](const Cone& a, const Cone& b) { return a.node < b.node; });
+        std::sort(m_cones.begin(), m_cones.end(), [&](const Cone& a, const Cone& b) {
+            return std::pair(in.sky[a.node], a.node) < std::pair(in.sky[b.node], b.node);
+        });
         if (caches.kind[cache] == CacheKind::Hemisphere)
             matchIrradiance(in.settings.bands, caches.normal[cache], m_cones);
         return packLinks(in.settings.storage, in.settings.bands, m_cones);
@@ -295,6 +298,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                           training,
                           settings,
                           SenderOrder(tree),
+                          skyNodes(tree),
                           unturnedRays(hits.rays, false),
                           unturnedRays(hits.rays, true)};
     tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/cache_light.h"
 
+#include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
 #include "engine/math/ycocg.h"
 
@@ -16,10 +17,27 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity) {
     }
 }
 
-void lightCaches(const Caches& caches, const std::vector<glm::vec4>& radiosity, LightBands bands,
-                 std::uint32_t begin, std::uint32_t end, std::vector<glm::vec3>& sh) {
+std::vector<std::uint32_t> allLinks(const Caches& caches) {
+    return {caches.linkBegin.begin() + 1, caches.linkBegin.end()};
+}
+
+std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTree& tree) {
+    const std::vector<bool> sky = skyNodes(tree);
+    const auto nodeOf = [&](std::uint32_t k) {
+        return caches.shNode.empty() ? caches.links[k].node : caches.shNode[k];
+    };
+    std::vector<std::uint32_t> ends = allLinks(caches);
+    for (std::size_t c = 0; c < caches.size(); ++c)
+        while (ends[c] > caches.linkBegin[c] && sky[nodeOf(ends[c] - 1)])
+            --ends[c];
+    return ends;
+}
+
+void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                 LightBands bands, std::uint32_t begin, std::uint32_t end,
+                 std::vector<glm::vec3>& sh) {
     parallelRanges(end - begin, 64, [&](std::size_t first, std::size_t last) {
-        lightLinks(caches, radiosity, bands, begin + std::uint32_t(first),
+        lightLinks(caches, ends, radiosity, bands, begin + std::uint32_t(first),
                    begin + std::uint32_t(last), sh.data());
     });
 }

@@ -14,14 +14,21 @@ namespace limn {
 /// vector register takes one at a time.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
-/// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links of
+/// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links before
+/// ends[c] of
 /// B transport g_l(u) Y_i(direction), bands = bands.luma, with links of either storage. From band
 /// bands.chroma on the light is grey: its luma alone, half of which is green. Invalid caches in the
 /// range are left 0.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016
-void lightCaches(const Caches& caches, const std::vector<glm::vec4>& radiosity, LightBands bands,
-                 std::uint32_t begin, std::uint32_t end, std::vector<glm::vec3>& sh);
+void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                 LightBands bands, std::uint32_t begin, std::uint32_t end,
+                 std::vector<glm::vec3>& sh);
+
+/// Where the links of each cache end, and where those to more than sky do: all that is read while
+/// the sky is black.
+std::vector<std::uint32_t> allLinks(const Caches& caches);
+std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTree& tree);
 
 /// Makes the bands of the caches [begin, end) from bands.chroma on grey.
 void dropChroma(LightBands bands, std::uint32_t begin, std::uint32_t end,

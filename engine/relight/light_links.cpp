@@ -201,8 +201,8 @@ float scaleOf(const Caches& caches, std::uint32_t c) {
 }
 
 template <int Bands, bool Luma>
-void lightCones(const Caches& caches, const glm::vec4* radiosity, int chroma, std::uint32_t begin,
-                std::uint32_t end, glm::vec3* sh) {
+void lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
+                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     constexpr int kCount = Bands * Bands;
     const Floats d;
     const std::size_t lanes = hn::Lanes(d);
@@ -212,9 +212,9 @@ void lightCones(const Caches& caches, const glm::vec4* radiosity, int chroma, st
     Link padded[kBlock];
     for (std::uint32_t c = begin; c < end; ++c) {
         std::fill(std::begin(sums), std::end(sums), 0.f);
-        for (std::size_t k = caches.linkBegin[c]; k < caches.linkBegin[c + 1]; k += kBlock) {
+        for (std::size_t k = caches.linkBegin[c]; k < ends[c]; k += kBlock) {
             const Link* links = caches.links.data() + k;
-            const std::size_t own = std::min(kBlock, caches.linkBegin[c + 1] - k);
+            const std::size_t own = std::min(kBlock, ends[c] - k);
             const std::size_t count = (own + lanes - 1) / lanes * lanes;
             if (count != own) { // links of no transport fill the last vector
                 std::memcpy(padded, links, own * sizeof(Link));
@@ -282,15 +282,15 @@ HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* ha
 }
 
 template <int Bands, int Chroma>
-void lightHarmonics(const Caches& caches, const glm::vec4* radiosity, std::uint32_t begin,
-                    std::uint32_t end, glm::vec3* sh) {
+void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
+                    std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     constexpr std::size_t kCount = Bands * Bands;
     constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     constexpr std::size_t kSums = (kCount + kLanes - 1) / kLanes * kLanes;
     alignas(HWY_MAX_BYTES) float sums[3 * kSums] = {};
     std::vector<std::uint16_t> padded;
     for (std::uint32_t c = begin; c < end; ++c) {
-        const std::size_t first = caches.linkBegin[c], last = caches.linkBegin[c + 1];
+        const std::size_t first = caches.linkBegin[c], last = ends[c];
         const std::uint16_t* halfs = caches.shCoefficients.data() + first * kCount;
         if (last * kCount + kLanes > caches.shCoefficients.size()) { // the array's end
             padded.assign(halfs, halfs + (last - first) * kCount);
@@ -305,32 +305,33 @@ void lightHarmonics(const Caches& caches, const glm::vec4* radiosity, std::uint3
 }
 
 template <int Bands, int Chroma>
-void lightHarmonicsFrom(const Caches& caches, const glm::vec4* radiosity, int chroma,
+void lightHarmonicsFrom(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
                         std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     if constexpr (Chroma > 1)
         if (chroma < Chroma)
-            return lightHarmonicsFrom<Bands, Chroma - 1>(caches, radiosity, chroma, begin, end, sh);
-    lightHarmonics<Bands, Chroma>(caches, radiosity, begin, end, sh);
+            return lightHarmonicsFrom<Bands, Chroma - 1>(caches, ends, radiosity, chroma, begin,
+                                                         end, sh);
+    lightHarmonics<Bands, Chroma>(caches, ends, radiosity, begin, end, sh);
 }
 
 template <int Bands>
-void lightBands(const Caches& caches, const glm::vec4* radiosity, int chroma, std::uint32_t begin,
-                std::uint32_t end, glm::vec3* sh) {
+void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
+                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     if (!caches.shNode.empty())
-        lightHarmonicsFrom<Bands, Bands>(caches, radiosity, chroma, begin, end, sh);
+        lightHarmonicsFrom<Bands, Bands>(caches, ends, radiosity, chroma, begin, end, sh);
     else if (chroma < Bands)
-        lightCones<Bands, true>(caches, radiosity, chroma * chroma, begin, end, sh);
+        lightCones<Bands, true>(caches, ends, radiosity, chroma * chroma, begin, end, sh);
     else
-        lightCones<Bands, false>(caches, radiosity, Bands * Bands, begin, end, sh);
+        lightCones<Bands, false>(caches, ends, radiosity, Bands * Bands, begin, end, sh);
 }
 
-void lightLinks(const Caches& caches, const glm::vec4* radiosity, LightBands bands,
+void lightLinks(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, LightBands bands,
                 std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    using Light =
-        void (*)(const Caches&, const glm::vec4*, int, std::uint32_t, std::uint32_t, glm::vec3*);
+    using Light = void (*)(const Caches&, LinkEnds, const glm::vec4*, int, std::uint32_t,
+                           std::uint32_t, glm::vec3*);
     constexpr Light kLight[] = {lightBands<2>, lightBands<3>, lightBands<4>, lightBands<5>,
                                 lightBands<6>, lightBands<7>, lightBands<8>};
-    kLight[bands.luma - 2](caches, radiosity, bands.chroma, begin, end, sh);
+    kLight[bands.luma - 2](caches, ends, radiosity, bands.chroma, begin, end, sh);
 }
 
 } // namespace HWY_NAMESPACE
@@ -342,9 +343,9 @@ namespace limn {
 
 HWY_EXPORT(lightLinks);
 
-void lightLinks(const Caches& caches, const std::vector<glm::vec4>& radiosity, LightBands bands,
-                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    HWY_DYNAMIC_DISPATCH(lightLinks)(caches, radiosity.data(), bands, begin, end, sh);
+void lightLinks(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+    HWY_DYNAMIC_DISPATCH(lightLinks)(caches, ends, radiosity.data(), bands, begin, end, sh);
 }
 
 } // namespace limn

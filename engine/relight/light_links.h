@@ -4,6 +4,7 @@
 #include "engine/bake/bake.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -15,11 +16,14 @@ struct LightBands {
     int luma = 3, chroma = 3;
 };
 
+/// Which links are read: of cache c those from Caches::linkBegin[c] to end[c].
+using LinkEnds = std::span<const std::uint32_t>;
+
 /// The sums of lightCaches for the caches [begin, end), on one thread, by the widest vectors that
 /// this machine has: cones (LinkStorage::Rtp) one link per lane, harmonics one coefficient per
 /// lane. The order of a cache's sums depends on the machine's vectors, so results of two kinds of
 /// machine agree to rounding only.
-void lightLinks(const Caches& caches, const std::vector<glm::vec4>& radiosity, LightBands bands,
-                std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
+void lightLinks(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
 
 } // namespace limn

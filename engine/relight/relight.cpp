@@ -40,6 +40,8 @@ struct Relighter::State {
     std::shared_ptr<const Bake> bake;
     int bands;
     LightBands bounceBands, finalBands;
+    std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
+    std::uint64_t skyLinks = 0;                      ///< between the two
     bool started = false, converged = false;
     std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
 
@@ -67,6 +69,10 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake) : m_state(std::make_uniqu
     // A surface gets half of its irradiance from the second band: without its colour every bounce
     // would grey the light.
     s.bounceBands = {s.bands, std::max(s.finalBands.chroma, 2)};
+    s.everyLink = allLinks(s.bake->caches);
+    s.beforeSky = linksBeforeSky(s.bake->caches, s.bake->tree);
+    for (std::size_t c = 0; c < s.everyLink.size(); ++c)
+        s.skyLinks += s.everyLink[c] - s.beforeSky[c];
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
     s.sh.assign(s.bake->caches.size() * std::size_t(s.bands * s.bands), glm::vec3(0));
@@ -164,6 +170,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     const bool directChanged = updateSurfelLight(s.bake->surfels, scene, trace, s.direct);
     stats.lightsTraced = s.direct.lightsTraced;
     stats.shadowRays = s.direct.raysTraced;
+    stats.lightsOff = std::uint32_t(scene.lights.size() - s.direct.lights.size());
     stats.directMs = timer.lap();
     if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged) {
         stats.converged = stats.skipped = true;
@@ -175,6 +182,9 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     // A changed sky reaches the caches in the first round and the surfels' radiosity in the second.
     if (skyChanged)
         s.unseenRounds = 1;
+    const bool blackSky = s.sky.radiance == glm::vec3(0);
+    const LinkEnds ends = blackSky ? s.beforeSky : s.everyLink;
+    stats.skyLinksSkipped = blackSky ? s.skyLinks : 0;
     const Caches& caches = s.bake->caches;
     const auto all = std::uint32_t(caches.size());
     for (std::uint32_t k = 0; k < bounces && !s.converged; ++k) {
@@ -184,7 +194,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         stats.surfelLightMs += timer.lap();
         pullRadiosity(s.bake->tree, s.radiosity);
         stats.pullMs += timer.lap();
-        lightCaches(caches, s.radiosity, s.bounceBands, 0, caches.lightmapCount, s.sh);
+        lightCaches(caches, ends, s.radiosity, s.bounceBands, 0, caches.lightmapCount, s.sh);
         fillInvalidCaches(caches, s.bands, 0, caches.lightmapCount, s.sh);
         stats.cacheLightMs += timer.lap();
         readCaches(s.bake->surfels, s.sh, s.bands, s.indirect);
@@ -195,7 +205,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     }
     if (s.finalBands.chroma < s.bounceBands.chroma)
         dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);
-    lightCaches(caches, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh);
+    lightCaches(caches, ends, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh);
     fillInvalidCaches(caches, s.bands, caches.lightmapCount, all, s.sh);
     stats.cacheLightMs += timer.lap();
     s.writeField();

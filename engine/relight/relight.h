@@ -23,6 +23,8 @@ struct RelightStats {
     bool converged =
         false; ///< the radiosity's total changed by less than 1e-4 of itself in the last bounce
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
+    std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
+    std::uint64_t skyLinksSkipped = 0; ///< per bounce: links to nothing but a black sky
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 

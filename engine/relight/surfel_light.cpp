@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace limn {
@@ -16,6 +17,22 @@ namespace {
 
 bool shines(const Light& l) {
     return l.enabled && l.strength > 0 && (l.color.x > 0 || l.color.y > 0 || l.color.z > 0);
+}
+
+Bounds boundsOf(const std::vector<glm::vec3>& points) {
+    Bounds bounds{glm::vec3(1e30f), glm::vec3(-1e30f)};
+    for (const glm::vec3 p : points) {
+        bounds.lower = glm::min(bounds.lower, p);
+        bounds.upper = glm::max(bounds.upper, p);
+    }
+    return bounds;
+}
+
+/// Whether anything within `bounds` can lie in the light's range.
+bool reaches(const Light& l, const Bounds& bounds) {
+    if (l.kind == LightKind::Directional || !(l.range > 0))
+        return true;
+    return glm::distance(glm::clamp(l.position, bounds.lower, bounds.upper), l.position) < l.range;
 }
 
 /// The light with everything that moves no shadow set to one.
@@ -57,11 +74,11 @@ std::uint32_t traceLight(const Surfels& surfels, const TraceScene& trace,
     return rays;
 }
 
-void sumLights(const std::vector<const Light*>& lights, std::size_t surfels, SurfelLight& state) {
+void sumLights(std::size_t surfels, SurfelLight& state) {
     state.irradiance.assign(surfels, glm::vec3(0));
     parallelRanges(surfels, 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = 0; l < lights.size(); ++l) {
-            const glm::vec3 strength = lights[l]->color * lights[l]->strength;
+        for (std::size_t l = 0; l < state.lights.size(); ++l) {
+            const glm::vec3 strength = state.summed[l].color * state.summed[l].strength;
             const std::vector<float>& share = state.lights[l].share;
             for (std::size_t s = begin; s < end; ++s)
                 state.irradiance[s] += strength * share[s];
@@ -74,18 +91,24 @@ void sumLights(const std::vector<const Light*>& lights, std::size_t surfels, Sur
 bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
                        SurfelLight& state) {
     state.lightsTraced = state.raysTraced = 0;
-    std::vector<const Light*> lights;
+    if (state.irradiance.size() != surfels.size())
+        state.bounds = boundsOf(surfels.position);
+    std::vector<Light> lights;
     for (const Light& l : scene.lights)
-        if (shines(l))
-            lights.push_back(&l);
+        if (shines(l) && reaches(l, state.bounds)) {
+            lights.push_back(l);
+            lights.back().name.clear();
+        }
     const std::uint64_t occluders = hashOccluders(trace.scene());
     if (occluders != state.occluders)
         state.lights.clear();
+    else if (lights == state.summed && state.irradiance.size() == surfels.size())
+        return false;
     state.occluders = occluders;
 
     std::vector<SurfelLight::PerLight> next;
-    for (const Light* light : lights) {
-        const Light shape = shapeOf(*light);
+    for (const Light& light : lights) {
+        const Light shape = shapeOf(light);
         const auto known = std::find_if(
             state.lights.begin(), state.lights.end(),
             [&](const SurfelLight::PerLight& l) { return l.light == shape && !l.share.empty(); });
@@ -99,8 +122,9 @@ bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceSc
         ++state.lightsTraced;
     }
     state.lights = std::move(next);
-    std::vector<glm::vec3> before = std::move(state.irradiance);
-    sumLights(lights, surfels.size(), state);
+    state.summed = std::move(lights);
+    const std::vector<glm::vec3> before = std::move(state.irradiance);
+    sumLights(surfels.size(), state);
     return before != state.irradiance;
 }
 

@@ -18,14 +18,17 @@ struct SurfelLight {
     };
     std::vector<PerLight> lights;
     std::uint64_t occluders = 0; ///< hash of the instances that the shadows belong to
+    std::vector<Light> summed;   ///< what `irradiance` is of, without names
+    Bounds bounds;               ///< of the surfels
 
     std::vector<glm::vec3> irradiance; ///< [W m^-2] per surfel, all lights
     std::uint32_t lightsTraced = 0;    ///< by the last update
     std::uint32_t raysTraced = 0;      ///< by the last update
 };
 
-/// Brings `state` up to date with the scene's lights. Lights that are off, black or of no strength
-/// cost nothing. Returns true if any irradiance changed.
+/// Brings `state` up to date with the scene's lights. Lights that are off, black, of no strength or
+/// out of reach of every surfel cost nothing, and so do lights that stay as they are. Returns true
+/// if any irradiance changed.
 bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
                        SurfelLight& state);
 

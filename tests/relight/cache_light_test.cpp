@@ -18,10 +18,13 @@ namespace {
 
 using namespace simple;
 
-Bake bakedRoom(LinkStorage storage, std::uint32_t bands) {
+Bake bakedRoom(LinkStorage storage, std::uint32_t bands, bool window = false) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f)));
-    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    Mesh walls = box(glm::vec3(0), glm::vec3(4, 3, 5), true);
+    if (window)
+        walls.indices.resize(walls.indices.size() - 6);
+    b.add(walls);
     b.add(box(glm::vec3(1, 0.3f, 1), glm::vec3(2, 2, 2), false));
     Scene scene = b.build();
     scene.bake.storage = storage;
@@ -55,7 +58,7 @@ std::vector<glm::vec3> lit(const Bake& baked, const std::vector<glm::vec4>& radi
                            LightBands bands) {
     const auto all = std::uint32_t(baked.caches.size());
     std::vector<glm::vec3> sh(all * std::size_t(bands.luma * bands.luma));
-    lightCaches(baked.caches, radiosity, bands, 0, all, sh);
+    lightCaches(baked.caches, allLinks(baked.caches), radiosity, bands, 0, all, sh);
     fillInvalidCaches(baked.caches, bands.luma, 0, all, sh);
     return sh;
 }
@@ -158,6 +161,32 @@ TEST(LightCaches, IsTheSumOverTheLinks) {
                 for (int k = 0; k < 3; ++k)
                     ASSERT_NEAR(sh[c * count + i][k], sum[i][k], near) << bands << " " << c;
         }
+    }
+}
+
+TEST(LightCaches, ABlackSkyNeedsNoneOfItsLinks) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
+        Bake baked = bakedRoom(storage, 3, true);
+        std::vector<glm::vec4> radiosity = randomRadiosity(baked.tree, false);
+        const std::vector<std::uint32_t> every = allLinks(baked.caches),
+                                         few = linksBeforeSky(baked.caches, baked.tree);
+        const auto all = std::uint32_t(baked.caches.size());
+        const auto litBy = [&](const std::vector<std::uint32_t>& ends) {
+            std::vector<glm::vec3> sh(all * 9U);
+            lightCaches(baked.caches, ends, radiosity, {3, 3}, 0, all, sh);
+            return sh;
+        };
+        std::uint64_t skipped = 0;
+        for (std::uint32_t c = 0; c < all; ++c)
+            skipped += every[c] - few[c];
+        EXPECT_GT(skipped, all / 2);
+        EXPECT_NE(litBy(every), litBy(few)); // while it shines
+        std::fill_n(radiosity.begin() + baked.tree.surfels, baked.tree.skyCells, glm::vec4(0));
+        pullRadiosity(baked.tree, radiosity);
+        const auto whole = litBy(every), part = litBy(few);
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            for (int k = 0; k < 3; ++k) // sums in another order
+                ASSERT_NEAR(part[i][k], whole[i][k], 2e-6f * whole[i / 9 * 9][k] + 1e-12f);
     }
 }
 

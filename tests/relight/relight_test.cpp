@@ -20,6 +20,7 @@ struct Lit {
     Scene scene;
     std::unique_ptr<TraceScene> trace;
     std::unique_ptr<Relighter> relighter;
+    RelightStats stats; ///< of the first call
 };
 
 Lit light(Scene scene, std::uint32_t rounds = 400) {
@@ -29,7 +30,7 @@ Lit light(Scene scene, std::uint32_t rounds = 400) {
     Result<Bake> baked = bake(*lit.trace);
     EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
     lit.relighter = std::make_unique<Relighter>(std::make_shared<const Bake>(std::move(*baked)));
-    lit.relighter->relight(lit.scene, *lit.trace, rounds);
+    lit.stats = lit.relighter->relight(lit.scene, *lit.trace, rounds);
     return lit;
 }
 
@@ -167,6 +168,27 @@ TEST(Relight, StandingStillDoesNothing) {
     EXPECT_EQ(stats.bounces, 0U);
     EXPECT_EQ(stats.shadowRays, 0U);
     EXPECT_EQ(lit.relighter->field().version, version);
+}
+
+TEST(Relight, LightsThatReachNothingCostNothing) {
+    Scene scene = lampRoom();
+    Light off = scene.lights[0], black = off, weak = off, far = off, near = off;
+    off.enabled = false;
+    black.color = glm::vec3(0);
+    weak.strength = 0;
+    far.position = {2, 2, 9}; // the room ends at 5
+    far.range = 3.9f;
+    near = far;
+    near.range = 8;
+    const RelightStats alone = light(scene).stats;
+    EXPECT_EQ(alone.lightsOff, 0U);
+    scene.lights.insert(scene.lights.end(), {off, black, weak, far});
+    const RelightStats more = light(scene).stats;
+    EXPECT_EQ(more.lightsOff, 4U);
+    EXPECT_EQ(more.lightsTraced, 1U);
+    EXPECT_EQ(more.shadowRays, alone.shadowRays);
+    scene.lights.push_back(near);
+    EXPECT_EQ(light(scene).stats.lightsTraced, 2U);
 }
 
 TEST(Relight, AColourChangeTracesNoRayAndScalesTheLight) {
