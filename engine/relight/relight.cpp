@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/surfel_light.h"
+#include "engine/relight/surfel_material.h"
 #include "engine/relight/surfel_read.h"
 
 #include <algorithm>
@@ -43,7 +44,6 @@ struct Relighter::State {
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
     std::uint64_t skyLinks = 0;                      ///< between the two
     bool started = false, converged = false;
-    std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
 
     std::vector<Material> materials; ///< that albedo and emitted belong to
     std::vector<glm::vec3> albedo;   ///< per surfel
@@ -106,18 +106,7 @@ bool Relighter::State::updateMaterials(const Scene& scene) {
     if (started && materials == scene.materials)
         return false;
     materials = scene.materials;
-    const Surfels& s = bake->surfels;
-    albedo.resize(s.size());
-    emitted.resize(s.size());
-    parallelRanges(s.size(), 512, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const SurfaceMaterial m =
-                surfaceMaterialOver(scene, scene.instances[s.instance[i]], s.triangle[i],
-                                    s.barycentric[i].x, s.barycentric[i].y, s.area[i]);
-            albedo[i] = glm::min(m.albedo, glm::vec3(0.99f));
-            emitted[i] = m.emission * kPi;
-        }
-    });
+    surfelMaterials(bake->surfels, scene, albedo, emitted);
     return true;
 }
 
@@ -179,9 +168,6 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     }
     s.started = true;
     s.converged = false;
-    // A changed sky reaches the caches in the first round and the surfels' radiosity in the second.
-    if (skyChanged)
-        s.unseenRounds = 1;
     const bool blackSky = s.sky.radiance == glm::vec3(0);
     const LinkEnds ends = blackSky ? s.beforeSky : s.everyLink;
     stats.skyLinksSkipped = blackSky ? s.skyLinks : 0;

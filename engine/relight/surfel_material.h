@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Per surfel its albedo, at most 0.99, and what it emits, pi L_e [W m^-2]: means over the surface
+/// it stands for. Fills both to the surfels' number.
+void surfelMaterials(const Surfels& surfels, const Scene& scene, std::vector<glm::vec3>& albedo,
+                     std::vector<glm::vec3>& emitted);
+
+} // namespace limn
