@@ -38,19 +38,25 @@ Buffer::~Buffer() {
     });
 }
 
+void updateBuffer(Device& device, VkCommandBuffer cmd, const Buffer& buffer, VkDeviceSize offset,
+                  std::span<const std::byte> bytes) {
+    assert(offset + bytes.size() <= buffer.size);
+    const Buffer staging(device, {.size = bytes.size(),
+                                  .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                  .memory = MemoryKind::Upload,
+                                  .name = "staging"});
+    std::memcpy(staging.mapped, bytes.data(), bytes.size());
+    const VkBufferCopy region{0, offset, bytes.size()};
+    vkCmdCopyBuffer(cmd, staging.handle, buffer.handle, 1, &region);
+    memoryBarrier(cmd, kTransferWrite, kAllReads);
+}
+
 Buffer uploadBuffer(Device& device, VkCommandBuffer cmd, std::span<const std::byte> bytes,
                     VkBufferUsageFlags usage, const char* name) {
-    Buffer staging(device, {.size = bytes.size(),
-                            .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                            .memory = MemoryKind::Upload,
-                            .name = "staging"});
-    std::memcpy(staging.mapped, bytes.data(), bytes.size());
     Buffer result(
         device,
         {.size = bytes.size(), .usage = usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, .name = name});
-    const VkBufferCopy region{0, 0, bytes.size()};
-    vkCmdCopyBuffer(cmd, staging.handle, result.handle, 1, &region);
-    memoryBarrier(cmd, kTransferWrite, kAllReads);
+    updateBuffer(device, cmd, result, 0, bytes);
     return result;
 }
 

@@ -52,6 +52,12 @@ private:
 Buffer uploadBuffer(Device& device, VkCommandBuffer cmd, std::span<const std::byte> bytes,
                     VkBufferUsageFlags usage, const char* name);
 
+/// Replaces bytes of a buffer (TRANSFER_DST) from `offset` on through a staging copy recorded into
+/// `cmd`; a barrier follows that makes them visible to every later read. What reads the old bytes
+/// must be done, or ordered before by a barrier. `bytes` must not be empty.
+void updateBuffer(Device& device, VkCommandBuffer cmd, const Buffer& buffer, VkDeviceSize offset,
+                  std::span<const std::byte> bytes);
+
 /// Copies a whole buffer (TRANSFER_SRC) to the CPU. Waits.
 void readBuffer(Device& device, const Buffer& buffer, std::span<std::byte> out);
 

@@ -90,4 +90,12 @@ void writeTexture(Device& device, VkDescriptorSet set, std::uint32_t binding, Vk
     vkUpdateDescriptorSets(device.device, 1, &w, 0, nullptr);
 }
 
+void writeStorageImage(Device& device, VkDescriptorSet set, std::uint32_t binding,
+                       VkImageView view) {
+    const VkDescriptorImageInfo info{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+    VkWriteDescriptorSet w = write(set, binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    w.pImageInfo = &info;
+    vkUpdateDescriptorSets(device.device, 1, &w, 0, nullptr);
+}
+
 } // namespace limn::gpu

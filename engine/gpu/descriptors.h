@@ -31,4 +31,8 @@ void writeBuffer(Device& device, VkDescriptorSet set, std::uint32_t binding, VkD
 void writeTexture(Device& device, VkDescriptorSet set, std::uint32_t binding, VkImageView view,
                   VkSampler sampler);
 
+/// An image that shaders write, in GENERAL.
+void writeStorageImage(Device& device, VkDescriptorSet set, std::uint32_t binding,
+                       VkImageView view);
+
 } // namespace limn::gpu

@@ -82,6 +82,8 @@ static std::string whatIsMissing(VkPhysicalDevice device) {
         return "dynamic rendering";
     if (!v13.synchronization2)
         return "synchronization2";
+    if (!v13.maintenance4)
+        return "maintenance4";
     if (!v12.timelineSemaphore)
         return "timeline semaphores";
     VkFormatProperties format;

@@ -203,9 +203,9 @@ void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& ima
 }
 
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
-               std::uint32_t height, std::span<std::byte> out) {
-    assert(width <= image.width && height <= image.height);
-    assert(out.size() == VkDeviceSize(width) * height * texelBytes(image.format));
+               std::uint32_t height, std::span<std::byte> out, std::uint32_t layers) {
+    assert(width <= image.width && height <= image.height && layers <= image.layers);
+    assert(out.size() == VkDeviceSize(width) * height * layers * texelBytes(image.format));
     const Buffer staging(device, {.size = out.size(),
                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   .memory = MemoryKind::Readback,
@@ -219,7 +219,7 @@ void readImage(Device& device, const Image& image, VkImageLayout layout, std::ui
         const VkBufferImageCopy region{.bufferOffset = 0,
                                        .bufferRowLength = 0,
                                        .bufferImageHeight = 0,
-                                       .imageSubresource = {aspect, 0, 0, 1},
+                                       .imageSubresource = {aspect, 0, 0, layers},
                                        .imageOffset = {},
                                        .imageExtent = {width, height, 1}};
         vkCmdCopyImageToBuffer(cmd, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,

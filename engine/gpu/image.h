@@ -69,9 +69,9 @@ void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
 void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& image,
                            std::span<const std::byte> bytes);
 
-/// Copies the corner (0, 0, width, height) of mip 0, layer 0 to the CPU, rows tightly packed. The
-/// image is in `layout` before and after. Waits.
+/// Copies the corner (0, 0, width, height) of mip 0 of the first `layers` layers to the CPU, layer
+/// after layer, rows tightly packed. The image is in `layout` before and after. Waits.
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
-               std::uint32_t height, std::span<std::byte> out);
+               std::uint32_t height, std::span<std::byte> out, std::uint32_t layers = 1);
 
 } // namespace limn::gpu

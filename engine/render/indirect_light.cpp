@@ -26,60 +26,59 @@ static std::span<const std::byte> bytesOf(std::span<const glm::vec4> v) {
     return std::as_bytes(v);
 }
 
-IndirectLight createIndirectLight(gpu::Device& device) {
-    IndirectLight out;
-    const std::array<glm::vec4, IndirectField::kCoefficients> black{};
+static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
+                                 const IndirectField& field) {
+    static constexpr std::array<glm::vec4, IndirectField::kCoefficients> kBlack{};
+    const bool any = !field.lightmap.empty();
+    assert(field.lightmap.size() ==
+           std::size_t(field.lightmapWidth) * field.lightmapHeight * IndirectField::kCoefficients);
+    gpu::Image image =
+        lightmapImage(device, any ? field.lightmapWidth : 1, any ? field.lightmapHeight : 1);
+    uploader.image(image, any ? bytesOf(field.lightmap) : bytesOf(kBlack));
+    return image;
+}
+
+// A frame in flight may still sample the old field, so the new one is another.
+static std::shared_ptr<const GpuField> uploadField(gpu::Device& device,
+                                                   const IndirectField& field) {
+    static constexpr std::array<glm::vec4, 1> kNone{};
     gpu::Uploader uploader(device);
-    out.lightmap = lightmapImage(device, 1, 1);
-    uploader.image(out.lightmap, bytesOf(black));
-    out.grid = uploader.buffer(bytesOf(black), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "no grid");
+    auto out = std::make_shared<GpuField>();
+    out->lightmap = uploadLightmap(device, uploader, field);
+    const std::size_t bytes = field.grid.size() * sizeof(glm::vec4);
+    const bool fits = bytes <= device.properties.limits.maxStorageBufferRange;
+    if (!fits)
+        logWarning(
+            fmt::format("the grid of {} MiB is larger than this device can bind: no indirect "
+                        "light without lightmap",
+                        bytes >> 20));
+    const bool any = bytes > 0 && fits;
+    out->grid = uploader.buffer(any ? bytesOf(field.grid) : bytesOf(kNone),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid");
+    out->gridSize = any ? field.gridSize : glm::uvec3(0);
+    out->gridBounds = field.gridBounds;
     return out;
 }
 
-static void updateLightmap(gpu::Device& device, gpu::Uploader& uploader, IndirectLight& target,
-                           const IndirectField& field) {
-    const std::uint32_t w = field.lightmapWidth, h = field.lightmapHeight;
-    target.hasLightmap = w > 0 && h > 0;
-    if (!target.hasLightmap)
-        return;
-    assert(field.lightmap.size() == std::size_t(w) * h * IndirectField::kCoefficients);
-    // A frame in flight may still sample the old one, so the new one is another image.
-    target.lightmap = lightmapImage(device, w, h);
-    uploader.image(target.lightmap, bytesOf(field.lightmap));
+IndirectLight createIndirectLight(gpu::Device& device) {
+    return {.field = uploadField(device, {})};
 }
 
 bool updateIndirectLight(gpu::Device& device, IndirectLight& target, const IndirectField& field) {
     if (field.version == target.version)
         return false;
-    target.version = field.version;
-    gpu::Uploader uploader(device);
-    updateLightmap(device, uploader, target, field);
-    target.gridBounds = field.gridBounds;
-    target.gridSize = field.gridSize;
-    const std::size_t bytes = field.grid.size() * sizeof(glm::vec4);
-    if (bytes > device.properties.limits.maxStorageBufferRange) {
-        logWarning(
-            fmt::format("the grid of {} MiB is larger than this device can bind: no indirect "
-                        "light without lightmap",
-                        bytes >> 20));
-        target.gridSize = glm::uvec3(0);
-    }
-    if (bytes == 0)
-        target.gridSize = glm::uvec3(0);
-    if (target.gridSize.x > 0)
-        target.grid =
-            uploader.buffer(bytesOf(field.grid), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid");
+    target = {.field = uploadField(device, field), .version = field.version};
     return true;
 }
 
-void describeGrid(const IndirectLight& light, shared::GpuFrame& frame) {
-    if (!light.hasGrid())
+void describeGrid(const GpuField& field, shared::GpuFrame& frame) {
+    if (!field.hasGrid())
         return;
-    const glm::vec3 size = glm::max(light.gridBounds.size(), glm::vec3(1e-20f));
-    frame.gridLower = light.gridBounds.lower;
-    frame.gridSize = light.gridSize;
-    frame.gridScale = glm::vec3(light.gridSize) / size;
-    frame.gridCells = light.gridSize.x * light.gridSize.y * light.gridSize.z;
+    const glm::vec3 size = glm::max(field.gridBounds.size(), glm::vec3(1e-20f));
+    frame.gridLower = field.gridBounds.lower;
+    frame.gridSize = field.gridSize;
+    frame.gridScale = glm::vec3(field.gridSize) / size;
+    frame.gridCells = field.gridSize.x * field.gridSize.y * field.gridSize.z;
 }
 
 } // namespace limn::render

@@ -47,6 +47,10 @@ public:
     static constexpr std::uint32_t kLayerSize = 2048; ///< texels; a quarter is half as wide
     static constexpr std::uint32_t kMaxLayers = 32; ///< 512 MiB; then further lights cast no shadow
 
+    /// Receivers are moved off their surface by so many shadow texels, along the normal and towards
+    /// the light: for rounding, and for the facets next to the one that is lit.
+    static constexpr float kNormalBias = 0.2f, kLightBias = 0.5f;
+
     explicit ShadowMaps(gpu::Device& device);
 
     /// Finds or makes a place for each of `lights`; all of them shine. `bounds` holds every caster.

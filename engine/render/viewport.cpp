@@ -7,6 +7,7 @@
 #include "engine/render/direct_pass.h"
 #include "engine/render/geometry_passes.h"
 #include "engine/render/indirect_light.h"
+#include "engine/render/light_table.h"
 #include "engine/render/overlay_pass.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/tonemap_pass.h"
@@ -24,8 +25,6 @@ namespace limn {
 
 using namespace render;
 using shared::GpuFrame;
-using shared::GpuLight;
-using shared::GpuShadowView;
 
 namespace {
 
@@ -40,10 +39,6 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-
-// Shadow receivers are moved off their surface by so many shadow texels, along the normal and
-// towards the light: for rounding, and for the facets next to the one that is lit.
-constexpr float kNormalBias = 0.2f, kLightBias = 0.5f;
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -61,7 +56,8 @@ double msSince(Clock::time_point start) {
 
 /// What a frame in flight must not lose.
 struct FrameSlot {
-    gpu::Buffer frame, lights, shadowViews; ///< mapped
+    gpu::Buffer frame; ///< mapped
+    LightTable lights;
     VkDescriptorSet set = VK_NULL_HANDLE;
     gpu::QueryPool queries;
     std::uint64_t submission = 0;
@@ -93,7 +89,6 @@ struct Viewport::Impl {
     explicit Impl(gpu::Device& d);
 
     void ensureTargets(std::uint32_t width, std::uint32_t height);
-    void ensureCapacity(gpu::Buffer& buffer, VkDeviceSize bytes, const char* name);
     std::vector<ShadowSlot> assignShadows(bool needed);
     void writeFrame(FrameSlot& slot, const ViewportOptions& options,
                     const std::vector<ShadowSlot>& shadows);
@@ -121,6 +116,9 @@ struct Viewport::Impl {
     IndirectLight indirect;
     RenderScene scene;
     std::vector<Light> lights; ///< those that shine
+    LightTable relightTable;   ///< of the last shadowedLights()
+    std::vector<Light> relightLights;
+    std::uint64_t relightScene = 0, relightVersion = 0;
     glm::vec3 sky{0};
     std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
     bool warnedUnshadowed = false;
@@ -147,8 +145,7 @@ Viewport::Impl::Impl(gpu::Device& d)
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                      .memory = gpu::MemoryKind::Upload,
                                      .name = "frame"});
-        ensureCapacity(slot.lights, 0, "lights");
-        ensureCapacity(slot.shadowViews, 0, "shadow views");
+        writeLightTable(d, slot.lights, {}, {}, {});
         slot.set = gpu::allocateSet(d, framePool, frameLayout);
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
@@ -175,32 +172,6 @@ void Viewport::Impl::ensureTargets(std::uint32_t w, std::uint32_t h) {
     targets.color = gpu::Image(device, ImageDesc::renderTarget(tw, th, kColorFormat, "colour"));
 }
 
-// Storage buffers that only grow; a replaced one is retired.
-void Viewport::Impl::ensureCapacity(gpu::Buffer& buffer, VkDeviceSize bytes, const char* name) {
-    if (buffer && buffer.size >= bytes)
-        return;
-    buffer = gpu::Buffer(device, {.size = std::max<VkDeviceSize>(2 * bytes, 1024),
-                                  .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                  .memory = gpu::MemoryKind::Upload,
-                                  .name = name});
-}
-
-static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
-    GpuLight g{};
-    g.position = light.position;
-    g.inverseRange = light.range > 0 ? 1 / light.range : 0;
-    g.direction = light.direction;
-    g.kind = light.kind == LightKind::Directional ? LIGHT_DIRECTIONAL
-             : light.kind == LightKind::Spot      ? LIGHT_SPOT
-                                                  : LIGHT_POINT;
-    g.strength = light.color * light.strength;
-    g.cosOuter = std::cos(light.outerAngle);
-    g.spotScale = 1 / (std::max(std::cos(light.innerAngle), g.cosOuter + 1e-4f) - g.cosOuter);
-    g.shadowViews = shadow.count;
-    g.firstView = shadow.first;
-    return g;
-}
-
 std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
     if (!needed)
         return std::vector<ShadowSlot>(lights.size());
@@ -216,22 +187,13 @@ std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
 
 void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
                                 const std::vector<ShadowSlot>& shadowSlots) {
-    std::vector<GpuLight> table;
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        table.push_back(gpuLight(lights[i], shadowSlots[i]));
-    const std::vector<GpuShadowView> views = shadows.views();
-    ensureCapacity(slot.lights, table.size() * sizeof(GpuLight), "lights");
-    ensureCapacity(slot.shadowViews, views.size() * sizeof(GpuShadowView), "shadow views");
-    if (!table.empty())
-        std::memcpy(slot.lights.mapped, table.data(), table.size() * sizeof(GpuLight));
-    if (!views.empty())
-        std::memcpy(slot.shadowViews.mapped, views.data(), views.size() * sizeof(GpuShadowView));
+    writeLightTable(device, slot.lights, lights, shadowSlots, shadows.views());
     GpuFrame frame{};
     frame.eye = options.camera.eye;
-    frame.lightCount = std::uint32_t(table.size());
-    frame.normalBias = kNormalBias;
-    frame.lightBias = kLightBias;
-    describeGrid(indirect, frame);
+    frame.lightCount = slot.lights.count;
+    frame.normalBias = ShadowMaps::kNormalBias;
+    frame.lightBias = ShadowMaps::kLightBias;
+    describeGrid(*indirect.field, frame);
     const float aspect = float(options.width) / float(options.height);
     frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
     frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
@@ -247,11 +209,11 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
 
 void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
     gpu::writeBuffer(device, slot.set, 0, kFrameTypes[0], slot.frame.handle);
-    gpu::writeBuffer(device, slot.set, 1, kFrameTypes[1], slot.lights.handle);
-    gpu::writeBuffer(device, slot.set, 2, kFrameTypes[2], slot.shadowViews.handle);
+    gpu::writeBuffer(device, slot.set, 1, kFrameTypes[1], slot.lights.lights.handle);
+    gpu::writeBuffer(device, slot.set, 2, kFrameTypes[2], slot.lights.shadowViews.handle);
     gpu::writeTexture(device, slot.set, 3, shadows.atlasView(), shadows.sampler());
-    gpu::writeTexture(device, slot.set, 4, indirect.lightmap.view, lightmapSampler.handle);
-    gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.grid.handle);
+    gpu::writeTexture(device, slot.set, 4, indirect.field->lightmap.view, lightmapSampler.handle);
+    gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.field->grid.handle);
     gpu::writeTexture(device, slot.set, 6, targets.surface.view, texelSampler.handle);
     gpu::writeTexture(device, slot.set, 7, targets.depth.view, texelSampler.handle);
 }
@@ -443,6 +405,10 @@ void Viewport::setIndirect(const IndirectField& field) {
     m_impl->pendingUploadMs += msSince(start);
 }
 
+void Viewport::setIndirect(std::shared_ptr<const GpuField> field) {
+    m_impl->indirect = {.field = std::move(field)};
+}
+
 void Viewport::setOverlay(std::shared_ptr<const OverlayData> overlay) {
     const auto start = Clock::now();
     m_impl->overlay.set(std::move(overlay));
@@ -481,7 +447,7 @@ void Viewport::render(const ViewportOptions& options) {
     slot.uploadMs = v.pendingUploadMs + msSince(start);
     v.pendingUploadMs = 0;
 
-    GeometryView view = geometryView(options, v.scene.bounds, v.indirect.hasGrid());
+    GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
     view.slot = slotIndex;
     const VkCommandBuffer cmd = v.device.begin("viewport");
     const auto mark = [&](Timestamp t) {
@@ -500,6 +466,34 @@ void Viewport::render(const ViewportOptions& options) {
     slot.submission = v.device.submit(cmd);
     slot.timed = false;
     v.stats.shadowMapsDrawn = slot.shadowMapsDrawn;
+}
+
+ShadowedLights Viewport::shadowedLights() {
+    Impl& v = *m_impl;
+    const auto slotIndex = std::uint32_t(v.frames % kFrameSlots); // the next frame's
+    FrameSlot& slot = v.slots[slotIndex];
+    v.device.wait(slot.submission);
+    v.readTimes(slot);
+    slot.timed = true;
+    const std::uint64_t sceneVersion = v.scene.version + v.maskVersion;
+    if (v.relightVersion == 0 || v.relightLights != v.lights || v.relightScene != sceneVersion)
+        ++v.relightVersion;
+    v.relightLights = v.lights;
+    v.relightScene = sceneVersion;
+    const std::vector<ShadowSlot> shadows = v.assignShadows(true);
+    writeLightTable(v.device, v.relightTable, v.lights, shadows, v.shadows.views());
+    v.materials.writeFactors(slotIndex);
+    const VkCommandBuffer cmd = v.device.begin("shadow maps");
+    v.recordShadows(cmd, slot, slotIndex, true);
+    slot.submission = v.device.submit(cmd);
+    return {.lights = v.relightTable.lights.handle,
+            .shadowViews = v.relightTable.shadowViews.handle,
+            .atlas = v.shadows.atlasView(),
+            .sampler = v.shadows.sampler(),
+            .count = v.relightTable.count,
+            .normalBias = ShadowMaps::kNormalBias,
+            .lightBias = ShadowMaps::kLightBias,
+            .version = v.relightVersion};
 }
 
 VkImageView Viewport::colorView() const {

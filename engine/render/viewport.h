@@ -4,6 +4,8 @@
 #include "engine/bake/lightmap_layout.h"
 #include "engine/core/result.h"
 #include "engine/relight/indirect_field.h"
+#include "engine/relight_gpu/gpu_field.h"
+#include "engine/relight_gpu/shadowed_lights.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 
@@ -56,6 +58,14 @@ public:
 
     /// Indirect light; uploads only if `field.version` is new.
     void setIndirect(const IndirectField& field);
+    /// The same from where it was worked out: nothing is uploaded, and what its owner writes later
+    /// shows in the frames after that. On the viewport's device; not null.
+    void setIndirect(std::shared_ptr<const GpuField> field);
+
+    /// The lights of the last setLighting() with their shadow maps, drawn where they are out of
+    /// date: what GpuRelighter lights surfels with. Good until the next call of a function that is
+    /// not const; nobody may still read those of the last call.
+    ShadowedLights shadowedLights();
 
     /// What is drawn over the pictures from now on, which fade to grey beneath it; uploads only if
     /// the pointer is new. Null: nothing, at no cost. The layout is that of setScene.

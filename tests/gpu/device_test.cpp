@@ -4,9 +4,12 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/image.h"
+#include "engine/gpu/timestamps.h"
 #include "engine/gpu/vulkan_error.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstring>
 #include <numeric>
 
@@ -60,6 +63,61 @@ TEST_F(GpuDevice, ReadsBackTheBytesThatWereUploaded) {
     });
     gpu::readBuffer(*device, buffer, std::as_writable_bytes(std::span(received)));
     EXPECT_EQ(sent, received);
+}
+
+TEST_F(GpuDevice, ReplacesOnlyTheBytesOfABufferThatItIsTold) {
+    std::vector<std::uint32_t> sent(100, 1), received(sent.size());
+    const std::array<std::uint32_t, 2> later = {7, 8};
+    Buffer buffer;
+    device->immediate("upload", [&](VkCommandBuffer cmd) {
+        buffer = gpu::uploadBuffer(*device, cmd, std::as_bytes(std::span(sent)),
+                                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "numbers");
+    });
+    device->immediate("update", [&](VkCommandBuffer cmd) {
+        gpu::updateBuffer(*device, cmd, buffer, 40, std::as_bytes(std::span(later)));
+    });
+    gpu::readBuffer(*device, buffer, std::as_writable_bytes(std::span(received)));
+    sent[10] = 7, sent[11] = 8;
+    EXPECT_EQ(sent, received);
+}
+
+TEST_F(GpuDevice, ReadsBackTheLayersOfAnImageOneAfterTheOther) {
+    std::vector<std::uint32_t> texels(2 * 3 * 4), received(texels.size());
+    std::iota(texels.begin(), texels.end(), 5u);
+    const Image image(*device,
+                      {.width = 2,
+                       .height = 3,
+                       .layers = 4,
+                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                       .array = true});
+    device->immediate("upload", [&](VkCommandBuffer cmd) {
+        gpu::uploadImage(*device, cmd, image, std::as_bytes(std::span(texels)));
+    });
+    gpu::readImage(*device, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 2, 3,
+                   std::as_writable_bytes(std::span(received)), 4);
+    EXPECT_EQ(received, texels);
+}
+
+TEST_F(GpuDevice, TimesTheStepsOfACommandBufferWithinTheWallClock) {
+    constexpr VkDeviceSize kLarge = 64 << 20;
+    const Buffer buffer(*device, {.size = kLarge, .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    gpu::Timestamps times(*device, 2);
+    for (int round = 0; round < 2; ++round) {
+        const auto start = std::chrono::steady_clock::now();
+        device->immediate("times", [&](VkCommandBuffer cmd) {
+            times.begin(cmd);
+            times.mark(cmd);
+            vkCmdFillBuffer(cmd, buffer.handle, 0, kLarge, 1);
+            times.mark(cmd);
+        });
+        const std::chrono::duration<double, std::milli> wall =
+            std::chrono::steady_clock::now() - start;
+        const std::vector<double> ms = times.steps();
+        ASSERT_EQ(ms.size(), 2u);
+        EXPECT_GT(ms[1], ms[0]) << "the second writes 64 MiB, the first nothing";
+        EXPECT_LE(ms[0] + ms[1], wall.count());
+    }
 }
 
 TEST_F(GpuDevice, ReadsBackTheTopMipOfAnUploadedImage) {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/image.h"
+#include "engine/scene/scene.h"
+
+namespace limn {
+
+/// An IndirectField on the GPU, laid out alike, for shaders to sample.
+struct GpuField {
+    /// RGBA32F, a layer per coefficient, in SHADER_READ_ONLY_OPTIMAL; 1x1 black without a lightmap.
+    gpu::Image lightmap;
+    gpu::Buffer grid; ///< a storage buffer; one element where there is no grid
+
+    glm::uvec3 gridSize{0}; ///< cells; 0: no grid
+    Bounds gridBounds;
+
+    bool hasGrid() const { return gridSize.x > 0; }
+};
+
+} // namespace limn

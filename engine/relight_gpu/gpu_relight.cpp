@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight_gpu/gpu_relight.h"
+
+#include "engine/gpu/barrier.h"
+#include "engine/gpu/timestamps.h"
+#include "engine/relight_gpu/relight_steps.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr double kConverged = 1e-4; // of the total radiosity, per bounce
+constexpr std::uint32_t kMostSteps = 4;
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// One array of the inputs as it is on the GPU.
+struct Sent {
+    std::vector<glm::vec3> values;
+    const gpu::Buffer* buffer = nullptr;
+};
+
+} // namespace
+
+struct GpuRelighter::State {
+    State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made, LightBands bounce,
+          LightBands final)
+        : device(d), bake(std::move(b)), buffers(std::move(made)),
+          steps(d, *bake, buffers, bounce, final), times(d, kMostSteps) {}
+
+    gpu::Device& device;
+    std::shared_ptr<const Bake> bake;
+    RelightBuffers buffers;
+    RelightSteps steps;
+    gpu::Timestamps times;
+
+    bool started = false, converged = false;
+    std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
+    Sent direct, albedo, emitted;
+    std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
+    glm::vec3 sky{0};
+    std::uint64_t fieldVersion = 0;
+
+    bool upload(const SurfelInputs& inputs, GpuRelightStats& stats);
+    bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
+    double bounce(GpuRelightStats& stats);
+    void writeField(GpuRelightStats& stats);
+    std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
+};
+
+static Result<void> checkBindings(const gpu::Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    const std::uint32_t most =
+        std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
+    if (most < RelightSteps::kStorageBuffers)
+        return fail(fmt::format("{}: {} storage buffers can be bound at once, {} are needed",
+                                device.properties.deviceName, most, RelightSteps::kStorageBuffers));
+    return {};
+}
+
+GpuRelighter::GpuRelighter(std::unique_ptr<State> state) : m_state(std::move(state)) {}
+GpuRelighter::~GpuRelighter() = default;
+
+Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
+                                                           std::shared_ptr<const Bake> bake) {
+    if (const auto bindings = checkBindings(device); !bindings)
+        return tl::make_unexpected(bindings.error());
+    auto buffers = createRelightBuffers(device, *bake, RelightSteps::kItemLanes);
+    if (!buffers)
+        return tl::make_unexpected(buffers.error());
+    const LightBands final{int(bake->settings.bands), int(chromaBandsOf(bake->settings))};
+    // As Relighter: without the colour of the second band every bounce would grey the light.
+    const LightBands bounce{final.luma, std::max(final.chroma, 2)};
+    auto state =
+        std::make_unique<State>(device, std::move(bake), std::move(*buffers), bounce, final);
+    state->direct.buffer = &state->buffers.direct;
+    state->albedo.buffer = &state->buffers.albedo;
+    state->emitted.buffer = &state->buffers.emitted;
+    return std::unique_ptr<GpuRelighter>(new GpuRelighter(std::move(state)));
+}
+
+static std::vector<glm::vec4> padded(std::span<const glm::vec3> values) {
+    std::vector<glm::vec4> out(values.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = glm::vec4(values[i], 0);
+    return out;
+}
+
+/// True if anything had changed.
+bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats) {
+    const auto start = Clock::now();
+    VkCommandBuffer cmd = VK_NULL_HANDLE;
+    const auto send = [&](const gpu::Buffer& to, std::size_t first,
+                          const std::vector<glm::vec4>& v) {
+        if (v.empty())
+            return;
+        if (!cmd)
+            cmd = device.begin("relight inputs");
+        gpu::updateBuffer(device, cmd, to, first * sizeof(glm::vec4), std::as_bytes(std::span(v)));
+        stats.bytesUploaded += v.size() * sizeof(glm::vec4);
+    };
+    const auto sendIfNew = [&](Sent& sent, std::span<const glm::vec3> values) {
+        assert(values.size() == bake->surfels.size());
+        if (started && std::ranges::equal(sent.values, values))
+            return false;
+        sent.values.assign(values.begin(), values.end());
+        send(*sent.buffer, 0, padded(values));
+        return true;
+    };
+    bool changed = sendIfNew(albedo, inputs.albedo);
+    if (!inputs.lights) {
+        changed |= sendIfNew(direct, inputs.direct);
+        lightsVersion.reset();
+    }
+    changed |= sendIfNew(emitted, inputs.emitted);
+    if (!started || sky != inputs.skyRadiance) {
+        sky = inputs.skyRadiance;
+        send(buffers.radiosity, bake->tree.surfels,
+             std::vector(bake->tree.skyCells, glm::vec4(sky * kPi, 0)));
+        // It reaches the caches in the first round and the surfels' radiosity in the second.
+        unseenRounds = 2;
+        changed = true;
+    }
+    if (cmd)
+        device.submit(cmd);
+    stats.uploadMs = msSince(start);
+    return changed;
+}
+
+/// True if the lights had changed.
+bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats) {
+    if (lightsVersion == lights.version)
+        return false;
+    lightsVersion = lights.version;
+    direct.values.clear(); // what was sent is overwritten
+    device.immediate("light surfels", [&](VkCommandBuffer cmd) {
+        times.begin(cmd);
+        steps.recordDirect(cmd, lights);
+        times.mark(cmd);
+    });
+    stats.surfelLightMs += times.steps()[0];
+    return true;
+}
+
+/// One iteration. Returns the change of the surfels' total radiosity over that total.
+double GpuRelighter::State::bounce(GpuRelightStats& stats) {
+    device.immediate("bounce", [&](VkCommandBuffer cmd) {
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
+        times.begin(cmd);
+        steps.recordSurfels(cmd);
+        times.mark(cmd);
+        steps.recordPull(cmd);
+        times.mark(cmd);
+        steps.recordLightmapCaches(cmd);
+        times.mark(cmd);
+        steps.recordIndirect(cmd);
+        times.mark(cmd);
+        gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
+    });
+    const std::vector<double> ms = times.steps();
+    stats.surfelLightMs += ms[0] + ms[3];
+    stats.pullMs += ms[1];
+    stats.cacheLightMs += ms[2];
+    ++stats.bounces;
+    double change = 0, total = 0;
+    const auto* groups = static_cast<const glm::vec2*>(buffers.change.mapped);
+    for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec2); ++g) {
+        change += double(groups[g].x);
+        total += double(groups[g].y);
+    }
+    return total > 0 ? change / total : (change > 0 ? 1 : 0);
+}
+
+void GpuRelighter::State::writeField(GpuRelightStats& stats) {
+    device.immediate("field", [&](VkCommandBuffer cmd) {
+        times.begin(cmd);
+        steps.recordFinalCaches(cmd);
+        steps.recordField(cmd);
+        times.mark(cmd);
+    });
+    stats.fieldMs = times.steps()[0];
+    ++fieldVersion;
+}
+
+GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t bounces,
+                                      const Progress& progress) {
+    State& s = *m_state;
+    GpuRelightStats stats;
+    const auto start = Clock::now();
+    const std::uint64_t dispatchesBefore = s.steps.dispatches;
+    bool changed = s.upload(inputs, stats);
+    if (inputs.lights)
+        changed |= s.lightSurfels(*inputs.lights, stats);
+    s.started = true;
+    s.converged &= !changed;
+    stats.skipped = s.converged;
+    for (std::uint32_t k = 0; k < bounces && !s.converged; ++k) {
+        const double change = s.bounce(stats);
+        s.converged = change < kConverged && s.unseenRounds == 0;
+        s.unseenRounds -= s.unseenRounds > 0;
+        if (progress.cancelled())
+            break;
+    }
+    if (!stats.skipped)
+        s.writeField(stats);
+    stats.converged = s.converged;
+    stats.dispatches = std::uint32_t(s.steps.dispatches - dispatchesBefore);
+    stats.totalMs = msSince(start);
+    return stats;
+}
+
+const Bake& GpuRelighter::bake() const {
+    return *m_state->bake;
+}
+std::shared_ptr<const GpuField> GpuRelighter::field() const {
+    return m_state->buffers.field;
+}
+std::uint64_t GpuRelighter::fieldVersion() const {
+    return m_state->fieldVersion;
+}
+
+std::vector<glm::vec3> GpuRelighter::State::readColors(const gpu::Buffer& buffer,
+                                                       std::size_t count) const {
+    if (count == 0)
+        return {};
+    std::vector<glm::vec4> colors(count);
+    gpu::readBuffer(device, buffer, std::as_writable_bytes(std::span(colors)));
+    return {colors.begin(), colors.end()};
+}
+
+std::vector<glm::vec3> GpuRelighter::readRadiosity() const {
+    return m_state->readColors(m_state->buffers.radiosity, m_state->bake->tree.size());
+}
+
+std::vector<glm::vec3> GpuRelighter::readCacheSh() const {
+    const Bake& bake = *m_state->bake;
+    return m_state->readColors(m_state->buffers.sh,
+                               bake.caches.size() * bake.settings.bands * bake.settings.bands);
+}
+
+IndirectField GpuRelighter::readField() const {
+    const State& s = *m_state;
+    IndirectField out;
+    out.lightmapWidth = s.bake->lightmap.width;
+    out.lightmapHeight = s.bake->lightmap.height;
+    out.gridSize = s.bake->gridSize;
+    out.gridBounds = s.bake->gridBounds;
+    out.version = s.fieldVersion;
+    out.lightmap.resize(std::size_t(out.lightmapWidth) * out.lightmapHeight *
+                        IndirectField::kCoefficients);
+    if (!out.lightmap.empty())
+        gpu::readImage(s.device, s.buffers.field->lightmap,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, out.lightmapWidth,
+                       out.lightmapHeight, std::as_writable_bytes(std::span(out.lightmap)),
+                       IndirectField::kCoefficients);
+    out.grid.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z *
+                    IndirectField::kCoefficients);
+    if (!out.grid.empty())
+        gpu::readBuffer(s.device, s.buffers.field->grid,
+                        std::as_writable_bytes(std::span(out.grid)));
+    return out;
+}
+
+} // namespace limn

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight_gpu/relight_buffers.h"
+
+#include "engine/gpu/barrier.h"
+#include "engine/gpu/uploader.h"
+#include "engine/relight/indirect_field.h"
+#include "engine/relight_gpu/tree_levels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+using shared::GpuCache;
+using shared::GpuFill;
+using shared::GpuSurfel;
+
+namespace {
+
+/// Makes storage buffers, none larger than the device can bind.
+class StorageMaker {
+public:
+    explicit StorageMaker(gpu::Device& device) : m_device(device), m_uploader(device) {}
+
+    template <class T>
+    gpu::Buffer filled(const std::vector<T>& values, const char* name) {
+        const std::vector<T> one(1); // descriptors need a buffer even where there is nothing
+        const auto bytes = std::as_bytes(std::span(values.empty() ? one : values));
+        return fits(bytes.size(), name)
+                   ? m_uploader.buffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name)
+                   : gpu::Buffer();
+    }
+
+    /// Not filled yet.
+    gpu::Buffer empty(std::size_t count, std::size_t elementBytes, const char* name,
+                      gpu::MemoryKind memory = gpu::MemoryKind::Gpu) {
+        const VkDeviceSize bytes = std::max<std::size_t>(count, 1) * elementBytes;
+        if (!fits(bytes, name))
+            return {};
+        return {m_device,
+                {.size = bytes,
+                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                 .memory = memory,
+                 .name = name}};
+    }
+
+    std::string error; ///< empty: all fitted
+
+private:
+    bool fits(VkDeviceSize bytes, const char* name) {
+        const VkDeviceSize most = m_device.properties.limits.maxStorageBufferRange;
+        if (bytes > most && error.empty())
+            error = fmt::format("{}: the {} of this bake take {:.1f} MiB, more than the {:.1f} MiB "
+                                "that the device can bind; bake fewer links, caches or bands",
+                                m_device.properties.deviceName, name, double(bytes) / (1 << 20),
+                                double(most) / (1 << 20));
+        return bytes <= most;
+    }
+
+    gpu::Device& m_device;
+    gpu::Uploader m_uploader;
+};
+
+} // namespace
+
+static std::vector<GpuSurfel> packSurfels(const Surfels& surfels) {
+    std::vector<GpuSurfel> out(surfels.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = {surfels.position[i],   0, surfels.normal[i], surfels.area[i], surfels.cache[i],
+                  surfels.cacheWeight[i]};
+    return out;
+}
+
+static std::vector<GpuCache> packCaches(const Caches& caches) {
+    std::vector<GpuCache> out(caches.size());
+    for (std::size_t c = 0; c < out.size(); ++c)
+        out[c] = {caches.linkBegin[c], caches.linkBegin[c + 1],
+                  std::ldexp(1.f, -caches.linkExponent[c]), caches.texel[c]};
+    return out;
+}
+
+/// LinkStorage::Sh: a node, then its halfs in pairs.
+static std::vector<std::uint32_t> packHarmonics(const Caches& caches, std::size_t coefficients) {
+    const std::size_t words = 1 + (coefficients + 1) / 2;
+    std::vector<std::uint32_t> out(caches.shNode.size() * words);
+    for (std::size_t k = 0; k < caches.shNode.size(); ++k) {
+        out[k * words] = caches.shNode[k];
+        std::memcpy(&out[k * words + 1], &caches.shCoefficients[k * coefficients],
+                    coefficients * sizeof(std::uint16_t));
+    }
+    return out;
+}
+
+static gpu::Buffer uploadLinks(StorageMaker& make, const Caches& caches, std::size_t coefficients) {
+    static_assert(sizeof(Link) == RELIGHT_CONE_WORDS * 4);
+    return caches.shNode.empty() ? make.filled(caches.links, "links")
+                                 : make.filled(packHarmonics(caches, coefficients), "links");
+}
+
+static void uploadFills(StorageMaker& make, const Caches& caches, RelightBuffers& out) {
+    std::vector<GpuFill> fills;
+    for (std::uint32_t c = 0; c < caches.size(); ++c) {
+        if (caches.fillBegin[c] == caches.fillBegin[c + 1])
+            continue;
+        fills.push_back({c, caches.fillBegin[c], caches.fillBegin[c + 1], 0});
+        out.lightmapFills += c < caches.lightmapCount;
+    }
+    std::vector<glm::uvec2> sources(caches.fillSource.size());
+    for (std::size_t k = 0; k < sources.size(); ++k)
+        sources[k] = {caches.fillSource[k], std::bit_cast<std::uint32_t>(caches.fillWeight[k])};
+    out.fillCount = std::uint32_t(fills.size());
+    out.fills = make.filled(fills, "invalid caches");
+    out.fillSources = make.filled(sources, "sources of invalid caches");
+}
+
+static gpu::Image lightmapImage(gpu::Device& device, const LightmapLayout& layout) {
+    return {device,
+            {.width = std::max(layout.width, 1U),
+             .height = std::max(layout.height, 1U),
+             .layers = IndirectField::kCoefficients,
+             .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+             .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+             .array = true,
+             .name = "relit lightmap"}};
+}
+
+static void clear(gpu::Device& device, const RelightBuffers& buffers) {
+    const VkCommandBuffer cmd = device.begin("clear light");
+    for (const VkBuffer b : {buffers.indirect.handle, buffers.radiosity.handle, buffers.sh.handle,
+                             buffers.field->grid.handle})
+        vkCmdFillBuffer(cmd, b, 0, VK_WHOLE_SIZE, 0);
+    gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kAllReads);
+    const VkImage image = buffers.field->lightmap.handle;
+    gpu::imageBarrier(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kUndefined, gpu::kTransferWrite);
+    const VkClearColorValue black{};
+    const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
+                                        IndirectField::kCoefficients};
+    vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &whole);
+    gpu::imageBarrier(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kTransferWrite,
+                      gpu::kFragmentRead);
+    device.submit(cmd);
+}
+
+std::vector<const gpu::Buffer*> RelightBuffers::inBindingOrder() const {
+    return {&surfels, &direct, &albedo, &emitted, &indirect, &radiosity,   &change,     &innerNodes,
+            &levels,  &caches, &links,  &sh,      &fills,    &fillSources, &field->grid};
+}
+
+Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
+                                            std::uint32_t lanes) {
+    const std::size_t surfels = bake.surfels.size(), color = sizeof(glm::vec4);
+    const std::size_t coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
+    const TreeLevels levels = treeLevels(bake.tree);
+    RelightBuffers out;
+    out.field = std::make_shared<GpuField>();
+    std::string error;
+    {
+        StorageMaker make(device);
+        out.surfels = make.filled(packSurfels(bake.surfels), "surfels");
+        out.innerNodes = make.filled(levels.nodes, "inner nodes");
+        out.levels = make.filled(levels.begin, "tree levels");
+        out.caches = make.filled(packCaches(bake.caches), "caches");
+        out.links = uploadLinks(make, bake.caches, coefficients);
+        uploadFills(make, bake.caches, out);
+        out.direct = make.empty(surfels, color, "direct irradiance");
+        out.albedo = make.empty(surfels, color, "albedo");
+        out.emitted = make.empty(surfels, color, "emitted radiosity");
+        out.indirect = make.empty(surfels, color, "indirect irradiance");
+        out.radiosity = make.empty(bake.tree.size(), color, "radiosity");
+        out.sh = make.empty(bake.caches.size() * coefficients, color, "cache harmonics");
+        out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec2), "change",
+                                gpu::MemoryKind::Readback);
+        out.field->grid = make.empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
+                                         bake.gridSize.z * IndirectField::kCoefficients,
+                                     color, "grid cells");
+        error = make.error;
+    }
+    if (!error.empty())
+        return fail(error);
+    out.field->lightmap = lightmapImage(device, bake.lightmap);
+    out.field->gridSize = bake.gridSize;
+    out.field->gridBounds = bake.gridBounds;
+    out.levelBegin = levels.begin;
+    clear(device, out);
+    return out;
+}
+
+} // namespace limn

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+#include "engine/core/result.h"
+#include "engine/gpu/buffer.h"
+#include "engine/relight_gpu/gpu_field.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace limn {
+
+/// Everything relighting reads and writes, on the GPU. What each holds:
+/// shaders/shared/gpu_relight.h.
+struct RelightBuffers {
+    gpu::Buffer surfels, innerNodes, levels, caches, links, fills, fillSources; ///< of the bake
+    gpu::Buffer direct, albedo, emitted;                                        ///< what comes in
+    gpu::Buffer indirect, radiosity, sh; ///< what is worked out; 0 at first
+    gpu::Buffer change;                  ///< mapped
+    std::shared_ptr<GpuField> field;     ///< what comes out; 0 at first
+
+    std::vector<std::uint32_t> levelBegin;          ///< as TreeLevels::begin
+    std::uint32_t fillCount = 0, lightmapFills = 0; ///< invalid caches; those of the lightmap first
+
+    /// In the order of their bindings. The lightmap's comes last and is not among them.
+    std::vector<const gpu::Buffer*> inBindingOrder() const;
+};
+
+/// Uploads a bake; `lanes` is the size of a group of surfels. Fails when a buffer would be larger
+/// than what the device can bind, naming both sizes.
+Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
+                                            std::uint32_t lanes);
+
+} // namespace limn

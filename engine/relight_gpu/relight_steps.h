@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/descriptors.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/relight/cache_light.h"
+#include "engine/relight_gpu/relight_buffers.h"
+#include "engine/relight_gpu/shadowed_lights.h"
+#include "shaders/shared/gpu_relight.h"
+
+#include <array>
+
+namespace limn {
+
+/// The steps of relighting as compute shaders over one set of buffers. Each function records one
+/// step and a barrier that makes what it wrote visible to the next.
+class RelightSteps {
+public:
+    /// Invocations of a group where each has a thing of its own.
+    static constexpr std::uint32_t kItemLanes = 64;
+    /// Bound at once: those of gpu_relight.h, the lights and their shadow views.
+    static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP + 2;
+
+    /// Both outlive this. The caches are lit in `bounce` bands and, at last, in `final` bands.
+    RelightSteps(gpu::Device& device, const Bake& bake, const RelightBuffers& buffers,
+                 LightBands bounce, LightBands final);
+
+    /// E_direct from lights with shadow maps. No earlier recording of it may still run.
+    void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights);
+    /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total).
+    void recordSurfels(VkCommandBuffer cmd);
+    void recordPull(VkCommandBuffer cmd);
+    /// The lightmap's caches, invalid ones too, in the bands of bounces.
+    void recordLightmapCaches(VkCommandBuffer cmd);
+    /// E_indirect of the surfels from their caches.
+    void recordIndirect(VkCommandBuffer cmd);
+    /// The final bands: lightmap caches lose the chrominance that only bounces need, grid caches
+    /// are lit.
+    void recordFinalCaches(VkCommandBuffer cmd);
+    /// Lightmap and grid, ready for fragment shaders.
+    void recordField(VkCommandBuffer cmd);
+
+    std::uint64_t dispatches = 0; ///< recorded so far
+
+private:
+    gpu::Pipeline pipeline(gpu::Spirv shader, std::uint32_t lanes, LightBands bands,
+                           const char* name);
+    void createSets();
+    void dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
+                  const shared::GpuRelightRange& range, std::size_t groups);
+    void lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, std::uint32_t begin,
+                     std::uint32_t end);
+    void fill(VkCommandBuffer cmd, std::uint32_t begin, std::uint32_t end);
+
+    gpu::Device& m_device;
+    const Bake& m_bake;
+    const RelightBuffers& m_buffers;
+    std::uint32_t m_coefficients;
+    bool m_dropsChroma;
+    gpu::DescriptorSetLayout m_setLayout, m_lightSetLayout;
+    gpu::DescriptorPool m_pool, m_lightPool;
+    std::array<VkDescriptorSet, 2> m_sets{}; ///< the buffers; the lights
+    gpu::PipelineLayout m_layout;
+    gpu::Pipeline m_direct, m_surfels, m_pull, m_bounceCaches, m_finalCaches, m_fill, m_indirect,
+        m_chroma, m_field;
+};
+
+} // namespace limn

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <vulkan/vulkan.h>
+
+namespace limn {
+
+/// Lights with their shadow maps on the GPU, as the viewport's shaders read them. Owned by whoever
+/// handed it out.
+struct ShadowedLights {
+    VkBuffer lights = VK_NULL_HANDLE;      ///< shared::GpuLight each
+    VkBuffer shadowViews = VK_NULL_HANDLE; ///< shared::GpuShadowView each
+    VkImageView atlas = VK_NULL_HANDLE;    ///< depth layers, in SHADER_READ_ONLY_OPTIMAL
+    VkSampler sampler = VK_NULL_HANDLE;    ///< nearest
+    std::uint32_t count = 0;               ///< lights
+    float normalBias = 0, lightBias = 0;   ///< receivers are moved so far [shadow texels]
+    std::uint64_t version = 0; ///< grows with every change of the lights or of what casts shadows
+};
+
+} // namespace limn

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Irradiance of every surfel from all lights, with the shadow maps that the viewport draws.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/gpu_light.h"
+#include "shaders/shared/relight.glsl"
+
+layout(std430, binding = RELIGHT_SURFELS) readonly buffer Surfels { GpuSurfel surfels[]; };
+layout(std430, binding = RELIGHT_DIRECT) writeonly buffer Direct { vec4 direct[]; };
+layout(set = 1, binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
+layout(set = 1, binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
+layout(set = 1, binding = 2) uniform sampler2DArray shadowAtlas;
+
+#include "shaders/shared/shadowed_light.glsl"
+
+void main() {
+    const uint i = itemIndex();
+    if (i >= range.end)
+        return;
+    const GpuSurfel s = surfels[i];
+    vec3 E = vec3(0);
+    for (uint k = 0; k < range.lights; ++k) {
+        const GpuLight light = lights[k];
+        vec3 toLight;
+        const vec3 irradiance = lightIrradiance(light, s.position, toLight);
+        const float NoL = max(dot(s.normal, toLight), 0.0);
+        const bool lit = NoL > 0.0 && irradiance.x + irradiance.y + irradiance.z > 0.0;
+        if (lit)
+            E += irradiance * NoL *
+                 visibility(light, s.position, s.normal, toLight, vec2(range.normalBias, range.lightBias), lit);
+    }
+    direct[i] = vec4(E, 0);
+}

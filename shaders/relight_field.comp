@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The caches' first three bands into the lightmap and the grid that the viewport samples, one coefficient per invocation.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/relight.glsl"
+#include "shaders/shared/sh_bands.glsl"
+
+layout(std430, binding = RELIGHT_CACHES) readonly buffer Caches { GpuCache caches[]; };
+layout(std430, binding = RELIGHT_SH) readonly buffer Sh { vec4 sh[]; };
+layout(std430, binding = RELIGHT_GRID) writeonly buffer Grid { vec4 grid[]; };
+layout(binding = RELIGHT_LIGHTMAP, rgba32f) uniform writeonly image2DArray lightmap;
+
+void main() {
+    const uint kept = min(kCoefficients, RELIGHT_FIELD_COEFFICIENTS);
+    const uint item = groupIndex() * kLanes + gl_LocalInvocationIndex;
+    const uint c = range.begin + item / kept, i = item % kept;
+    if (c >= range.end)
+        return;
+    const uint texel = caches[c].texel, width = imageSize(lightmap).x;
+    const vec4 value = sh[c * kCoefficients + i];
+    if (c < range.lightmapCaches)
+        imageStore(lightmap, ivec3(texel % width, texel / width, i), value);
+    else
+        grid[i * range.gridCells + texel] = value;
+}

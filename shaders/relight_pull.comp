@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Radiosity of inner nodes from their children's, on the levels [range.begin, range.end) of the tree: one level by many
+// groups, or many levels by one group.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/relight.glsl"
+
+layout(std430, binding = RELIGHT_RADIOSITY) coherent buffer Radiosity { vec4 radiosity[]; };
+layout(std430, binding = RELIGHT_INNER_NODES) readonly buffer InnerNodes { GpuInnerNode nodes[]; };
+layout(std430, binding = RELIGHT_LEVELS) readonly buffer Levels { uint levelBegin[]; };
+
+void main() {
+    const uint first = groupIndex() * kLanes + gl_LocalInvocationIndex;
+    const uint step = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kLanes;
+    for (uint level = range.begin; level < range.end; ++level) {
+        for (uint k = levelBegin[level] + first; k < levelBegin[level + 1]; k += step) {
+            const GpuInnerNode n = nodes[k];
+            const vec3 l = radiosity[n.left].rgb, r = radiosity[n.right].rgb;
+            radiosity[n.node] = vec4(r + (l - r) * n.leftWeight, 0);
+        }
+        memoryBarrierBuffer();
+        barrier();
+    }
+}

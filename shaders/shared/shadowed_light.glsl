@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Light that arrives from a GpuLight. Whoever includes this has declared shadowViews[] and shadowAtlas.
+
+// Of the light's six views the one that looks from it to the point.
+uint cubeFace(vec3 fromLight) {
+    const vec3 a = abs(fromLight);
+    if (a.x >= a.y && a.x >= a.z)
+        return fromLight.x > 0.0 ? 0u : 1u;
+    if (a.y >= a.z)
+        return fromLight.y > 0.0 ? 2u : 3u;
+    return fromLight.z > 0.0 ? 4u : 5u;
+}
+
+// Share of texel `offset` (from the 2 x 2 texels round the point) in a tent 3 texels wide, `f` within them.
+vec4 tentWeight(vec4 offset, float f) {
+    return 0.5 * (max(1.0 - abs(f - 0.5 - offset), 0.0) + max(1.0 - abs(f + 0.5 - offset), 0.0));
+}
+
+// How atlas depth changes with atlas u and v on the surface's plane. `width`: a texel there.
+vec2 planeGradient(GpuShadowView view, vec3 n, vec4 q, float width) {
+    const vec3 t = width * normalize(cross(n, abs(n.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+    const vec4 qt = q + view.toAtlas * vec4(t, 0), qb = q + view.toAtlas * vec4(cross(n, t), 0);
+    const vec3 dt = qt.xyz / qt.w - q.xyz / q.w, db = qb.xyz / qb.w - q.xyz / q.w;
+    const float det = dt.x * db.y - dt.y * db.x;
+    if (abs(det) < 1e-14)
+        return vec2(0);
+    return vec2(dt.z * db.y - db.z * dt.y, dt.x * db.z - db.x * dt.z) / det;
+}
+
+// 1: the light arrives at `position` on a surface of unit normal n; 0: it does not. The point is moved by `bias`
+// texels along the normal and towards the light. Each texel is compared with the depth of the surface's plane at its own
+// middle, so that flat surfaces need no bias, however steep. A loop, because software rasterisers skip nothing else.
+float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias, bool lit) {
+    float sum = 1.0;
+    const int count = light.shadowViews != SHADOW_NONE && lit ? 1 : 0;
+    for (int once = 0; once < count; ++once) {
+        const uint face = light.shadowViews == SHADOW_CUBE ? cubeFace(-toLight) : 0u;
+        const GpuShadowView view = shadowViews[light.firstView + face];
+        const float depth =
+            view.perspective > 0.5 ? dot(view.axis.xyz, position) - view.axis.w : 1.0;
+        const float width = view.texelSize * depth;
+        const vec3 p = position + width * (bias.x * n + bias.y * toLight);
+        const vec4 q = view.toAtlas * vec4(p, 1);
+        const vec3 centre = q.xyz / q.w;
+        const vec2 gradient = planeGradient(view, n, q, width);
+        const vec2 size = vec2(textureSize(shadowAtlas, 0).xy);
+        const vec2 x = centre.xy * size - 0.5, base = floor(x), f = x - base;
+        sum = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            const vec2 corner = vec2((k & 1) * 2 - 1, (k >> 1) * 2 - 1);
+            const vec4 stored = textureGather(
+                shadowAtlas, vec3((base + corner + 1.0) / size, float(view.layer)));
+            const vec4 i = corner.x + vec4(0, 1, 1, 0), j = corner.y + vec4(1, 1, 0, 0);
+            const vec4 plane = centre.z + gradient.x * ((base.x + i + 0.5) / size.x - centre.x) +
+                               gradient.y * ((base.y + j + 0.5) / size.y - centre.y);
+            sum += dot(vec4(greaterThanEqual(plane, stored)),
+                       tentWeight(i, f.x) * tentWeight(j, f.y));
+        }
+    }
+    return sum;
+}
+
+// sampleLight() of engine/scene/light.cpp.
+vec3 lightIrradiance(GpuLight light, vec3 p, out vec3 toLight) {
+    toLight = -light.direction;
+    if (light.kind == LIGHT_DIRECTIONAL)
+        return light.strength;
+    const vec3 d = light.position - p;
+    const float d2 = dot(d, d);
+    if (!(d2 > 0.0)) {
+        toLight = vec3(0);
+        return vec3(0);
+    }
+    const float inverse = inversesqrt(d2);
+    toLight = d * inverse;
+    const float q = d2 * inverse * light.inverseRange;
+    float window = clamp(1.0 - q * q * q * q, 0.0, 1.0);
+    if (light.kind == LIGHT_SPOT) {
+        const float t = clamp((dot(-toLight, light.direction) - light.cosOuter) * light.spotScale,
+                              0.0, 1.0);
+        window *= t * t;
+    }
+    return light.strength * min(window / d2, 1e30);
+}

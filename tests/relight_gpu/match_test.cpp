@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "engine/math/sh_basis.h"
+#include "shaders/shared/sh_normalisation.h"
+#include "tests/relight_gpu/relit_scene.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace limn {
+namespace {
+
+TEST(ShNormalisation, IsTheSameForShadersToTheLastBit) {
+    constexpr std::array kShaders = {SH_NORMALISATION};
+    ASSERT_EQ(kShaders.size(), sh_detail::kNormalisation.size());
+    for (std::size_t i = 0; i < kShaders.size(); ++i)
+        EXPECT_EQ(float(kShaders[i]), sh_detail::kNormalisation[i]) << i;
+}
+
+class GpuMatch : public DeviceTest {};
+
+/// How far two arrays of colours are apart.
+struct Distance {
+    double max = 0, rms = 0;
+};
+
+template <class T>
+Distance distance(const std::vector<T>& a, const std::vector<T>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    Distance d;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const double x = std::abs(double(a[i][k]) - double(b[i][k]));
+            d.max = std::max(d.max, x);
+            d.rms += x * x;
+        }
+    d.rms = std::sqrt(d.rms / double(std::max<std::size_t>(3 * a.size(), 1)));
+    return d;
+}
+
+double largest(const std::vector<glm::vec3>& values) {
+    double out = 0;
+    for (const glm::vec3 v : values)
+        out = std::max({out, double(v.x), double(v.y), double(v.z)});
+    return out;
+}
+
+double mostLinks(const Caches& caches) {
+    std::uint32_t most = 0;
+    for (std::size_t c = 0; c < caches.size(); ++c)
+        most = std::max(most, caches.linkBegin[c + 1] - caches.linkBegin[c]);
+    return most;
+}
+
+/// Both sum the same numbers in 32 bits, in other orders. Each step rounds by 2^-25 / sqrt(3) of
+/// the sum so far (rms), which over n steps that end at S makes sqrt(n) / 6 2^-24 S, and for the
+/// difference of two such sums a quarter of sqrt(n) 2^-24 S; half a unit more for what is done to
+/// the sums. S is at most `scale`, the largest value there is, but terms of higher bands have both
+/// signs and are up to sqrt(2 l + 1) < 4 times those of the first. The largest of some thousand
+/// differences lies within six standard deviations.
+void expectRounding(const char* what, const Distance& d, double terms, double scale) {
+    const double unit = std::ldexp(scale, -24), rms = 0.25 * std::sqrt(terms) + 0.5;
+    EXPECT_LT(d.max, 6 * 4 * rms * unit) << what;
+    EXPECT_LT(d.rms, rms * unit) << what;
+    std::printf("  %-10s max %.1e rms %.1e of the largest, %.2f and %.2f of what is allowed\n",
+                what, d.max / scale, d.rms / scale, d.max / (6 * 4 * rms * unit),
+                d.rms / (rms * unit));
+}
+
+void compare(gpu::Device& device, const Scene& scene, const TraceScene& trace,
+             std::shared_ptr<const Bake> bake) {
+    Relighter cpu(bake);
+    const auto gpu = gpuRelighter(device, bake);
+    ASSERT_TRUE(gpu);
+    const RelightStats cpuStats = cpu.relight(scene, trace, 5);
+    const GpuRelightStats stats = gpu->relight(surfelValues(*bake, scene, trace).inputs(), 5);
+    EXPECT_EQ(stats.bounces, cpuStats.bounces);
+    EXPECT_EQ(stats.converged, cpuStats.converged);
+    const double terms = mostLinks(bake->caches), brightest = largest(cpu.cacheSh());
+    ASSERT_GT(brightest, 0);
+    expectRounding("radiosity", distance(gpu->readRadiosity(), radiosityOf(cpu)), terms,
+                   largest(radiosityOf(cpu)));
+    expectRounding("caches", distance(gpu->readCacheSh(), cpu.cacheSh()), terms, brightest);
+    const IndirectField field = gpu->readField();
+    expectRounding("lightmap", distance(field.lightmap, cpu.field().lightmap), terms, brightest);
+    expectRounding("grid", distance(field.grid, cpu.field().grid), terms, brightest);
+    EXPECT_EQ(field.gridSize, cpu.field().gridSize);
+    EXPECT_EQ(field.lightmapWidth, cpu.field().lightmapWidth);
+    EXPECT_EQ(field.version, 1U);
+}
+
+TEST_F(GpuMatch, GivesTheLightOfTheCpuInEveryBufferAtEveryStorageAndBandCount) {
+    const Scene scene = court();
+    const TraceScene trace(scene);
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        for (const std::uint32_t bands : {2U, 3U, 4U, 5U, 8U}) {
+            BakeSettings settings = scene.bake;
+            settings.storage = storage;
+            settings.bands = bands;
+            const std::shared_ptr<Bake> made = baked(trace, settings);
+            const Caches& caches = made->caches;
+            EXPECT_GT(made->tree.skyCells, 0U);
+            EXPECT_LT(caches.fillBegin[0], caches.fillBegin[caches.lightmapCount]);
+            EXPECT_LT(caches.fillBegin[caches.lightmapCount], caches.fillBegin[caches.size()]);
+            for (const std::uint32_t chroma : {0U, 1U, 2U, 3U})
+                if (chroma < bands) {
+                    std::printf("%s, %u bands, %u of chrominance\n",
+                                storage == LinkStorage::Rtp ? "cones" : "harmonics", bands, chroma);
+                    auto copy = std::make_shared<Bake>(*made);
+                    copy->settings.chromaBands = chroma;
+                    compare(*device, scene, trace, copy);
+                }
+        }
+}
+
+TEST_F(GpuMatch, KnowsNoNegativeIrradianceEither) {
+    Scene scene = court();
+    const TraceScene trace(scene);
+    const auto turned = baked(trace, scene.bake);
+    for (glm::vec3& n : turned->surfels.normal) // away from their caches' light: three bands ring
+        n = glm::normalize(glm::vec3(n.y, n.z, n.x) - 2.f * n);
+    compare(*device, scene, trace, turned);
+    Relighter cpu(turned);
+    cpu.relight(scene, trace, 5);
+    const SurfelValues values = surfelValues(*turned, scene, trace);
+    std::size_t unlit = 0; // clamped: nothing but their own light
+    for (std::size_t i = 0; i < values.direct.size(); ++i)
+        unlit += glm::vec3(cpu.radiosity()[i]) ==
+                 values.albedo[i] * values.direct[i] + values.emitted[i];
+    EXPECT_GT(unlit, 10U);
+}
+
+TEST_F(GpuMatch, FollowsTheLightAsTheCpuDoes) {
+    Scene scene = court();
+    const TraceScene trace(scene);
+    const auto made = baked(trace, scene.bake);
+    Relighter cpu(made);
+    const auto gpu = gpuRelighter(*device, made);
+    ASSERT_TRUE(gpu);
+    const auto expectSame = [&](std::uint32_t bounces) {
+        const RelightStats cpuStats = cpu.relight(scene, trace, bounces);
+        const auto stats = gpu->relight(surfelValues(*made, scene, trace).inputs(), bounces);
+        EXPECT_EQ(stats.bounces, cpuStats.bounces);
+        const double terms = mostLinks(made->caches);
+        expectRounding("radiosity", distance(gpu->readRadiosity(), radiosityOf(cpu)), terms,
+                       largest(radiosityOf(cpu)));
+        expectRounding("caches", distance(gpu->readCacheSh(), cpu.cacheSh()), terms,
+                       largest(cpu.cacheSh()));
+    };
+    expectSame(100);
+    scene.sky.radiance = {2, 1, 0};
+    expectSame(1);
+    expectSame(2);
+    scene.lights[0].color = {0, 1, 0.5f};
+    expectSame(3);
+    scene.materials[2].baseColor = {0.9f, 0.8f, 0.1f, 1};
+    scene.materials[1].emission = {0, 3, 0};
+    expectSame(100);
+}
+
+} // namespace
+} // namespace limn

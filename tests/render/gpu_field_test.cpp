@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "tests/relight_gpu/relit_scene.h"
+#include "tests/render/viewport_fixture.h"
+
+namespace limn {
+namespace {
+
+class ViewportGpuField : public ViewportTest {
+protected:
+    void SetUp() override {
+        ViewportTest::SetUp();
+        if (!device)
+            return;
+        scene = court();
+        // An instance that is lit from the grid.
+        simple::SceneBuilder b;
+        b.scene = scene;
+        b.assets = std::make_shared<Assets>(*scene.assets);
+        b.add(simple::sphere(0.4f, 2, false), glm::translate(glm::mat4(1), {3.2f, 0.8f, 1}), true);
+        scene = b.build();
+        trace = std::make_unique<TraceScene>(scene);
+        made = baked(*trace, scene.bake);
+        layout = std::shared_ptr<LightmapLayout>(made, &made->lightmap);
+        relighter = gpuRelighter(*device, made);
+        values = surfelValues(*made, scene, *trace);
+        options.camera = {.eye = {3, 4, 9}, .target = {2, 1, 2}, .fovY = 0.7f};
+        options.width = options.height = 64;
+    }
+    void TearDown() override {
+        relighter.reset();
+        ViewportTest::TearDown();
+    }
+
+    Scene scene;
+    std::unique_ptr<TraceScene> trace;
+    std::shared_ptr<Bake> made;
+    std::unique_ptr<GpuRelighter> relighter;
+    SurfelValues values;
+};
+
+double meanOf(const ImageF& image) {
+    double sum = 0;
+    for (const glm::vec3 c : image.rgb)
+        sum += double(c.x + c.y + c.z);
+    return sum / double(3 * image.rgb.size());
+}
+
+TEST_F(ViewportGpuField, LooksTheSameAsByWayOfTheCpu) {
+    relighter->relight(values.inputs(), 4);
+    viewport->setIndirect(relighter->field());
+    const ImageF direct = draw(scene, View::Irradiance);
+    viewport->setIndirect(relighter->readField());
+    const ImageF copied = draw(scene, View::Irradiance);
+    EXPECT_GT(meanOf(direct), 0.01);
+    EXPECT_TRUE(direct.rgb == copied.rgb) << "the same numbers, sampled alike";
+}
+
+TEST_F(ViewportGpuField, ShowsWhatIsRelitBetweenFramesWithoutAnotherCall) {
+    viewport->setIndirect(relighter->field());
+    EXPECT_EQ(meanOf(draw(scene, View::Irradiance)), 0) << "not lit yet";
+    relighter->relight(values.inputs(), 30);
+    const double once = meanOf(draw(scene, View::Irradiance));
+    EXPECT_GT(once, 0.01);
+    for (auto* v : {&values.direct, &values.emitted})
+        for (glm::vec3& c : *v)
+            c *= 2;
+    values.sky *= 2;
+    relighter->relight(values.inputs(), 30);
+    EXPECT_NEAR(meanOf(draw(scene, View::Irradiance)), 2 * once, 2e-3 * once);
+}
+
+TEST_F(ViewportGpuField, TheFieldOutlivesItsRelighterAndGivesWayToAnother) {
+    relighter->relight(values.inputs(), 4);
+    const IndirectField copy = relighter->readField();
+    viewport->setIndirect(copy);
+    const ImageF before = draw(scene, View::Irradiance);
+    viewport->setIndirect(relighter->field());
+    relighter.reset();
+    EXPECT_TRUE(draw(scene, View::Irradiance).rgb == before.rgb);
+    viewport->setIndirect(IndirectField{.version = copy.version}); // a number that was seen before
+    EXPECT_EQ(meanOf(draw(scene, View::Irradiance)), 0);
+}
+
+} // namespace
+} // namespace limn

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "tests/relight_gpu/relit_scene.h"
+#include "tests/render/viewport_fixture.h"
+
+namespace limn {
+namespace {
+
+/// A court with one light, whose surfels reflect half of what they get.
+class ViewportSurfelLight : public ViewportTest {
+protected:
+    void prepare(const Scene& lit) {
+        scene = lit;
+        trace = std::make_unique<TraceScene>(scene);
+        made = baked(*trace, scene.bake);
+        relighter = gpuRelighter(*device, made);
+        const std::size_t surfels = made->surfels.size();
+        half.albedo.assign(surfels, glm::vec3(0.5f));
+        half.emitted.assign(surfels, glm::vec3(0));
+    }
+    /// By the shadow maps of the viewport.
+    std::vector<glm::vec3> irradiance() {
+        viewport->setScene(scene, nullptr);
+        lights = viewport->shadowedLights();
+        SurfelInputs inputs = half.inputs();
+        inputs.lights = &lights;
+        stats = relighter->relight(inputs, 1);
+        std::vector<glm::vec3> E = relighter->readRadiosity();
+        E.resize(made->surfels.size());
+        for (glm::vec3& e : E)
+            e *= 2.f;
+        return E;
+    }
+    std::vector<glm::vec3> traced() const { return surfelValues(*made, scene, *trace).direct; }
+
+    Scene scene;
+    std::unique_ptr<TraceScene> trace;
+    std::shared_ptr<Bake> made;
+    std::unique_ptr<GpuRelighter> relighter;
+    SurfelValues half;
+    ShadowedLights lights;
+    GpuRelightStats stats;
+};
+
+Light lightOf(LightKind kind) {
+    Light l;
+    l.kind = kind;
+    l.position = {3.4f, 2.6f, 4.5f};
+    l.direction = glm::normalize(glm::vec3(-0.6f, -0.7f, -0.5f));
+    l.color = {1, 0.5f, 0.25f};
+    l.strength = 8;
+    l.innerAngle = 0.3f;
+    l.outerAngle = 0.9f;
+    return l;
+}
+
+TEST_F(ViewportSurfelLight, IsThatOfRaysWhereNothingCastsAShadow) {
+    for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
+        simple::SceneBuilder b;
+        b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+        b.add(simple::quad({0, 0, 5}, {4, 0, 0}, {0, 0, -5}));
+        Scene open = b.build();
+        open.bake = court().bake;
+        open.lights = {lightOf(kind)};
+        prepare(open);
+        const std::vector<glm::vec3> E = irradiance(), expected = traced();
+        float largest = 0;
+        for (const glm::vec3 e : expected)
+            largest = std::max(largest, e.x);
+        ASSERT_GT(largest, 0.1f);
+        for (std::size_t i = 0; i < E.size(); ++i)
+            for (int k = 0; k < 3; ++k) // the tent's weights sum to 1 up to rounding
+                ASSERT_NEAR(E[i][k], expected[i][k], 1e-5f * largest) << i;
+    }
+}
+
+TEST_F(ViewportSurfelLight, DiffersFromThatOfRaysOnlyAtTheEdgesOfShadows) {
+    for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
+        Scene shaded = court();
+        shaded.lights = {lightOf(kind)};
+        shaded.bake.surfels = 4000;
+        prepare(shaded);
+        const std::vector<glm::vec3> E = irradiance(), expected = traced();
+        std::size_t lit = 0, dark = 0, differ = 0;
+        for (std::size_t i = 0; i < E.size(); ++i) {
+            lit += expected[i].x > 0;
+            dark += expected[i].x == 0;
+            differ += std::abs(E[i].x - expected[i].x) > 0.01f * std::max(expected[i].x, 0.1f);
+        }
+        std::printf("kind %d: %zu lit, %zu dark, %zu differ\n", int(kind), lit, dark, differ);
+        EXPECT_GT(lit, 300U);
+        EXPECT_GT(dark, 300U);
+        EXPECT_LT(differ, E.size() / 100) << int(kind);
+    }
+}
+
+TEST_F(ViewportSurfelLight, LightsAddUpAndAreWorkedOutOnlyWhenTheyChange) {
+    Scene three = court();
+    three.lights = {lightOf(LightKind::Directional), lightOf(LightKind::Point),
+                    lightOf(LightKind::Spot)};
+    prepare(three);
+    const std::vector<glm::vec3> all = irradiance();
+    EXPECT_GT(stats.dispatches, 0U);
+    std::vector<glm::vec3> sum(all.size(), glm::vec3(0));
+    for (const Light& light : three.lights) {
+        scene.lights = {light};
+        relighter = gpuRelighter(*device, made);
+        const std::vector<glm::vec3> one = irradiance();
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += one[i];
+    }
+    // Maps lie elsewhere in the atlas: of 2048 texels, 24 bits keep a place to 2^-13 of a texel,
+    // over which a share of 1 fades by less than twice that.
+    float largest = 0;
+    for (const glm::vec3 e : sum)
+        largest = std::max(largest, e.x);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        ASSERT_NEAR(all[i].x, sum[i].x, 0x1p-12f * largest);
+    SurfelInputs inputs = half.inputs();
+    inputs.lights = &lights;
+    relighter->relight(inputs, 200);
+    lights = viewport->shadowedLights();
+    EXPECT_TRUE(relighter->relight(inputs, 200).skipped);
+    const float before = relighter->readRadiosity()[0].x;
+    ASSERT_EQ(scene.lights.size(), 1U);
+    scene.lights[0].color = {0, 1, 0};
+    viewport->setLighting(scene);
+    lights = viewport->shadowedLights();
+    EXPECT_FALSE(relighter->relight(inputs, 200).skipped);
+    EXPECT_LT(relighter->readRadiosity()[0].x, 1e-3f * before);
+}
+
+TEST_F(ViewportSurfelLight, GivesWayToNumbersAndComesBack) {
+    prepare(court());
+    half.direct.assign(made->surfels.size(), glm::vec3(0));
+    const std::vector<glm::vec3> lit = irradiance();
+    const auto numbers = [&] {
+        const bool skipped = relighter->relight(half.inputs(), 200).skipped;
+        return skipped ? -1.f : relighter->readRadiosity()[0].x;
+    };
+    ASSERT_GT(lit[0].x, 0);
+    for (int round = 0; round < 2; ++round) {
+        EXPECT_NEAR(numbers(), 0, 1e-3f * lit[0].x) << round;
+        EXPECT_GE(irradiance()[0].x, lit[0].x) << round;
+    }
+}
+
+TEST_F(ViewportSurfelLight, NoLightIsBlack) {
+    Scene dark = court();
+    dark.lights.clear();
+    prepare(dark);
+    for (const glm::vec3 e : irradiance())
+        ASSERT_EQ(e, glm::vec3(0));
+}
+
+TEST_F(ViewportSurfelLight, FramesDrawNoShadowMapAgain) {
+    prepare(court());
+    viewport->setScene(scene, nullptr);
+    viewport->shadowedLights();
+    options.view = View::Direct;
+    viewport->render(options);
+    EXPECT_EQ(viewport->stats().shadowMapsDrawn, 0U);
+    scene.lights[0].position.x -= 1;
+    viewport->setLighting(scene);
+    viewport->render(options);
+    EXPECT_EQ(viewport->stats().shadowMapsDrawn, 1U);
+}
+
+} // namespace
+} // namespace limn
