@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench.h"
+#include "app/bench_relight_gpu.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -26,7 +27,9 @@ struct RelightBench {
     std::vector<std::uint32_t> surfels = {32768}, links = {128}, bands = {3};
     std::vector<std::uint32_t> chromaBands = {0}; ///< 0: as many as bands
     std::vector<std::string> storages = {"rtp", "sh"};
+    std::vector<std::uint32_t> lights = {0}; ///< points in the scene; 0: its own lights
     std::uint32_t rays = 1024, lightmap = 10000;
+    std::vector<std::string> devices = {"cpu"}; ///< "cpu", "gpu", or part of a device's name
     int runs = 31, threads = 0;
     bool json = false;
 };
@@ -78,6 +81,18 @@ constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
                            {"field", &RelightStats::fieldMs},
                            {"total", &RelightStats::totalMs}};
 
+/// `count` point lights evenly over the surfaces, a twentieth of the scene's size off them.
+std::vector<Light> pointsOver(const Scene& scene, const Surfels& surfels, std::uint32_t count) {
+    std::vector<Light> lights(count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::size_t s = (2 * std::size_t(k) + 1) * surfels.size() / (2 * std::size_t(count));
+        lights[k].position =
+            surfels.position[s] + surfels.normal[s] * (0.05f * glm::length(scene.bounds.size()));
+        lights[k].strength = 10;
+    }
+    return lights;
+}
+
 /// A light as it stands in the k-th run: a sun turns, any other wanders, a little.
 Light moved(Light light, int k) {
     const float a = 0.01f * float(k);
@@ -87,28 +102,37 @@ Light moved(Light light, int k) {
     return light;
 }
 
+/// All lights of the scene as they stand in the k-th run.
+std::vector<Light> lightsAt(const Scene& scene, int k) {
+    std::vector<Light> lights = scene.lights;
+    for (Light& l : lights)
+        l = moved(l, k);
+    return lights;
+}
+
 /// One bounce a run, with every light moved.
-std::vector<RelightStats> relightMoving(const Scene& scene, const TraceScene& trace,
-                                        const std::shared_ptr<const Bake>& bake, int runs) {
+std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& trace,
+                                       const std::shared_ptr<const Bake>& bake, int runs) {
     Relighter relighter(bake);
     Scene lit = scene;
-    relighter.relight(lit, trace, 1);
     std::vector<RelightStats> all;
-    for (int k = 1; k <= runs; ++k) {
-        for (std::size_t i = 0; i < lit.lights.size(); ++i)
-            lit.lights[i] = moved(scene.lights[i], k);
-        all.push_back(relighter.relight(lit, trace, 1));
+    for (int k = 0; k <= runs; ++k) {
+        lit.lights = lightsAt(scene, k);
+        const RelightStats stats = relighter.relight(lit, trace, 1);
+        if (k > 0) // the first lights materials too
+            all.push_back(stats);
     }
     return all;
 }
 
-Json describe(const std::string& name, const Scene& scene, const Bake& bake,
-              const std::vector<RelightStats>& runs, double bytesPerSecond) {
+Json describe(const std::string& name, const std::string& device, const Scene& scene,
+              const Bake& bake, const std::vector<RelightStats>& runs, double bytesPerSecond) {
     const BakeSettings& s = bake.settings;
     const std::uint64_t bytes = bake.caches.links.size() * sizeof(Link) +
                                 bake.caches.shNode.size() * sizeof(std::uint32_t) +
                                 bake.caches.shCoefficients.size() * sizeof(std::uint16_t);
     Json row = {{"name", name},
+                {"device", device},
                 {"surfels", s.surfels},
                 {"links", s.links},
                 {"bands", s.bands},
@@ -136,16 +160,30 @@ Json describe(const std::string& name, const Scene& scene, const Bake& bake,
 
 void printRow(const Json& r) {
     const auto ms = [&](const char* key) { return r[key].get<double>(); };
-    fmt::print(
-        "{:<14.14} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} "
-        "{:>7.2f} {:>7.2f} {:>7.2f} {:>8.2f} {:>8.2f}\n",
-        r["name"].get<std::string>(), r["surfels"].get<std::uint32_t>(),
-        r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
-        r["chroma_bands"].get<std::uint32_t>(), r["storage"].get<std::string>(),
-        double(r["bytes"].get<std::uint64_t>()) / (1 << 20), ms("floor_ms"), ms("direct_median_ms"),
-        ms("surfel_light_median_ms"), ms("pull_median_ms"), ms("cache_light_median_ms"),
-        ms("surfel_read_median_ms"), ms("field_median_ms"), ms("median_ms"), ms("p95_ms"));
+    fmt::print("{:<14.14} {:<8.8} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8.2f} {:>7.2f} {:>7.2f} "
+               "{:>7.2f} {:>7.2f} "
+               "{:>7.2f} {:>7.2f} {:>7.2f} {:>8.2f} {:>8.2f}\n",
+               r["name"].get<std::string>(), r["device"].get<std::string>(),
+               r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
+               r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
+               r["chroma_bands"].get<std::uint32_t>(), r["storage"].get<std::string>(),
+               double(r["bytes"].get<std::uint64_t>()) / (1 << 20), ms("floor_ms"),
+               ms("direct_median_ms"), ms("surfel_light_median_ms"), ms("pull_median_ms"),
+               ms("cache_light_median_ms"), ms("surfel_read_median_ms"), ms("field_median_ms"),
+               ms("median_ms"), ms("p95_ms"));
     std::fflush(stdout);
+}
+
+Result<GpuRuns> runsOn(const std::string& device, const Scene& scene, const TraceScene& trace,
+                       const std::shared_ptr<const Bake>& bake, int runs) {
+    if (device == "cpu")
+        return GpuRuns{"cpu", relightOnCpu(scene, trace, bake, runs)};
+#ifdef LIMN_HAS_VIEWPORT
+    return relightOnGpu(device == "gpu" ? "" : device, scene, trace, bake, runs,
+                        [&](int k) { return lightsAt(scene, k); });
+#else
+    return fail("this build has no Vulkan");
+#endif
 }
 
 Result<void> measureScene(const RelightBench& o, const std::string& path, Json& rows) {
@@ -165,10 +203,21 @@ Result<void> measureScene(const RelightBench& o, const std::string& path, Json& 
             return fail(fmt::format("{}: {}", path, made.error().message));
         const auto baked = std::make_shared<const Bake>(std::move(*made));
         const double bandwidth = measureReadBandwidth(std::size_t(256) << 20);
-        rows.push_back(
-            describe(name, scene, *baked, relightMoving(scene, trace, baked, o.runs), bandwidth));
-        if (!o.json)
-            printRow(rows.back());
+        for (const std::uint32_t lights : o.lights) {
+            Scene lit = scene;
+            if (lights > 0)
+                lit.lights = pointsOver(scene, baked->surfels, lights);
+            for (const std::string& wanted : o.devices) {
+                Result<GpuRuns> measured = runsOn(wanted, lit, trace, baked, o.runs);
+                if (!measured)
+                    return fail(
+                        fmt::format("{} on {}: {}", path, wanted, measured.error().message));
+                rows.push_back(
+                    describe(name, measured->device, lit, *baked, measured->runs, bandwidth));
+                if (!o.json)
+                    printRow(rows.back());
+            }
+        }
     }
     return {};
 }
@@ -176,10 +225,12 @@ Result<void> measureScene(const RelightBench& o, const std::string& path, Json& 
 Exit runRelightBench(const RelightBench& o) {
     const ThreadLimit threads(o.threads);
     if (!o.json)
-        fmt::print("{:<14} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} "
+        fmt::print("{:<14} {:<8} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8} {:>7} {:>7} {:>7} {:>7} "
+                   "{:>7} {:>7} "
                    "{:>7} {:>8} {:>8}\n",
-                   "scene", "surfels", "links", "bands", "chroma", "kind", "MiB", "floor", "direct",
-                   "surfels", "pull", "caches", "read", "field", "all [ms]", "p95");
+                   "scene", "device", "lights", "surfels", "links", "bands", "chroma", "kind",
+                   "MiB", "floor", "direct", "surfels", "pull", "caches", "read", "field",
+                   "all [ms]", "p95");
     Json rows = Json::array();
     for (const std::string& scene : o.scenes)
         if (const Result<void> measured = measureScene(o, scene, rows); !measured)
@@ -205,9 +256,13 @@ void addRelightBench(CLI::App& bench, Run& run) {
     list("--links", o->links, "n_L, a list", CLI::Range(1, 4096));
     list("--bands", o->bands, "SH bands, a list", CLI::Range(2, 8));
     list("--chroma-bands", o->chromaBands, "of colour, a list; 0: all", CLI::Range(0, 8));
+    list("--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+         CLI::Range(0, 4096));
     list("--storage", o->storages, "a list of link storages", oneOf(kStorageNames));
     command->add_option("--rays", o->rays, "of a cache")->check(CLI::Range(16, 65536));
     command->add_option("--lightmap", o->lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));
+    command->add_option("--device", o->devices, "a list: cpu, gpu, or part of a device's name")
+        ->delimiter(',');
     command->add_option("--runs", o->runs, "of which the median is printed")
         ->check(CLI::Range(1, 100000));
     command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));

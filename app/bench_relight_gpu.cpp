@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_relight_gpu.h"
+
+#include "engine/gpu/device.h"
+#include "engine/relight/surfel_light.h"
+#include "engine/relight/surfel_material.h"
+#include "engine/relight_gpu/gpu_relight.h"
+
+#include <chrono>
+
+namespace limn {
+
+Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, const TraceScene& trace,
+                             const std::shared_ptr<const Bake>& bake, int runs,
+                             const std::function<std::vector<Light>(int k)>& lightsOf) {
+    const auto made = gpu::createDevice({.name = device});
+    if (!made)
+        return tl::make_unexpected(made.error());
+    const auto relighter = GpuRelighter::create(**made, bake);
+    if (!relighter)
+        return tl::make_unexpected(relighter.error());
+    GpuRuns result{(*made)->properties.deviceName, {}};
+    Scene lit = scene;
+    SurfelLight light;
+    std::vector<glm::vec3> albedo, emitted;
+    surfelMaterials(bake->surfels, scene, albedo, emitted);
+    for (int k = 0; k <= runs; ++k) {
+        lit.lights = lightsOf(k);
+        const auto start = std::chrono::steady_clock::now();
+        updateSurfelLight(bake->surfels, lit, trace, light);
+        const std::chrono::duration<double, std::milli> traced =
+            std::chrono::steady_clock::now() - start;
+        const GpuRelightStats g =
+            (*relighter)
+                ->relight({light.irradiance, albedo, emitted, lit.sky.radiance, nullptr}, 1);
+        RelightStats r;
+        r.directMs = traced.count() + g.uploadMs;
+        r.surfelLightMs = g.surfelLightMs;
+        r.pullMs = g.pullMs;
+        r.cacheLightMs = g.cacheLightMs;
+        r.fieldMs = g.fieldMs;
+        r.totalMs = traced.count() + g.totalMs;
+        r.shadowRays = light.raysTraced;
+        if (k > 0) // the first uploads everything
+            result.runs.push_back(r);
+    }
+    return result;
+}
+
+} // namespace limn

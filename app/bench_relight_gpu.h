@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+#include "engine/core/result.h"
+#include "engine/relight/relight.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// What a device took for the runs of a bench.
+struct GpuRuns {
+    std::string device;
+    /// directMs: shadow rays on the CPU and the upload of their light. surfelReadMs is part of
+    /// surfelLightMs.
+    std::vector<RelightStats> runs;
+};
+
+/// Relights `runs` times, one bounce each, the k-th time under lightsOf(k). `device`: part of the
+/// Vulkan device's name; empty: the best. Fails when there is none, or when the bake is too large
+/// for it.
+Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, const TraceScene& trace,
+                             const std::shared_ptr<const Bake>& bake, int runs,
+                             const std::function<std::vector<Light>(int k)>& lightsOf);
+
+} // namespace limn
