@@ -90,6 +90,7 @@ void RelightJob::Worker::relight(const Progress& progress) {
         status.last = relighter->relight(relitScene(*baked.scene, *scene), *baked.trace,
                                          kBouncesPerCall, progress);
     ++status.calls;
+    status.history.add(status.last);
     status.bounces += status.last.bounces;
     const std::uint32_t most = scene->bake.maxBounces;
     status.converged = status.last.converged || status.bounces >= most;

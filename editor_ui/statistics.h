@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/time_history.h"
 #include "engine/bake/bake_bytes.h"
 #include "engine/relight/relight.h"
 
@@ -44,6 +45,7 @@ struct BakeStatus {
 /// What the panels show of the relighting thread.
 struct RelightStatus {
     RelightStats last;
+    TimeHistory history;
     std::uint64_t calls = 0;   ///< of relight() since the scene was opened
     std::uint32_t bounces = 0; ///< since the last edit
     bool running = false;

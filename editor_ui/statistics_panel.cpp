@@ -11,7 +11,9 @@
 
 namespace limn {
 
-static void row(const char* label, const std::string& value, const char* tooltip) {
+/// `square`: colour of a square left of the value, as the plot has it; 0: none.
+static void row(const char* label, const std::string& value, const char* tooltip,
+                std::uint32_t square = 0) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
@@ -19,6 +21,12 @@ static void row(const char* label, const std::string& value, const char* tooltip
     ImGui::PopStyleColor();
     wrappedTooltip(tooltip);
     ImGui::TableNextColumn();
+    if (square != 0) {
+        const float side = ImGui::GetFontSize() * 0.6f;
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float y = at.y + ImGui::GetFontSize() * 0.25f;
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, square);
+    }
     const float indent = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
     if (indent > 0)
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
@@ -43,15 +51,16 @@ static void timeTable(const EditorState& state) {
     const FrameStatus& f = state.frame;
     if (!beginTable("time", "Time per step"))
         return;
-    row("Direct light", ms(r.directMs), "Lights onto the surfels, with shadow rays");
-    row("Surfel light", ms(r.surfelLightMs + r.surfelReadMs),
-        "Bounced light at the surfels, and what they send on");
-    row("Pull", ms(r.pullMs), "Sums flux up the cluster tree");
-    row("Cache light", ms(r.cacheLightMs), "Gathers linked clusters into the caches");
+    for (const RelightStep& step : kRelightSteps)
+        row(step.label, ms(step.ms(r)), step.tooltip, step.color);
     row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
     row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
     row("Shade", ms(f.shadeMs), "The picture from caches and direct light");
     ImGui::EndTable();
+}
+
+static void historyPlot(const EditorState& state) {
+    timeHistory(state.relight.history);
 }
 
 static void relightTable(const EditorState& state) {
@@ -66,6 +75,10 @@ static void relightTable(const EditorState& state) {
     row("Bounces", std::to_string(r.bounces), "Since the last edit");
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
     row("Shadow rays", groupedNumber(r.last.shadowRays), "Of the last call; 0 when no light moved");
+    row("Lights off", groupedNumber(r.last.lightsOff),
+        "Off, black or out of reach of every surface: they cost nothing");
+    row("Sky links", groupedNumber(r.last.skyLinksSkipped),
+        "Passed over by the last call, because the sky is black");
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
     row("Bake since edit",
         state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",
@@ -127,7 +140,7 @@ static void bakeTable(const EditorState& state) {
 }
 
 void statisticsPanel(const EditorState& state) {
-    constexpr int kColumns = 6;
+    constexpr int kColumns = 7;
     const float minimum = ImGui::GetFontSize() * 11.6f;
     const float room = ImGui::GetContentRegionAvail().x;
     const bool wide = room >= kColumns * minimum;
@@ -138,7 +151,8 @@ void statisticsPanel(const EditorState& state) {
                            {0, 0}, size.x))
         return;
     ImGui::TableNextRow();
-    for (auto* table : {timeTable, relightTable, windowTable, countTable, byteTable, bakeTable}) {
+    for (auto* table :
+         {timeTable, historyPlot, relightTable, windowTable, countTable, byteTable, bakeTable}) {
         ImGui::TableNextColumn();
         table(state);
     }
