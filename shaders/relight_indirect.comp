@@ -10,8 +10,9 @@ layout(std430, binding = RELIGHT_INDIRECT) writeonly buffer Indirect { vec4 indi
 layout(std430, binding = RELIGHT_SH) readonly buffer Sh { vec4 sh[]; };
 
 const float kPi = 3.14159265358979;
-// A_l of engine/math/sh.h.
-const float kIrradiance[8] = float[](kPi, 2.0 / 3.0 * kPi, kPi / 4.0, 0.0, -kPi / 24.0, 0.0, kPi / 64.0, 0.0);
+// kIrradianceBands and their A_l of engine/math/sh.h.
+const int kIrradianceBands = 3;
+const float kIrradiance[kIrradianceBands] = float[](kPi, 2.0 / 3.0 * kPi, kPi / 4.0);
 
 vec3 mixedCoefficient(GpuSurfel s, uint i) {
     vec3 mixed = vec3(0);
@@ -29,11 +30,11 @@ void main() {
     float Y[kCoefficients];
     shBasis(s.normal, Y);
     vec3 E = vec3(0);
-    [[unroll]] for (int l = 0; l < kBands; ++l) {
-        if (kIrradiance[l] == 0.0)
+    [[unroll]] for (int l = 0; l < kIrradianceBands; ++l) {
+        if (l >= kBands)
             continue;
         vec3 band = vec3(0);
-        [[unroll]] for (int k = 0; k < 2 * kBands - 1; ++k)
+        [[unroll]] for (int k = 0; k < 2 * kIrradianceBands - 1; ++k)
             if (k <= 2 * l)
                 band += mixedCoefficient(s, l * l + k) * Y[l * l + k];
         E += band * kIrradiance[l];

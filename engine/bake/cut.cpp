@@ -133,7 +133,8 @@ public:
             return std::pair(in.sky[a.node], a.node) < std::pair(in.sky[b.node], b.node);
         });
         if (caches.kind[cache] == CacheKind::Hemisphere)
-            matchIrradiance(in.settings.bands, caches.normal[cache], m_cones);
+            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), caches.normal[cache],
+                            m_cones);
         return packLinks(in.settings.storage, in.settings.bands, m_cones);
     }
 

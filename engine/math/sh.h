@@ -24,6 +24,10 @@ std::array<float, kMaxBands> lobeFactors(float n);
 /// Ramamoorthi and Hanrahan. An Efficient Representation for Irradiance Environment Maps. 2001
 std::array<float, kMaxBands> irradianceFactors();
 
+/// Wherever irradiance is asked of a cache, its first three bands answer: what a picture samples,
+/// what surfels read, and what links are matched to. More bands are for glossy lobes.
+inline constexpr int kIrradianceBands = 3;
+
 /// E(n) [W m^-2] of radiance coefficients `c` (bands^2 of them). Not clamped: ringing may make it
 /// slightly negative.
 glm::vec3 shIrradiance(int bands, const glm::vec3* c, glm::vec3 n);

@@ -157,7 +157,9 @@ CacheReference referenceIrradiance(const TraceScene& trace, const Caches& caches
 glm::vec3 cacheIrradiance(const Caches& caches, int bands, const std::vector<glm::vec3>& sh,
                           std::uint32_t cache) {
     const std::size_t first = std::size_t(cache) * std::size_t(bands * bands);
-    return glm::max(shIrradiance(bands, sh.data() + first, caches.normal[cache]), glm::vec3(0));
+    return glm::max(
+        shIrradiance(std::min(bands, kIrradianceBands), sh.data() + first, caches.normal[cache]),
+        glm::vec3(0));
 }
 
 CacheError compareCaches(const CacheReference& reference, const Caches& caches, int bands,

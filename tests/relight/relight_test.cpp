@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/relight.h"
 
+#include "engine/math/sh.h"
+
 #include "engine/core/parallel.h"
 #include "engine/math/ycocg.h"
 #include "tests/trace/simple_scene.h"
@@ -329,6 +331,25 @@ TEST(Bake, StopsWhenCancelled) {
     const Result<Bake> stopped = bake(TraceScene(scene), {.report = {}, .cancel = &cancel});
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().message, "cancelled");
+}
+
+TEST(Relight, MoreBandsBringNoOtherIrradiance) {
+    Scene scene = lampRoom();
+    scene.bake.bands = 3;
+    const Lit three = light(scene, 1);
+    for (const std::uint32_t bands : {4U, 5U, 8U}) {
+        scene.bake.bands = bands;
+        const Lit more = light(scene, 1);
+        const Caches& caches = more.relighter->bake().caches;
+        ASSERT_EQ(caches.linkBegin, three.relighter->bake().caches.linkBegin);
+        for (std::uint32_t c = 0; c < caches.lightmapCount; ++c) {
+            const glm::vec3* sh = more.relighter->cacheSh().data() + c * bands * bands;
+            const glm::vec3* sh3 = three.relighter->cacheSh().data() + c * 9;
+            const float e = shIrradiance(3, sh, caches.normal[c]).x,
+                        e3 = shIrradiance(3, sh3, caches.normal[c]).x;
+            ASSERT_NEAR(e, e3, 1e-5f * e3 + 1e-9f) << bands << " " << c;
+        }
+    }
 }
 
 } // namespace
