@@ -75,9 +75,9 @@ enum class CacheKind : std::uint8_t { Hemisphere, TwoSided, Grid };
 struct Caches {
     std::uint32_t lightmapCount = 0;
     std::vector<CacheKind> kind;
-    std::vector<glm::vec3> position;      ///< world
-    std::vector<glm::vec3> normal;        ///< unit geometric normal of the front; 0 for Grid
-    std::vector<std::uint32_t> texel;     ///< lightmap: y * width + x; grid: cell index
+    std::vector<glm::vec3> position;  ///< world
+    std::vector<glm::vec3> normal;    ///< unit geometric normal of the front; 0 for Grid
+    std::vector<std::uint32_t> texel; ///< lightmap: y * width + x; grid: cell index
     /// size()+1 offsets into its links; those to nothing but sky come last.
     std::vector<std::uint32_t> linkBegin;
     /// The scale of a cache's halfs is 2^linkExponent: its largest one lies in [2^14, 2^15), so
