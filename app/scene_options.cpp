@@ -25,7 +25,8 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--light", options.lights,
                     "adds a light: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
-                    "inner=DEG outer=DEG; each with color=r,g,b, name=; may be repeated")
+                    "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
+                    "color=r,g,b, name=; may be repeated")
         ->allow_extra_args(false)
         ->take_all();
     command.add_option("--sky", options.sky, "constant sky r,g,b [nits]; replaces the scene's");

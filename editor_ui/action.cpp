@@ -124,6 +124,9 @@ void addPoint(EditorState& s) {
 void addSpot(EditorState& s) {
     addOfKind(s, LightKind::Spot, "Spot light", 300);
 }
+void addRectangle(EditorState& s) {
+    addOfKind(s, LightKind::Rectangle, "Rectangle light", 30);
+}
 
 void focusSelection(EditorState& s) {
     focus(s.view.camera, selectionBounds(s));
@@ -241,6 +244,7 @@ constexpr Action kActions[] = {
     {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
     {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, addPoint},
     {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, addSpot},
+    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, addRectangle},
     {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, showView<View::Lit>, showsView<View::Lit>},
     {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Direct>, showsView<View::Direct>},
     {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Indirect>, showsView<View::Indirect>},

@@ -77,6 +77,11 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, ImU32 colo
         pen.list.AddBezierQuadratic(pen.at(-0.7f, 0.5f), pen.at(0, 1), pen.at(0.7f, 0.5f), color,
                                     pen.width);
         break;
+    case Icon::Rectangle:
+        pen.rect(-0.8f, -0.75f, 0.8f, -0.15f);
+        for (float x : {-0.55f, 0.f, 0.55f})
+            pen.line(x, 0.15f, x, 0.8f);
+        break;
     case Icon::Material:
         pen.circle(0, 0, 0.75f);
         pen.list.AddBezierQuadratic(pen.at(-0.4f, -0.1f), pen.at(-0.35f, -0.45f), pen.at(0, -0.45f),

@@ -5,7 +5,20 @@
 
 namespace limn {
 
-enum class Icon { Group, Mesh, Sun, Point, Spot, Material, Camera, Sky, Settings, Shown, Hidden };
+enum class Icon {
+    Group,
+    Mesh,
+    Sun,
+    Point,
+    Spot,
+    Rectangle,
+    Material,
+    Camera,
+    Sky,
+    Settings,
+    Shown,
+    Hidden
+};
 
 /// Draws a line icon of `size` pixels, centred; needs no font.
 void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, ImU32 color);

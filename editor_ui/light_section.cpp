@@ -29,11 +29,19 @@ static void colorRows(FieldEdit& edit, Light& light) {
 }
 
 static void strengthRows(FieldEdit& edit, Light& light) {
-    const bool sun = light.kind == LightKind::Directional;
-    fieldLabel(sun ? "Strength (lux)" : "Strength (cd)",
-               sun ? "Illuminance of a surface that faces the sun [lux]. Ctrl-click to type"
-                   : "Luminous intensity [cd]. Ctrl-click to type");
-    ImGui::SliderFloat("##strength", &light.strength, 0, 1e5f, sun ? "%.2f lux" : "%.2f cd",
+    const bool sun = light.kind == LightKind::Directional,
+               rectangle = light.kind == LightKind::Rectangle;
+    fieldLabel(sun         ? "Strength (lux)"
+               : rectangle ? "Radiance (nits)"
+                           : "Strength (cd)",
+               sun         ? "Illuminance of a surface that faces the sun [lux]. Ctrl-click to type"
+               : rectangle ? "Luminance of the rectangle; a larger one shines more light [nits]. "
+                             "Ctrl-click to type"
+                           : "Luminous intensity [cd]. Ctrl-click to type");
+    ImGui::SliderFloat("##strength", &light.strength, 0, 1e5f,
+                       sun         ? "%.2f lux"
+                       : rectangle ? "%.2f nits"
+                                   : "%.2f cd",
                        ImGuiSliderFlags_Logarithmic);
     fieldEdited(edit, "Light strength");
     if (sun)
@@ -41,7 +49,7 @@ static void strengthRows(FieldEdit& edit, Light& light) {
     float flux = lumen(light);
     fieldLabel("Flux (lm)", "The same strength as luminous flux over all directions [lm]");
     if (ImGui::SliderFloat("##flux", &flux, 0, 1e6f, "%.1f lm", ImGuiSliderFlags_Logarithmic))
-        light.strength = candelaForLumen(light, flux);
+        light.strength = strengthForLumen(light, flux);
     fieldEdited(edit, "Light flux");
 }
 
@@ -86,6 +94,18 @@ static void spotRows(FieldEdit& edit, Light& light) {
     fieldEdited(edit, "Light inner cone");
 }
 
+static void rectangleRows(FieldEdit& edit, Light& light) {
+    fieldLabel("Size (m)", "Width and height of the rectangle; its shadows soften with it [m]");
+    ImGui::DragFloat2("##size", &light.size.x, 0.01f, kMinLightSize, kMaxLightSize, "%.3f",
+                      ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Light size");
+    float degrees = glm::degrees(light.roll);
+    fieldLabel("Roll (\u00b0)", "Turns the rectangle about its direction [degrees]");
+    if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
+        light.roll = glm::radians(degrees);
+    fieldEdited(edit, "Light roll");
+}
+
 static void rangeRow(FieldEdit& edit, Light& light) {
     fieldLabel("Range (m)", "Where the light fades to nothing; 0: reaches any distance [m]");
     ImGui::SliderFloat("##range", &light.range, 0, 1000, light.range > 0 ? "%.2f m" : "unlimited",
@@ -98,8 +118,10 @@ void lightSection(FieldEdit& edit, Light& light) {
     ImGui::Checkbox("##on", &light.enabled);
     fieldEdited(edit, "Light on or off");
     int kind = int(light.kind);
-    fieldLabel("Kind", "Sun: parallel rays. Point: all directions. Spot: a cone");
-    if (ImGui::Combo("##kind", &kind, "Sun\0Point\0Spot\0"))
+    fieldLabel("Kind",
+               "Sun: parallel rays. Point: all directions. Spot: a cone. Rectangle: one side "
+               "of a surface, with soft shadows");
+    if (ImGui::Combo("##kind", &kind, "Sun\0Point\0Spot\0Rectangle\0"))
         light.kind = LightKind(kind);
     fieldEdited(edit, "Light kind");
     ImGui::Separator();
@@ -115,7 +137,9 @@ void lightSection(FieldEdit& edit, Light& light) {
         directionRows(edit, light);
     if (light.kind == LightKind::Spot)
         spotRows(edit, light);
-    if (light.kind != LightKind::Directional)
+    if (light.kind == LightKind::Rectangle)
+        rectangleRows(edit, light);
+    if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
         rangeRow(edit, light);
 }
 

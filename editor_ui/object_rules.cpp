@@ -41,10 +41,15 @@ static bool valid(const Material& m) {
            inUnit(m.roughness) && inUnit(m.alphaCutoff) && atLeastZero(m.emission);
 }
 
+static bool isLightSize(float edge) {
+    return edge >= kMinLightSize && edge <= kMaxLightSize;
+}
+
 static bool valid(const Light& l) {
     return finite(l.position) && isUnit(glm::length(l.direction)) && atLeastZero(l.color) &&
            atLeastZero(l.strength) && atLeastZero(l.range) && l.innerAngle >= 0 &&
-           l.innerAngle < l.outerAngle && l.outerAngle <= glm::half_pi<float>() + 1e-6f;
+           l.innerAngle < l.outerAngle && l.outerAngle <= glm::half_pi<float>() + 1e-6f &&
+           isLightSize(l.size.x) && isLightSize(l.size.y) && std::isfinite(l.roll);
 }
 
 static bool valid(const Camera& c) {
@@ -94,6 +99,8 @@ static const char* lightKindName(LightKind kind) {
         return "Point light";
     case LightKind::Spot:
         return "Spot light";
+    case LightKind::Rectangle:
+        return "Rectangle light";
     }
     return "Light";
 }

@@ -101,6 +101,7 @@ static Icon iconOf(const Object& object) {
     if (const auto* light = std::get_if<Light>(&object))
         return light->kind == LightKind::Directional ? Icon::Sun
                : light->kind == LightKind::Spot      ? Icon::Spot
+               : light->kind == LightKind::Rectangle ? Icon::Rectangle
                                                      : Icon::Point;
     if (std::holds_alternative<Material>(object))
         return Icon::Material;

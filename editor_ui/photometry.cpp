@@ -23,15 +23,17 @@ float lumen(const Light& light) {
         const float inner = std::cos(light.innerAngle), outer = std::cos(light.outerAngle);
         return 2 * kPi * light.strength * ((1 - inner) + (inner - outer) / 3);
     }
+    case LightKind::Rectangle:
+        return kPi * light.strength * light.size.x * light.size.y;
     }
     return 0;
 }
 
-float candelaForLumen(const Light& light, float flux) {
+float strengthForLumen(const Light& light, float flux) {
     Light one = light;
     one.strength = 1;
-    const float perCandela = lumen(one);
-    return perCandela > 0 ? flux / perCandela : light.strength;
+    const float perUnit = lumen(one);
+    return perUnit > 0 ? flux / perUnit : light.strength;
 }
 
 /// Planckian locus in CIE 1931 xy, cubic fits of Kim et al.

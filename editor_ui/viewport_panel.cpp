@@ -8,10 +8,12 @@
 #include "editor_ui/overlay_panel.h"
 #include "editor_ui/picking.h"
 #include "editor_ui/theme.h"
+#include "engine/scene/rectangle_light.h"
 
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -132,6 +134,8 @@ static Icon lightIcon(const Light& light) {
         return Icon::Point;
     case LightKind::Spot:
         return Icon::Spot;
+    case LightKind::Rectangle:
+        return Icon::Rectangle;
     }
     return Icon::Point;
 }
@@ -143,6 +147,17 @@ static void directionLine(ImDrawList& list, const Picture& picture, const Light&
     const auto to = toPixel(picture, light.position + light.direction * length);
     if (from && to)
         list.AddLine({from->x, from->y}, {to->x, to->y}, color, 1.5f);
+}
+
+static void rectangleOutline(ImDrawList& list, const Picture& picture, const Light& light,
+                             ImU32 color) {
+    const LightRectangle rectangle = lightRectangle(light);
+    std::array<std::optional<glm::vec2>, 4> corner;
+    for (std::size_t i = 0; i < 4; ++i)
+        corner[i] = toPixel(picture, rectangle.at({i == 1 || i == 2, i >= 2}));
+    for (std::size_t i = 0; i < 4; ++i)
+        if (const auto& a = corner[i], &b = corner[(i + 1) % 4]; a && b)
+            list.AddLine({a->x, a->y}, {b->x, b->y}, color, 1.5f);
 }
 
 static void lightIcons(const EditorState& state) {
@@ -158,6 +173,8 @@ static void lightIcons(const EditorState& state) {
                           : light->enabled ? IM_COL32(255, 255, 255, 230)
                                            : IM_COL32(150, 150, 150, 200);
         const ImVec2 centre(pixel->x, pixel->y);
+        if (light->kind == LightKind::Rectangle)
+            rectangleOutline(list, picture, *light, ink);
         list.AddCircleFilled(centre, 12, IM_COL32(20, 22, 26, 170));
         if (selected)
             list.AddCircle(centre, 12.5f, ink, 0, 1.5f);

@@ -6,6 +6,7 @@
 #include "shaders/shared/gpu_light.h"
 #include "shaders/shared/gpu_material.h"
 #include "shaders/shared/sh_irradiance.glsl"
+#include "shaders/shared/rectangle_light.glsl"
 #include "shaders/shared/surface_pack.glsl"
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
@@ -20,6 +21,7 @@ layout(set = 0, binding = 7) uniform sampler2D depthImage;
 layout(location = 0) out vec4 outColor;
 
 #include "shaders/shared/shadowed_light.glsl"
+#include "shaders/shared/rectangle_shadow.glsl"
 
 // Cook-Torrance with GGX, without the cosine. Walter et al. Microfacet Models for Refraction through Rough
 // Surfaces. 2007; the visibility term is Hammon's approximation of the height-correlated Smith term.
@@ -43,12 +45,36 @@ vec3 specularAlbedo(vec3 F0, float roughness, float NoV) {
     return max(F0 * (-1.04 * a + r.z) + (1.04 * a + r.w), 0.0);
 }
 
+// The lobe is widened by the rectangle's extent and keeps its energy. Karis. Real Shading in Unreal Engine 4. 2013
+vec3 rectangleSpecularBrdf(Rectangle r, PackedSurface s, vec3 F0) {
+    const vec3 way =
+        representativePoint(r, s.position, reflect(-s.toEye, s.detailNormal)) - s.position;
+    const float alpha = max(s.roughness * s.roughness, 2e-3);
+    const float extent = (length(r.halfWidth) + length(r.halfHeight)) / (4.0 * length(way));
+    const float widened = alpha / min(alpha + extent, 1.0);
+    return specularBrdf(s, s.detailNormal, normalize(way), F0) * min(widened * widened, 1.0);
+}
+
+void addRectangle(GpuLight light, PackedSurface s, vec3 F0, inout vec3 E, inout vec3 specular) {
+    const Rectangle r = rectangleOf(light);
+    vec3 irradiance = light.strength * rectangleIrradiance(r, s.position, s.detailNormal);
+    const bool lit = irradiance.x + irradiance.y + irradiance.z > 0.0;
+    irradiance *= rectangleVisibility(light, r, s, lit);
+    E += irradiance;
+    if (kView == VIEW_LIT && lit)
+        specular += irradiance * rectangleSpecularBrdf(r, s, F0);
+}
+
 // Adds what all lights send: irradiance, and in VIEW_LIT specular radiance.
 void addDirect(PackedSurface s, vec3 F0, bool any, inout vec3 E, inout vec3 specular) {
     const uint count = any ? frame.lightCount : 0;
     const vec2 bias = vec2(frame.normalBias, frame.lightBias);
     for (uint i = 0; i < count; ++i) {
         const GpuLight light = lights[i];
+        if (light.kind == LIGHT_RECTANGLE) {
+            addRectangle(light, s, F0, E, specular);
+            continue;
+        }
         vec3 toLight;
         vec3 irradiance = lightIrradiance(light, s.position, toLight);
         const float NoL = max(dot(s.detailNormal, toLight), 0.0);

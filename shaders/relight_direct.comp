@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Irradiance of every surfel from all lights, with the shadow maps that the viewport draws.
+// Irradiance of every surfel from all lights but rectangles, with the shadow maps that the viewport draws.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_light.h"
@@ -21,6 +21,8 @@ void main() {
     vec3 E = vec3(0);
     for (uint k = 0; k < range.lights; ++k) {
         const GpuLight light = lights[k];
+        if (light.kind == LIGHT_RECTANGLE)
+            continue;
         vec3 toLight;
         const vec3 irradiance = lightIrradiance(light, s.position, toLight);
         const float NoL = max(dot(s.normal, toLight), 0.0);

@@ -81,6 +81,8 @@ void describeLight(Fields& fields, T& l) {
     fields("innerAngle", l.innerAngle, FieldRange{0, glm::half_pi<double>()});
     // One float above pi/2 is as near as floats come to it.
     fields("outerAngle", l.outerAngle, FieldRange{0, double(glm::half_pi<float>())});
+    fields("size", l.size, FieldRange{kMinLightSize, kMaxLightSize});
+    fields("roll", l.roll);
 }
 
 template <class Fields, class T>

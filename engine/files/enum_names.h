@@ -10,7 +10,8 @@ namespace limn {
 
 inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp", "mirror"};
 inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
-inline constexpr std::array<std::string_view, 3> kLightNames = {"directional", "point", "spot"};
+inline constexpr std::array<std::string_view, 4> kLightNames = {"directional", "point", "spot",
+                                                                "rectangle"};
 inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
 inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
 inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};

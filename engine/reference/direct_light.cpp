@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/direct_light.h"
 
+#include "engine/relight/rectangle_shadow.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,12 @@ struct Unshadowed {
 
 Unshadowed unshadowed(const Light& light, const SurfacePoint& p) {
     Unshadowed u;
+    if (light.kind == LightKind::Rectangle) {
+        if (light.enabled)
+            u.irradiance = light.color * light.strength *
+                           rectangleIrradiance(lightRectangle(light), p.position, p.normal);
+        return u;
+    }
     u.sample = sampleLight(light, p.position);
     if (glm::dot(p.geometricNormal, u.sample.toLight) > 0)
         u.irradiance = u.sample.irradiance * std::max(0.f, glm::dot(p.normal, u.sample.toLight));
@@ -40,6 +48,20 @@ bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample&
     return trace.occluded(ray);
 }
 
+// One point of the rectangle, as if it were all of it.
+glm::vec3 sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
+                          glm::vec2 uv) {
+    const LightRectangle rectangle = lightRectangle(light);
+    const glm::vec3 onLight = rectangle.at(uv);
+    if (!(glm::dot(p.geometricNormal, onLight - p.position) > 0))
+        return glm::vec3(0);
+    const float share = rectangle.area * pointIrradiance(rectangle, onLight, p.position, p.normal);
+    if (!(share > 0) ||
+        trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal)))
+        return glm::vec3(0);
+    return light.color * light.strength * share;
+}
+
 float strength(glm::vec3 e) {
     return e.x + e.y + e.z;
 }
@@ -52,6 +74,12 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
         const Unshadowed l = unshadowed(light, p);
         if (!(strength(l.irradiance) > 0))
             continue;
+        if (light.kind == LightKind::Rectangle) {
+            E += light.color * light.strength *
+                 shadowedIrradiance(trace, lightRectangle(light), p.position, p.normal,
+                                    kRectanglePoints, glm::vec2(0), rays);
+            continue;
+        }
         ++rays;
         if (!inShadow(trace, p, l.sample))
             E += l.irradiance;
@@ -59,8 +87,8 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
     return E;
 }
 
-glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p, float u,
-                                 std::uint64_t& rays) {
+glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p, float pick,
+                                 glm::vec2 onLight, std::uint64_t& rays) {
     float total = 0;
     for (const Light& light : trace.scene().lights)
         total += strength(unshadowed(light, p).irradiance);
@@ -68,19 +96,22 @@ glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p,
         return glm::vec3(0);
     float below = 0;
     Unshadowed chosen;
-    for (const Light& light : trace.scene().lights) {
-        const Unshadowed l = unshadowed(light, p);
+    const Light* light = nullptr;
+    for (const Light& candidate : trace.scene().lights) {
+        const Unshadowed l = unshadowed(candidate, p);
         if (!(strength(l.irradiance) > 0))
             continue;
         chosen = l;
+        light = &candidate;
         below += strength(l.irradiance);
-        if (u * total < below)
+        if (pick * total < below)
             break;
     }
     ++rays;
-    if (inShadow(trace, p, chosen.sample))
-        return glm::vec3(0);
-    return chosen.irradiance * (total / strength(chosen.irradiance));
+    const float weight = total / strength(chosen.irradiance); // 1 / chance
+    if (light->kind == LightKind::Rectangle)
+        return weight * sampleRectangle(trace, p, *light, onLight);
+    return inShadow(trace, p, chosen.sample) ? glm::vec3(0) : weight * chosen.irradiance;
 }
 
 } // namespace limn

@@ -7,12 +7,16 @@
 
 namespace limn {
 
-/// Irradiance of all directional, point and spot lights, with hard shadows [W m^-2].
-/// Adds the shadow rays to `rays`.
+/// Shadow rays of directIrradiance() to a rectangle, the same points on it from everywhere.
+inline constexpr std::uint32_t kRectanglePoints = 64;
+
+/// Irradiance of all directional, point, spot and rectangle lights [W m^-2]. Shadows of the first
+/// three are hard. Adds the shadow rays to `rays`.
 glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::uint64_t& rays);
 
-/// The same from one light, picked by its unshadowed share with `u` in [0, 1): unbiased, one ray.
-glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p, float u,
-                                 std::uint64_t& rays);
+/// The same from one light, picked by its unshadowed share with `pick` in [0, 1): unbiased, one
+/// ray. `onLight` in [0, 1)^2 is its end on a rectangle, uniform in area.
+glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p, float pick,
+                                 glm::vec2 onLight, std::uint64_t& rays);
 
 } // namespace limn

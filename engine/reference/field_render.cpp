@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/reference/direct_light.h"
+#include "engine/reference/path.h"
 #include "engine/reference/pixel_rays.h"
 #include "engine/reference/sampler.h"
 #include "engine/reference/surface_point.h"
@@ -33,7 +34,7 @@ glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePo
                             hit.v, p.position, p.normal);
 }
 
-glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight) {
+glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight, glm::vec2 onLight) {
     const Hit hit = c.trace.closestHit(ray);
     if (!hit)
         return c.view == View::Lit ? c.trace.scene().sky.radiance : glm::vec3(0);
@@ -41,7 +42,9 @@ glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight) {
     if (!p)
         return glm::vec3(0);
     std::uint64_t rays = 0;
-    const auto direct = [&] { return sampleDirectIrradiance(c.trace, *p, pickLight, rays); };
+    const auto direct = [&] {
+        return sampleDirectIrradiance(c.trace, *p, pickLight, onLight, rays);
+    };
     const glm::vec3 reflectance = p->albedo / glm::pi<float>();
     switch (c.view) {
     case View::Lit:
@@ -79,7 +82,7 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                 for (std::uint32_t s = 0; s < options.samplesPerPixel; ++s) {
                     const Sampler sampler{mixBits(options.seed, std::uint32_t(i)), s};
                     sum += shade(context, pixelRays.through(corner + sampler.pair(0)),
-                                 sampler.pair(1).x);
+                                 sampler.pair(1).x, sampler.pair(kOnLightDimension));
                 }
                 image.rgb[i] = sum / float(options.samplesPerPixel);
             }

@@ -19,7 +19,7 @@ struct FieldRenderOptions {
     std::uint32_t seed = 1;
 };
 
-/// The picture that real-time light makes, on the CPU: direct light with ray-traced hard shadows,
+/// The picture that real-time light makes, on the CPU: direct light with ray-traced shadows,
 /// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
 /// the two differ by the field's error only; Lit has no specular. View::Normals is n / 2 + 1/2.
 /// Without a field (no lightmap, no grid) there is no indirect light. `layout` belongs to the

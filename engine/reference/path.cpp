@@ -86,7 +86,8 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
             T /= survival;
         }
         p = *next;
-        E += T * sampleDirectIrradiance(c.trace, p, picks.y, rays);
+        E += T * sampleDirectIrradiance(c.trace, p, picks.y,
+                                        sampler.pair(kOnLightDimension + 1 + bounce), rays);
     }
     return E;
 }

@@ -19,8 +19,12 @@ struct PathContext {
 /// Dimensions of the Sampler that a caller may use itself; paths take those from here on.
 inline constexpr std::uint32_t kFirstPathDimension = 2;
 
+/// Dimension of the points on lights that the first surface of a path is lit from; those after it
+/// take the next ones.
+inline constexpr std::uint32_t kOnLightDimension = 1u << 16;
+
 /// One unbiased estimate of the irradiance that reaches `first` by any way but straight from
-/// directional, point and spot lights [W m^-2]: bounces, emissive surfaces, sky.
+/// directional, point, spot and rectangle lights [W m^-2]: bounces, emissive surfaces, sky.
 glm::vec3 sampleIndirectIrradiance(const PathContext& context, const SurfacePoint& first,
                                    const Sampler& sampler, std::uint64_t& rays);
 

@@ -46,7 +46,8 @@ glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Samp
         return sampleIndirectIrradiance(c, *p, sampler, rays);
     glm::vec3 E(0), own(0);
     if (view == View::Lit || view == View::Direct)
-        E += sampleDirectIrradiance(c.trace, *p, sampler.pair(1).x, rays);
+        E += sampleDirectIrradiance(c.trace, *p, sampler.pair(1).x, sampler.pair(kOnLightDimension),
+                                    rays);
     if (view == View::Lit || view == View::Indirect)
         E += sampleIndirectIrradiance(c, *p, sampler, rays);
     if (view == View::Lit)

@@ -3,6 +3,8 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+#include "engine/relight/rectangle_shadow.h"
 
 #include <algorithm>
 #include <atomic>
@@ -50,9 +52,31 @@ std::uint64_t hashOccluders(const Scene& scene) {
     return h;
 }
 
+// Neighbours shift the points on the rectangle differently, so that what is left of their pattern
+// averages out over a cluster.
+std::uint32_t traceRectangle(const Surfels& surfels, const TraceScene& trace,
+                             SurfelLight::PerLight& out) {
+    const LightRectangle rectangle = lightRectangle(out.light);
+    std::atomic<std::uint64_t> rays = 0;
+    parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t mine = 0;
+        for (std::size_t s = begin; s < end; ++s) {
+            const std::uint32_t bits = mixBits(std::uint32_t(s));
+            out.share[s] = shadowedIrradiance(trace, rectangle, surfels.position[s],
+                                              surfels.normal[s], SurfelLight::kRectanglePoints,
+                                              {unitFloat(bits), unitFloat(mixBits(bits))}, mine);
+        }
+        rays += mine;
+    });
+    return std::uint32_t(rays);
+}
+
+// Returns the shadow rays traced.
 std::uint32_t traceLight(const Surfels& surfels, const TraceScene& trace,
                          SurfelLight::PerLight& out) {
     out.share.resize(surfels.size());
+    if (out.light.kind == LightKind::Rectangle)
+        return traceRectangle(surfels, trace, out);
     std::atomic<std::uint32_t> rays = 0;
     parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::uint32_t mine = 0;

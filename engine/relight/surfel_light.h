@@ -11,6 +11,9 @@ namespace limn {
 /// Direct light at the surfels, remembered per light: what a unit-strength white light of the same
 /// place brings. Changing a colour or a strength traces no ray.
 struct SurfelLight {
+    /// Shadow rays from a surfel to a rectangle.
+    static constexpr std::uint32_t kRectanglePoints = 16;
+
     struct PerLight {
         Light light; ///< as traced
         std::vector<float>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/light_table.h"
 
+#include "engine/scene/rectangle_light.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -17,10 +19,13 @@ static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
     g.direction = light.direction;
     g.kind = light.kind == LightKind::Directional ? LIGHT_DIRECTIONAL
              : light.kind == LightKind::Spot      ? LIGHT_SPOT
+             : light.kind == LightKind::Rectangle ? LIGHT_RECTANGLE
                                                   : LIGHT_POINT;
     g.strength = light.color * light.strength;
     g.cosOuter = std::cos(light.outerAngle);
     g.spotScale = 1 / (std::max(std::cos(light.innerAngle), g.cosOuter + 1e-4f) - g.cosOuter);
+    g.halfWidth = lightRectangle(light).halfWidth;
+    g.halfHeight = light.size.y / 2;
     g.shadowViews = shadow.count;
     g.firstView = shadow.first;
     return g;

@@ -18,6 +18,7 @@ struct ShadowKey {
     LightKind kind = LightKind::Point;
     glm::vec3 position{0}, direction{0};
     float outerAngle = 0;
+    glm::vec3 halfWidth{0}, halfHeight{0}; ///< Rectangle
 
     bool operator==(const ShadowKey&) const = default;
 };
@@ -25,7 +26,7 @@ ShadowKey shadowKey(const Light& light);
 
 /// Where a light's shadow views are in the table that ShadowMaps::views() gives out.
 struct ShadowSlot {
-    std::uint32_t count = 0; ///< SHADOW_NONE, SHADOW_SINGLE or SHADOW_CUBE
+    std::uint32_t count = 0; ///< SHADOW_NONE, SHADOW_SINGLE, SHADOW_CUBE or SHADOW_RECTANGLE
     std::uint32_t first = 0;
 };
 
@@ -40,8 +41,8 @@ struct ShadowView {
 using DrawCasters = std::function<void(VkCommandBuffer, const ShadowView& view)>;
 
 /// Shadow maps of all lights in one layered depth atlas. A directional light fills a layer, a spot
-/// a quarter, a point light six quarters. A map is drawn when its light moved or the scene changed,
-/// not when only its colour did.
+/// a quarter, a point light six quarters, a rectangle 24. A map is drawn when its light moved or
+/// the scene changed, not when only its colour did.
 class ShadowMaps {
 public:
     static constexpr std::uint32_t kLayerSize = 2048; ///< texels; a quarter is half as wide
@@ -91,7 +92,8 @@ private:
     bool m_atlasFresh = true; ///< its contents and layout are undefined
 };
 
-/// The views a light needs: one, or six for point lights and for spots too wide for one projection.
+/// The views a light needs: one; six for point lights and for spots too wide for one projection;
+/// six from the middle of each quarter of a rectangle.
 std::vector<ShadowView> shadowViews(const ShadowKey& key, const Bounds& bounds,
                                     std::uint32_t mapSize);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/shadow_maps.h"
 
+#include "engine/scene/rectangle_light.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,7 +61,7 @@ ShadowView perspectiveView(glm::vec3 eye, glm::vec3 axis, float tanHalf, const B
         zFar = std::max(zFar, glm::length(p - eye));
     zFar = std::max(zFar * 1.01f, 1e-6f);
     // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
-    const float zNear = zFar * 1e-4f;
+    const float zNear = zFar * float(SHADOW_NEAR);
     const float wide = tanHalf * (1 + 2 * kMarginTexels / float(mapSize));
     ShadowView v;
     v.toClip = glm::perspectiveRH_ZO(2 * std::atan(wide), 1.f, zFar, zNear) *
@@ -67,6 +69,7 @@ ShadowView perspectiveView(glm::vec3 eye, glm::vec3 axis, float tanHalf, const B
     v.gpu.axis = glm::vec4(axis, glm::dot(axis, eye));
     v.gpu.texelSize = 2 * wide / float(mapSize);
     v.gpu.perspective = 1;
+    v.gpu.zFar = zFar;
     return v;
 }
 
@@ -76,11 +79,24 @@ ShadowKey shadowKey(const Light& light) {
     ShadowKey key{.kind = light.kind};
     if (light.kind != LightKind::Directional)
         key.position = light.position;
-    if (light.kind != LightKind::Point)
+    if (light.kind == LightKind::Directional || light.kind == LightKind::Spot)
         key.direction = light.direction;
     if (light.kind == LightKind::Spot)
         key.outerAngle = light.outerAngle;
+    if (light.kind == LightKind::Rectangle) {
+        const LightRectangle r = lightRectangle(light);
+        key.halfWidth = r.halfWidth;
+        key.halfHeight = r.halfHeight;
+    }
     return key;
+}
+
+// In the order of cubeFace() in direct.frag.
+static void addCube(glm::vec3 eye, const Bounds& bounds, std::uint32_t mapSize,
+                    std::vector<ShadowView>& views) {
+    for (glm::vec3 axis : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
+                           glm::vec3(0, -1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)})
+        views.push_back(perspectiveView(eye, axis, 1, bounds, mapSize));
 }
 
 std::vector<ShadowView> shadowViews(const ShadowKey& key, const Bounds& bounds,
@@ -90,10 +106,14 @@ std::vector<ShadowView> shadowViews(const ShadowKey& key, const Bounds& bounds,
     if (key.kind == LightKind::Spot && key.outerAngle <= kWidestSpot)
         return {perspectiveView(key.position, key.direction, std::tan(key.outerAngle), bounds,
                                 mapSize)};
-    std::vector<ShadowView> views; // in the order of cubeFace() in shade.frag
-    for (glm::vec3 axis : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
-                           glm::vec3(0, -1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)})
-        views.push_back(perspectiveView(key.position, axis, 1, bounds, mapSize));
+    std::vector<ShadowView> views;
+    if (key.kind == LightKind::Rectangle) // in the order of quarter() in rectangle_shadow.glsl
+        for (int k = 0; k < 4; ++k)
+            addCube(key.position + ((k & 1) ? 0.5f : -0.5f) * key.halfWidth +
+                        ((k & 2) ? 0.5f : -0.5f) * key.halfHeight,
+                    bounds, mapSize, views);
+    else
+        addCube(key.position, bounds, mapSize, views);
     return views;
 }
 

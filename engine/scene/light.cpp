@@ -20,7 +20,7 @@ static float spotFalloff(const Light& light, glm::vec3 toLight) {
 
 LightSample sampleLight(const Light& light, glm::vec3 p) {
     LightSample s;
-    if (!light.enabled)
+    if (!light.enabled || light.kind == LightKind::Rectangle)
         return s;
     if (light.kind == LightKind::Directional) {
         s.toLight = -light.direction;

@@ -4,29 +4,37 @@
 #include <cstdint>
 #include <string>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace limn {
 
-enum class LightKind : std::uint8_t { Directional, Point, Spot };
+enum class LightKind : std::uint8_t { Directional, Point, Spot, Rectangle };
+
+/// What the edges of a Rectangle may measure [m].
+inline constexpr float kMinLightSize = 1e-6f, kMaxLightSize = 1e6f;
 
 /// A light in world space. Photometric numbers are used as radiometric ones, without a 683 factor.
 struct Light {
     std::string name = "Light";
     LightKind kind = LightKind::Point;
     bool enabled = true;
-    glm::vec3 position{0};         ///< [m]; ignored by Directional
+    glm::vec3 position{0};         ///< [m]; Rectangle: of its middle; ignored by Directional
     glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels; ignored by Point
     glm::vec3 color{1};            ///< linear Rec. 709, >= 0
-    float strength = 100; ///< Directional: irradiance [lux]. Point, Spot: intensity [cd]. >= 0
-    float range = 0; ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of KHR_lights_punctual
+    float strength = 100;          ///< Directional: irradiance [lux]. Point, Spot: intensity [cd].
+                                   ///< Rectangle: radiance [nits]. >= 0
+    float range = 0;               ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of
+                                   ///< KHR_lights_punctual. Point, Spot
     float innerAngle = 0;          ///< Spot: half-angle of full strength [rad]
     float outerAngle = 0.7853982f; ///< Spot: half-angle where it ends [rad], (innerAngle, pi/2]
+    glm::vec2 size{1};             ///< Rectangle: width and height [m]
+    float roll = 0;                ///< Rectangle: turn about `direction`, from LightRectangle [rad]
 
     bool operator==(const Light&) const = default;
 };
 
-/// What a light sends to a point, without shadow.
+/// What a directional, point or spot light sends to a point, without shadow.
 struct LightSample {
     glm::vec3 irradiance{0}; ///< on a plane facing the light [W m^-2]; multiply by cos
     glm::vec3 toLight{0};    ///< unit
@@ -34,7 +42,7 @@ struct LightSample {
 };
 
 /// Strength of `light` at world point `p`. Zero irradiance when out of range, off, outside the
-/// cone, or at d = 0.
+/// cone, or at d = 0; and from a Rectangle, which has no one direction: see rectangle_light.h.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
 } // namespace limn

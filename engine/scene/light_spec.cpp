@@ -57,13 +57,31 @@ static Result<glm::vec3> parseColor(std::string_view word, std::string_view text
     return color;
 }
 
+static Result<glm::vec2> parseSize(std::string_view word, std::string_view text) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    if (parts.size() != 2)
+        return fail(fmt::format("'{}': expected two numbers w,h", word));
+    glm::vec2 size;
+    for (int i = 0; i < 2; ++i) {
+        const Result<float> number = parseNumber(word, parts[std::size_t(i)]);
+        if (!number)
+            return tl::make_unexpected(number.error());
+        if (*number < kMinLightSize || *number > kMaxLightSize)
+            return fail(fmt::format("'{}': an edge is {} to {} m long", word, kMinLightSize,
+                                    kMaxLightSize));
+        size[i] = *number;
+    }
+    return size;
+}
+
 /// The kinds that know a key, and the field it sets.
 static Result<void> applyWord(Light& light, std::string_view word) {
     const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos)
         return fail(fmt::format("'{}': expected key=value", word));
     const std::string_view key = word.substr(0, equals), text = word.substr(equals + 1);
-    const bool sun = light.kind == LightKind::Directional, spot = light.kind == LightKind::Spot;
+    const bool sun = light.kind == LightKind::Directional, spot = light.kind == LightKind::Spot,
+               rect = light.kind == LightKind::Rectangle;
     const auto store = [](auto& field, auto&& parsed) -> Result<void> {
         if (!parsed)
             return tl::make_unexpected(parsed.error());
@@ -76,13 +94,20 @@ static Result<void> applyWord(Light& light, std::string_view word) {
     }
     if (key == "color")
         return store(light.color, parseColor(word, text));
-    if ((key == "lux" && sun) || (key == "cd" && !sun))
+    if ((key == "lux" && sun) || (key == "cd" && !sun && !rect) || (key == "nits" && rect))
         return store(light.strength, parseNonNegative(word, text));
     if (key == "pos" && !sun)
         return store(light.position, parseTriple(word, text));
-    if (key == "range" && !sun)
+    if (key == "range" && !sun && !rect)
         return store(light.range, parseNonNegative(word, text));
-    if (key == "dir" && (sun || spot)) {
+    if (key == "size" && rect)
+        return store(light.size, parseSize(word, text));
+    if (key == "roll" && rect) {
+        const Result<void> stored = store(light.roll, parseNumber(word, text));
+        light.roll = glm::radians(light.roll);
+        return stored;
+    }
+    if (key == "dir" && (sun || spot || rect)) {
         const Result<glm::vec3> direction = parseTriple(word, text);
         if (!direction)
             return tl::make_unexpected(direction.error());
@@ -117,8 +142,11 @@ Result<Light> parseLight(std::string_view spec) {
                 light.kind = LightKind::Point, light.name = "Point";
             else if (word == "spot")
                 light.kind = LightKind::Spot, light.name = "Spot";
+            else if (word == "rect")
+                light.kind = LightKind::Rectangle, light.name = "Rectangle";
             else
-                return fail(fmt::format("light '{}': '{}' is not sun, point or spot", spec, word));
+                return fail(
+                    fmt::format("light '{}': '{}' is not sun, point, spot or rect", spec, word));
             first = false;
             continue;
         }
@@ -126,7 +154,7 @@ Result<Light> parseLight(std::string_view spec) {
             return fail(fmt::format("light '{}': {}", spec, applied.error().message));
     }
     if (first)
-        return fail("light: empty; expected sun, point or spot");
+        return fail("light: empty; expected sun, point, spot or rect");
     if (light.kind == LightKind::Spot && !(light.innerAngle < light.outerAngle))
         return fail(fmt::format("light '{}': inner must be less than outer", spec));
     return light;

@@ -9,7 +9,8 @@
 namespace limn {
 
 /// `sun dir=x,y,z lux=E`, `point pos=x,y,z cd=I`, `spot pos= dir= cd= inner=DEG outer=DEG`,
-/// each with optional `color=r,g,b` and `name=`. Fails naming the word it did not understand.
+/// `rect pos= dir= size=w,h nits=L roll=DEG`, each with optional `color=r,g,b` and `name=`. Fails
+/// naming the word it did not understand.
 Result<Light> parseLight(std::string_view spec);
 
 /// `r,g,b` [nits].

@@ -18,18 +18,23 @@ using uint = std::uint32_t;
 #define LIGHT_DIRECTIONAL 0u
 #define LIGHT_POINT 1u
 #define LIGHT_SPOT 2u
+#define LIGHT_RECTANGLE 3u
 
 #define SHADOW_NONE 0u // views of a light's shadow
 #define SHADOW_SINGLE 1u
 #define SHADOW_CUBE 6u
+#define SHADOW_RECTANGLE 24u // a cube for each quarter of a rectangle
+
+#define SHADOW_NEAR 1e-4 // near plane of perspective views, in parts of the far plane
 
 // clang-format off
 /// sampleLight() of engine/scene/light.cpp reads the same numbers.
 struct GpuLight {
     vec3 position;  float inverseRange; // m; 1/m, 0: unlimited
     vec3 direction; uint kind;          // unit, the way light travels; LIGHT_*
-    vec3 strength;  float spotScale;    // colour times lux or cd; 1 / (cos inner - cos outer)
-    float cosOuter; uint shadowViews; uint firstView; uint pad;
+    vec3 strength;  float spotScale;    // colour times lux, cd or nits; 1 / (cos inner - cos outer)
+    float cosOuter; uint shadowViews; uint firstView; float halfHeight; // m
+    vec3 halfWidth; float pad; // m; of a rectangle, to the middle of an edge
 };
 
 /// A shadow map: a tile of one layer of the atlas.
@@ -38,12 +43,12 @@ struct GpuShadowView {
     vec4 axis;         // unit, the way it looks; w: dot(axis, eye)
     float texelSize;   // m: a texel's width; perspective views: at distance 1 m along the axis
     float perspective; // 1, or 0 for orthographic
-    uint layer; uint pad;
+    uint layer; float zFar; // m; perspective views
 };
 // clang-format on
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuLight) == 64);
+static_assert(sizeof(GpuLight) == 80);
 static_assert(sizeof(GpuShadowView) == 96);
 } // namespace limn::shared
 #endif

@@ -81,10 +81,14 @@ EditorState fullEditor() {
         node.meshes = {0};
         addObject(d, node);
     }
-    for (LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
+    for (LightKind kind :
+         {LightKind::Directional, LightKind::Point, LightKind::Spot, LightKind::Rectangle}) {
         Light light;
         light.kind = kind;
-        light.name = kind == LightKind::Point ? "Lamp" : kind == LightKind::Spot ? "Torch" : "Sun";
+        light.name = kind == LightKind::Point       ? "Lamp"
+                     : kind == LightKind::Spot      ? "Torch"
+                     : kind == LightKind::Rectangle ? "Panel"
+                                                    : "Sun";
         light.position = {float(kind) - 1, 0.5f, 0};
         addObject(d, light);
     }

@@ -36,6 +36,11 @@ TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
     EXPECT_FALSE(validWith<Light>([](Light& l) { l.strength = std::nanf(""); }));
     EXPECT_FALSE(validWith<Light>([](Light& l) { l.innerAngle = l.outerAngle; }));
     EXPECT_FALSE(validWith<Light>([](Light& l) { l.direction = {0, 0, 0}; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.size.x = 0; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.size.y = -1; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.size.y = kInf; }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.size.x = std::nanf(""); }));
+    EXPECT_FALSE(validWith<Light>([](Light& l) { l.roll = std::nanf(""); }));
     EXPECT_FALSE(validWith<Material>([](Material& m) { m.baseColor.x = 1.5f; }));
     EXPECT_FALSE(validWith<Material>([](Material& m) { m.emission.y = -0.1f; }));
     EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.radiance.z = -1; }));

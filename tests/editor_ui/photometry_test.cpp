@@ -28,11 +28,20 @@ TEST(Photometry, TheFluxOfASpotIsTheIntegralOfWhatTheLightSends) {
     EXPECT_NEAR(lumen(spot), sum, 1e-3 * sum);
 }
 
+TEST(Photometry, TheFluxOfARectangleIsPiTimesRadianceTimesArea) {
+    Light light;
+    light.kind = LightKind::Rectangle;
+    light.size = {2, 0.5f};
+    light.strength = 3;
+    EXPECT_NEAR(lumen(light), 3 * glm::pi<float>(), 1e-5f);
+    EXPECT_NEAR(strengthForLumen(light, 6 * glm::pi<float>()), 6, 1e-5f);
+}
+
 TEST(Photometry, APointLightOfOneCandelaHasFourPiLumen) {
     Light point;
     point.strength = 1;
     EXPECT_FLOAT_EQ(lumen(point), 4 * glm::pi<float>());
-    EXPECT_FLOAT_EQ(candelaForLumen(point, lumen(point)), 1);
+    EXPECT_FLOAT_EQ(strengthForLumen(point, lumen(point)), 1);
 }
 
 TEST(Photometry, BlackBodiesAreRedThenWhiteThenBlue) {

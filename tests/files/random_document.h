@@ -111,7 +111,7 @@ private:
         case 1: {
             Light l;
             l.name = text();
-            l.kind = LightKind(below(3));
+            l.kind = LightKind(below(4));
             l.enabled = coin();
             l.position = vec3();
             l.direction = direction();
@@ -120,6 +120,8 @@ private:
             l.range = notNegative();
             l.innerAngle = unit() * 0.7f;
             l.outerAngle = 0.71f + unit() * 0.8f;
+            l.size = {0.001f + unit(), 1e6f * (0.001f + 0.99f * unit())};
+            l.roll = number();
             return l;
         }
         case 2: {

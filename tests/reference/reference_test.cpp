@@ -408,3 +408,35 @@ TEST(Reference, AnEmptySceneShowsTheSky) {
     EXPECT_EQ(meanOf(r.image), 0.25);
     EXPECT_EQ(r.noise, 0);
 }
+
+TEST(Reference, ARectangleLightGivesTheClosedFormAndTheSameSceneAnEmitterDoes) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.addMaterial(lambert(glm::vec3(0), glm::vec3(4)));
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    b.add(quad({-1.2f, 1, -1}, {0.9f, 0, 0}, {0, 0, 2})); // shadows part of it
+    Light panel;
+    panel.kind = LightKind::Rectangle;
+    panel.position = {0, 2, 0};
+    panel.size = {1.2f, 0.8f};
+    panel.strength = 4;
+    b.scene.lights = {panel};
+    const Scene lit = b.build();
+    const auto corner =
+        optionsFor(View::Direct, {0.6f, 0.5f, 0.4f}, {0.6f, 0, 0.401f}, 1, 64, 1e-3f);
+    const ReferenceResult point = renderReference(TraceScene(lit), corner);
+    EXPECT_NEAR(double(point.image.rgb[0].x), 0.5 * 4 * cornerFormFactor(1.2, 0.8, 2), 2e-3);
+
+    b.scene.lights.clear();
+    b.add(lamp(0.6f, 0.4f, 2, 1));
+    const Scene glowing = b.build();
+    // A black lamp: only the light on the floor differs in how it is found.
+    auto options = optionsFor(View::Direct, {0, 1.5f, 3}, {0, 0, 0}, 24, 256);
+    const ReferenceResult direct = renderReference(TraceScene(lit), options);
+    options.view = View::Indirect;
+    options.maxBounces = 1;
+    const ReferenceResult emitted = renderReference(TraceScene(glowing), options);
+    const double error = std::hypot(relativeError(direct), relativeError(emitted));
+    EXPECT_NEAR(meanOf(direct.image) / meanOf(emitted.image), 1, 4 * error + 1e-5);
+    EXPECT_LT(error, 5e-3);
+}

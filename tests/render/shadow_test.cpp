@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/viewport_fixture.h"
 
+#include "engine/relight/rectangle_shadow.h"
 #include "engine/render/render_scene.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/trace/trace_scene.h"
@@ -26,13 +27,18 @@ simple::SceneBuilder planeAndRoof() {
     return b;
 }
 
-/// Direct view by rays: what the shadow maps approximate.
-glm::vec3 tracedDirect(const TraceScene& trace, const ViewportOptions& o, std::uint32_t x,
-                       std::uint32_t y) {
+/// Through the middle of a pixel.
+Ray cameraRay(const ViewportOptions& o, std::uint32_t x, std::uint32_t y) {
     const float aspect = float(o.width) / float(o.height);
     const glm::vec3 d = rayDirection(o.camera, aspect, 2 * (float(x) + 0.5f) / float(o.width) - 1,
                                      1 - 2 * (float(y) + 0.5f) / float(o.height));
-    const Hit hit = trace.closestHit({.origin = o.camera.eye, .direction = glm::normalize(d)});
+    return {.origin = o.camera.eye, .direction = glm::normalize(d)};
+}
+
+/// Direct view by rays: what the shadow maps approximate.
+glm::vec3 tracedDirect(const TraceScene& trace, const ViewportOptions& o, std::uint32_t x,
+                       std::uint32_t y) {
+    const Hit hit = trace.closestHit(cameraRay(o, x, y));
     if (!hit)
         return glm::vec3(0);
     const Scene& scene = trace.scene();
@@ -117,6 +123,43 @@ TEST_F(ViewportShadows, AgreeWithTracedRaysButForTheirEdges) {
     }
 }
 
+TEST_F(ViewportShadows, OfARectangleAreSoftAsTracedOnes) {
+    simple::SceneBuilder b = planeAndRoof();
+    b.add(simple::box({1.5f, 0, -1}, {2.5f, 2, 0.5f}, false));
+    options.camera.eye = {3, 4, 5};
+    options.width = 96;
+    options.height = 64;
+    Light light = lightOf(LightKind::Rectangle, {0.4f, 3, 1}, {0.2f, -1, -0.2f}, 8);
+    light.size = {1.2f, 0.6f};
+    b.scene.lights = {light};
+    const Scene scene = b.build();
+    const TraceScene trace(scene);
+    const ImageF image = draw(scene, View::Direct);
+    double squares = 0, sum = 0, error = 0, soft = 0;
+    for (std::uint32_t y = 0; y < options.height; ++y)
+        for (std::uint32_t x = 0; x < options.width; ++x) {
+            const Hit hit = trace.closestHit(cameraRay(options, x, y));
+            if (!hit)
+                continue;
+            const LightRectangle r = lightRectangle(light);
+            std::uint64_t rays = 0;
+            const float share =
+                shadowedIrradiance(trace, r, hit.position, hit.geometricNormal, 512, {}, rays);
+            const float whole = rectangleIrradiance(r, hit.position, hit.geometricNormal);
+            const double expected = 0.4 * 8 * double(share) / double(kPi);
+            const double d = double(pixel(image, x, y).g) - expected;
+            squares += d * d;
+            error += d;
+            sum += expected;
+            soft += share > 0.02f * whole && share < 0.98f * whole;
+        }
+    EXPECT_GT(soft, 300); // else nothing is tested
+    const double pixels = double(options.width) * options.height;
+    EXPECT_LT(std::sqrt(squares / pixels) / (sum / pixels), 0.05);
+    EXPECT_LT(std::abs(error / sum), 0.02); // edges that no quarter's middle sees let light pass
+    RecordProperty("nrmse", std::to_string(std::sqrt(squares / pixels) / (sum / pixels)));
+}
+
 TEST_F(ViewportShadows, LitFlatSurfacesHaveNoAcneAtGrazingAngles) {
     simple::SceneBuilder b = planeAndRoof();
     for (float slope : {0.02f, 0.1f, 0.5f, 2.f}) {
@@ -178,6 +221,12 @@ TEST_F(ViewportShadows, AreDrawnOnlyWhenALightOrAnObjectMoved) {
     EXPECT_EQ(mapsDrawn(scene), 0u);
     scene.instances[1].toWorld = glm::translate(glm::mat4(1), glm::vec3(0, 0.2f, 0));
     EXPECT_EQ(mapsDrawn(scene), 2u) << "an object moved; the light that is off has no map";
+    scene.lights[0].kind = LightKind::Rectangle;
+    EXPECT_GE(mapsDrawn(scene), 1u); // more where the atlas had to grow
+    scene.lights[0].strength = 9;
+    EXPECT_EQ(mapsDrawn(scene), 0u);
+    scene.lights[0].size.x = 0.5f;
+    EXPECT_EQ(mapsDrawn(scene), 1u) << "the quarters' middles moved";
 }
 
 TEST_F(ViewportShadows, LightsThatDoNotShineCostNothing) {

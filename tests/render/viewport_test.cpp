@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/viewport_fixture.h"
 
+#include "engine/scene/rectangle_light.h"
+
 #include <algorithm>
 #include <random>
 
@@ -82,6 +84,38 @@ TEST_F(ViewportViews, DirectLightOfEveryKindIsThatOfSampleLight) {
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(pixel(image, x, y)[c], expected[c],
                                 1e-3f * expected[c] + 2e-5f * light.strength)
+                        << "round " << round << " pixel " << x << ", " << y;
+            }
+    }
+}
+
+TEST_F(ViewportViews, DirectLightOfARectangleIsThatOfRectangleIrradiance) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int round = 0; round < 24; ++round) {
+        simple::SceneBuilder b = plane();
+        Light light;
+        light.kind = LightKind::Rectangle;
+        light.position = {unit(random) - 0.5f, 0.2f + 2 * unit(random), unit(random) - 0.5f};
+        light.direction = glm::normalize(
+            glm::vec3(unit(random) - 0.5f, round % 3 ? -1 : 0.1f, unit(random) - 0.5f));
+        light.size =
+            round % 4 ? glm::vec2(2 * unit(random) + 0.1f, 0.5f) : glm::vec2(0.004f, 0.02f);
+        light.roll = 6 * unit(random);
+        light.color = {unit(random), unit(random), unit(random)};
+        light.strength = 1 + 99 * unit(random);
+        b.scene.lights = {light};
+        const ImageF image = draw(b.build(), View::Direct);
+        for (std::uint32_t y = 0; y < 32; y += 3)
+            for (std::uint32_t x = 0; x < 32; x += 3) {
+                const float share = rectangleIrradiance(lightRectangle(light),
+                                                        planePoint(options, x, y), {0, 1, 0});
+                const glm::vec3 expected =
+                    glm::vec3(0.2f, 0.4f, 0.8f) * light.color * (light.strength * share / kPi);
+                // The shader sums angles in single precision: 1e-6 rad and what their sum cancels.
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(pixel(image, x, y)[c], expected[c],
+                                1e-3f * expected[c] + 1e-6f * light.strength)
                         << "round " << round << " pixel " << x << ", " << y;
             }
     }
@@ -391,6 +425,11 @@ TEST_F(ViewportLife, LightsOfAnyStrengthAndPlaceGiveFiniteNumbers) {
             b.scene.lights[1].kind = LightKind::Spot;
             b.scene.lights.push_back(b.scene.lights[0]);
             b.scene.lights[2].kind = LightKind::Directional;
+            for (const float size : {kMinLightSize, 1.f, kMaxLightSize}) {
+                b.scene.lights.push_back(b.scene.lights[0]);
+                b.scene.lights.back().kind = LightKind::Rectangle;
+                b.scene.lights.back().size = {size, 1};
+            }
             const ImageF image = draw(b.build(), View::Lit);
             EXPECT_TRUE(isFinite(image)) << strength << " at " << height;
         }

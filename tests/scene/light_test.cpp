@@ -103,6 +103,17 @@ TEST(LightSpec, ReadsEveryKindWithItsFields) {
     EXPECT_EQ(spot->kind, LightKind::Spot);
     EXPECT_NEAR(spot->innerAngle, 0.174533f, 1e-6f);
     EXPECT_NEAR(spot->outerAngle, 1.570796f, 1e-6f);
+    const Result<Light> rect =
+        parseLight("rect pos=1,2,3 dir=0,0,-4 size=2,0.5 nits=9 roll=90 color=1,0,1 name=Panel");
+    ASSERT_TRUE(rect) << rect.error().message;
+    EXPECT_EQ(rect->kind, LightKind::Rectangle);
+    EXPECT_EQ(rect->position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(rect->direction, glm::vec3(0, 0, -1));
+    EXPECT_EQ(rect->size, glm::vec2(2, 0.5f));
+    EXPECT_EQ(rect->strength, 9);
+    EXPECT_NEAR(rect->roll, 1.570796f, 1e-6f);
+    EXPECT_EQ(rect->color, glm::vec3(1, 0, 1));
+    EXPECT_EQ(rect->name, "Panel");
 }
 
 TEST(LightSpec, NamesTheWordItDoesNotUnderstand) {
@@ -122,7 +133,18 @@ TEST(LightSpec, NamesTheWordItDoesNotUnderstand) {
                                                          {"point lux=1", "'lux=1'"},
                                                          {"point color=1,-1,1", "negative"},
                                                          {"spot inner=30 outer=30", "inner"},
-                                                         {"spot outer=91", "90"}};
+                                                         {"spot outer=91", "90"},
+                                                         {"spot size=1,1", "'size=1,1'"},
+                                                         {"rect cd=1", "'cd=1'"},
+                                                         {"rect range=1", "'range=1'"},
+                                                         {"rect size=1", "two numbers"},
+                                                         {"rect size=0,1", "'size=0,1'"},
+                                                         {"rect size=1,-1", "'size=1,-1'"},
+                                                         {"rect size=1e7,1", "'size=1e7,1'"},
+                                                         {"rect size=nan,1", "'nan'"},
+                                                         {"rect nits=-1", "negative"},
+                                                         {"rect roll=x", "'x'"},
+                                                         {"rect dir=0,0,0", "zero"}};
     for (const auto& [spec, reason] : cases) {
         const Result<Light> light = parseLight(spec);
         EXPECT_EQ(bool(light), reason == nullptr) << spec;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight/rectangle_shadow.h"
+
+#include "engine/math/sampling.h"
+
+#include <glm/common.hpp>
+
+namespace limn {
+
+float shadowedIrradiance(const TraceScene& trace, const LightRectangle& rectangle, glm::vec3 p,
+                         glm::vec3 n, std::uint32_t points, glm::vec2 shift, std::uint64_t& rays) {
+    const float whole = rectangleIrradiance(rectangle, p, n);
+    if (!(whole > 0))
+        return 0;
+    const glm::vec3 origin = trace.clearOf(p, n);
+    double sum = 0, seen = 0;
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const glm::vec2 hammersley((float(i) + 0.5f) / float(points), radicalInverse(i, 2));
+        const glm::vec3 onLight = rectangle.at(glm::fract(hammersley + shift));
+        const double share = double(pointIrradiance(rectangle, onLight, p, n));
+        if (!(share > 0))
+            continue;
+        ++rays;
+        sum += share;
+        if (!trace.blocked(origin, trace.clearOf(onLight, rectangle.normal)))
+            seen += share;
+    }
+    return sum > 0 ? whole * float(seen / sum) : 0; // none: only a sliver is above the horizon
+}
+
+} // namespace limn

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Soft shadow of a rectangle from cubes of depths that the middles of its quarters see: in each quarter after
+// percentage-closer soft shadows (Fernando. Percentage-Closer Soft Shadows. 2005). A texel counts as blocker only where
+// the line from the receiver through the surface point that it holds meets the quarter, as in backprojection
+// (Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. 2006): walls beside a receiver shadow
+// nothing. For direct.frag, which declares shadowAtlas and shadowViews.
+
+// Points of a quarter in the search for blockers and in the sum.
+const int kSearchPoints = 8;
+const int kFilterPoints = 8;
+
+// Blockers nearer to the receiver than so many texels are its own surface.
+const float kBlockerBias = 1.5;
+
+Rectangle quarter(Rectangle r, int k) {
+    const vec2 side = vec2(k & 1, k >> 1) - 0.5;
+    return Rectangle(r.centre + side.x * r.halfWidth + side.y * r.halfHeight, 0.5 * r.halfWidth,
+                     0.5 * r.halfHeight, r.normal);
+}
+
+// Share of the way from the surface to the plane of rectangle `r` at which the map seen from its middle, from
+// `firstView` on, has something towards `q` that hides a part of `r` from the surface; 0: nothing.
+float blockerAt(uint firstView, Rectangle r, PackedSurface s, float height, vec3 q) {
+    const vec3 way = q - r.centre;
+    const GpuShadowView view = shadowViews[firstView + cubeFace(way)];
+    const vec4 atlas = view.toAtlas * vec4(q, 1);
+    const vec2 size = vec2(textureSize(shadowAtlas, 0).xy);
+    const float stored =
+        texelFetch(shadowAtlas, ivec3(atlas.xy / atlas.w * size, int(view.layer)), 0).r;
+    const float depth = view.zFar * SHADOW_NEAR / (stored * (1.0 - SHADOW_NEAR) + SHADOW_NEAR);
+    const vec3 toBlocker = r.centre + way * (depth / dot(view.axis.xyz, way)) - s.position;
+    const float nearer = -dot(toBlocker, r.normal);
+    if (dot(toBlocker, s.geometricNormal) <= kBlockerBias * view.texelSize * depth ||
+        nearer <= 0.0 || nearer >= height)
+        return 0.0;
+    const vec2 uv = coordinates(r, s.position + toBlocker * (height / nearer) - r.centre);
+    return max(abs(uv.x), abs(uv.y)) <= 1.0 ? nearer / height : 0.0;
+}
+
+// In [0, 1), even among neighbouring pixels.
+// Jimenez. Next Generation Post Processing in Call of Duty: Advanced Warfare. 2014
+float pixelNoise() {
+    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+}
+
+// Point i of a sequence that is even however long. Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018
+vec3 spreadPoint(Rectangle r, float i) {
+    return pointOn(r, 2.0 * fract(i * vec2(0.75487767, 0.56984029)) - 1.0);
+}
+
+// Mean share of the way at which something blocks; 0: nothing does. Blockers may be anywhere between surface and
+// rectangle: each point is looked at from another distance, with small steps near the surface.
+float meanBlocker(uint firstView, Rectangle r, PackedSurface s, float height, float noise) {
+    float sum = 0.0, count = 0.0;
+    for (int i = -1; i < kSearchPoints; ++i) {
+        vec3 q = s.position; // the middle sees it or not
+        if (i >= 0) {
+            const float step = (float((i * 3 + 1) % kSearchPoints) + noise) / float(kSearchPoints);
+            const float ratio = exp2(mix(-5.0, 2.0, step)); // distance to the surface : to the light
+            q = mix(s.position, spreadPoint(r, float(i) + noise), ratio / (1.0 + ratio));
+        }
+        const float share = blockerAt(firstView, r, s, height, q);
+        sum += share;
+        count += share > 0.0 ? 1.0 : 0.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+// Share of the points of `r` that arrives, weighted by what each sends, and the sum of the weights.
+vec2 quarterVisibility(uint firstView, Rectangle r, PackedSurface s, float height, float noise) {
+    const float share = meanBlocker(firstView, r, s, height, noise);
+    float sum = 0.0, hidden = 0.0;
+    for (int i = 0; i < kFilterPoints; ++i)
+        sum += pointIrradiance(r, spreadPoint(r, float(i) + noise) - s.position, s.detailNormal);
+    const int looks = share > 0.0 ? kFilterPoints : 0;
+    for (int i = 0; i < looks; ++i) {
+        const vec3 onLight = spreadPoint(r, float(i) + noise);
+        if (blockerAt(firstView, r, s, height, mix(s.position, onLight, share)) > 0.0)
+            hidden += pointIrradiance(r, onLight - s.position, s.detailNormal);
+    }
+    return vec2(sum - hidden, sum);
+}
+
+// Share of the rectangle's light that arrives. Loops, because software rasterisers skip nothing else.
+float rectangleVisibility(GpuLight light, Rectangle whole, PackedSurface s, bool lit) {
+    const float height = dot(s.position - whole.centre, whole.normal);
+    const float noise = pixelNoise();
+    const int quarters = light.shadowViews != SHADOW_NONE && lit ? 4 : 0;
+    vec2 sum = vec2(0);
+    for (int k = 0; k < quarters; ++k)
+        sum += quarterVisibility(light.firstView + uint(k) * SHADOW_CUBE, quarter(whole, k), s,
+                                 height, fract(noise + 0.25 * float(k)));
+    return quarters == 0 ? 1.0 : sum.y > 0.0 ? max(sum.x / sum.y, 0.0) : 0.0;
+}
