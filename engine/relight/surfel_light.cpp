@@ -32,7 +32,8 @@ Bounds boundsOf(const std::vector<glm::vec3>& points) {
 
 /// Whether anything within `bounds` can lie in the light's range.
 bool reaches(const Light& l, const Bounds& bounds) {
-    if (l.kind == LightKind::Directional || !(l.range > 0))
+    const bool ranged = l.kind == LightKind::Point || l.kind == LightKind::Spot;
+    if (!ranged || !(l.range > 0))
         return true;
     return glm::distance(glm::clamp(l.position, bounds.lower, bounds.upper), l.position) < l.range;
 }
