@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/files/project_file.h"
+#include "engine/files/sky_file.h"
 #include "engine/scene/light_spec.h"
 
 #include <algorithm>
@@ -29,7 +30,18 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
                     "color=r,g,b, name=; may be repeated")
         ->allow_extra_args(false)
         ->take_all();
-    command.add_option("--sky", options.sky, "constant sky r,g,b [nits]; replaces the scene's");
+    command.add_option("--sky", options.sky,
+                       "r,g,b [nits], or the .hdr or .exr of a panorama; replaces the scene's");
+}
+
+static Result<Sky> openSky(const std::string& spec) {
+    if (!spec.ends_with(".hdr") && !spec.ends_with(".exr"))
+        return parseSky(spec);
+    Sky sky;
+    sky.image = spec;
+    if (const Result<void> read = readSkyImage(sky); !read)
+        return tl::make_unexpected(read.error());
+    return sky;
 }
 
 static void setSky(Document& document, const Sky& sky) {
@@ -51,7 +63,7 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
     }
     std::optional<Sky> sky;
     if (!options.sky.empty()) {
-        const Result<Sky> parsed = parseSky(options.sky);
+        const Result<Sky> parsed = openSky(options.sky);
         if (!parsed)
             return tl::make_unexpected(parsed.error());
         sky = *parsed;

@@ -66,7 +66,24 @@ void materialSection(FieldEdit& edit, Material& material) {
     textureLine(state, "Emission", material.emissiveTexture);
 }
 
+static void skyImageRows(FieldEdit& edit, Sky& sky) {
+    fieldLabel("Image", "The panorama round the scene");
+    ImGui::TextUnformatted(sky.image.substr(sky.image.rfind('/') + 1).c_str());
+    wrappedTooltip(sky.image.c_str());
+    fieldLabel("Strength", "Times the image's radiance");
+    ImGui::SliderFloat("##strength", &sky.strength, 0, 100, "%.3f", ImGuiSliderFlags_Logarithmic);
+    fieldEdited(edit, "Sky strength");
+    float degrees = glm::degrees(sky.rotation);
+    fieldLabel("Rotation (\u00b0)",
+               "Turns the image about the vertical; lights the scene without a new bake [degrees]");
+    if (ImGui::SliderFloat("##rotation", &degrees, -180, 180, "%.1f\u00b0"))
+        sky.rotation = glm::radians(degrees);
+    fieldEdited(edit, "Sky rotation");
+}
+
 void skySection(FieldEdit& edit, Sky& sky) {
+    if (sky.panorama)
+        return skyImageRows(edit, sky);
     colorAndStrength(edit, sky.radiance, "Sky", "Radiance (nits)",
                      "The same from every direction [nits]; lights the scene without a new bake");
 }

@@ -58,7 +58,7 @@ static bool valid(const Camera& c) {
 }
 
 static bool valid(const Sky& s) {
-    return atLeastZero(s.radiance);
+    return atLeastZero(s.radiance) && atLeastZero(s.strength) && std::isfinite(s.rotation);
 }
 
 static bool valid(const BakeSettings& b) {

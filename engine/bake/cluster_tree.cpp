@@ -17,7 +17,6 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kSkyBands = 16, kSkySectors = 16;
 static_assert(kSkyBands * kSkySectors == kSkyCells);
 
 ClusterMetric metricOf(const BakeSettings& settings, glm::vec3 size) {

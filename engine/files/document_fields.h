@@ -97,6 +97,9 @@ void describeCamera(Fields& fields, T& c) {
 template <class Fields, class T>
 void describeSky(Fields& fields, T& s) {
     fields("radiance", s.radiance, kNotNegative);
+    fields("image", s.image);
+    fields("strength", s.strength, kNotNegative);
+    fields("rotation", s.rotation);
 }
 
 template <class Fields, class T>

@@ -3,6 +3,7 @@
 
 #include "engine/core/replace_file.h"
 #include "engine/files/document_json.h"
+#include "engine/files/sky_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -16,24 +17,31 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
-/// `path` of the scene as seen from the project's folder.
-static Result<std::string> relativeScene(const std::string& scene, const std::string& project) {
-    if (scene.empty())
+/// `file` as seen from the project's folder; empty stays empty.
+static Result<std::string> relativeTo(const std::string& project, const std::string& file) {
+    if (file.empty())
         return std::string();
     std::error_code error;
     const fs::path folder = fs::absolute(project, error).parent_path();
-    const fs::path relative = error ? fs::path() : fs::relative(fs::absolute(scene), folder, error);
+    const fs::path relative = error ? fs::path() : fs::relative(fs::absolute(file), folder, error);
     if (error || relative.empty())
-        return fail(fmt::format("scene: cannot express {} relative to {}", scene, folder.string()));
+        return fail(fmt::format("cannot express {} relative to {}", file, folder.string()));
     return relative.generic_string();
 }
 
 Result<void> saveProject(const std::string& path, const Document& document) {
-    const Result<std::string> scene = relativeScene(document.scenePath, path);
+    const Result<std::string> scene = relativeTo(path, document.scenePath);
     if (!scene)
-        return fail(fmt::format("{}: {}", path, scene.error().message));
+        return fail(fmt::format("{}: scene: {}", path, scene.error().message));
     Document stored = document;
     stored.scenePath = *scene;
+    for (auto& [id, object] : stored.objects)
+        if (Sky* sky = std::get_if<Sky>(&object)) {
+            const Result<std::string> image = relativeTo(path, sky->image);
+            if (!image)
+                return fail(fmt::format("{}: sky: {}", path, image.error().message));
+            sky->image = *image;
+        }
     // What would not load again must not replace what does.
     const std::string text = documentToJson(stored);
     const Result<Document> again = documentFromJson(text);
@@ -70,6 +78,18 @@ static void dropLost(ImportedScene& scene) {
         scene.repairs.push_back(fmt::format("{} images are no longer in the scene file", images));
 }
 
+/// Finds the sky's image beside the project; where it cannot be read, the sky has its colour.
+static void openSky(const fs::path& folder, ImportedScene& scene) {
+    for (auto& [id, object] : scene.document.objects) {
+        Sky* sky = std::get_if<Sky>(&object);
+        if (!sky || sky->image.empty())
+            continue;
+        sky->image = (folder / sky->image).lexically_normal().string();
+        if (const Result<void> read = readSkyImage(*sky); !read)
+            scene.repairs.push_back("sky: " + read.error().message);
+    }
+}
+
 Result<ImportedScene> loadProject(const std::string& path, const Progress& progress) {
     std::error_code error;
     if (!fs::exists(path, error))
@@ -101,6 +121,7 @@ Result<ImportedScene> loadProject(const std::string& path, const Progress& progr
     document.sceneHash = scene.document.sceneHash;
     scene.document = std::move(document);
     dropLost(scene);
+    openSky(fs::path(path).parent_path(), scene);
     return scene;
 }
 

@@ -65,7 +65,7 @@ PointGather gatherPoint(const TraceScene& trace, const Emitters& emitters, glm::
         const Hit hit = trace.closestHit({origin, toWorld * local}, TraceMask::Static);
         const float weight = local.z * directions.solidAngle();
         if (!hit) {
-            result.irradiance += trace.scene().sky.radiance * weight;
+            result.irradiance += skyRadiance(trace.scene().sky, toWorld * local) * weight;
             continue;
         }
         const auto p = surfacePoint(trace, hit);

@@ -37,7 +37,7 @@ glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePo
 glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight, glm::vec2 onLight) {
     const Hit hit = c.trace.closestHit(ray);
     if (!hit)
-        return c.view == View::Lit ? c.trace.scene().sky.radiance : glm::vec3(0);
+        return c.view == View::Lit ? skyRadiance(c.trace.scene().sky, ray.direction) : glm::vec3(0);
     const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
     if (!p)
         return glm::vec3(0);

@@ -64,7 +64,7 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
         ++rays;
         const Hit hit = c.trace.closestHit({rayOrigin(c.trace, p), direction});
         if (!hit) {
-            E += T * pi * c.trace.scene().sky.radiance;
+            E += T * pi * skyRadiance(c.trace.scene().sky, direction);
             break;
         }
         const std::optional<SurfacePoint> next = surfacePoint(c.trace, hit);

@@ -36,7 +36,7 @@ glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Samp
     ++rays;
     const Hit hit = c.trace.closestHit(ray);
     if (!hit)
-        return view == View::Lit ? c.trace.scene().sky.radiance : glm::vec3(0);
+        return view == View::Lit ? skyRadiance(c.trace.scene().sky, ray.direction) : glm::vec3(0);
     const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
     if (!p)
         return glm::vec3(0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/relight.h"
 
+#include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/surfel_light.h"
@@ -115,7 +116,9 @@ bool Relighter::State::updateSky(const Scene& scene) {
         return false;
     sky = scene.sky;
     const ClusterTree& tree = bake->tree;
-    std::fill_n(radiosity.begin() + tree.surfels, tree.skyCells, glm::vec4(sky.radiance * kPi, 0));
+    const std::vector<glm::vec3> cells = skyCellRadiance(sky);
+    for (std::uint32_t c = 0; c < tree.skyCells; ++c)
+        radiosity[tree.surfels + c] = glm::vec4(cells[skyCellOf(tree.skyDirection[c])] * kPi, 0);
     return true;
 }
 

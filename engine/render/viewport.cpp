@@ -390,7 +390,7 @@ void Viewport::setScene(const Scene& scene, std::shared_ptr<const LightmapLayout
 
 void Viewport::setLighting(const Scene& scene) {
     m_impl->maskVersion += m_impl->materials.update(scene);
-    m_impl->sky = scene.sky.radiance;
+    m_impl->sky = meanRadiance(scene.sky);
     m_impl->lights.clear();
     for (const Light& light : scene.lights) {
         const glm::vec3 strength = light.color * light.strength;

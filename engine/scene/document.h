@@ -5,6 +5,7 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/light.h"
 #include "engine/scene/material.h"
+#include "engine/scene/sky.h"
 
 #include <cstdint>
 #include <map>
@@ -44,13 +45,6 @@ struct Node {
 
 /// A material object. Mesh::material names Material objects by their order of id.
 /// (Material itself is in material.h.)
-
-/// Constant sky. One per document.
-struct Sky {
-    glm::vec3 radiance{0}; ///< [nits], linear
-
-    bool operator==(const Sky&) const = default;
-};
 
 using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings>;
 

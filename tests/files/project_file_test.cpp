@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/project_file.h"
 
+#include "engine/files/image_file.h"
+#include "engine/files/sky_file.h"
+
 #include "tests/scene/gltf_builder.h"
 
 #include <limits>
@@ -56,6 +59,32 @@ TEST(ProjectFile, TheSceneIsStoredRelativeSoThatTheFolderMayMove) {
     ASSERT_FALSE(gone);
     EXPECT_NE(gone.error().message.find("p.limn: scene: "), std::string::npos);
     EXPECT_NE(gone.error().message.find("no such file"), std::string::npos);
+}
+
+TEST(ProjectFile, TheSkysImageIsStoredRelativeAndReadAgain) {
+    const Workspace w;
+    ImportedScene scene = *importGltf(w.scene());
+    const ImageF panorama{2, 1, {{1, 2, 3}, {4, 5, -6}}};
+    ASSERT_TRUE(writeExr(w.file("models/sky.exr"), panorama));
+    Sky sky{.image = w.file("models/sky.exr"), .strength = 2, .rotation = 0.5f};
+    ASSERT_TRUE(readSkyImage(sky));
+    EXPECT_EQ(sky.panorama->pixels.rgb[1], glm::vec3(4, 5, 0)) << "no light is negative";
+    for (auto& [id, object] : scene.document.objects)
+        if (std::holds_alternative<Sky>(object))
+            object = sky;
+    ASSERT_TRUE(saveProject(w.file("projects/p.limn"), scene.document));
+    EXPECT_NE(readFile(w.file("projects/p.limn")).find("\"../models/sky.exr\""), std::string::npos);
+    const Result<ImportedScene> loaded = loadProject(w.file("projects/p.limn"));
+    ASSERT_TRUE(loaded);
+    const Sky again = singleton<Sky>(loaded->document);
+    ASSERT_TRUE(again.panorama);
+    EXPECT_EQ(again.panorama->pixels.rgb, sky.panorama->pixels.rgb);
+    EXPECT_EQ(again.rotation, 0.5f);
+    fs::remove(w.file("models/sky.exr"));
+    const Result<ImportedScene> gone = loadProject(w.file("projects/p.limn"));
+    ASSERT_TRUE(gone);
+    EXPECT_TRUE(hasRepair(*gone, "sky.exr"));
+    EXPECT_FALSE(singleton<Sky>(gone->document).panorama);
 }
 
 TEST(ProjectFile, AChangedSceneIsLoadedWithAWord) {

@@ -134,7 +134,8 @@ private:
             return c;
         }
         case 3:
-            return Sky{{notNegative(), notNegative(), notNegative()}};
+            return Sky{
+                {notNegative(), notNegative(), notNegative()}, text(), notNegative(), number()};
         default: {
             BakeSettings b;
             b.surfels = 64 + below(1000000);

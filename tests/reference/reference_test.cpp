@@ -254,6 +254,27 @@ TEST(Reference, AConstantSkyGivesPiTimesItsRadiance) {
     EXPECT_LT(glm::length(pixel(View::Indirect, {0, 0, 0}) - glm::vec3(0.5f, 1, 1.5f)), 1e-5f);
 }
 
+TEST(Reference, APanoramaLightsByTheIntegralOfItsRadiance) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0)));
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    // Upper half: 3 in the quarter right of -Z, else 0. Lower half: 100, which the ground hides.
+    ImageF panorama{4, 2, std::vector<glm::vec3>(8, glm::vec3(100))};
+    for (int x = 0; x < 4; ++x)
+        panorama.rgb[std::size_t(x)] = glm::vec3(x == 2 ? 3.f : 0.f);
+    b.scene.sky = {
+        .radiance = glm::vec3(9), .image = "x", .strength = 2, .panorama = makeSkyImage(panorama)};
+    const TraceScene trace(b.build());
+    const auto up = referenceIrradiance(trace, glm::vec3(0), {0, 1, 0}, 4096, 1, false, 1);
+    EXPECT_NEAR(double(up.x), kPi * 2 * 3 / 4, 0.02); // a quarter of the hemisphere
+    const auto pixel = [&](glm::vec3 target) {
+        return renderReference(trace, optionsFor(View::Lit, {0, 1, 0}, target, 1, 4, 1e-3f))
+            .image.rgb[0];
+    };
+    EXPECT_EQ(pixel({1, 2, -1}), glm::vec3(6));
+    EXPECT_EQ(pixel({-1, 2, -1}), glm::vec3(0));
+}
+
 TEST(Reference, LitIsDirectPlusIndirectPlusOwnEmission) {
     SceneBuilder b;
     b.addMaterial(lambert({0.2f, 0.5f, 0.8f}, {0.3f, 0.2f, 0.1f}));

@@ -96,6 +96,53 @@ TEST(Sky, UnoccludedGroundGetsPiTimesItsRadiance) {
     EXPECT_NEAR(e.z, 3 * kPi, 0.03 * kPi);
 }
 
+TEST(Sky, AConstantPanoramaIsAConstantColourAndATurnIsSeenAtOnce) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    b.scene.materials[0].doubleSided = true;
+    b.add(quad({0, 0, 5}, {0, 0, -10}, {0, 10, 0})); // a wall: the ground beside it sees half
+    Scene scene = b.build();
+    scene.bake.lightmapCaches = 400;
+    scene.bake.surfels = 400;
+    scene.bake.rays = 256;
+    scene.sky.radiance = {1, 2, 3};
+    const Lit lit = light(scene);
+    const std::vector<glm::vec3> colour = lit.relighter->cacheSh();
+    const ImageF constant{8, 4, std::vector<glm::vec3>(32, {1, 2, 3})};
+    scene.sky = {.image = "constant", .panorama = makeSkyImage(constant)};
+    const TraceScene trace(scene);
+    while (!lit.relighter->relight(scene, trace, 8).converged) {
+    }
+    float largest = 0, difference = 0;
+    for (std::size_t i = 0; i < colour.size(); ++i) {
+        largest = std::max(largest, glm::length(colour[i]));
+        difference = std::max(difference, glm::length(colour[i] - lit.relighter->cacheSh()[i]));
+    }
+    EXPECT_LT(difference, 1e-3f * largest);
+
+    ImageF half{8, 4, std::vector<glm::vec3>(32, glm::vec3(0))};
+    for (std::size_t i = 0; i < 32; ++i)
+        half.rgb[i] = glm::vec3(i % 8 >= 4); // +X shines
+    scene.sky = {.image = "half", .panorama = makeSkyImage(half)};
+    const auto beside = [&](float x, float rotation) {
+        scene.sky.rotation = rotation;
+        while (!lit.relighter->relight(scene, trace, 8).converged) {
+        }
+        // At z = 0: in the first triangle for x > 0, in the second for x < 0.
+        const glm::vec2 uv = x > 0 ? glm::vec2(x / 10, 0.5f) : glm::vec2((x + 5) / 10, -x / 10);
+        return sampleIrradiance(lit.relighter->field(), lit.relighter->bake().lightmap, lit.scene,
+                                0, x > 0 ? 0 : 1, uv.x, uv.y, {x, 0, 0}, {0, 1, 0})
+            .x;
+    };
+    const float pi = glm::pi<float>();
+    // From 2 m behind the wall's middle, 68 of 90 degrees to either side are hidden.
+    const float open = beside(2, 0), hidden = beside(-2, 0);
+    EXPECT_GT(open, 3 * hidden);
+    EXPECT_NEAR(beside(-2, pi), open, 0.03f * open); // the other way round, the same
+    EXPECT_NEAR(beside(2, pi), hidden, 0.05f * hidden);
+}
+
 /// Irradiance at the middle of the upper of two facing unit squares at distance h from the lower
 /// one of radiosity B is B F, F = (4/2pi) (2 X / sqrt(1+X^2) atan(X / sqrt(1+X^2))) with X =
 /// 1/(2h): the point-to-rectangle factor of Howell. A Catalog of Radiation Heat Transfer

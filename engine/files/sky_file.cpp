@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/sky_file.h"
+
+#include "engine/files/image_file.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+Result<void> readSkyImage(Sky& sky) {
+    Result<ImageF> image = readFloatImage(sky.image);
+    if (!image)
+        return tl::make_unexpected(image.error());
+    if (image->rgb.empty())
+        return fail(fmt::format("{}: no pixels", sky.image));
+    for (glm::vec3& p : image->rgb)
+        for (int c = 0; c < 3; ++c)
+            if (!(p[c] >= 0) || !std::isfinite(p[c]))
+                p[c] = 0;
+    sky.panorama = makeSkyImage(std::move(*image));
+    return {};
+}
+
+} // namespace limn
