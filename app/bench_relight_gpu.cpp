@@ -21,6 +21,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         return tl::make_unexpected(relighter.error());
     GpuRuns result{(*made)->properties.deviceName, {}};
     Scene lit = scene;
+    const std::vector<glm::vec3> sky = skyCellRadiance(scene.sky);
     SurfelLight light;
     std::vector<glm::vec3> albedo, emitted;
     surfelMaterials(bake->surfels, scene, albedo, emitted);
@@ -31,8 +32,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g =
-            (*relighter)
-                ->relight({light.irradiance, albedo, emitted, lit.sky.radiance, nullptr}, 1);
+            (*relighter)->relight({light.irradiance, albedo, emitted, sky, nullptr}, 1);
         RelightStats r;
         r.directMs = traced.count() + g.uploadMs;
         r.surfelLightMs = g.surfelLightMs;

@@ -31,26 +31,31 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
         ->allow_extra_args(false)
         ->take_all();
     command.add_option("--sky", options.sky,
-                       "r,g,b [nits], or the .hdr or .exr of a panorama; replaces the scene's");
+                       "r,g,b [nits] | gradient up=r,g,b horizon=r,g,b ground=r,g,b | FILE.hdr or "
+                       "FILE.exr, a panorama; replaces the scene's");
+    command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--sky-rotation", options.skyRotation,
+                       "of the panorama about +Y, from +Z towards +X [degrees]");
 }
 
 static Result<Sky> openSky(const std::string& spec) {
     if (!spec.ends_with(".hdr") && !spec.ends_with(".exr"))
         return parseSky(spec);
     Sky sky;
+    sky.kind = SkyKind::Image;
     sky.image = spec;
     if (const Result<void> read = readSkyImage(sky); !read)
         return tl::make_unexpected(read.error());
     return sky;
 }
 
-static void setSky(Document& document, const Sky& sky) {
+/// The document's sky, added if there is none.
+static Sky& skyOf(Document& document) {
     for (auto& [id, object] : document.objects)
-        if (Sky* known = std::get_if<Sky>(&object)) {
-            *known = sky;
-            return;
-        }
-    addObject(document, sky);
+        if (Sky* known = std::get_if<Sky>(&object))
+            return *known;
+    return std::get<Sky>(document.objects.at(addObject(document, Sky{})));
 }
 
 Result<ImportedScene> openScene(const SceneOptions& options) {
@@ -74,7 +79,11 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
     for (Light& light : lights)
         addObject(scene->document, std::move(light));
     if (sky)
-        setSky(scene->document, *sky);
+        skyOf(scene->document) = *sky;
+    if (options.skyStrength)
+        skyOf(scene->document).strength = *options.skyStrength;
+    if (options.skyRotation)
+        skyOf(scene->document).rotation = glm::radians(*options.skyRotation);
     for (const std::string& repair : scene->repairs)
         logWarning(fmt::format("{}: {}", options.scene, repair));
     return scene;

@@ -19,6 +19,7 @@ struct SceneOptions {
     std::string scene;
     std::vector<std::string> lights;
     std::string sky;
+    std::optional<float> skyStrength, skyRotation; ///< factor, degrees
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 

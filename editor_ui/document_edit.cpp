@@ -38,6 +38,23 @@ ObjectId addLight(EditorState& state, Light light) {
     return id;
 }
 
+void setSkyImage(EditorState& state, const Sky& image) {
+    commitGesture(state);
+    ObjectId id = state.document.nextId; // a document without sky gets one
+    std::optional<Object> before;
+    Sky sky;
+    for (const auto& [known, object] : state.document.objects)
+        if (const Sky* s = std::get_if<Sky>(&object)) {
+            id = known;
+            before = object;
+            sky = *s;
+        }
+    sky.kind = image.kind;
+    sky.image = image.image;
+    sky.panorama = image.panorama;
+    applyEdit(state, {"Sky image", {{id, before, sky}}});
+}
+
 static bool isBelow(const Document& document, ObjectId id, ObjectId ancestor) {
     for (std::size_t depth = 0; id != 0 && depth <= document.objects.size(); ++depth) {
         if (id == ancestor)

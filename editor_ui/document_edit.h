@@ -15,6 +15,9 @@ struct EditorState;
 /// Adds `light` under a name no other light has, and selects it.
 ObjectId addLight(EditorState& state, Light light);
 
+/// Gives the sky the kind, the image and the panorama of `image`.
+void setSkyImage(EditorState& state, const Sky& image);
+
 /// Deletes the selected nodes (with everything below them), lights and cameras.
 void deleteSelection(EditorState& state);
 

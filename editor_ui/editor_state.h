@@ -22,8 +22,17 @@ namespace limn {
 
 /// Something a panel or an action wants done outside the UI: files, jobs, the window.
 struct Request {
-    enum class Kind { NewFromScene, Open, Save, Bake, CancelBake, Screenshot, Quit } kind;
-    std::string path; ///< of NewFromScene, Open, Save
+    enum class Kind {
+        NewFromScene,
+        Open,
+        OpenSkyImage,
+        Save,
+        Bake,
+        CancelBake,
+        Screenshot,
+        Quit
+    } kind;
+    std::string path; ///< of NewFromScene, Open, OpenSkyImage, Save
 };
 
 enum class Tool { Select, Move };

@@ -24,6 +24,8 @@ static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
         return scene || extension == ".limn";
     case FileBrowser::Purpose::SaveAs:
         return extension == ".limn";
+    case FileBrowser::Purpose::SkyImage:
+        return extension == ".hdr" || extension == ".exr";
     }
     return false;
 }
@@ -59,8 +61,10 @@ void readFolder(FileBrowser& browser, const std::string& folder) {
 void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
     FileBrowser browser;
     browser.purpose = purpose;
-    const fs::path current =
-        state.projectPath.empty() ? state.document.scenePath : state.projectPath;
+    const std::string image = singleton<Sky>(state.document).image;
+    const fs::path current = purpose == FileBrowser::Purpose::SkyImage && !image.empty() ? image
+                             : state.projectPath.empty() ? state.document.scenePath
+                                                         : state.projectPath;
     if (purpose == FileBrowser::Purpose::SaveAs)
         browser.name = current.empty() ? "untitled.limn" : current.stem().string() + ".limn";
     std::error_code error;
@@ -77,6 +81,8 @@ static const char* title(FileBrowser::Purpose purpose) {
         return "Open";
     case FileBrowser::Purpose::SaveAs:
         return "Save as";
+    case FileBrowser::Purpose::SkyImage:
+        return "Sky image";
     }
     return "";
 }
@@ -149,6 +155,8 @@ static std::optional<Request> accepted(FileBrowser& browser) {
         browser.error = "There is no " + path.string();
         return {};
     }
+    if (browser.purpose == FileBrowser::Purpose::SkyImage)
+        return Request{Request::Kind::OpenSkyImage, path.string()};
     const bool fresh = browser.purpose == FileBrowser::Purpose::NewFromScene;
     return Request{fresh ? Request::Kind::NewFromScene : Request::Kind::Open, path.string()};
 }

@@ -10,7 +10,7 @@ struct EditorState;
 
 /// The dialog's state. `entries` is read from disk when `folder` changes, not each frame.
 struct FileBrowser {
-    enum class Purpose { NewFromScene, Open, SaveAs } purpose = Purpose::Open;
+    enum class Purpose { NewFromScene, Open, SaveAs, SkyImage } purpose = Purpose::Open;
     struct Entry {
         std::string name;
         bool isFolder = false;
@@ -22,7 +22,8 @@ struct FileBrowser {
     bool overwrite = false; ///< the user was warned that the file exists
 };
 
-/// Opens the dialog at the folder of the current project, scene or the working directory.
+/// Opens the dialog at the folder of the sky's image (to choose one), of the current project or
+/// scene, or the working directory.
 void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose);
 
 /// Reads `folder`: folders first, then files with an extension that fits the purpose, each by name.

@@ -4,6 +4,7 @@
 #include "editor_ui/background_priority.h"
 #include "engine/files/bake_file.h"
 #include "engine/files/project_file.h"
+#include "engine/files/sky_file.h"
 
 #include <filesystem>
 #include <utility>
@@ -95,6 +96,18 @@ bool FileJob::open(std::string what) {
     });
 }
 
+bool FileJob::openSkyImage(std::string path) {
+    return start([this, path = std::move(path)] {
+        Sky sky{.kind = SkyKind::Image, .image = path};
+        const Result<void> read = readSkyImage(sky);
+        const std::lock_guard lock(m_mutex);
+        if (read)
+            m_sky = std::move(sky);
+        else
+            m_sky = tl::make_unexpected(read.error());
+    });
+}
+
 bool FileJob::save(std::string path, Document document, std::shared_ptr<const Bake> bake) {
     return start(
         [this, path = std::move(path), document = std::move(document), bake = std::move(bake)] {
@@ -112,6 +125,11 @@ bool FileJob::save(std::string path, Document document, std::shared_ptr<const Ba
 std::optional<Result<OpenedFile>> FileJob::takeOpened() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_opened, {});
+}
+
+std::optional<Result<Sky>> FileJob::takeSky() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_sky, {});
 }
 
 std::optional<Result<Document>> FileJob::takeSaved() {

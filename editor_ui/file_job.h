@@ -38,11 +38,14 @@ public:
 
     /// Each starts its work and returns true, or false while another is running.
     bool open(std::string what);
+    bool openSkyImage(std::string path);
     /// Writes the project and, beside it, the bake if there is one.
     bool save(std::string path, Document document, std::shared_ptr<const Bake> bake);
 
     /// What the last open() gave, once.
     std::optional<Result<OpenedFile>> takeOpened();
+    /// The panorama that the last openSkyImage() read, once, or why not.
+    std::optional<Result<Sky>> takeSky();
     /// The document that was written, once, or why not.
     std::optional<Result<Document>> takeSaved();
 
@@ -55,6 +58,7 @@ private:
     std::atomic<bool> m_running{false}, m_cancel{false};
     std::mutex m_mutex; ///< of what follows
     std::optional<Result<OpenedFile>> m_opened;
+    std::optional<Result<Sky>> m_sky;
     std::optional<Result<Document>> m_saved;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/editor_state.h"
 #include "editor_ui/field.h"
+#include "editor_ui/file_browser.h"
 #include "editor_ui/inspector_panel.h"
 
 #include <imgui.h>
@@ -14,10 +15,12 @@
 namespace limn {
 
 static void colorAndStrength(FieldEdit& edit, glm::vec3& radiance, const char* what,
-                             const char* strengthLabel, const char* tooltip) {
+                             const char* colorLabel, const char* strengthLabel,
+                             const char* tooltip) {
+    ImGui::PushID(colorLabel);
     float strength = std::max({radiance.x, radiance.y, radiance.z});
     glm::vec3 color = strength > 0 ? radiance / strength : glm::vec3(1);
-    fieldLabel("Colour", "Linear Rec. 709, brightest component 1");
+    fieldLabel(colorLabel, "Linear Rec. 709, brightest component 1");
     if (ImGui::ColorEdit3("##radianceColor", &color.x, ImGuiColorEditFlags_Float))
         radiance = color * strength;
     fieldEdited(edit, what);
@@ -26,6 +29,7 @@ static void colorAndStrength(FieldEdit& edit, glm::vec3& radiance, const char* w
                            ImGuiSliderFlags_Logarithmic))
         radiance = color * strength;
     fieldEdited(edit, what);
+    ImGui::PopID();
 }
 
 static void textureLine(const EditorState& state, const char* use, const TextureRef& texture) {
@@ -53,7 +57,7 @@ void materialSection(FieldEdit& edit, Material& material) {
     fieldEdited(edit, "Roughness");
     ImGui::Separator();
     ImGui::TextDisabled("Emission");
-    colorAndStrength(edit, material.emission, "Emission", "Emission (nits)",
+    colorAndStrength(edit, material.emission, "Emission", "Colour", "Emission (nits)",
                      "Radiance the surface sends out [nits]; lights the scene without a new bake");
     ImGui::Separator();
     fieldLabel("Double sided", "Seen and lit from both sides; changing it needs a new bake");
@@ -67,9 +71,15 @@ void materialSection(FieldEdit& edit, Material& material) {
 }
 
 static void skyImageRows(FieldEdit& edit, Sky& sky) {
-    fieldLabel("Image", "The panorama round the scene");
-    ImGui::TextUnformatted(sky.image.substr(sky.image.rfind('/') + 1).c_str());
-    wrappedTooltip(sky.image.c_str());
+    fieldLabel("Image", "A panorama in latitude and longitude, .hdr or .exr");
+    const std::string file = sky.image.substr(sky.image.rfind('/') + 1);
+    const std::string shown = !sky.panorama && !file.empty() ? file + " (not found)" : file;
+    if (ImGui::Button("Choose\u2026"))
+        openFileBrowser(edit.state, FileBrowser::Purpose::SkyImage);
+    wrappedTooltip(sky.image.empty() ? "Opens a panorama" : sky.image.c_str());
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    elidedText(shown.empty() ? "none" : shown, ImGui::GetContentRegionAvail().x);
     fieldLabel("Strength", "Times the image's radiance");
     ImGui::SliderFloat("##strength", &sky.strength, 0, 100, "%.3f", ImGuiSliderFlags_Logarithmic);
     fieldEdited(edit, "Sky strength");
@@ -82,10 +92,27 @@ static void skyImageRows(FieldEdit& edit, Sky& sky) {
 }
 
 void skySection(FieldEdit& edit, Sky& sky) {
-    if (sky.panorama)
-        return skyImageRows(edit, sky);
-    colorAndStrength(edit, sky.radiance, "Sky", "Radiance (nits)",
-                     "The same from every direction [nits]; lights the scene without a new bake");
+    int kind = int(sky.kind);
+    fieldLabel("Kind", "Changing it lights the scene anew, without a bake");
+    if (ImGui::Combo("##kind", &kind, "Colour\0Gradient\0Image\0"))
+        sky.kind = SkyKind(kind);
+    fieldEdited(edit, "Sky kind");
+    switch (sky.kind) {
+    case SkyKind::Color:
+        colorAndStrength(
+            edit, sky.radiance, "Sky", "Colour", "Radiance (nits)",
+            "The same from every direction [nits]; lights the scene without a new bake");
+        break;
+    case SkyKind::Gradient:
+        colorAndStrength(edit, sky.radiance, "Sky", "Up", "Up (nits)", "Straight up [nits]");
+        colorAndStrength(edit, sky.horizon, "Sky", "Horizon", "Horizon (nits)",
+                         "From the horizon [nits]");
+        colorAndStrength(edit, sky.ground, "Sky", "Down", "Down (nits)", "Straight down [nits]");
+        break;
+    case SkyKind::Image:
+        skyImageRows(edit, sky);
+        break;
+    }
 }
 
 void cameraSection(FieldEdit& edit, Camera& camera) {

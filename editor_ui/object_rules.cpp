@@ -58,7 +58,8 @@ static bool valid(const Camera& c) {
 }
 
 static bool valid(const Sky& s) {
-    return atLeastZero(s.radiance) && atLeastZero(s.strength) && std::isfinite(s.rotation);
+    return atLeastZero(s.radiance) && atLeastZero(s.horizon) && atLeastZero(s.ground) &&
+           atLeastZero(s.strength) && std::isfinite(s.rotation);
 }
 
 static bool valid(const BakeSettings& b) {

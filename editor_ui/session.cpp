@@ -67,6 +67,13 @@ void Session::handle(const Request& request) {
     case Request::Kind::Open:
         open(request.path);
         break;
+    case Request::Kind::OpenSkyImage:
+        if (m_files.openSkyImage(request.path))
+            state.loading = request.path;
+        else
+            log(LogLine::Level::Warning,
+                "Busy with another file; " + request.path + " was not opened");
+        break;
     case Request::Kind::Save:
         if (m_files.save(request.path, state.document, m_baked.preview ? nullptr : m_baked.bake))
             m_savingTo = request.path;
@@ -130,6 +137,19 @@ void Session::takeOpened() {
     useBake(std::move(file.baked));
     m_bakeSoon = !hasBake && m_options.bakeOnOpen && !m_scene->instances.empty();
     m_lightEdited = false;
+}
+
+void Session::takeSky() {
+    auto read = m_files.takeSky();
+    if (!read)
+        return;
+    state.loading.clear();
+    if (!*read) {
+        log(LogLine::Level::Error, "Sky image: " + read->error().message);
+        return;
+    }
+    log(LogLine::Level::Info, "Opened " + (*read)->image);
+    setSkyImage(state, **read);
 }
 
 void Session::takeSaved() {
@@ -249,6 +269,7 @@ void Session::update() {
     for (const Request& request : std::exchange(state.requests, {}))
         handle(request);
     takeOpened();
+    takeSky();
     takeSaved();
     takeBaked();
     followDocument();

@@ -51,6 +51,7 @@ public:
 private:
     void handle(const Request& request);
     void takeOpened();
+    void takeSky();
     void takeSaved();
     void takeBaked();
     void followDocument();

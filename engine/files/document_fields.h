@@ -96,7 +96,10 @@ void describeCamera(Fields& fields, T& c) {
 
 template <class Fields, class T>
 void describeSky(Fields& fields, T& s) {
+    fields("kind", s.kind, kSkyNames);
     fields("radiance", s.radiance, kNotNegative);
+    fields("horizon", s.horizon, kNotNegative);
+    fields("ground", s.ground, kNotNegative);
     fields("image", s.image);
     fields("strength", s.strength, kNotNegative);
     fields("rotation", s.rotation);

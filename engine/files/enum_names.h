@@ -12,6 +12,7 @@ inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp"
 inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};
 inline constexpr std::array<std::string_view, 4> kLightNames = {"directional", "point", "spot",
                                                                 "rectangle"};
+inline constexpr std::array<std::string_view, 3> kSkyNames = {"color", "gradient", "image"};
 inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
 inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
 inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};

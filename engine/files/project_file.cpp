@@ -41,6 +41,7 @@ Result<void> saveProject(const std::string& path, const Document& document) {
             if (!image)
                 return fail(fmt::format("{}: sky: {}", path, image.error().message));
             sky->image = *image;
+            sky->panorama = nullptr; // its file holds it
         }
     // What would not load again must not replace what does.
     const std::string text = documentToJson(stored);

@@ -125,6 +125,7 @@ void Image::swap(Image& other) noexcept {
 
 static VkDeviceSize texelBytes(VkFormat format) {
     switch (int(format)) {
+    case VK_FORMAT_E5B9G9R9_UFLOAT_PACK32:
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_B8G8R8A8_UNORM:

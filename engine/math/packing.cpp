@@ -18,6 +18,29 @@ std::uint16_t floatToHalf(float value) {
     return std::uint16_t(sign | std::uint16_t((rounded >> 13) - (112U << 10)));
 }
 
+std::uint32_t packRgb9e5(glm::vec3 color) {
+    constexpr float kMost = 65408; // 511/512 2^16
+    for (int c = 0; c < 3; ++c)
+        color[c] = color[c] > 0 ? std::min(color[c], kMost) : 0.f;
+    const float most = std::max({color.x, color.y, color.z});
+    int exponent = -15; // of the step's 2^9 multiple: values lie below 2^exponent
+    if (most > 0)
+        exponent = std::max(std::ilogb(most) + 1, exponent);
+    if (std::lround(std::ldexp(most, 9 - exponent)) == 512)
+        ++exponent;
+    const auto mantissa = [&](float v) {
+        return std::uint32_t(std::lround(std::ldexp(v, 9 - exponent)));
+    };
+    return mantissa(color.x) | mantissa(color.y) << 9 | mantissa(color.z) << 18 |
+           std::uint32_t(exponent + 15) << 27;
+}
+
+glm::vec3 unpackRgb9e5(std::uint32_t packed) {
+    const float step = std::ldexp(1.f, int(packed >> 27) - 15 - 9);
+    return step *
+           glm::vec3(float(packed & 511), float(packed >> 9 & 511), float(packed >> 18 & 511));
+}
+
 Oct16 packOct(glm::vec3 d) {
     const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
     glm::vec2 p = sum > 0 ? glm::vec2(d.x, d.y) / sum : glm::vec2(0);

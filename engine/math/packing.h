@@ -22,6 +22,12 @@ inline float halfToFloat(std::uint16_t h) {
     return std::bit_cast<float>(bits) * 0x1p112f;
 }
 
+/// A colour >= 0 in 32 bits: mantissas of 9 bits each in r, g, b from the lowest bit on, and 5 bits
+/// of one exponent. Within 1/1024 of the largest component; above 65408 that, negative and NaN 0.
+/// VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, after the Vulkan specification's "RGB to Shared Exponent".
+std::uint32_t packRgb9e5(glm::vec3 color);
+glm::vec3 unpackRgb9e5(std::uint32_t packed);
+
 /// Unit vector <-> octahedron in 2 x 16-bit snorm; error below 6.5e-5 rad.
 /// Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014
 struct Oct16 {

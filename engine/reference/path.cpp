@@ -14,7 +14,7 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kRouletteBounce = 3; ///< shorter paths are never cut
-constexpr std::uint32_t kDimensionsPerBounce = 4;
+constexpr std::uint32_t kDimensionsPerBounce = 5;
 
 // Power heuristic, exponent 2. Veach. Robust Monte Carlo Methods for Light Transport. 1997
 float misWeight(float pdf, float other) {
@@ -42,6 +42,19 @@ glm::vec3 emitterIrradiance(const PathContext& c, const SurfacePoint& p, float p
     return s.radiance * (cosTheta / s.pdf * misWeight(s.pdf, bouncePdf));
 }
 
+// Irradiance from one direction of the sky's image, weighted against the chance of the bounce.
+glm::vec3 skyIrradiance(const PathContext& c, const SurfacePoint& p, glm::vec2 u,
+                        std::uint64_t& rays) {
+    const SkySample s = sampleSky(c.sky, c.trace.scene().sky, u);
+    const float cosTheta = glm::dot(p.normal, s.direction);
+    if (!(s.pdf > 0) || !(cosTheta > 0) || !(glm::dot(p.geometricNormal, s.direction) > 0))
+        return glm::vec3(0);
+    ++rays;
+    if (c.trace.occluded({rayOrigin(c.trace, p), s.direction}))
+        return glm::vec3(0);
+    return s.radiance * (cosTheta / s.pdf * misWeight(s.pdf, cosTheta / glm::pi<float>()));
+}
+
 } // namespace
 
 // E = sum over path vertices of the throughput T (product of albedos after the first surface, which
@@ -58,13 +71,18 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
         if (!c.emitters.empty())
             E += T * emitterIrradiance(c, p, picks.x, sampler.pair(dimension + 1), rays);
 
+        if (!c.sky.empty())
+            E += T * skyIrradiance(c, p, sampler.pair(dimension + 4), rays);
+
         const glm::vec3 direction = sampleCosineHemisphere(p.normal, sampler.pair(dimension + 2));
         if (!(glm::dot(direction, p.geometricNormal) > 0))
             break; // under the surface's own horizon
         ++rays;
         const Hit hit = c.trace.closestHit({rayOrigin(c.trace, p), direction});
         if (!hit) {
-            E += T * pi * skyRadiance(c.trace.scene().sky, direction);
+            const glm::vec3 radiance = skyRadiance(c.trace.scene().sky, direction);
+            const float bouncePdf = glm::dot(p.normal, direction) / pi;
+            E += T * pi * radiance * misWeight(bouncePdf, skyPdf(c.sky, radiance));
             break;
         }
         const std::optional<SurfacePoint> next = surfacePoint(c.trace, hit);

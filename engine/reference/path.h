@@ -3,6 +3,7 @@
 
 #include "engine/reference/emitters.h"
 #include "engine/reference/sampler.h"
+#include "engine/reference/sky_light.h"
 #include "engine/reference/surface_point.h"
 
 #include <cstdint>
@@ -13,6 +14,7 @@ namespace limn {
 struct PathContext {
     const TraceScene& trace;
     const Emitters& emitters;
+    const SkyLight& sky;
     std::uint32_t maxBounces = 64;
 };
 

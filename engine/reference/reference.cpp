@@ -98,7 +98,8 @@ ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions&
                                 const Progress& progress) {
     assert(options.width > 0 && options.height > 0);
     const Emitters emitters = findEmitters(trace);
-    const PathContext context{trace, emitters, options.maxBounces};
+    const SkyLight sky = findSkyLight(trace.scene().sky);
+    const PathContext context{trace, emitters, sky, options.maxBounces};
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     std::vector<PixelSum> sums(pixels);
@@ -142,7 +143,8 @@ glm::vec3 referenceIrradiance(const TraceScene& trace, glm::vec3 position, glm::
                               std::uint32_t seed) {
     assert(samples > 0);
     const Emitters emitters = findEmitters(trace);
-    const PathContext context{trace, emitters, maxBounces};
+    const SkyLight sky = findSkyLight(trace.scene().sky);
+    const PathContext context{trace, emitters, sky, maxBounces};
     SurfacePoint p;
     p.position = position;
     p.normal = p.geometricNormal = normal;

@@ -50,6 +50,7 @@ struct Relighter::State {
     std::vector<glm::vec3> albedo;   ///< per surfel
     std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
     Sky sky;
+    bool blackSky = true;
     SurfelLight direct;
     std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
     std::vector<glm::vec4> radiosity; ///< per node
@@ -119,6 +120,7 @@ bool Relighter::State::updateSky(const Scene& scene) {
     const std::vector<glm::vec3> cells = skyCellRadiance(sky);
     for (std::uint32_t c = 0; c < tree.skyCells; ++c)
         radiosity[tree.surfels + c] = glm::vec4(cells[skyCellOf(tree.skyDirection[c])] * kPi, 0);
+    blackSky = std::ranges::all_of(cells, [](glm::vec3 c) { return c == glm::vec3(0); });
     return true;
 }
 
@@ -171,9 +173,8 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     }
     s.started = true;
     s.converged = false;
-    const bool blackSky = s.sky.radiance == glm::vec3(0);
-    const LinkEnds ends = blackSky ? s.beforeSky : s.everyLink;
-    stats.skyLinksSkipped = blackSky ? s.skyLinks : 0;
+    const LinkEnds ends = s.blackSky ? s.beforeSky : s.everyLink;
+    stats.skyLinksSkipped = s.blackSky ? s.skyLinks : 0;
     const Caches& caches = s.bake->caches;
     const auto all = std::uint32_t(caches.size());
     for (std::uint32_t k = 0; k < bounces && !s.converged; ++k) {

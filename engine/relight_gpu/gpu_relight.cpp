@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight_gpu/gpu_relight.h"
 
+#include "engine/bake/cluster_tree.h"
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
 #include "engine/relight_gpu/relight_steps.h"
@@ -51,7 +52,7 @@ struct GpuRelighter::State {
     std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
     Sent direct, albedo, emitted;
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
-    glm::vec3 sky{0};
+    std::vector<glm::vec3> sky;                 ///< as SurfelInputs::skyCells
     std::uint64_t fieldVersion = 0;
 
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats);
@@ -112,6 +113,7 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         gpu::updateBuffer(device, cmd, to, first * sizeof(glm::vec4), std::as_bytes(std::span(v)));
         stats.bytesUploaded += v.size() * sizeof(glm::vec4);
     };
+    assert(inputs.skyCells.empty() || inputs.skyCells.size() == kSkyCells);
     const auto sendIfNew = [&](Sent& sent, std::span<const glm::vec3> values) {
         assert(values.size() == bake->surfels.size());
         if (started && std::ranges::equal(sent.values, values))
@@ -126,10 +128,12 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         lightsVersion.reset();
     }
     changed |= sendIfNew(emitted, inputs.emitted);
-    if (!started || sky != inputs.skyRadiance) {
-        sky = inputs.skyRadiance;
-        send(buffers.radiosity, bake->tree.surfels,
-             std::vector(bake->tree.skyCells, glm::vec4(sky * kPi, 0)));
+    if (!started || !std::ranges::equal(sky, inputs.skyCells)) {
+        sky.assign(inputs.skyCells.begin(), inputs.skyCells.end());
+        std::vector<glm::vec4> sent(bake->tree.skyCells, glm::vec4(0));
+        for (std::size_t c = 0; c < sent.size() && !sky.empty(); ++c)
+            sent[c] = glm::vec4(sky[skyCellOf(bake->tree.skyDirection[c])] * kPi, 0);
+        send(buffers.radiosity, bake->tree.surfels, sent);
         // It reaches the caches in the first round and the surfels' radiosity in the second.
         unseenRounds = 2;
         changed = true;

@@ -19,9 +19,9 @@ namespace limn {
 struct SurfelInputs {
     /// Irradiance from lights, shadows included [W m^-2], >= 0. Not read where `lights` is set.
     std::span<const glm::vec3> direct;
-    std::span<const glm::vec3> albedo;  ///< [0, 0.99]
-    std::span<const glm::vec3> emitted; ///< pi L_e [W m^-2], >= 0
-    glm::vec3 skyRadiance{0};           ///< [W m^-2 sr^-1], >= 0
+    std::span<const glm::vec3> albedo;   ///< [0, 0.99]
+    std::span<const glm::vec3> emitted;  ///< pi L_e [W m^-2], >= 0
+    std::span<const glm::vec3> skyCells; ///< as skyCellRadiance(Sky); empty: black
     /// Where set, irradiance comes from these and their shadow maps, anew when their version is.
     const ShadowedLights* lights = nullptr;
 };

@@ -10,6 +10,7 @@
 #include "engine/render/light_table.h"
 #include "engine/render/overlay_pass.h"
 #include "engine/render/shadow_maps.h"
+#include "engine/render/sky_pass.h"
 #include "engine/render/tonemap_pass.h"
 
 #include <algorithm>
@@ -96,6 +97,8 @@ struct Viewport::Impl {
     void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
     void recordShade(VkCommandBuffer cmd, const FrameSlot& slot, const GeometryView& view,
                      const ViewportOptions& options);
+    void recordSky(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options,
+                   std::uint32_t slotIndex);
     void recordDirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options);
     void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
     void recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
@@ -109,6 +112,7 @@ struct Viewport::Impl {
     gpu::Sampler lightmapSampler;
     GeometryPasses geometry;
     DirectPass direct;
+    SkyPass sky;
     gpu::Sampler texelSampler;
     TonemapPass tonemap;
     OverlayPass overlay;
@@ -119,7 +123,6 @@ struct Viewport::Impl {
     LightTable relightTable;   ///< of the last shadowedLights()
     std::vector<Light> relightLights;
     std::uint64_t relightScene = 0, relightVersion = 0;
-    glm::vec3 sky{0};
     std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
     bool warnedUnshadowed = false;
     Targets targets;
@@ -137,6 +140,7 @@ Viewport::Impl::Impl(gpu::Device& d)
                                              .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                              .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       geometry(d, frameLayout.handle, materials.layout()), direct(d, frameLayout.handle),
+      sky(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
       tonemap(d), overlay(d), shadows(d), indirect(createIndirectLight(d)) {
@@ -274,7 +278,7 @@ void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
     discard(targets.depth, gpu::kDepthWrite);
     VkClearValue background{}, none{};
     if (options.view == View::Lit)
-        background.color = {{sky.r, sky.g, sky.b, 0}};
+        background.color = {{sky.colour().r, sky.colour().g, sky.colour().b, 0}};
     const std::array colors = {
         attachment(targets.linear.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                    VK_ATTACHMENT_LOAD_OP_CLEAR, background),
@@ -293,6 +297,20 @@ void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
                       gpu::kFragmentRead);
     gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
                       gpu::kFragmentRead);
+}
+
+void Viewport::Impl::recordSky(VkCommandBuffer cmd, const FrameSlot& slot,
+                               const ViewportOptions& options, std::uint32_t slotIndex) {
+    if (options.view != View::Lit || !sky.active())
+        return;
+    gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
+    const std::array color = {attachment(targets.linear.view,
+                                         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                         VK_ATTACHMENT_LOAD_OP_LOAD, {})};
+    beginRendering(cmd, options.width, options.height, color, nullptr);
+    setViewport(cmd, options.width, options.height, false);
+    sky.record(cmd, slot.set, slotIndex);
+    vkCmdEndRendering(cmd);
 }
 
 void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
@@ -390,7 +408,7 @@ void Viewport::setScene(const Scene& scene, std::shared_ptr<const LightmapLayout
 
 void Viewport::setLighting(const Scene& scene) {
     m_impl->maskVersion += m_impl->materials.update(scene);
-    m_impl->sky = meanRadiance(scene.sky);
+    m_impl->sky.set(scene.sky);
     m_impl->lights.clear();
     for (const Light& light : scene.lights) {
         const glm::vec3 strength = light.color * light.strength;
@@ -458,6 +476,7 @@ void Viewport::render(const ViewportOptions& options) {
     v.recordShadows(cmd, slot, slotIndex, direct);
     mark(kShadowsDone);
     v.recordShade(cmd, slot, view, options);
+    v.recordSky(cmd, slot, options, slotIndex);
     v.recordDirect(cmd, slot, options);
     mark(kShadeDone);
     v.recordTonemap(cmd, options, slotIndex);

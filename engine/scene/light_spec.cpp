@@ -160,11 +160,38 @@ Result<Light> parseLight(std::string_view spec) {
     return light;
 }
 
+static Result<void> applySkyWord(Sky& sky, std::string_view word) {
+    const std::size_t equals = word.find('=');
+    const std::string_view key = word.substr(0, equals);
+    glm::vec3* field = key == "up"        ? &sky.radiance
+                       : key == "horizon" ? &sky.horizon
+                       : key == "ground"  ? &sky.ground
+                                          : nullptr;
+    if (equals == std::string_view::npos || !field)
+        return fail(fmt::format("'{}': expected up=, horizon= or ground=", word));
+    const Result<glm::vec3> color = parseColor(word, word.substr(equals + 1));
+    if (!color)
+        return tl::make_unexpected(color.error());
+    *field = *color;
+    return {};
+}
+
 Result<Sky> parseSky(std::string_view spec) {
-    const Result<glm::vec3> radiance = parseColor(spec, spec);
-    if (!radiance)
-        return fail(fmt::format("sky {}", radiance.error().message));
-    return Sky{*radiance};
+    Sky sky;
+    const std::vector<std::string_view> words = split(spec, ' ');
+    if (words[0] != "gradient") {
+        const Result<glm::vec3> radiance = parseColor(spec, spec);
+        if (!radiance)
+            return fail(fmt::format("sky {}", radiance.error().message));
+        sky.radiance = *radiance;
+        return sky;
+    }
+    sky.kind = SkyKind::Gradient;
+    for (std::size_t i = 1; i < words.size(); ++i)
+        if (!words[i].empty())
+            if (const Result<void> applied = applySkyWord(sky, words[i]); !applied)
+                return fail(fmt::format("sky '{}': {}", spec, applied.error().message));
+    return sky;
 }
 
 } // namespace limn

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/sky.h"
 
+#include <cmath>
 #include <tuple>
+
+#include <glm/common.hpp>
 
 namespace limn {
 
@@ -13,31 +16,37 @@ std::shared_ptr<const SkyImage> makeSkyImage(ImageF pixels) {
 }
 
 bool Sky::operator==(const Sky& o) const {
-    return std::tie(radiance, image, strength, rotation) ==
-           std::tie(o.radiance, o.image, o.strength, o.rotation);
+    return std::tie(kind, radiance, horizon, ground, image, strength, rotation) ==
+               std::tie(o.kind, o.radiance, o.horizon, o.ground, o.image, o.strength, o.rotation) &&
+           !panorama == !o.panorama;
+}
+
+static glm::vec3 gradient(const Sky& sky, float height) {
+    return glm::mix(sky.horizon, height > 0 ? sky.radiance : sky.ground, std::abs(height));
 }
 
 glm::vec3 skyRadiance(const Sky& sky, glm::vec3 d) {
-    return sky.panorama ? sky.strength * skyRadiance(sky.panorama->pixels, sky.rotation, d)
-                        : sky.radiance;
+    if (sky.kind == SkyKind::Gradient)
+        return gradient(sky, d.y);
+    if (sky.showsImage())
+        return sky.strength * skyRadiance(sky.panorama->pixels, sky.rotation, d);
+    return sky.radiance;
 }
 
 std::vector<glm::vec3> skyCellRadiance(const Sky& sky) {
-    if (!sky.panorama)
-        return std::vector<glm::vec3>(kSkyBands * kSkySectors, sky.radiance);
-    std::vector<glm::vec3> cells = skyCellRadiance(sky.panorama->bands, kSkySectors, sky.rotation);
-    for (glm::vec3& cell : cells)
-        cell *= sky.strength;
+    std::vector<glm::vec3> cells(kSkyBands * kSkySectors, sky.radiance);
+    if (sky.kind == SkyKind::Gradient) {
+        // Linear within a band, since none reaches across the horizon: the mean is the middle's.
+        static_assert(kSkyBands % 2 == 0);
+        for (std::uint32_t c = 0; c < cells.size(); ++c)
+            cells[c] = gradient(sky, (float(c / kSkySectors) + 0.5f) * 2 / kSkyBands - 1);
+    }
+    if (sky.showsImage()) {
+        cells = skyCellRadiance(sky.panorama->bands, kSkySectors, sky.rotation);
+        for (glm::vec3& cell : cells)
+            cell *= sky.strength;
+    }
     return cells;
-}
-
-glm::vec3 meanRadiance(const Sky& sky) {
-    if (!sky.panorama)
-        return sky.radiance;
-    glm::vec3 sum(0);
-    for (const glm::vec3 cell : skyCellRadiance(sky))
-        sum += cell;
-    return sum / float(kSkyBands * kSkySectors);
 }
 
 } // namespace limn

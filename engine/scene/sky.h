@@ -3,6 +3,7 @@
 
 #include "engine/scene/sky_image.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -18,25 +19,29 @@ struct SkyImage {
 };
 std::shared_ptr<const SkyImage> makeSkyImage(ImageF pixels);
 
-/// One colour, or an image round the scene. One per document.
+enum class SkyKind : std::uint8_t { Color, Gradient, Image };
+
+/// The light from all round the scene. One per document. Colours are linear [nits].
 struct Sky {
-    glm::vec3 radiance{0}; ///< [nits], linear; of all directions where there is no image
+    SkyKind kind = SkyKind::Color;
+    glm::vec3 radiance{0}; ///< of all directions; of a gradient: straight up
+    glm::vec3 horizon{0};  ///< of a gradient, which is linear in the sine of the elevation
+    glm::vec3 ground{0};   ///< of a gradient, straight down
     std::string image;     ///< panorama's file, as opened; empty: none
     float strength = 1;    ///< times the image's radiance, >= 0
     float rotation = 0;    ///< of the image about +Y, from +Z towards +X [rad]
-    /// Pixels of `image`. Without them the sky has its colour. Not compared: the file's name is.
+    /// Pixels of `image`. Without them an image is one colour. Compared by being there: the file's
+    /// name says the rest.
     std::shared_ptr<const SkyImage> panorama = nullptr;
 
     bool operator==(const Sky& other) const;
+    bool showsImage() const { return kind == SkyKind::Image && panorama; }
 };
 
 /// Radiance [nits] from direction `d` (unit).
 glm::vec3 skyRadiance(const Sky& sky, glm::vec3 d);
 
-/// Mean radiance of each cell, by skyCellOf().
+/// Mean radiance of each cell, by skyCellOf(): exact for every kind.
 std::vector<glm::vec3> skyCellRadiance(const Sky& sky);
-
-/// Mean over all directions.
-glm::vec3 meanRadiance(const Sky& sky);
 
 } // namespace limn

@@ -44,6 +44,8 @@ TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
     EXPECT_FALSE(validWith<Material>([](Material& m) { m.baseColor.x = 1.5f; }));
     EXPECT_FALSE(validWith<Material>([](Material& m) { m.emission.y = -0.1f; }));
     EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.radiance.z = -1; }));
+    EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.ground.x = -1; }));
+    EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.rotation = NAN; }));
     EXPECT_FALSE(validWith<Camera>([](Camera& c) { c.target = c.eye; }));
     EXPECT_FALSE(validWith<BakeSettings>([](BakeSettings& b) { b.bands = 9; }));
     EXPECT_FALSE(validWith<BakeSettings>([](BakeSettings& b) { b.surfels = 63; }));

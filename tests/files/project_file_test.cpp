@@ -66,7 +66,8 @@ TEST(ProjectFile, TheSkysImageIsStoredRelativeAndReadAgain) {
     ImportedScene scene = *importGltf(w.scene());
     const ImageF panorama{2, 1, {{1, 2, 3}, {4, 5, -6}}};
     ASSERT_TRUE(writeExr(w.file("models/sky.exr"), panorama));
-    Sky sky{.image = w.file("models/sky.exr"), .strength = 2, .rotation = 0.5f};
+    Sky sky{
+        .kind = SkyKind::Image, .image = w.file("models/sky.exr"), .strength = 2, .rotation = 0.5f};
     ASSERT_TRUE(readSkyImage(sky));
     EXPECT_EQ(sky.panorama->pixels.rgb[1], glm::vec3(4, 5, 0)) << "no light is negative";
     for (auto& [id, object] : scene.document.objects)

@@ -49,6 +49,7 @@ private:
     float notNegative() { return std::abs(number()); }
     float unit() { return float(m_random() & 0xffffff) / float(0xffffff); }
     glm::vec3 vec3() { return {number(), number(), number()}; }
+    glm::vec3 color() { return {notNegative(), notNegative(), notNegative()}; }
     glm::vec3 direction() {
         glm::vec3 d{unit() - 0.5f, unit() - 0.5f, unit() + 0.01f};
         return glm::normalize(d);
@@ -134,8 +135,8 @@ private:
             return c;
         }
         case 3:
-            return Sky{
-                {notNegative(), notNegative(), notNegative()}, text(), notNegative(), number()};
+            return Sky{SkyKind(below(3)), color(), color(), color(), text(),
+                       notNegative(),     number()};
         default: {
             BakeSettings b;
             b.surfels = 64 + below(1000000);

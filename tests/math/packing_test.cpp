@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace limn {
 namespace {
 
@@ -26,6 +28,29 @@ TEST(Half, RoundsToTheNearestHalf) {
     EXPECT_EQ(floatToHalf(0x1p-26f), 0U);
     for (float v = 0x1p-14f; v < 60000; v *= 1.0137f)
         EXPECT_NEAR(halfToFloat(floatToHalf(v)) / v, 1, 0x1p-11 + 1e-7);
+}
+
+TEST(Rgb9e5, IsWithinHalfAStepOfTheLargestComponentAndNeverNegativeOrInfinite) {
+    for (float most = 0x1p-13f; most < 65408; most *= 1.37f) {
+        const glm::vec3 color(most, most * 0.3f, most * 0.01f);
+        const glm::vec3 back = unpackRgb9e5(packRgb9e5(color));
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LE(std::abs(back[c] - color[c]), most / 512) << most;
+    }
+    const float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(unpackRgb9e5(packRgb9e5({65408, 1e30f, infinity})), glm::vec3(65408));
+    EXPECT_EQ(unpackRgb9e5(packRgb9e5({-1, std::nanf(""), 0x1p-26f})), glm::vec3(0));
+    EXPECT_EQ(unpackRgb9e5(packRgb9e5({0x1p-24f, 0, 0})), glm::vec3(0x1p-24f, 0, 0));
+    // Rounding up carries into the exponent.
+    EXPECT_EQ(unpackRgb9e5(packRgb9e5({1023.9f, 512, 0})), glm::vec3(1024, 512, 0));
+}
+
+TEST(Rgb9e5, EveryPackedNumberThatPackingGivesSurvives) {
+    for (std::uint32_t exponent = 0; exponent < 32; ++exponent)
+        for (std::uint32_t m = exponent > 0 ? 256 : 0; m < 512; ++m) {
+            const std::uint32_t packed = exponent << 27 | m | (m / 2) << 9 | 1U << 18;
+            EXPECT_EQ(packRgb9e5(unpackRgb9e5(packed)), packed);
+        }
 }
 
 // Half a step of 1/32767 in x and y, twice that in z, over the octahedron's least length 1/sqrt(3).

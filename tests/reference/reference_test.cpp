@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/reference.h"
+#include "engine/reference/sky_light.h"
 
 #include "engine/core/parallel.h"
 #include "tests/trace/simple_scene.h"
@@ -262,8 +263,11 @@ TEST(Reference, APanoramaLightsByTheIntegralOfItsRadiance) {
     ImageF panorama{4, 2, std::vector<glm::vec3>(8, glm::vec3(100))};
     for (int x = 0; x < 4; ++x)
         panorama.rgb[std::size_t(x)] = glm::vec3(x == 2 ? 3.f : 0.f);
-    b.scene.sky = {
-        .radiance = glm::vec3(9), .image = "x", .strength = 2, .panorama = makeSkyImage(panorama)};
+    b.scene.sky = {.kind = SkyKind::Image,
+                   .radiance = glm::vec3(9),
+                   .image = "x",
+                   .strength = 2,
+                   .panorama = makeSkyImage(panorama)};
     const TraceScene trace(b.build());
     const auto up = referenceIrradiance(trace, glm::vec3(0), {0, 1, 0}, 4096, 1, false, 1);
     EXPECT_NEAR(double(up.x), kPi * 2 * 3 / 4, 0.02); // a quarter of the hemisphere
@@ -273,6 +277,41 @@ TEST(Reference, APanoramaLightsByTheIntegralOfItsRadiance) {
     };
     EXPECT_EQ(pixel({1, 2, -1}), glm::vec3(6));
     EXPECT_EQ(pixel({-1, 2, -1}), glm::vec3(0));
+}
+
+TEST(Reference, ASmallSunInAPanoramaIsFoundAtEverySample) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0)));
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    ImageF panorama{512, 256, std::vector<glm::vec3>(512 * 256, glm::vec3(1))};
+    const std::uint32_t row = 64, column = 300; // 45 degrees high
+    panorama.rgb[row * 512 + column] = glm::vec3(1e6f);
+    b.scene.sky = {.kind = SkyKind::Image, .rotation = 0.7f, .panorama = makeSkyImage(panorama)};
+    const TraceScene trace(b.build());
+    const double step = kPi / 256, upper = std::cos(row * step), lower = std::cos((row + 1) * step);
+    const double sun = (1e6 - 1) * step * (upper * upper - lower * lower) / 2; // of the mean height
+    const auto up = referenceIrradiance(trace, glm::vec3(0), {0, 1, 0}, 256, 1, false, 1);
+    EXPECT_NEAR(double(up.x), kPi + sun, 5e-3 * sun);
+    // And is where it is seen.
+    const SkyLight light = findSkyLight(trace.scene().sky);
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec2 u((float(i) + 0.5f) / 100, std::fmod(float(i) * 0.618f, 1.f));
+        const SkySample s = sampleSky(light, trace.scene().sky, u);
+        EXPECT_EQ(skyRadiance(trace.scene().sky, s.direction), s.radiance);
+    }
+}
+
+TEST(Reference, AGradientIsLinearInTheHeight) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0)));
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    b.scene.sky = {.kind = SkyKind::Gradient, .radiance = {4, 0, 0}, .horizon = {1, 2, 0}};
+    b.scene.sky.ground = glm::vec3(100);
+    const TraceScene trace(b.build());
+    // Of h + (z - h) y, with the cosine y: pi h + 2 pi / 3 (z - h).
+    const auto up = referenceIrradiance(trace, glm::vec3(0), {0, 1, 0}, 4096, 1, false, 1);
+    EXPECT_NEAR(double(up.x), kPi * (1 + 2.0 / 3 * 3), 2e-2);
+    EXPECT_NEAR(double(up.y), kPi * (2 - 2.0 / 3 * 2), 2e-2);
 }
 
 TEST(Reference, LitIsDirectPlusIndirectPlusOwnEmission) {

@@ -110,7 +110,7 @@ TEST(Sky, AConstantPanoramaIsAConstantColourAndATurnIsSeenAtOnce) {
     const Lit lit = light(scene);
     const std::vector<glm::vec3> colour = lit.relighter->cacheSh();
     const ImageF constant{8, 4, std::vector<glm::vec3>(32, {1, 2, 3})};
-    scene.sky = {.image = "constant", .panorama = makeSkyImage(constant)};
+    scene.sky = {.kind = SkyKind::Image, .image = "constant", .panorama = makeSkyImage(constant)};
     const TraceScene trace(scene);
     while (!lit.relighter->relight(scene, trace, 8).converged) {
     }
@@ -124,7 +124,7 @@ TEST(Sky, AConstantPanoramaIsAConstantColourAndATurnIsSeenAtOnce) {
     ImageF half{8, 4, std::vector<glm::vec3>(32, glm::vec3(0))};
     for (std::size_t i = 0; i < 32; ++i)
         half.rgb[i] = glm::vec3(i % 8 >= 4); // +X shines
-    scene.sky = {.image = "half", .panorama = makeSkyImage(half)};
+    scene.sky = {.kind = SkyKind::Image, .image = "half", .panorama = makeSkyImage(half)};
     const auto beside = [&](float x, float rotation) {
         scene.sky.rotation = rotation;
         while (!lit.relighter->relight(scene, trace, 8).converged) {

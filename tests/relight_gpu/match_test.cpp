@@ -148,7 +148,7 @@ TEST_F(GpuMatch, FollowsTheLightAsTheCpuDoes) {
                        largest(cpu.cacheSh()));
     };
     expectSame(100);
-    scene.sky.radiance = {2, 1, 0};
+    scene.sky = {.kind = SkyKind::Gradient, .radiance = {2, 1, 0}, .horizon = {1, 1, 5}};
     expectSame(1);
     expectSame(2);
     scene.lights[0].color = {0, 1, 0.5f};

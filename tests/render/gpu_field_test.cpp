@@ -64,7 +64,8 @@ TEST_F(ViewportGpuField, ShowsWhatIsRelitBetweenFramesWithoutAnotherCall) {
     for (auto* v : {&values.direct, &values.emitted})
         for (glm::vec3& c : *v)
             c *= 2;
-    values.sky *= 2;
+    for (glm::vec3& cell : values.sky)
+        cell *= 2;
     relighter->relight(values.inputs(), 30);
     EXPECT_NEAR(meanOf(draw(scene, View::Irradiance)), 2 * once, 2e-3 * once);
 }

@@ -271,6 +271,37 @@ TEST_F(ViewportViews, TheBackgroundIsTheSkyInLitAndBlackElsewhere) {
     }
 }
 
+TEST_F(ViewportViews, TheBackgroundShowsGradientAndImageAsSkyRadianceSays) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::quad({-1, -1, 5}, {2, 0, 0}, {0, 2, 0})); // behind the camera
+    options.camera = {.eye = {0, 0, 0}, .target = {0.3f, 0.1f, -1}, .fovY = 2};
+    ImageF panorama{64, 32, {}};
+    for (int i = 0; i < 64 * 32; ++i)
+        panorama.rgb.push_back({float(i % 64), float(i / 64), 63});
+    const Sky gradient{.kind = SkyKind::Gradient,
+                       .radiance = {4, 2, 1},
+                       .horizon = {0.5f, 1, 3},
+                       .ground = {0, 0, 9}};
+    const Sky image{
+        .kind = SkyKind::Image, .strength = 2, .rotation = 2, .panorama = makeSkyImage(panorama)};
+    for (const Sky& sky : {gradient, image, gradient}) {
+        b.scene.sky = sky;
+        const ImageF drawn = draw(b.build(), View::Lit);
+        int apart = 0;
+        for (std::uint32_t y = 0; y < 32; ++y)
+            for (std::uint32_t x = 0; x < 32; ++x) {
+                const glm::vec3 d = rayDirection(options.camera, 1, (float(x) + 0.5f) / 16 - 1,
+                                                 1 - (float(y) + 0.5f) / 16);
+                const glm::vec3 off = pixel(drawn, x, y) - skyRadiance(sky, glm::normalize(d));
+                // Of 63 * 2, half a step of RGB9E5 is an eighth.
+                apart += glm::length(off) > (sky.kind == SkyKind::Image ? 0.25f : 1e-5f);
+            }
+        EXPECT_LE(apart, sky.kind == SkyKind::Image ? 4 : 0)
+            << "but for rays through pixels' edges";
+    }
+}
+
 TEST_F(ViewportViews, NormalsAreThoseOfTheWorldMappedFromMinusOneToOne) {
     const glm::vec3 n = glm::normalize(glm::vec3(0.3f, 1, -0.2f));
     simple::SceneBuilder b = plane();

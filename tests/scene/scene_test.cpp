@@ -116,7 +116,7 @@ TEST(Flatten, ObjectsKeepTheOrderOfTheirIds) {
     addObject(document, Light{.name = "a"});
     addObject(document, Material{.name = "m"});
     addObject(document, Light{.name = "b", .enabled = false});
-    addObject(document, Sky{{1, 2, 3}});
+    addObject(document, Sky{.radiance = {1, 2, 3}});
     addObject(document, BakeSettings{.surfels = 77});
     const Scene scene = flatten(document, nullptr);
     ASSERT_EQ(scene.lights.size(), 2u);

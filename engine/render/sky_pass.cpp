@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/sky_pass.h"
+
+#include "engine/core/log.h"
+#include "engine/gpu/uploader.h"
+#include "engine/math/packing.h"
+#include "engine/render/geometry_passes.h"
+#include "engine/render/material_set.h"
+#include "shaders/fullscreen.vert.h"
+#include "shaders/shared/gpu_sky.h"
+#include "shaders/sky.frag.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace limn::render {
+
+using shared::GpuSky;
+
+static gpu::Image uploadPanorama(gpu::Device& device, const ImageF& pixels) {
+    std::vector<std::uint32_t> packed(pixels.rgb.size());
+    std::ranges::transform(pixels.rgb, packed.begin(), packRgb9e5);
+    gpu::Image image(device, {.width = pixels.width,
+                              .height = pixels.height,
+                              .format = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32,
+                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                              .name = "sky"});
+    gpu::Uploader(device).image(image, std::as_bytes(std::span(packed)));
+    return image;
+}
+
+SkyPass::SkyPass(gpu::Device& device, VkDescriptorSetLayout frameLayout) : m_device(device) {
+    const std::array types = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    m_setLayout = gpu::createSetLayout(device, types);
+    m_pool = gpu::createDescriptorPool(device, kFrameSlots, types);
+    for (std::uint32_t i = 0; i < kFrameSlots; ++i)
+        m_sets.push_back(gpu::allocateSet(device, m_pool, m_setLayout));
+    m_sampler = gpu::createSampler(
+        device, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST});
+    const std::array layouts = {frameLayout, m_setLayout.handle};
+    m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuSky), "sky");
+    gpu::GraphicsPipelineDesc desc;
+    desc.vertex = kFullscreenVert;
+    desc.fragment = kSkyFrag;
+    desc.layout = m_layout.handle;
+    desc.colorFormats = {kLinearFormat};
+    desc.name = "sky";
+    m_pipeline = gpu::createGraphicsPipeline(device, desc);
+    m_panorama = uploadPanorama(device, {1, 1, {glm::vec3(0)}});
+}
+
+void SkyPass::set(const Sky& sky) {
+    m_sky = sky;
+    if (!sky.showsImage() || sky.panorama == m_uploaded)
+        return;
+    m_uploaded = sky.panorama;
+    const ImageF& pixels = sky.panorama->pixels;
+    const std::uint32_t most = m_device.properties.limits.maxImageDimension2D;
+    if (pixels.width <= most && pixels.height <= most) {
+        m_panorama = uploadPanorama(m_device, pixels);
+        return;
+    }
+    logWarning(fmt::format("{}: {} x {} pixels are more than the device can show ({}): no sky is "
+                           "seen, though it lights",
+                           sky.image, pixels.width, pixels.height, most));
+    m_panorama = uploadPanorama(m_device, {1, 1, {glm::vec3(0)}});
+}
+
+bool SkyPass::active() const {
+    return m_sky.kind == SkyKind::Gradient || m_sky.showsImage();
+}
+
+void SkyPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, std::uint32_t slot) {
+    gpu::writeTexture(m_device, m_sets[slot], 0, m_panorama.view, m_sampler.handle);
+    const std::array sets = {frameSet, m_sets[slot]};
+    const GpuSky push{.zenith = m_sky.radiance,
+                      .strength = m_sky.strength,
+                      .horizon = m_sky.horizon,
+                      .turn = m_sky.rotation / (2 * std::numbers::pi_v<float>),
+                      .ground = m_sky.ground,
+                      .image = m_sky.showsImage()};
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_pipeline.handle);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0,
+                            std::uint32_t(sets.size()), sets.data(), 0, nullptr);
+    vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof push, &push);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+}
+
+} // namespace limn::render
