@@ -62,7 +62,7 @@ Exit runReference(Options& o) {
     const Result<ImportedScene> imported = openScene(o.scene);
     if (!imported)
         return failed(imported.error().message);
-    const Scene scene = flatten(imported->document, imported->assets);
+    const Scene scene = flatten(imported->document, imported->assets, o.scene.seconds);
     const Result<Camera> camera = chooseCamera(scene, o.camera);
     if (!camera)
         return failed(camera.error().message);
@@ -93,6 +93,7 @@ void addReferenceCommand(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("reference", "Path-traces ground truth (Lambertian)");
     addSceneOptions(*command, o->scene);
+    addTimeOption(*command, o->scene);
     addCameraOptions(*command, o->camera);
     command->add_option("--view", o->view, "lit, direct, indirect, irradiance or albedo")
         ->check(CLI::IsMember({"lit", "direct", "indirect", "irradiance", "albedo"}));

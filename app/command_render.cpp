@@ -190,7 +190,7 @@ Exit runRender(const Options& options) {
     const Result<ImportedScene> imported = openScene(options.scene);
     if (!imported)
         return failed(imported.error().message);
-    Scene scene = flatten(imported->document, imported->assets);
+    Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
         return failed(camera.error().message);
@@ -218,6 +218,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "Draws one picture, as the viewport shows it");
     addSceneOptions(*command, options->scene);
+    addTimeOption(*command, options->scene);
     addCameraOptions(*command, options->camera);
     addOverlayFlags(*command, options->overlay);
     command->add_option("--bake", options->bake,

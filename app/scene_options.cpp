@@ -39,6 +39,11 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
                        "of the panorama about +Y, from +Z towards +X [degrees]");
 }
 
+void addTimeOption(CLI::App& command, SceneOptions& options) {
+    command.add_option("--time", options.seconds, "after the start of films in materials [s]")
+        ->check(CLI::Range(-1e6, 1e6));
+}
+
 static Result<Sky> openSky(const std::string& spec) {
     if (!spec.ends_with(".hdr") && !spec.ends_with(".exr"))
         return parseSky(spec);

@@ -20,11 +20,14 @@ struct SceneOptions {
     std::vector<std::string> lights;
     std::string sky;
     std::optional<float> skyStrength, skyRotation; ///< factor, degrees
+    double seconds = 0;                            ///< after the start of films
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
 /// The flags without the scene.
 void addLightOptions(CLI::App& command, SceneOptions& options);
+
+void addTimeOption(CLI::App& command, SceneOptions& options);
 
 /// Imports, adds the lights and the sky, logs the repairs.
 Result<ImportedScene> openScene(const SceneOptions& options);

@@ -35,10 +35,17 @@ static bool valid(const Node& n) {
            isUnit(glm::length(t.rotation));
 }
 
+static bool valid(const Flipbook& f) {
+    const auto in = [](std::uint32_t frames) { return frames >= 1 && frames <= 256; };
+    return in(f.columns) && in(f.rows) && f.framesPerSecond >= 0 && f.framesPerSecond <= 1000;
+}
+
 static bool valid(const Material& m) {
     const glm::vec4 c = m.baseColor;
     return inUnit(c.x) && inUnit(c.y) && inUnit(c.z) && inUnit(c.w) && inUnit(m.metallic) &&
-           inUnit(m.roughness) && inUnit(m.alphaCutoff) && atLeastZero(m.emission);
+           inUnit(m.roughness) && inUnit(m.alphaCutoff) && atLeastZero(m.emission) &&
+           valid(m.emissiveFilm) &&
+           (m.emissiveTexture.rotation == 0 || m.emissiveFilm.columns == m.emissiveFilm.rows);
 }
 
 static bool isLightSize(float edge) {

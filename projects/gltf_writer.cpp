@@ -97,16 +97,19 @@ Json meshesJson(const GltfFile& file, Buffer& buffer) {
 }
 
 /// `images` collects the file names in order of first use; texture i shows image i.
+Json textureJson(const std::string& file, std::vector<std::string>& images) {
+    auto at = std::find(images.begin(), images.end(), file);
+    if (at == images.end())
+        at = images.insert(images.end(), file);
+    return {{"index", at - images.begin()}};
+}
+
 Json materialJson(const GltfMaterial& material, std::vector<std::string>& images) {
     Json surface;
     if (material.baseColor != glm::dvec3(1))
         surface["baseColorFactor"] = numbers(glm::dvec4(material.baseColor, 1));
-    if (!material.texture.empty()) {
-        auto at = std::find(images.begin(), images.end(), material.texture);
-        if (at == images.end())
-            at = images.insert(images.end(), material.texture);
-        surface["baseColorTexture"] = {{"index", at - images.begin()}};
-    }
+    if (!material.texture.empty())
+        surface["baseColorTexture"] = textureJson(material.texture, images);
     surface["metallicFactor"] = 0;
     surface["roughnessFactor"] = tidy(material.roughness);
     Json out = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
@@ -115,6 +118,8 @@ Json materialJson(const GltfMaterial& material, std::vector<std::string>& images
         out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
             tidy(material.emissiveStrength);
     }
+    if (!material.emissiveTexture.empty())
+        out["emissiveTexture"] = textureJson(material.emissiveTexture, images);
     if (material.alphaMask)
         out["alphaMode"] = "MASK";
     if (material.doubleSided)

@@ -29,7 +29,8 @@ struct GltfMaterial {
     glm::dvec3 emissive{0};      ///< emissiveFactor, [0, 1]
     double emissiveStrength = 1; ///< [nits]
     std::string texture{};       ///< file name of the base colour image; empty: none
-    bool alphaMask = false;      ///< cut off at 0.5
+    std::string emissiveTexture{};
+    bool alphaMask = false; ///< cut off at 0.5
     bool doubleSided = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] [--caches N]: writes the project
-// of a sample scene.
+// save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] [--caches N]
+// [--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]...: writes the project of a sample scene.
 #include "engine/files/project_file.h"
 #include "engine/scene/light_spec.h"
 
@@ -11,6 +11,22 @@
 namespace {
 
 using namespace limn;
+
+// MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND
+Result<void> setFilm(Document& document, const std::string& spec) {
+    const std::size_t equals = spec.find('=');
+    Flipbook film;
+    if (equals == std::string::npos ||
+        std::sscanf(spec.c_str() + equals, "=%ux%u@%f", &film.columns, &film.rows,
+                    &film.framesPerSecond) != 3)
+        return fail("--film " + spec + ": expected MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND");
+    for (auto& [id, object] : document.objects)
+        if (Material* m = std::get_if<Material>(&object); m && m->name == spec.substr(0, equals)) {
+            m->emissiveFilm = film;
+            return {};
+        }
+    return fail("--film " + spec + ": there is no such material");
+}
 
 Result<void> saveSample(int argc, char** argv) {
     Result<ImportedScene> scene = importGltf(argv[1]);
@@ -30,6 +46,9 @@ Result<void> saveSample(int argc, char** argv) {
             bake.surfels = std::uint32_t(std::strtoul(argv[i + 1], nullptr, 10));
         } else if (flag == "--caches") {
             bake.lightmapCaches = std::uint32_t(std::strtoul(argv[i + 1], nullptr, 10));
+        } else if (flag == "--film") {
+            if (const Result<void> set = setFilm(document, argv[i + 1]); !set)
+                return tl::make_unexpected(set.error());
         } else {
             return fail("unknown flag " + flag);
         }
@@ -48,7 +67,7 @@ Result<void> saveSample(int argc, char** argv) {
 int main(int argc, char** argv) {
     if (argc < 3 || argc % 2 == 0) {
         std::fputs("usage: save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] "
-                   "[--caches N]\n",
+                   "[--caches N] [--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]\n",
                    stderr);
         return 2;
     }

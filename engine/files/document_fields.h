@@ -18,6 +18,7 @@ struct FieldRange {
 };
 inline constexpr FieldRange kNotNegative{0};
 inline constexpr FieldRange kUnitRange{0, 1};
+inline constexpr FieldRange kFilmFrames{1, 256};
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
 
@@ -51,6 +52,13 @@ void describeNode(Fields& fields, T& n) {
 }
 
 template <class Fields, class T>
+void describeFilm(Fields& fields, T& f) {
+    fields("columns", f.columns, kFilmFrames);
+    fields("rows", f.rows, kFilmFrames);
+    fields("framesPerSecond", f.framesPerSecond, FieldRange{0, 1000});
+}
+
+template <class Fields, class T>
 void describeMaterial(Fields& fields, T& m) {
     const auto texture = [](auto& f, auto& t) { describeTexture(f, t); };
     fields("name", m.name);
@@ -66,6 +74,8 @@ void describeMaterial(Fields& fields, T& m) {
     fields.object("metallicRoughnessTexture", m.metallicRoughnessTexture, texture);
     fields.object("normalTexture", m.normalTexture, texture);
     fields.object("emissiveTexture", m.emissiveTexture, texture);
+    fields.object("emissiveFilm", m.emissiveFilm,
+                  [](auto& f, auto& film) { describeFilm(f, film); });
 }
 
 template <class Fields, class T>

@@ -107,8 +107,8 @@ const std::vector<glm::vec3>& Relighter::cacheSh() const {
 bool Relighter::State::updateMaterials(const Scene& scene) {
     if (started && materials == scene.materials)
         return false;
+    surfelMaterials(bake->surfels, scene, albedo, emitted, materials);
     materials = scene.materials;
-    surfelMaterials(bake->surfels, scene, albedo, emitted);
     return true;
 }
 

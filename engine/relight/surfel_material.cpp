@@ -3,6 +3,8 @@
 
 #include "engine/core/parallel.h"
 
+#include <algorithm>
+#include <functional>
 #include <numbers>
 
 #include <glm/common.hpp>
@@ -10,15 +12,20 @@
 namespace limn {
 
 void surfelMaterials(const Surfels& surfels, const Scene& scene, std::vector<glm::vec3>& albedo,
-                     std::vector<glm::vec3>& emitted) {
+                     std::vector<glm::vec3>& emitted, std::span<const Material> known) {
     const Surfels& s = surfels;
     albedo.resize(s.size());
     emitted.resize(s.size());
+    std::vector<char> stale(scene.materials.size(), 1);
+    if (known.size() == scene.materials.size())
+        std::ranges::transform(scene.materials, known, stale.begin(), std::not_equal_to{});
     parallelRanges(s.size(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const SurfaceMaterial m =
-                surfaceMaterialOver(scene, scene.instances[s.instance[i]], s.triangle[i],
-                                    s.barycentric[i].x, s.barycentric[i].y, s.area[i]);
+            const Instance& instance = scene.instances[s.instance[i]];
+            if (!stale[instance.material])
+                continue;
+            const SurfaceMaterial m = surfaceMaterialOver(
+                scene, instance, s.triangle[i], s.barycentric[i].x, s.barycentric[i].y, s.area[i]);
             albedo[i] = glm::min(m.albedo, glm::vec3(0.99f));
             emitted[i] = m.emission * std::numbers::pi_v<float>;
         }

@@ -3,6 +3,7 @@
 
 #include "engine/bake/bake.h"
 
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -10,8 +11,9 @@
 namespace limn {
 
 /// Per surfel its albedo, at most 0.99, and what it emits, pi L_e [W m^-2]: means over the surface
-/// it stands for. Fills both to the surfels' number.
+/// it stands for. Fills both to the surfels' number. `known`: the materials that both hold already;
+/// only surfels of materials that differ from those are looked up.
 void surfelMaterials(const Surfels& surfels, const Scene& scene, std::vector<glm::vec3>& albedo,
-                     std::vector<glm::vec3>& emitted);
+                     std::vector<glm::vec3>& emitted, std::span<const Material> known = {});
 
 } // namespace limn

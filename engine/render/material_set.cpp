@@ -147,11 +147,17 @@ void MaterialSet::writeSet(std::uint32_t material, const Material& m) {
     }
 }
 
+// The same image and sampler; where it is looked up is among the factors.
+static bool sameImage(const TextureRef& a, const TextureRef& b) {
+    return a.image == b.image && a.wrapU == b.wrapU && a.wrapV == b.wrapV && a.nearest == b.nearest;
+}
+
 // Whether sets, features and masks stay as they are: only factors differ.
 static bool sameTextures(const Material& a, const Material& b) {
-    return a.baseColorTexture == b.baseColorTexture && a.normalTexture == b.normalTexture &&
-           a.metallicRoughnessTexture == b.metallicRoughnessTexture &&
-           a.emissiveTexture == b.emissiveTexture && a.alphaMode == b.alphaMode &&
+    return sameImage(a.baseColorTexture, b.baseColorTexture) &&
+           sameImage(a.normalTexture, b.normalTexture) &&
+           sameImage(a.metallicRoughnessTexture, b.metallicRoughnessTexture) &&
+           sameImage(a.emissiveTexture, b.emissiveTexture) && a.alphaMode == b.alphaMode &&
            a.doubleSided == b.doubleSided;
 }
 

@@ -27,6 +27,18 @@ struct TextureRef {
     bool operator==(const TextureRef&) const = default;
 };
 
+/// A film in one image: frames of equal size, row after row from the upper left, shown in turn for
+/// ever.
+struct Flipbook {
+    std::uint32_t columns = 1, rows = 1; ///< [1, 256]
+    float framesPerSecond = 0;           ///< [0, 1000]; 0: the first stands still
+
+    bool operator==(const Flipbook&) const = default;
+};
+
+/// Which frame is shown `seconds` after the start; before it, the film runs backwards.
+std::uint32_t frameAt(const Flipbook& film, double seconds);
+
 /// glTF metallic-roughness. Factors multiply textures. Transport treats it as Lambertian with
 /// albedo = min(baseColor * (1 - metallic), 0.99).
 struct Material {
@@ -43,8 +55,17 @@ struct Material {
     TextureRef metallicRoughnessTexture; ///< linear: roughness in G, metallic in B
     TextureRef normalTexture;            ///< linear, tangent space
     TextureRef emissiveTexture;          ///< sRGB
+    /// Of the emissive texture, whose transform then leads into a frame: it must not turn frames
+    /// unless columns == rows, as no TextureRef says that.
+    Flipbook emissiveFilm;
 
     bool operator==(const Material&) const = default;
 };
+
+/// The emissive texture as it is `seconds` after the start.
+TextureRef emissiveTextureAt(const Material& material, double seconds);
+
+/// Whether emissiveTextureAt() changes with time.
+bool isAnimated(const Material& material);
 
 } // namespace limn

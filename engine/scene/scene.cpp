@@ -106,7 +106,20 @@ static Bounds boundsOf(const Scene& scene) {
     return all.lower.x <= all.upper.x ? all : Bounds{};
 }
 
-Scene flatten(const Document& document, std::shared_ptr<const Assets> assets) {
+bool showTime(Scene& scene, const Document& document, double seconds) {
+    bool changed = false;
+    std::size_t index = 0;
+    for (const auto& [id, object] : document.objects)
+        if (const Material* material = std::get_if<Material>(&object)) {
+            TextureRef& shown = scene.materials[index++].emissiveTexture;
+            const TextureRef wanted = emissiveTextureAt(*material, seconds);
+            changed |= shown != wanted;
+            shown = wanted;
+        }
+    return changed;
+}
+
+Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, double seconds) {
     Scene scene;
     scene.assets = assets ? std::move(assets) : std::make_shared<const Assets>();
     Placements placements(document);
@@ -130,6 +143,7 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets) {
             scene.materials.resize(named + 1);
             instance.material = named;
         }
+    showTime(scene, document, seconds);
     scene.sky = singleton<Sky>(document);
     scene.bake = singleton<BakeSettings>(document);
     scene.bounds = boundsOf(scene);

@@ -59,7 +59,12 @@ struct Scene {
     const Material& materialOf(const Instance& i) const { return materials[i.material]; }
 };
 
-Scene flatten(const Document& document, std::shared_ptr<const Assets> assets);
+/// As it is `seconds` after the start of its films.
+Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, double seconds = 0);
+
+/// Brings the films of the document's materials in a scene that was flattened from it to `seconds`.
+/// True if that changed anything.
+bool showTime(Scene& scene, const Document& document, double seconds);
 
 /// `camera name`d, or the first, or one that shows the whole scene from a corner.
 Camera chooseCamera(const Scene& scene, const std::optional<std::string>& name);

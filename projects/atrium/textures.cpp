@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "projects/atrium/atrium.h"
+#include "projects/png_writer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
 
 #include <glm/common.hpp>
 
@@ -89,12 +79,6 @@ dvec3 ashlar(dvec2 p) {
     const double rough = 0.82 + 0.24 * cloudiness(p, 12, 200) - 0.1 * noise(p, 128, 300);
     const bool joint = q.x > 0.5 - 0.008 || q.y > 0.5 - 0.016;
     return joint ? dvec3(0.4, 0.34, 0.27) : stone * rough;
-}
-
-bool writePng(const std::string& path, int width, int height, int channels,
-              const std::vector<unsigned char>& pixels) {
-    return stbi_write_png(path.c_str(), width, height, channels, pixels.data(), width * channels) !=
-           0;
 }
 
 bool writeColour(const std::string& path, dvec3 (*colour)(dvec2)) {
