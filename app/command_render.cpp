@@ -28,7 +28,7 @@ struct Options {
     SceneOptions scene;
     CameraOptions camera;
     OverlayFlags overlay;
-    std::string bake, output, view = "lit", tonemap = "aces", device = "auto";
+    std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "cpu";
     float exposureEv = 0;
     bool json = false;
 };
@@ -36,7 +36,9 @@ struct Options {
 /// What a picture needs of a bake: indirect light, and what is drawn over it. Empty: nothing.
 struct Baked {
     std::shared_ptr<const Bake> bake;
-    std::unique_ptr<Relighter> relighter;
+    std::shared_ptr<const TraceScene> trace;
+    bool light = false;                   ///< the picture shows bounced light
+    std::unique_ptr<Relighter> relighter; ///< made when the CPU has to light the bake
     std::shared_ptr<const OverlayData> overlay;
 };
 
@@ -96,21 +98,26 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
     const bool light = needsIndirect(View(indexOf(kViewNames, options.view)));
     if (scene.instances.empty() || !(light || options.overlay.wanted()))
         return Baked{}; // nothing receives light, or nobody asks
-    const TraceScene trace(scene);
-    Result<Bake> made = obtainBake(options, scene, trace);
+    Baked baked;
+    baked.trace = std::make_shared<const TraceScene>(scene);
+    Result<Bake> made = obtainBake(options, scene, *baked.trace);
     if (!made)
         return tl::make_unexpected(made.error());
-    Baked baked;
     baked.bake = std::make_shared<const Bake>(std::move(*made));
     if (options.overlay.wanted())
-        if (const Result<void> added = addOverlay(options, scene, trace, camera, baked); !added)
+        if (const Result<void> added = addOverlay(options, scene, *baked.trace, camera, baked);
+            !added)
             return tl::make_unexpected(added.error());
-    if (light) {
-        baked.relighter = std::make_unique<Relighter>(baked.bake);
-        baked.relighter->relight(scene, trace, baked.bake->settings.maxBounces, progressOnStderr());
-        endProgressLine();
-    }
+    baked.light = light;
     return baked;
+}
+
+CpuLight relight(const Scene& scene, Baked& baked) {
+    baked.relighter = std::make_unique<Relighter>(baked.bake);
+    const RelightStats stats = baked.relighter->relight(
+        scene, *baked.trace, baked.bake->settings.maxBounces, progressOnStderr());
+    endProgressLine();
+    return {baked.relighter->field(), stats};
 }
 
 // Before anything is read or baked for it.
@@ -124,6 +131,12 @@ Result<void> checkOverlay(const Options& options) {
     return checkOverlayFlags(options.overlay);
 }
 
+Result<void> checkRelight(const Options& options) {
+    if (options.relight == "gpu" && options.device == "cpu")
+        return fail("--relight gpu: needs a Vulkan device that draws; not --device cpu");
+    return {};
+}
+
 // "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
 Result<RenderedImage> draw(const Options& options, const Scene& scene,
                            const RenderRequest& request) {
@@ -131,17 +144,18 @@ Result<RenderedImage> draw(const Options& options, const Scene& scene,
         return renderOnCpu(scene, request);
 #ifdef LIMN_HAS_VIEWPORT
     Result<RenderedImage> image = renderOnGpu(scene, request);
-    if (image || options.device != "auto" || request.overlay)
+    if (image || options.device != "auto" || request.overlay || request.relightOnGpu)
         return image;
     logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
 #else
-    if (options.device != "auto" || request.overlay)
+    if (options.device != "auto" || request.overlay || request.relightOnGpu)
         return fail("--device: this program was built without Vulkan; there is: cpu");
 #endif
     return renderOnCpu(scene, request);
 }
 
-RenderRequest requestOf(const Options& options, const Camera& camera, const Baked& baked) {
+RenderRequest requestOf(const Options& options, const Scene& scene, const Camera& camera,
+                        Baked& baked) {
     RenderRequest request;
     request.view = View(indexOf(kViewNames, options.view));
     request.camera = camera;
@@ -151,10 +165,10 @@ RenderRequest requestOf(const Options& options, const Camera& camera, const Bake
     request.exposureEv = options.exposureEv;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     request.device = options.device == "auto" ? "" : options.device;
-    if (baked.relighter)
-        request.field = &baked.relighter->field();
-    if (baked.bake)
-        request.layout = {baked.bake, &baked.bake->lightmap}; // lives as long as the bake
+    if (baked.light)
+        request.relight = [&] { return relight(scene, baked); };
+    request.bake = baked.bake;
+    request.relightOnGpu = options.relight == "gpu";
     request.overlay = baked.overlay;
     return request;
 }
@@ -170,13 +184,23 @@ void report(const Options& options, const RenderedImage& image, const OverlayDat
         json["width"] = image.linear.width;
         json["height"] = image.linear.height;
         json["invalid_pixels"] = invalid;
+        if (!image.relightDevice.empty())
+            json["relight"] = {{"device", image.relightDevice},
+                               {"ms", image.relight.totalMs},
+                               {"bounces", image.relight.bounces},
+                               {"converged", image.relight.converged}};
         if (overlay)
             json["overlay"] = legendJson(overlay->legend);
         fmt::print("{}\n", json.dump());
         return;
     }
-    fmt::print("{}: {}, {} x {} on {}, {} invalid pixels, {:.1f} s\n", options.output, options.view,
-               image.linear.width, image.linear.height, image.device, invalid, seconds);
+    std::string relit;
+    if (!image.relightDevice.empty())
+        relit =
+            fmt::format("relit on {} in {:.1f} ms, ", image.relightDevice, image.relight.totalMs);
+    fmt::print("{}: {}, {} x {} on {}, {}{} invalid pixels, {:.1f} s\n", options.output,
+               options.view, image.linear.width, image.linear.height, image.device, relit, invalid,
+               seconds);
     if (overlay)
         fmt::print("{}", legendText(overlay->legend));
 }
@@ -187,6 +211,8 @@ Exit runRender(const Options& options) {
         return failed(writable.error().message);
     if (const Result<void> possible = checkOverlay(options); !possible)
         return failed(possible.error().message);
+    if (const Result<void> possible = checkRelight(options); !possible)
+        return failed(possible.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);
     if (!imported)
         return failed(imported.error().message);
@@ -196,10 +222,11 @@ Exit runRender(const Options& options) {
         return failed(camera.error().message);
 
     const auto start = std::chrono::steady_clock::now();
-    const Result<Baked> baked = prepareBake(options, scene, *camera);
+    Result<Baked> baked = prepareBake(options, scene, *camera);
     if (!baked)
         return failed(baked.error().message);
-    const Result<RenderedImage> image = draw(options, scene, requestOf(options, *camera, *baked));
+    const Result<RenderedImage> image =
+        draw(options, scene, requestOf(options, scene, *camera, *baked));
     if (!image)
         return failed(image.error().message);
     const double seconds =
@@ -234,6 +261,10 @@ void addRenderCommand(CLI::App& app, Run& run) {
         ->check(CLI::IsMember(strings(kTonemapNames)));
     command->add_option("--device", options->device,
                         "auto, cpu, or part of a Vulkan device's name");
+    command
+        ->add_option("--relight", options->relight,
+                     "where bounced light is worked out: cpu, or gpu, the Vulkan device that draws")
+        ->check(CLI::IsMember({"cpu", "gpu"}));
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

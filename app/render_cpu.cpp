@@ -17,9 +17,16 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
     static const LightmapLayout noLayout;
     RenderedImage result;
     result.device = "cpu";
+    const IndirectField* field = &noField;
+    if (request.relight) {
+        const CpuLight light = request.relight();
+        field = &light.field;
+        result.relightDevice = "cpu";
+        result.relight = light.stats;
+    }
     result.linear =
-        renderField(TraceScene(scene), request.field ? *request.field : noField,
-                    request.layout ? *request.layout : noLayout, options, progressOnStderr());
+        renderField(TraceScene(scene), *field, request.bake ? request.bake->lightmap : noLayout,
+                    options, progressOnStderr());
     endProgressLine();
     if (!request.tonemapped)
         return result;

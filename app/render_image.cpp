@@ -2,13 +2,33 @@
 #include "app/render_image.h"
 
 #include "engine/gpu/device.h"
-#include "engine/render/viewport.h"
+#include "engine/render/viewport_relighter.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 namespace limn {
+
+// Bounces until nothing changes, as the CPU does.
+static Result<void> relight(gpu::Device& device, Viewport& viewport, const Scene& scene,
+                            const RenderRequest& request, RenderedImage& result) {
+    if (!request.relight)
+        return {};
+    if (!request.relightOnGpu) {
+        const CpuLight light = request.relight();
+        viewport.setIndirect(light.field);
+        result.relightDevice = "cpu";
+        result.relight = light.stats;
+        return {};
+    }
+    const auto relighter = ViewportRelighter::create(device, request.bake);
+    if (!relighter)
+        return fail("--relight: " + relighter.error().message);
+    result.relight = (*relighter)->relight(viewport, scene, request.bake->settings.maxBounces, {});
+    result.relightDevice = device.properties.deviceName;
+    return {};
+}
 
 Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& request) {
     const auto device = gpu::createDevice({.name = request.device});
@@ -19,9 +39,13 @@ Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& reque
         return fail(fmt::format("--width, --height: {} draws at most {} pixels a side",
                                 (*device)->properties.deviceName, limit));
     Viewport viewport(**device);
-    viewport.setScene(scene, request.layout);
-    if (request.field)
-        viewport.setIndirect(*request.field);
+    RenderedImage result;
+    if (request.bake) // the layout lives as long as the bake
+        viewport.setScene(scene, {request.bake, &request.bake->lightmap});
+    else
+        viewport.setScene(scene, nullptr);
+    if (const auto lit = relight(**device, viewport, scene, request, result); !lit)
+        return tl::make_unexpected(lit.error());
     viewport.setOverlay(request.overlay);
     ViewportOptions options;
     options.view = request.view;
@@ -31,7 +55,6 @@ Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& reque
     options.tonemap = request.tonemap;
     options.exposureEv = request.exposureEv;
     viewport.render(options);
-    RenderedImage result;
     result.device = (*device)->properties.deviceName;
     result.linear = viewport.readLinear();
     if (request.tonemapped)

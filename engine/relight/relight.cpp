@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include <glm/common.hpp>
 
@@ -19,7 +18,6 @@ namespace limn {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kConverged = 1e-4; // of the total radiosity, per bounce
 
 class Timer {
@@ -117,9 +115,9 @@ bool Relighter::State::updateSky(const Scene& scene) {
         return false;
     sky = scene.sky;
     const ClusterTree& tree = bake->tree;
-    const std::vector<glm::vec3> cells = skyCellRadiance(sky);
-    for (std::uint32_t c = 0; c < tree.skyCells; ++c)
-        radiosity[tree.surfels + c] = glm::vec4(cells[skyCellOf(tree.skyDirection[c])] * kPi, 0);
+    const std::vector<glm::vec3> cells = skyRadiosity(tree, sky);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        radiosity[tree.surfels + c] = glm::vec4(cells[c], 0);
     blackSky = std::ranges::all_of(cells, [](glm::vec3 c) { return c == glm::vec3(0); });
     return true;
 }

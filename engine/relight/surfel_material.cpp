@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/surfel_material.h"
 
+#include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -30,6 +31,14 @@ void surfelMaterials(const Surfels& surfels, const Scene& scene, std::vector<glm
             emitted[i] = m.emission * std::numbers::pi_v<float>;
         }
     });
+}
+
+std::vector<glm::vec3> skyRadiosity(const ClusterTree& tree, const Sky& sky) {
+    const std::vector<glm::vec3> cells = skyCellRadiance(sky);
+    std::vector<glm::vec3> radiosity(tree.skyCells);
+    for (std::size_t c = 0; c < radiosity.size(); ++c)
+        radiosity[c] = std::numbers::pi_v<float> * cells[skyCellOf(tree.skyDirection[c])];
+    return radiosity;
 }
 
 } // namespace limn

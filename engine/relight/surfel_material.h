@@ -16,4 +16,7 @@ namespace limn {
 void surfelMaterials(const Surfels& surfels, const Scene& scene, std::vector<glm::vec3>& albedo,
                      std::vector<glm::vec3>& emitted, std::span<const Material> known = {});
 
+/// Radiosity of the tree's sky cells: pi times the sky's radiance in each [W m^-2].
+std::vector<glm::vec3> skyRadiosity(const ClusterTree& tree, const Sky& sky);
+
 } // namespace limn

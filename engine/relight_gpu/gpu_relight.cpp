@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,7 +17,6 @@ namespace limn {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kConverged = 1e-4; // of the total radiosity, per bounce
 constexpr std::uint32_t kMostSteps = 4;
 
@@ -51,8 +49,8 @@ struct GpuRelighter::State {
     bool started = false, converged = false;
     std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
     Sent direct, albedo, emitted;
+    std::vector<glm::vec3> sky;                 ///< as sent
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
-    std::vector<glm::vec3> sky;                 ///< as SurfelInputs::skyCells
     std::uint64_t fieldVersion = 0;
 
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats);
@@ -128,12 +126,10 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         lightsVersion.reset();
     }
     changed |= sendIfNew(emitted, inputs.emitted);
-    if (!started || !std::ranges::equal(sky, inputs.skyCells)) {
-        sky.assign(inputs.skyCells.begin(), inputs.skyCells.end());
-        std::vector<glm::vec4> sent(bake->tree.skyCells, glm::vec4(0));
-        for (std::size_t c = 0; c < sent.size() && !sky.empty(); ++c)
-            sent[c] = glm::vec4(sky[skyCellOf(bake->tree.skyDirection[c])] * kPi, 0);
-        send(buffers.radiosity, bake->tree.surfels, sent);
+    assert(inputs.sky.size() == bake->tree.skyCells);
+    if (!started || !std::ranges::equal(sky, inputs.sky)) {
+        sky.assign(inputs.sky.begin(), inputs.sky.end());
+        send(buffers.radiosity, bake->tree.surfels, padded(sky));
         // It reaches the caches in the first round and the surfels' radiosity in the second.
         unseenRounds = 2;
         changed = true;
@@ -155,7 +151,7 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
         steps.recordDirect(cmd, lights);
         times.mark(cmd);
     });
-    stats.surfelLightMs += times.steps()[0];
+    stats.directMs = times.steps()[0];
     return true;
 }
 

@@ -19,9 +19,9 @@ namespace limn {
 struct SurfelInputs {
     /// Irradiance from lights, shadows included [W m^-2], >= 0. Not read where `lights` is set.
     std::span<const glm::vec3> direct;
-    std::span<const glm::vec3> albedo;   ///< [0, 0.99]
-    std::span<const glm::vec3> emitted;  ///< pi L_e [W m^-2], >= 0
-    std::span<const glm::vec3> skyCells; ///< as skyCellRadiance(Sky); empty: black
+    std::span<const glm::vec3> albedo;  ///< [0, 0.99]
+    std::span<const glm::vec3> emitted; ///< pi L_e [W m^-2], >= 0
+    std::span<const glm::vec3> sky;     ///< of each of the tree's sky cells, pi L [W m^-2], >= 0
     /// Where set, irradiance comes from these and their shadow maps, anew when their version is.
     const ShadowedLights* lights = nullptr;
 };
@@ -29,6 +29,7 @@ struct SurfelInputs {
 /// Milliseconds and counters of one GpuRelighter::relight() call. Steps are in the GPU's time.
 struct GpuRelightStats {
     double uploadMs = 0; ///< of what had changed
+    double directMs = 0; ///< lights onto the surfels
     double surfelLightMs = 0, pullMs = 0, cacheLightMs = 0;
     double fieldMs = 0;           ///< last bands of caches, lightmap and grid
     double totalMs = 0;           ///< from call to return

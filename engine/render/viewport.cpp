@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/gpu/barrier.h"
+#include "engine/gpu/timestamps.h"
 #include "engine/gpu/vulkan_error.h"
 #include "engine/render/direct_pass.h"
 #include "engine/render/geometry_passes.h"
@@ -47,7 +48,14 @@ constexpr std::uint32_t kSizeStep = 128;
 // How much a picture gives way to what is drawn over it.
 constexpr float kOverlayFade = 0.8f;
 
-enum Timestamp : std::uint32_t { kBegin, kShadowsDone, kShadeDone, kEnd, kTimestamps };
+enum Timestamp : std::uint32_t {
+    kBegin,
+    kShadowsDone,
+    kGeometryDone,
+    kShadeDone,
+    kEnd,
+    kTimestamps
+};
 
 using Clock = std::chrono::steady_clock;
 
@@ -123,6 +131,8 @@ struct Viewport::Impl {
     LightTable relightTable;   ///< of the last shadowedLights()
     std::vector<Light> relightLights;
     std::uint64_t relightScene = 0, relightVersion = 0;
+    gpu::Timestamps relightTimes; ///< of the shadow maps for them
+    std::uint64_t relightSubmission = 0;
     std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
     bool warnedUnshadowed = false;
     Targets targets;
@@ -143,7 +153,7 @@ Viewport::Impl::Impl(gpu::Device& d)
       sky(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
-      tonemap(d), overlay(d), shadows(d), indirect(createIndirectLight(d)) {
+      tonemap(d), overlay(d), shadows(d), indirect(createIndirectLight(d)), relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -390,7 +400,10 @@ void Viewport::Impl::readTimes(FrameSlot& slot) {
         return ticks[b] > ticks[a] ? double(ticks[b] - ticks[a]) * msPerTick : 0.0;
     };
     stats.shadowMs = between(kBegin, kShadowsDone);
+    stats.geometryMs = between(kShadowsDone, kGeometryDone);
+    stats.directMs = between(kGeometryDone, kShadeDone);
     stats.shadeMs = between(kShadowsDone, kShadeDone);
+    stats.tonemapMs = between(kShadeDone, kEnd);
     stats.totalMs = between(kBegin, kEnd);
     stats.uploadMs = slot.uploadMs;
     slot.timed = true;
@@ -477,6 +490,7 @@ void Viewport::render(const ViewportOptions& options) {
     mark(kShadowsDone);
     v.recordShade(cmd, slot, view, options);
     v.recordSky(cmd, slot, options, slotIndex);
+    mark(kGeometryDone);
     v.recordDirect(cmd, slot, options);
     mark(kShadeDone);
     v.recordTonemap(cmd, options, slotIndex);
@@ -502,9 +516,13 @@ ShadowedLights Viewport::shadowedLights() {
     const std::vector<ShadowSlot> shadows = v.assignShadows(true);
     writeLightTable(v.device, v.relightTable, v.lights, shadows, v.shadows.views());
     v.materials.writeFactors(slotIndex);
+    v.device.wait(v.relightSubmission); // its times are measured anew
     const VkCommandBuffer cmd = v.device.begin("shadow maps");
+    v.relightTimes.begin(cmd);
     v.recordShadows(cmd, slot, slotIndex, true);
-    slot.submission = v.device.submit(cmd);
+    v.relightTimes.mark(cmd);
+    v.relightSubmission = slot.submission = v.device.submit(cmd);
+    v.stats.relightShadowMaps = slot.shadowMapsDrawn;
     return {.lights = v.relightTable.lights.handle,
             .shadowViews = v.relightTable.shadowViews.handle,
             .atlas = v.shadows.atlasView(),
@@ -548,6 +566,9 @@ const ViewportStats& Viewport::stats() const {
     Impl& v = *m_impl;
     if (v.frames > 0)
         v.readTimes(v.slots[(v.frames - 1) % kFrameSlots]);
+    if (v.relightSubmission > 0 && v.device.completed() >= v.relightSubmission)
+        v.stats.relightShadowMs = v.relightTimes.steps()[0];
+    v.stats.lightsWithoutShadow = v.shadows.unshadowed;
     v.device.collect();
     v.stats.gpuBytes = v.device.memory.bytesInUse;
     return v.stats;

@@ -35,9 +35,13 @@ struct ViewportOptions {
 };
 
 struct ViewportStats {
-    double uploadMs = 0, shadowMs = 0, shadeMs = 0,
-           totalMs = 0;                ///< of the last frame that is done, the GPU's clock
-    std::uint32_t shadowMapsDrawn = 0; ///< 0 when no light or object changed
+    /// Of the last frame that is done, the GPU's clock. Shade is geometry and direct light.
+    double uploadMs = 0, shadowMs = 0, shadeMs = 0, totalMs = 0;
+    double geometryMs = 0, directMs = 0, tonemapMs = 0; ///< tone mapping with the overlay
+    std::uint32_t shadowMapsDrawn = 0;                  ///< 0 when no light or object changed
+    double relightShadowMs = 0;          ///< shadow maps of the last shadowedLights() that is done
+    std::uint32_t relightShadowMaps = 0; ///< drawn by the last shadowedLights()
+    std::uint32_t lightsWithoutShadow = 0; ///< for lack of room
     std::uint64_t gpuBytes = 0;
 };
 

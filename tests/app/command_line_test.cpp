@@ -235,6 +235,29 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     EXPECT_EQ(limn("render cornell").exit, 2);
 }
 
+TEST_F(CommandLine, RenderRelightsOnEitherDeviceAndSaysOnWhich) {
+    const std::string bake = path("box.limnbake"), cpu = path("cpu.exr"), gpu = path("gpu.exr");
+    ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);
+    const std::string start = "render cornell --bake " + bake +
+                              " --light 'point pos=0,1,0.5 cd=1' --width 48 --height 32 --json ";
+    const std::string light = start + "--view irradiance --relight ";
+    const nlohmann::json onCpu = json(light + "cpu -o " + cpu),
+                         onGpu = json(light + "gpu -o " + gpu);
+    for (const nlohmann::json& run : {onCpu, onGpu}) {
+        expectKeys(run["relight"], {"device", "ms", "bounces", "converged"});
+        EXPECT_GT(run["relight"]["ms"], 0);
+        EXPECT_GT(run["relight"]["bounces"], 1);
+    }
+    EXPECT_EQ(onCpu["relight"]["device"], "cpu");
+    EXPECT_EQ(onGpu["relight"]["device"], onGpu["device"]);
+    // Nothing but rays and shadow maps differs, at the edges of shadows.
+    EXPECT_LT(json("compare " + gpu + " " + cpu + " --json")["nrmse"], 0.02);
+    EXPECT_NE(contents(cpu), contents(gpu)) << "both by the same device";
+    EXPECT_FALSE(json(start + "--view direct --relight gpu -o " + gpu).contains("relight"));
+    expectRefusal(start + "--relight gpu --device cpu -o " + gpu, "Vulkan");
+    EXPECT_EQ(limn(start + "--relight nonsense -o " + gpu).exit, 2);
+}
+
 TEST_F(CommandLine, RenderDrawsAnOverlayAndSaysWhatItsColoursMean) {
     const std::string bake = path("box.limnbake"), picture = path("box.png");
     ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);

@@ -96,7 +96,7 @@ TEST_F(GpuRelight, UploadsOnlyWhatChanged) {
     values.albedo[0] = glm::vec3(0.1f);
     EXPECT_EQ(relighter->relight(values.inputs(), 200).bytesUploaded, surfels);
     values.emitted[3] = glm::vec3(4);
-    values.sky.assign(made->tree.skyCells, {1, 2, 3});
+    values.sky.back() = {1, 2, 3};
     const GpuRelightStats both = relighter->relight(values.inputs(), 200);
     EXPECT_EQ(both.bytesUploaded, surfels + made->tree.skyCells * sizeof(glm::vec4));
     EXPECT_FALSE(both.skipped);
@@ -109,7 +109,7 @@ TEST_F(GpuRelight, ASkyThatComesBackReachesTheSurfels) {
     relighter->relight(values.inputs(), 200);
     for (const glm::vec3 b : relighter->readRadiosity())
         ASSERT_EQ(b, glm::vec3(0));
-    values.sky.assign(made->tree.skyCells, {1, 0, 0});
+    values.sky.back() = {1, 0, 0};
     EXPECT_GT(relighter->relight(values.inputs(), 200).bounces, 2U);
     EXPECT_GT(relighter->readRadiosity()[0].x, 0);
 }

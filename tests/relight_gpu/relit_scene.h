@@ -16,8 +16,7 @@ namespace limn {
 
 /// What Relighter makes of a scene before it lights anything: the inputs of GpuRelighter.
 struct SurfelValues {
-    std::vector<glm::vec3> direct, albedo, emitted;
-    std::vector<glm::vec3> sky;
+    std::vector<glm::vec3> direct, albedo, emitted, sky;
 
     SurfelInputs inputs() const { return {direct, albedo, emitted, sky}; }
 };
@@ -33,7 +32,7 @@ inline SurfelValues surfelValues(const Bake& bake, const Scene& scene, const Tra
     updateSurfelLight(bake.surfels, scene, trace, light);
     out.direct = light.irradiance;
     surfelMaterials(bake.surfels, scene, out.albedo, out.emitted);
-    out.sky = skyCellRadiance(scene.sky);
+    out.sky = skyRadiosity(bake.tree, scene.sky);
     return out;
 }
 

@@ -16,6 +16,7 @@ protected:
         const std::size_t surfels = made->surfels.size();
         half.albedo.assign(surfels, glm::vec3(0.5f));
         half.emitted.assign(surfels, glm::vec3(0));
+        half.sky.assign(made->tree.skyCells, glm::vec3(0));
     }
     /// By the shadow maps of the viewport.
     std::vector<glm::vec3> irradiance() {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/viewport_relighter.h"
+
+#include "engine/relight/surfel_material.h"
+
+#include <chrono>
+
+namespace limn {
+
+Result<std::unique_ptr<ViewportRelighter>>
+ViewportRelighter::create(gpu::Device& device, std::shared_ptr<const Bake> bake) {
+    auto gpu = GpuRelighter::create(device, std::move(bake));
+    if (!gpu)
+        return tl::make_unexpected(gpu.error());
+    return std::unique_ptr<ViewportRelighter>(new ViewportRelighter(std::move(*gpu)));
+}
+
+RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
+                                        std::uint32_t bounces, const Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const Bake& bake = m_gpu->bake();
+    if (m_albedo.size() != bake.surfels.size() || m_materials != scene.materials) {
+        surfelMaterials(bake.surfels, scene, m_albedo, m_emitted);
+        m_materials = scene.materials;
+    }
+    const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, scene.sky);
+    const ShadowedLights lights = viewport.shadowedLights();
+    const GpuRelightStats g = m_gpu->relight(
+        {.direct = {}, .albedo = m_albedo, .emitted = m_emitted, .sky = sky, .lights = &lights},
+        bounces, progress);
+    viewport.setIndirect(m_gpu->field());
+    const ViewportStats& drawn = viewport.stats();
+    RelightStats stats;
+    stats.directMs = g.uploadMs + drawn.relightShadowMs + g.directMs;
+    stats.surfelLightMs = g.surfelLightMs;
+    stats.pullMs = g.pullMs;
+    stats.cacheLightMs = g.cacheLightMs;
+    stats.fieldMs = g.fieldMs;
+    stats.bounces = g.bounces;
+    stats.converged = g.converged;
+    stats.skipped = g.skipped;
+    stats.lightsTraced = drawn.relightShadowMaps;
+    stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count;
+    const std::chrono::duration<double, std::milli> total =
+        std::chrono::steady_clock::now() - start;
+    stats.totalMs = total.count();
+    return stats;
+}
+
+} // namespace limn
