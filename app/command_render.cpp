@@ -28,7 +28,7 @@ struct Options {
     SceneOptions scene;
     CameraOptions camera;
     OverlayFlags overlay;
-    std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "cpu";
+    std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
     float exposureEv = 0;
     bool json = false;
 };
@@ -144,11 +144,11 @@ Result<RenderedImage> draw(const Options& options, const Scene& scene,
         return renderOnCpu(scene, request);
 #ifdef LIMN_HAS_VIEWPORT
     Result<RenderedImage> image = renderOnGpu(scene, request);
-    if (image || options.device != "auto" || request.overlay || request.relightOnGpu)
+    if (image || options.device != "auto" || request.overlay || request.relightOn == RelightOn::Gpu)
         return image;
     logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
 #else
-    if (options.device != "auto" || request.overlay || request.relightOnGpu)
+    if (options.device != "auto" || request.overlay || request.relightOn == RelightOn::Gpu)
         return fail("--device: this program was built without Vulkan; there is: cpu");
 #endif
     return renderOnCpu(scene, request);
@@ -168,7 +168,7 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
     request.bake = baked.bake;
-    request.relightOnGpu = options.relight == "gpu";
+    request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));
     request.overlay = baked.overlay;
     return request;
 }
@@ -262,9 +262,11 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command->add_option("--device", options->device,
                         "auto, cpu, or part of a Vulkan device's name");
     command
-        ->add_option("--relight", options->relight,
-                     "where bounced light is worked out: cpu, or gpu, the Vulkan device that draws")
-        ->check(CLI::IsMember({"cpu", "gpu"}));
+        ->add_option(
+            "--relight", options->relight,
+            "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or "
+            "auto, which the editor has found faster here; cpu until it has")
+        ->check(CLI::IsMember(strings(kRelightOnNames)));
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

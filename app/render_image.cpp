@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/render_image.h"
 
+#include "engine/core/log.h"
 #include "engine/gpu/device.h"
 #include "engine/render/viewport_relighter.h"
 
@@ -10,21 +11,34 @@
 
 namespace limn {
 
+// Nothing is measured for one picture: that would take longer than to relight it on either.
+static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
+    const VkPhysicalDeviceProperties& p = device.properties;
+    return chooseRelight(
+        request.relightOn, true,
+        rememberedRelightTimes(defaultRelightTimesFile(),
+                               relightTimesKey(p.deviceName, p.driverVersion, *request.bake)));
+}
+
 // Bounces until nothing changes, as the CPU does.
 static Result<void> relight(gpu::Device& device, Viewport& viewport, const Scene& scene,
                             const RenderRequest& request, RenderedImage& result) {
     if (!request.relight)
         return {};
-    if (!request.relightOnGpu) {
+    const bool onGpu = choose(device, request) == RelightOn::Gpu;
+    auto relighter = onGpu ? ViewportRelighter::create(device, request.bake)
+                           : Result<std::unique_ptr<ViewportRelighter>>();
+    if (!relighter && request.relightOn == RelightOn::Gpu)
+        return fail("--relight: " + relighter.error().message);
+    if (!relighter)
+        logWarning(fmt::format("relighting on the CPU: {}", relighter.error().message));
+    if (!relighter || !*relighter) {
         const CpuLight light = request.relight();
         viewport.setIndirect(light.field);
         result.relightDevice = "cpu";
         result.relight = light.stats;
         return {};
     }
-    const auto relighter = ViewportRelighter::create(device, request.bake);
-    if (!relighter)
-        return fail("--relight: " + relighter.error().message);
     result.relight = (*relighter)->relight(viewport, scene, request.bake->settings.maxBounces, {});
     result.relightDevice = device.properties.deviceName;
     return {};

@@ -3,6 +3,7 @@
 
 #include "engine/bake/lightmap_layout.h"
 #include "engine/core/result.h"
+#include "engine/files/relight_choice.h"
 #include "engine/relight/relight.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
@@ -32,7 +33,7 @@ struct RenderRequest {
     std::shared_ptr<const Bake> bake; ///< null: nothing is baked
     /// Lights `bake` on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
-    bool relightOnGpu = false;                  ///< the viewport's device lights `bake` instead
+    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the device that draws lights `bake` instead
     std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
 };
 
@@ -49,7 +50,7 @@ struct RenderedImage {
 Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& request);
 
 /// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
-/// `request.device` and `request.relightOnGpu` are not looked at.
+/// `request.device` and `request.relightOn` are not looked at.
 RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
 
 } // namespace limn

@@ -253,6 +253,7 @@ TEST_F(CommandLine, RenderRelightsOnEitherDeviceAndSaysOnWhich) {
     // Nothing but rays and shadow maps differs, at the edges of shadows.
     EXPECT_LT(json("compare " + gpu + " " + cpu + " --json")["nrmse"], 0.02);
     EXPECT_NE(contents(cpu), contents(gpu)) << "both by the same device";
+    EXPECT_EQ(json(light + "auto -o " + gpu)["relight"]["device"], "cpu") << "nothing is measured";
     EXPECT_FALSE(json(start + "--view direct --relight gpu -o " + gpu).contains("relight"));
     expectRefusal(start + "--relight gpu --device cpu -o " + gpu, "Vulkan");
     EXPECT_EQ(limn(start + "--relight nonsense -o " + gpu).exit, 2);
