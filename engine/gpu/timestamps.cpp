@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/timestamps.h"
 
+#include "engine/gpu/barrier.h"
 #include "engine/gpu/vulkan_error.h"
 
 #include <cassert>
 
 namespace limn::gpu {
+
+void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query) {
+    vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    memoryBarrier(cmd, kAllWrites, kAllReads);
+}
 
 Timestamps::Timestamps(Device& device, std::uint32_t most) : m_device(&device), m_most(most + 1) {
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
@@ -24,7 +30,7 @@ void Timestamps::begin(VkCommandBuffer cmd) {
 
 void Timestamps::mark(VkCommandBuffer cmd) {
     assert(m_count < m_most);
-    vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool.handle, m_count++);
+    writeTimestamp(cmd, m_pool.handle, m_count++);
 }
 
 std::vector<double> Timestamps::steps() const {

@@ -8,6 +8,10 @@
 
 namespace limn::gpu {
 
+/// Writes the time at which all work recorded before is done. Not while rendering. The barrier
+/// behind it makes a software rasteriser write it now and not with the work that follows.
+void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query);
+
 /// Times how long the GPU takes over the steps of one command buffer.
 class Timestamps {
 public:

@@ -481,9 +481,7 @@ void Viewport::render(const ViewportOptions& options) {
     GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
     view.slot = slotIndex;
     const VkCommandBuffer cmd = v.device.begin("viewport");
-    const auto mark = [&](Timestamp t) {
-        vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.queries.handle, t);
-    };
+    const auto mark = [&](Timestamp t) { gpu::writeTimestamp(cmd, slot.queries.handle, t); };
     vkCmdResetQueryPool(cmd, slot.queries.handle, 0, kTimestamps);
     mark(kBegin);
     v.recordShadows(cmd, slot, slotIndex, direct);
