@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench.h"
 #include "app/bench_relight_gpu.h"
+#include "app/moving_lights.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -81,35 +82,6 @@ constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
                            {"field", &RelightStats::fieldMs},
                            {"total", &RelightStats::totalMs}};
 
-/// `count` point lights evenly over the surfaces, a twentieth of the scene's size off them.
-std::vector<Light> pointsOver(const Scene& scene, const Surfels& surfels, std::uint32_t count) {
-    std::vector<Light> lights(count);
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const std::size_t s = (2 * std::size_t(k) + 1) * surfels.size() / (2 * std::size_t(count));
-        lights[k].position =
-            surfels.position[s] + surfels.normal[s] * (0.05f * glm::length(scene.bounds.size()));
-        lights[k].strength = 10;
-    }
-    return lights;
-}
-
-/// A light as it stands in the k-th run: a sun turns, any other wanders, a little.
-Light moved(Light light, int k) {
-    const float a = 0.01f * float(k);
-    const glm::vec3 d(std::sin(a), 0, std::cos(a) - 1);
-    light.position += d * 0.1f;
-    light.direction = glm::normalize(light.direction + d * 0.1f);
-    return light;
-}
-
-/// All lights of the scene as they stand in the k-th run.
-std::vector<Light> lightsAt(const Scene& scene, int k) {
-    std::vector<Light> lights = scene.lights;
-    for (Light& l : lights)
-        l = moved(l, k);
-    return lights;
-}
-
 /// One bounce a run, with every light moved.
 std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& trace,
                                        const std::shared_ptr<const Bake>& bake, int runs) {
@@ -117,7 +89,7 @@ std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& tra
     Scene lit = scene;
     std::vector<RelightStats> all;
     for (int k = 0; k <= runs; ++k) {
-        lit.lights = lightsAt(scene, k);
+        lit.lights = movedLights(scene.lights, k);
         const RelightStats stats = relighter.relight(lit, trace, 1);
         if (k > 0) // the first lights materials too
             all.push_back(stats);
@@ -180,7 +152,7 @@ Result<GpuRuns> runsOn(const std::string& device, const Scene& scene, const Trac
         return GpuRuns{"cpu", relightOnCpu(scene, trace, bake, runs)};
 #ifdef LIMN_HAS_VIEWPORT
     return relightOnGpu(device == "gpu" ? "" : device, scene, trace, bake, runs,
-                        [&](int k) { return lightsAt(scene, k); });
+                        [&](int k) { return movedLights(scene.lights, k); });
 #else
     return fail("this build has no Vulkan");
 #endif

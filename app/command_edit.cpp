@@ -3,6 +3,7 @@
 #include "app/editor_app.h"
 #include "app/scene_options.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -34,6 +35,18 @@ void addEditCommand(CLI::App& app, Run& run) {
         "writes counters and the longest frame there, whenever all work is done and at the end");
     command->add_flag("--validate", options->validate,
                       "Vulkan validation; fails if there was a message");
+    command
+        ->add_option_function<std::string>(
+            "--relight",
+            [options](const std::string& name) {
+                options->relightOn =
+                    RelightOn(std::find(kRelightOnNames.begin(), kRelightOnNames.end(), name) -
+                              kRelightOnNames.begin());
+            },
+            "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or auto, "
+            "which is faster here")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(kRelightOnNames.begin(), kRelightOnNames.end())));
     command->add_flag("--no-bake", options->noBake, "does not bake a scene as soon as it is open");
     command->callback([options, &run] {
         run = [options] {

@@ -145,7 +145,7 @@ void EditorApp::countFrame(double ms) {
     ++f.uiFrames;
     f.uiMs = ms;
     f.longestUiMs = std::max(f.longestUiMs, ms);
-    if (m_session.field() && m_session.state.relight.running)
+    if ((m_session.field() || m_session.viewportRelights()) && m_session.state.relight.running)
         f.longestUiWhileRelightingMs = std::max(f.longestUiWhileRelightingMs, ms);
 }
 
@@ -213,6 +213,9 @@ void EditorApp::writeStats() const {
         {"bake_up_to_date", s.bake.freshness == BakeFreshness::UpToDate},
         {"relight_calls", s.relight.calls},
         {"relight_converged", s.relight.converged},
+        {"relight_on", kRelightOnNames[std::size_t(s.relightPlace.used())]},
+        {"relight_cpu_ms", s.relightPlace.times ? s.relightPlace.times->cpuMs : 0},
+        {"relight_gpu_ms", s.relightPlace.times ? s.relightPlace.times->gpuMs : 0},
         {"edits", s.history.applied},
         {"selection", s.selection},
         {"unsaved", hasUnsavedChanges(s)},
@@ -227,6 +230,7 @@ void EditorApp::writeStats() const {
 }
 
 void EditorApp::run() {
+    m_session.state.relightPlace.wanted = m_options.relightOn;
     m_session.open(m_options.scene);
     while (!m_session.wantsQuit()) {
         if (!waitForWork())

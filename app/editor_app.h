@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/files/relight_choice.h"
 
 #include <cstdint>
 #include <string>
@@ -15,6 +16,7 @@ struct EditorAppOptions {
     std::string statsPath; ///< empty: none
     bool validate = false;
     bool noBake = false;
+    RelightOn relightOn = RelightOn::Auto;
 };
 
 /// Opens the window and runs until the user quits. Fails without a display or a Vulkan driver, and,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/relight_job.h"
 #include "engine/overlay/overlay.h"
 #include "engine/render/viewport.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -13,15 +15,22 @@
 
 namespace limn {
 
+class RenderWorker;
+
 /// What a picture is to show. Pointers stand for their contents.
 struct PictureRequest {
     std::shared_ptr<const Scene> scene;           ///< not null
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
-    std::shared_ptr<const IndirectField> field;   ///< null: no bake
+    std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
     ViewportOptions options;
     OverlayOptions overlay;
     std::shared_ptr<const Bake> bake;        ///< that the overlay shows; null: there is no overlay
     std::shared_ptr<const Scene> bakedScene; ///< that `bake` was made from
+    BakedScene lit;       ///< whose bounced light is shown; null members: no bake
+    bool relight = false; ///< it is worked out here, on the viewport's device, instead of `field`
+    /// Of `scene`. Set: how long relighting takes is measured first, on either device. `lit` is of
+    /// `scene`, too.
+    std::shared_ptr<const TraceScene> measure;
 };
 
 struct DrawnPicture {
@@ -29,13 +38,18 @@ struct DrawnPicture {
     std::uint64_t number = 0;           ///< of this picture, from 1
     OverlayLegend legend;               ///< of its overlay
     ViewportStats stats;
-    bool running = false; ///< another one is being drawn
-    std::string error;    ///< why there will be no more pictures
+    bool running = false;              ///< another one is being drawn
+    std::shared_ptr<const Bake> lit;   ///< that what follows is about
+    RelightStatus relight;             ///< by this device
+    std::string refusal;               ///< why the device cannot light it; empty: it can
+    std::optional<RelightTimes> times; ///< of bakes like it, measured now or before
+    std::string error;                 ///< why there will be no more pictures
 };
 
 /// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload
 /// nor a slow picture holds up the window: on a software rasteriser everything on one queue would
-/// wait for it. The picture comes back through the CPU.
+/// wait for it. The picture comes back through the CPU. Where it relights, it draws again after a
+/// few bounces until they have converged; then it sleeps.
 class RenderJob {
 public:
     /// `wake` is called from the thread when there is a new result().
@@ -51,14 +65,15 @@ public:
     std::vector<std::string> validationMessages() const;
 
 private:
-    struct Worker;
     void run(bool validate);
-    void publish(Worker& worker, std::shared_ptr<const Image> image);
+    void publish(RenderWorker& worker, std::shared_ptr<const Image> image);
 
     std::function<void()> m_wake;
-    mutable std::mutex m_mutex; ///< of what follows
+    std::atomic<bool> m_hurry{false}; ///< another picture is wanted, or none
+    mutable std::mutex m_mutex;       ///< of what follows
     std::condition_variable m_changed;
     std::optional<PictureRequest> m_next;
+    std::shared_ptr<const Scene> m_lastScene; ///< asked for
     DrawnPicture m_result;
     std::vector<std::string> m_messages;
     bool m_stop = false;

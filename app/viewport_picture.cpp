@@ -28,11 +28,29 @@ float ViewportPicture::chooseScale(glm::uvec2 full) const {
     return std::clamp(std::floor(wanted / kScaleStep) * kScaleStep, kLeastScale, 1.f);
 }
 
-void ViewportPicture::takeDrawn(EditorState& state) {
+void ViewportPicture::takeRelit(Session& session) {
+    EditorState& state = session.state;
+    RelightPlace& place = state.relightPlace;
+    if (m_drawn.lit == session.baked().bake) {
+        if (place.refusal != m_drawn.refusal && !m_drawn.refusal.empty())
+            state.log.push_back(
+                {LogLine::Level::Warning, "Bounced light stays on the CPU: " + m_drawn.refusal});
+        place.refusal = m_drawn.refusal;
+        if (m_drawn.lit)
+            place.times = m_drawn.times;
+    }
+    place.gpuCan = m_drawn.error.empty() && place.refusal.empty();
+    if (session.viewportRelights())
+        state.relight = m_drawn.relight;
+}
+
+void ViewportPicture::takeDrawn(Session& session) {
+    EditorState& state = session.state;
     DrawnPicture drawn = m_job.result();
     if (!drawn.error.empty() && m_drawn.error.empty())
         state.log.push_back({LogLine::Level::Error, "No more pictures: " + drawn.error});
     m_drawn = std::move(drawn);
+    takeRelit(session);
     if (!m_drawn.image)
         return;
     const Image& image = *m_drawn.image;
@@ -51,13 +69,28 @@ void ViewportPicture::takeDrawn(EditorState& state) {
     state.overlay.legend = m_drawn.legend;
 }
 
+/// Once per bake, when nothing else is done whose time it would take or spoil.
+bool ViewportPicture::measureNow(const Session& session) {
+    const EditorState& state = session.state;
+    const RelightPlace& place = state.relightPlace;
+    const bool due = place.wanted == RelightOn::Auto && place.gpuCan && !place.times &&
+                     session.baked().bake && !session.baked().preview && state.trace &&
+                     m_drawn.lit == session.baked().bake && m_measured != session.baked().bake;
+    if (!due || m_drawn.running || m_reduced || !session.idle() ||
+        state.bake.freshness != BakeFreshness::UpToDate)
+        return false;
+    m_measured = session.baked().bake;
+    return true;
+}
+
 void ViewportPicture::update(Session& session) {
     EditorState& state = session.state;
-    takeDrawn(state);
+    takeDrawn(session);
     const ViewState& view = state.view;
     const glm::uvec2 full = glm::max(glm::uvec2(view.size), glm::uvec2(1));
-    Shown shown{view.view,       view.tonemap,     view.exposureEv, view.camera, full,
-                session.scene(), session.layout(), session.field(), {},          nullptr};
+    Shown shown{view.view, view.tonemap,    view.exposureEv,      view.camera,
+                full,      session.scene(), session.layout(),     session.field(),
+                {},        nullptr,         session.baked().bake, session.viewportRelights()};
     if (state.overlay.options.kind != Overlay::None) {
         shown.overlay = state.overlay.options;
         shown.bake = state.overlay.bake;
@@ -65,7 +98,8 @@ void ViewportPicture::update(Session& session) {
     const bool changed = m_shown != shown;
     const auto now = Clock::now();
     const bool resting = std::chrono::duration<double>(now - m_changed).count() >= kRestSeconds;
-    if (!changed && !(m_reduced && resting))
+    const bool measure = !changed && measureNow(session);
+    if (!changed && !measure && !(m_reduced && resting))
         return;
     if (changed)
         m_changed = now;
@@ -79,8 +113,11 @@ void ViewportPicture::update(Session& session) {
                                 .height = size.y,
                                 .tonemap = view.tonemap,
                                 .exposureEv = view.exposureEv},
-                shown.overlay, shown.bake, state.overlay.scene});
-    m_drawn.running = true;
+                shown.overlay, shown.bake, state.overlay.scene, session.baked(), shown.relight,
+                measure ? state.trace : nullptr});
+    m_drawn = m_job.result();
+    if (shown.relight)
+        state.relight = m_drawn.relight;
     m_shown = std::move(shown);
 }
 

@@ -46,12 +46,16 @@ private:
         std::shared_ptr<const IndirectField> field;
         OverlayOptions overlay;
         std::shared_ptr<const Bake> bake; ///< of the overlay; null: there is none
+        std::shared_ptr<const Bake> lit;  ///< whose light is shown
+        bool relight = false;             ///< by the viewport's device
 
         bool operator==(const Shown&) const = default;
     };
 
     float chooseScale(glm::uvec2 full) const;
-    void takeDrawn(EditorState& state);
+    void takeDrawn(Session& session);
+    void takeRelit(Session& session);
+    bool measureNow(const Session& session);
 
     gpu::Device& m_device;
     RenderJob m_job;
@@ -60,8 +64,9 @@ private:
     std::uint64_t m_onDevice = 0; ///< number of the picture in m_image
     std::optional<Shown> m_shown; ///< as asked for last
     std::chrono::steady_clock::time_point m_changed;
-    double m_msPerPixel = 0; ///< of the last picture; 0: none yet
-    bool m_reduced = false;  ///< the picture asked for has fewer pixels than the window has for it
+    double m_msPerPixel = 0;                ///< of the last picture; 0: none yet
+    std::shared_ptr<const Bake> m_measured; ///< that relighting was measured for last
+    bool m_reduced = false; ///< the picture asked for has fewer pixels than the window has for it
 };
 
 } // namespace limn

@@ -121,6 +121,7 @@ struct EditorState {
     Bounds sceneBounds;
     BakeStatus bake;
     RelightStatus relight;
+    RelightPlace relightPlace;
     FrameStatus frame;
     std::string loading; ///< what is being opened; empty: nothing
     std::vector<LogLine> log;

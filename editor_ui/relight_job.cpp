@@ -11,9 +11,6 @@ namespace limn {
 
 namespace {
 
-/// Bounces between two looks at what the user did meanwhile.
-constexpr std::uint32_t kBouncesPerCall = 2;
-
 bool sameSurface(const Material& a, const Material& b) {
     return a.alphaMode == b.alphaMode && a.alphaCutoff == b.alphaCutoff &&
            a.doubleSided == b.doubleSided && a.baseColor.w == b.baseColor.w &&
@@ -55,8 +52,10 @@ struct RelightJob::Worker {
     std::array<std::shared_ptr<IndirectField>, 3>
         pool; ///< fields nobody looks at any more are used again
     RelightStatus status;
+    bool lighting = true;
 
-    bool hasWork() const { return relighter && scene && !status.converged; }
+    bool hasWork() const { return lighting && relighter && scene && !status.converged; }
+    void setLighting(bool here);
     void takeScene(std::shared_ptr<const Scene> next);
     void takeBake(BakedScene next);
     void relight(const Progress& progress);
@@ -82,6 +81,12 @@ void RelightJob::Worker::takeBake(BakedScene next) {
     status.bounces = 0;
 }
 
+void RelightJob::Worker::setLighting(bool here) {
+    if (here && !lighting)
+        status = {};
+    lighting = here;
+}
+
 void RelightJob::Worker::relight(const Progress& progress) {
     const bool fresh = inputHash == baked.bake->sceneHash;
     if (fresh)
@@ -89,11 +94,7 @@ void RelightJob::Worker::relight(const Progress& progress) {
     else
         status.last = relighter->relight(relitScene(*baked.scene, *scene), *baked.trace,
                                          kBouncesPerCall, progress);
-    ++status.calls;
-    status.history.add(status.last);
-    status.bounces += status.last.bounces;
-    const std::uint32_t most = scene->bake.maxBounces;
-    status.converged = status.last.converged || status.bounces >= most;
+    countUpdate(status, scene->bake.maxBounces);
 }
 
 std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
@@ -106,6 +107,13 @@ std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
         return field;
     }
     return std::make_shared<const IndirectField>(relighter->field());
+}
+
+void countUpdate(RelightStatus& status, std::uint32_t maxBounces) {
+    ++status.calls;
+    status.history.add(status.last);
+    status.bounces += status.last.bounces;
+    status.converged = status.last.converged || status.bounces >= maxBounces;
 }
 
 RelightJob::RelightJob(std::function<void()> wake)
@@ -141,6 +149,18 @@ void RelightJob::setBake(BakedScene baked) {
     m_changed.notify_one();
 }
 
+void RelightJob::setLighting(bool here) {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (here == m_lighting)
+            return;
+        m_lighting = here;
+        m_cancel = !here; // what is under way is of no use any more
+        m_result.status.running |= here;
+    }
+    m_changed.notify_one();
+}
+
 Relit RelightJob::result() const {
     const std::lock_guard lock(m_mutex);
     return m_result;
@@ -152,10 +172,13 @@ void RelightJob::run() {
     const Progress progress{.report = {}, .cancel = &m_cancel};
     std::unique_lock lock(m_mutex);
     for (;;) {
-        m_changed.wait(lock,
-                       [&] { return m_stop || m_nextScene || m_nextBake || worker.hasWork(); });
+        m_changed.wait(lock, [&] {
+            return m_stop || m_nextScene || m_nextBake || m_lighting != worker.lighting ||
+                   worker.hasWork();
+        });
         if (m_stop)
             return;
+        worker.setLighting(m_lighting);
         auto scene = std::exchange(m_nextScene, nullptr);
         auto baked = std::exchange(m_nextBake, {});
         lock.unlock();
@@ -169,8 +192,8 @@ void RelightJob::run() {
             field = worker.copyField();
         }
         lock.lock();
-        if (field || !worker.relighter)
-            m_result.field = std::move(field);
+        if (field || !worker.relighter || !worker.lighting)
+            m_result.field = worker.lighting ? std::move(field) : nullptr;
         m_result.trace = worker.trace;
         m_result.hashedScene = worker.scene;
         m_result.inputHash = worker.inputHash;

@@ -18,8 +18,9 @@ struct Relit {
 };
 
 /// Keeps the bounced light up to date with the newest scene on a thread of its own: a few bounces
-/// at a time until converged, then it sleeps. It also builds the TraceScene and the hash that
-/// decides about a new bake, because both take long on large scenes. No call waits for that work.
+/// at a time until converged, then it sleeps. Whatever lights, it also builds the TraceScene and
+/// the hash that decides about a new bake, because both take long on large scenes. No call waits
+/// for that work.
 class RelightJob {
 public:
     /// `wake` is called from the thread whenever there is something new in result().
@@ -34,6 +35,10 @@ public:
     /// The bake to light. Null members: none, and the field is dropped.
     void setBake(BakedScene baked);
 
+    /// Whether this thread lights the bake; at first it does. Not: somebody else does, and there is
+    /// no field.
+    void setLighting(bool here);
+
     Relit result() const;
 
 private:
@@ -45,11 +50,18 @@ private:
     std::condition_variable m_changed;
     std::shared_ptr<const Scene> m_nextScene; ///< not yet taken
     std::optional<BakedScene> m_nextBake;     ///< not yet taken
+    bool m_lighting = true;
     bool m_stop = false;
     Relit m_result;
     std::atomic<bool> m_cancel{false};
     std::thread m_thread; ///< last: starts when everything else is there
 };
+
+/// Bounces between two looks at what the user did meanwhile.
+inline constexpr std::uint32_t kBouncesPerCall = 2;
+
+/// Counts status.last in. At `maxBounces` it has converged.
+void countUpdate(RelightStatus& status, std::uint32_t maxBounces);
 
 /// True if a bake of `a` serves `b` as well, as far as can be told without hashing the meshes.
 bool sameBakeInputs(const Scene& a, const Scene& b);

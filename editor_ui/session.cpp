@@ -116,6 +116,7 @@ void Session::takeOpened() {
         addRecentFile(before.recent, file.projectPath.empty() ? file.imported.document.scenePath
                                                               : file.projectPath);
     state.frame = before.frame;
+    state.relightPlace = before.relightPlace;
     state.autoBake = before.autoBake;
     state.document = std::move(file.imported.document);
     state.saved = state.document.objects;
@@ -168,6 +169,7 @@ void Session::takeSaved() {
 
 void Session::useBake(BakedScene baked) {
     m_baked = std::move(baked);
+    state.relightPlace.refusal.clear(); // of the bake before
     state.bake = {};
     if (m_baked.bake) {
         const Bake& bake = *m_baked.bake;
@@ -243,7 +245,9 @@ static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, cons
 void Session::showStatus() {
     m_relit = m_relightJob.result();
     state.trace = m_relit.trace;
-    state.relight = m_relit.status;
+    m_relightJob.setLighting(!viewportRelights());
+    if (!viewportRelights())
+        state.relight = m_relit.status;
     m_bakeJob.report(state.bake);
     if (state.bake.running)
         m_bakeSecondsRunning = state.bake.elapsedSeconds;
@@ -278,7 +282,7 @@ void Session::update() {
 
 bool Session::idle() const {
     return !m_files.running() && !m_bakeJob.running() && !m_bakeSoon && !state.relight.running &&
-           state.loading.empty();
+           !m_relit.status.running && state.loading.empty();
 }
 
 double Session::bakeSeconds() const {

@@ -40,7 +40,14 @@ public:
     } ///< null: no bake; fits scene()
     const std::shared_ptr<const IndirectField>& field() const {
         return m_relit.field;
-    } ///< null: no bake
+    } ///< null: no bake, or the viewport relights
+
+    /// Last good bake and the scene it was made from; null: none.
+    const BakedScene& baked() const { return m_baked; }
+    /// Whoever draws the viewport is to light baked() on its device, and fills state.relight.
+    bool viewportRelights() const {
+        return m_baked.bake && state.relightPlace.used() == RelightOn::Gpu;
+    }
 
     bool wantsQuit() const { return m_quit; }
     /// Nothing is being opened, saved, baked or relit.

@@ -3,9 +3,11 @@
 
 #include "editor_ui/time_history.h"
 #include "engine/bake/bake_bytes.h"
+#include "engine/files/relight_choice.h"
 #include "engine/relight/relight.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +52,17 @@ struct RelightStatus {
     std::uint32_t bounces = 0; ///< since the last edit
     bool running = false;
     bool converged = false;
+};
+
+/// Where bounced light is worked out: by RelightJob, or by whoever draws the viewport, on its
+/// device.
+struct RelightPlace {
+    RelightOn wanted = RelightOn::Auto;
+    bool gpuCan = false;               ///< there is a device that draws, and it can light the bake
+    std::string refusal;               ///< why it cannot; empty: it can, or there is none
+    std::optional<RelightTimes> times; ///< of bakes like this one; not known until measured
+
+    RelightOn used() const { return chooseRelight(wanted, gpuCan, times); } ///< never Auto
 };
 
 /// What the panels show of the window and its viewport.

@@ -63,7 +63,65 @@ static void historyPlot(const EditorState& state) {
     timeHistory(state.relight.history);
 }
 
-static void relightTable(const EditorState& state) {
+static std::string measuredMs(const RelightPlace& place, RelightOn device) {
+    if (!place.times)
+        return "–";
+    return ms(device == RelightOn::Gpu ? place.times->gpuMs : place.times->cpuMs);
+}
+
+static const char* placeTooltip(RelightOn device) {
+    switch (device) {
+    case RelightOn::Auto:
+        return "Whichever is faster here. Measured once per device and size of bake, when all else "
+               "is done, and remembered";
+    case RelightOn::Cpu:
+        return "By this machine's processor, with traced shadows";
+    case RelightOn::Gpu:
+        return "By the device that draws the picture, with the picture's shadow maps; nothing is "
+               "uploaded";
+    }
+    return "";
+}
+
+/// Which device relights, with what either takes.
+static void placeRow(RelightPlace& place) {
+    constexpr const char* kLabels[] = {"Auto", "CPU", "GPU"};
+    const bool onGpu = place.used() == RelightOn::Gpu;
+    const std::string shown = place.wanted == RelightOn::Auto
+                                  ? fmt::format("Auto: {}", onGpu ? "GPU" : "CPU")
+                              : onGpu ? "GPU"
+                                      : "CPU";
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    elidedText("Relight on", ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    wrappedTooltip("Which device works bounced light out");
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
+    const bool open = ImGui::BeginCombo("##relight on", shown.c_str());
+    ImGui::PopStyleVar();
+    if (!open)
+        wrappedTooltip(placeTooltip(place.wanted));
+    for (const RelightOn on : {RelightOn::Auto, RelightOn::Cpu, RelightOn::Gpu}) {
+        if (!open)
+            break;
+        std::string label = kLabels[std::size_t(on)];
+        if (on != RelightOn::Auto)
+            label += "  " + measuredMs(place, on);
+        const bool possible = on != RelightOn::Gpu || place.gpuCan;
+        if (ImGui::Selectable(label.c_str(), place.wanted == on,
+                              possible ? 0 : ImGuiSelectableFlags_Disabled))
+            place.wanted = on;
+        wrappedTooltip(possible || place.refusal.empty() ? placeTooltip(on)
+                                                         : place.refusal.c_str());
+    }
+    if (open)
+        ImGui::EndCombo();
+}
+
+static void relightTable(EditorState& state) {
     const RelightStatus& r = state.relight;
     if (!beginTable("relight", "Bounced light"))
         return;
@@ -72,9 +130,14 @@ static void relightTable(const EditorState& state) {
         : r.running ? "bouncing"
                     : "idle",
         "Converged: another bounce would change nothing");
+    placeRow(state.relightPlace);
+    for (const RelightOn on : {RelightOn::Cpu, RelightOn::Gpu})
+        row(on == RelightOn::Cpu ? "  CPU" : "  GPU", measuredMs(state.relightPlace, on),
+            "One update of one bounce with every light moved: what Auto compares");
     row("Bounces", std::to_string(r.bounces), "Since the last edit");
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
-    row("Shadow rays", groupedNumber(r.last.shadowRays), "Of the last call; 0 when no light moved");
+    row("Shadow rays", groupedNumber(r.last.shadowRays),
+        "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps");
     row("Lights off", groupedNumber(r.last.lightsOff),
         "Off, black or out of reach of every surface: they cost nothing");
     row("Sky links", groupedNumber(r.last.skyLinksSkipped),
@@ -139,7 +202,7 @@ static void bakeTable(const EditorState& state) {
     ImGui::EndTable();
 }
 
-void statisticsPanel(const EditorState& state) {
+void statisticsPanel(EditorState& state) {
     constexpr int kColumns = 7;
     const float minimum = ImGui::GetFontSize() * 11.6f;
     const float room = ImGui::GetContentRegionAvail().x;
@@ -151,11 +214,15 @@ void statisticsPanel(const EditorState& state) {
                            {0, 0}, size.x))
         return;
     ImGui::TableNextRow();
-    for (auto* table :
-         {timeTable, historyPlot, relightTable, windowTable, countTable, byteTable, bakeTable}) {
+    const auto column = [&](auto* table) {
         ImGui::TableNextColumn();
         table(state);
-    }
+    };
+    column(timeTable);
+    column(historyPlot);
+    column(relightTable);
+    for (auto* table : {windowTable, countTable, byteTable, bakeTable})
+        column(table);
     ImGui::EndTable();
 }
 

@@ -222,8 +222,8 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     return stats;
 }
 
-const Bake& GpuRelighter::bake() const {
-    return *m_state->bake;
+const std::shared_ptr<const Bake>& GpuRelighter::bake() const {
+    return m_state->bake;
 }
 std::shared_ptr<const GpuField> GpuRelighter::field() const {
     return m_state->buffers.field;

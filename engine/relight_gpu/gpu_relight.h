@@ -58,7 +58,7 @@ public:
     GpuRelightStats relight(const SurfelInputs& inputs, std::uint32_t bounces,
                             const Progress& progress = {});
 
-    const Bake& bake() const;
+    const std::shared_ptr<const Bake>& bake() const;
 
     /// The field for the viewport, without a way through the CPU. Each relight() that is not
     /// skipped writes it anew, after the frames that were submitted before; it outlives this.

@@ -18,7 +18,7 @@ ViewportRelighter::create(gpu::Device& device, std::shared_ptr<const Bake> bake)
 RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                         std::uint32_t bounces, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
-    const Bake& bake = m_gpu->bake();
+    const Bake& bake = *m_gpu->bake();
     if (m_albedo.size() != bake.surfels.size() || m_materials != scene.materials) {
         surfelMaterials(bake.surfels, scene, m_albedo, m_emitted);
         m_materials = scene.materials;

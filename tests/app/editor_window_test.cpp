@@ -7,6 +7,7 @@
 #include "tests/editor_ui/headless.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -68,10 +69,13 @@ struct EditorWindowTest : testing::Test {
         ASSERT_TRUE(saveProject(project, document));
         editor.emplace(std::vector<std::string>{LIMN_BINARY, "edit", project, "--size",
                                                 fmt::format("{}x{}", kWidth, kHeight),
-                                                "--stats-json", stats, "--validate"},
+                                                "--stats-json", stats, "--validate", "--relight",
+                                                relightOn()},
                        screen->environment(), folder.string());
         document = loadProject(project)->document;
     }
+
+    virtual std::string relightOn() const { return "auto"; }
 
     void TearDown() override {
         editor.reset();
@@ -147,16 +151,79 @@ TEST_F(EditorWindowTest, ALightIsPickedDraggedSavedUndoneAndLitWithoutABake) {
     EXPECT_EQ(shot->width, unsigned(picture.size.x));
 }
 
-TEST_F(EditorWindowTest, AnIdleEditorDrawsNothing) {
-    ASSERT_TRUE(
-        waitFor([](const auto& s) { return s["bake_up_to_date"] && s["relight_converged"]; }));
+TEST_F(EditorWindowTest, AnIdleEditorDrawsNothingOnceItKnowsWhichDeviceRelightsFaster) {
+    ASSERT_TRUE(waitFor([](const auto& s) {
+        return s["bake_up_to_date"] && s["relight_converged"] && s["relight_gpu_ms"] > 0;
+    }));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    const std::uint64_t before = readStats()["frames"];
+    const auto before = readStats();
+    EXPECT_GT(before["relight_cpu_ms"], 0);
+    EXPECT_EQ(before["relight_on"],
+              before["relight_gpu_ms"] < before["relight_cpu_ms"] ? "gpu" : "cpu");
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     screen->focusWindow();
     screen->key("ctrl+q");
     EXPECT_EQ(editor->wait(), 0);
-    EXPECT_LE(readStats()["frames"].get<std::uint64_t>(), before + 20); // those of the key itself
+    EXPECT_LE(readStats()["frames"].get<std::uint64_t>(),
+              before["frames"].get<std::uint64_t>() + 20); // those of the key itself
+
+    // A picture follows what the editor has measured.
+    const fs::path remembered = folder / "limn/relight.json";
+    std::ifstream in(remembered);
+    nlohmann::json times = nlohmann::json::parse(in);
+    for (auto& [key, row] : times["times"].items())
+        for (const bool gpu : {false, true}) {
+            row["gpu_ms"] = row["cpu_ms"].get<double>() * (gpu ? 0.5 : 2);
+            std::ofstream(remembered) << times;
+            const std::string out = (folder / "render.json").string();
+            ASSERT_EQ(std::system(fmt::format("XDG_CACHE_HOME='{}' '{}' render '{}' --json -o '{}' "
+                                              "--width 32 --height 32 >'{}' 2>'{}.err'",
+                                              folder.string(), LIMN_BINARY, project,
+                                              (folder / "small.png").string(), out, out)
+                                      .c_str()),
+                      0);
+            std::ifstream printed(out);
+            const nlohmann::json rendered = nlohmann::json::parse(printed);
+            EXPECT_EQ(rendered["relight"]["device"] == "cpu", !gpu) << key;
+        }
+}
+
+struct EditorOnGpuTest : EditorWindowTest {
+    std::string relightOn() const override { return "gpu"; }
+};
+
+TEST_F(EditorOnGpuTest, AMovedLightIsFollowedUntilItConvergesAndThenNothingIsDrawn) {
+    ASSERT_TRUE(
+        waitFor([](const auto& s) { return s["bake_up_to_date"] && s["relight_converged"]; }));
+    EXPECT_EQ(readStats()["relight_on"], "gpu");
+    const std::uint64_t calls = readStats()["relight_calls"];
+    EXPECT_GT(calls, 1U) << "a few bounces at a time";
+    const Picture picture = pictureOf(project);
+    const glm::vec3 origin = std::get<Light>(document.objects.at(light)).position;
+    const float length = arrowLength(picture, origin);
+    screen->focusWindow();
+    screen->click(*toPixel(picture, origin));
+    ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
+    EXPECT_EQ(readStats()["relight_calls"], calls) << "nothing that gives light has changed";
+    screen->drag(*toPixel(picture, arrowTip(Handle::X, origin, 0.8f * length)),
+                 *toPixel(picture, arrowTip(Handle::X, origin, 1.6f * length)));
+    ASSERT_TRUE(waitFor([&](const auto& s) {
+        return s["edits"] == 1 && s["relight_converged"] && s["relight_calls"] > calls;
+    }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const auto before = readStats();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    EXPECT_EQ(readStats(), before) << "it sleeps";
+    EXPECT_GT(screen->colorsIn(picture.origin, picture.size), 200u);
+    screen->focusWindow();
+    screen->key("ctrl+s");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
+    screen->key("ctrl+q");
+    EXPECT_EQ(editor->wait(), 0);
+    const auto last = readStats();
+    EXPECT_EQ(last["validation_messages"], nlohmann::json::array());
+    EXPECT_EQ(last["bake_seconds_since_light_edit"], 0);
+    EXPECT_EQ(last["relight_calls"], before["relight_calls"]);
 }
 
 } // namespace

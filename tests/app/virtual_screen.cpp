@@ -118,7 +118,7 @@ std::optional<VirtualScreen> startVirtualScreen(int width, int height, const std
 }
 
 std::vector<std::string> VirtualScreen::environment() const {
-    return {"DISPLAY=:" + m_display, "XDG_CONFIG_HOME=" + m_folder};
+    return {"DISPLAY=:" + m_display, "XDG_CONFIG_HOME=" + m_folder, "XDG_CACHE_HOME=" + m_folder};
 }
 
 void VirtualScreen::xdotool(std::vector<std::string> arguments) {

@@ -120,6 +120,35 @@ TEST_F(SessionTest, AnEditedLightChangesTheFieldWithoutABakeAndUndoRestoresIt) {
     EXPECT_LT(difference, 1e-3 * sum); // both converged to one part in ten thousand
 }
 
+TEST_F(SessionTest, RelightingRestsWhileTheViewportDoesItAndGoesOnAfterwards) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    RelightPlace& place = session.state.relightPlace;
+    place.wanted = RelightOn::Gpu;
+    session.update();
+    EXPECT_TRUE(session.field()) << "there is no GPU";
+    place.gpuCan = true;
+    ASSERT_TRUE(runUntil(session, [&] { return !session.field(); }));
+    EXPECT_TRUE(session.viewportRelights());
+    session.state.relight = {}; // the viewport's from now on
+    lamp(session).strength = 3;
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_EQ(session.state.relight.calls, 0U);
+    EXPECT_FALSE(session.field());
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate) << "rays and hash go on";
+
+    place.wanted = RelightOn::Auto;
+    place.times = RelightTimes{.cpuMs = 2, .gpuMs = 1};
+    session.update();
+    EXPECT_TRUE(session.viewportRelights()) << "the faster one";
+    place.times = RelightTimes{.cpuMs = 1, .gpuMs = 2};
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_GT(session.state.relight.calls, 0U);
+    EXPECT_TRUE(session.field());
+}
+
 TEST_F(SessionTest, AMovedObjectMakesANewBakeNeededAndTheOldLightStays) {
     Session session(options());
     session.open(project);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/bake.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// `count` point lights evenly over the surfaces, a twentieth of the scene's size off them.
+std::vector<Light> pointsOver(const Scene& scene, const Surfels& surfels, std::uint32_t count);
+
+/// The lights as they stand in the k-th of many runs: a sun turns, any other wanders, a little.
+std::vector<Light> movedLights(std::vector<Light> lights, int k);
+
+} // namespace limn
