@@ -55,11 +55,17 @@ vec3 rectangleSpecularBrdf(Rectangle r, PackedSurface s, vec3 F0) {
     return specularBrdf(s, s.detailNormal, normalize(way), F0) * min(widened * widened, 1.0);
 }
 
+// In [0, 1), even among neighbouring pixels.
+// Jimenez. Next Generation Post Processing in Call of Duty: Advanced Warfare. 2014
+float pixelNoise() {
+    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+}
+
 void addRectangle(GpuLight light, PackedSurface s, vec3 F0, inout vec3 E, inout vec3 specular) {
     const Rectangle r = rectangleOf(light);
     vec3 irradiance = light.strength * rectangleIrradiance(r, s.position, s.detailNormal);
     const bool lit = irradiance.x + irradiance.y + irradiance.z > 0.0;
-    irradiance *= rectangleVisibility(light, r, s, lit);
+    irradiance *= rectangleVisibility(light, r, s, pixelNoise(), lit);
     E += irradiance;
     if (kView == VIEW_LIT && lit)
         specular += irradiance * rectangleSpecularBrdf(r, s, F0);

@@ -14,7 +14,7 @@ struct ShadowedLights {
     VkBuffer shadowViews = VK_NULL_HANDLE; ///< shared::GpuShadowView each
     VkImageView atlas = VK_NULL_HANDLE;    ///< depth layers, in SHADER_READ_ONLY_OPTIMAL
     VkSampler sampler = VK_NULL_HANDLE;    ///< nearest
-    std::uint32_t count = 0;               ///< lights; rectangles among them light no surfel
+    std::uint32_t count = 0;               ///< lights
     float normalBias = 0, lightBias = 0;   ///< receivers are moved so far [shadow texels]
     std::uint64_t version = 0; ///< grows with every change of the lights or of what casts shadows
 };

@@ -3,7 +3,7 @@
 // percentage-closer soft shadows (Fernando. Percentage-Closer Soft Shadows. 2005). A texel counts as blocker only where
 // the line from the receiver through the surface point that it holds meets the quarter, as in backprojection
 // (Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. 2006): walls beside a receiver shadow
-// nothing. For direct.frag, which declares shadowAtlas and shadowViews.
+// nothing. Whoever includes this has declared shadowViews[] and shadowAtlas.
 
 // Points of a quarter in the search for blockers and in the sum.
 const int kSearchPoints = 8;
@@ -35,12 +35,6 @@ float blockerAt(uint firstView, Rectangle r, PackedSurface s, float height, vec3
         return 0.0;
     const vec2 uv = coordinates(r, s.position + toBlocker * (height / nearer) - r.centre);
     return max(abs(uv.x), abs(uv.y)) <= 1.0 ? nearer / height : 0.0;
-}
-
-// In [0, 1), even among neighbouring pixels.
-// Jimenez. Next Generation Post Processing in Call of Duty: Advanced Warfare. 2014
-float pixelNoise() {
-    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
 }
 
 // Point i of a sequence that is even however long. Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018
@@ -81,10 +75,9 @@ vec2 quarterVisibility(uint firstView, Rectangle r, PackedSurface s, float heigh
     return vec2(sum - hidden, sum);
 }
 
-// Share of the rectangle's light that arrives. Loops, because software rasterisers skip nothing else.
-float rectangleVisibility(GpuLight light, Rectangle whole, PackedSurface s, bool lit) {
+// Share of the rectangle's light that arrives. `noise` in [0, 1) is another at each receiver. Loops, because software rasterisers skip nothing else.
+float rectangleVisibility(GpuLight light, Rectangle whole, PackedSurface s, float noise, bool lit) {
     const float height = dot(s.position - whole.centre, whole.normal);
-    const float noise = pixelNoise();
     const int quarters = light.shadowViews != SHADOW_NONE && lit ? 4 : 0;
     vec2 sum = vec2(0);
     for (int k = 0; k < quarters; ++k)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/relight/rectangle_shadow.h"
 #include "tests/relight_gpu/relit_scene.h"
 #include "tests/render/viewport_fixture.h"
 
@@ -51,11 +52,13 @@ Light lightOf(LightKind kind) {
     l.strength = 8;
     l.innerAngle = 0.3f;
     l.outerAngle = 0.9f;
+    l.size = {1.2f, 0.8f};
     return l;
 }
 
 TEST_F(ViewportSurfelLight, IsThatOfRaysWhereNothingCastsAShadow) {
-    for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
+    for (const LightKind kind :
+         {LightKind::Directional, LightKind::Point, LightKind::Spot, LightKind::Rectangle}) {
         simple::SceneBuilder b;
         b.addMaterial(simple::lambert(glm::vec3(0.5f)));
         b.add(simple::quad({0, 0, 5}, {4, 0, 0}, {0, 0, -5}));
@@ -92,6 +95,48 @@ TEST_F(ViewportSurfelLight, DiffersFromThatOfRaysOnlyAtTheEdgesOfShadows) {
         EXPECT_GT(dark, 300U);
         EXPECT_LT(differ, E.size() / 100) << int(kind);
     }
+}
+
+/// Error against rays to 1024 points of the rectangle, per mean irradiance.
+struct ShadowError {
+    double nrmse = 0, bias = 0;
+};
+ShadowError errorOf(const std::vector<glm::vec3>& E, const std::vector<float>& truth) {
+    double squares = 0, sum = 0, difference = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const double d = double(E[i].x - truth[i]);
+        squares += d * d;
+        difference += d;
+        sum += double(truth[i]);
+    }
+    return {std::sqrt(squares * double(truth.size())) / sum, difference / sum};
+}
+
+TEST_F(ViewportSurfelLight, ThatOfARectangleDiffersFromThatOfRaysByTheNoiseOfItsShadow) {
+    Scene shaded = court();
+    shaded.lights = {lightOf(LightKind::Rectangle)};
+    shaded.bake.surfels = 4000;
+    prepare(shaded);
+    const LightRectangle rectangle = lightRectangle(shaded.lights[0]);
+    std::vector<float> truth;
+    std::uint64_t rays = 0;
+    for (std::size_t i = 0; i < made->surfels.size(); ++i)
+        truth.push_back(shaded.lights[0].color.x * shaded.lights[0].strength *
+                        shadowedIrradiance(*trace, rectangle, made->surfels.position[i],
+                                           made->surfels.normal[i], 1024, {0.3f, 0.7f}, rays));
+    const ShadowError gpu = errorOf(irradiance(), truth), cpu = errorOf(traced(), truth);
+    std::printf("against 1024 rays: GPU nRMSE %.4f, bias %+.4f; CPU nRMSE %.4f, bias %+.4f\n",
+                gpu.nrmse, gpu.bias, cpu.nrmse, cpu.bias);
+    // Shadows from the depths that four points of the rectangle see: a tenth where an edge hides
+    // itself from all of them, as in the viewport's pixels.
+    EXPECT_LT(gpu.nrmse, 0.1);
+    EXPECT_LT(std::abs(gpu.bias), 0.05);
+    std::vector<glm::vec3> unshadowed;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        unshadowed.push_back(
+            shaded.lights[0].color * shaded.lights[0].strength *
+            rectangleIrradiance(rectangle, made->surfels.position[i], made->surfels.normal[i]));
+    EXPECT_GT(errorOf(unshadowed, truth).nrmse, 4 * gpu.nrmse) << "what the shadow is worth";
 }
 
 TEST_F(ViewportSurfelLight, LightsAddUpAndAreWorkedOutOnlyWhenTheyChange) {
