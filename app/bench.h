@@ -14,6 +14,7 @@ namespace limn {
 using Json = nlohmann::ordered_json;
 
 void addErrorBench(CLI::App& bench, Run& run);
+void addFrameBench(CLI::App& bench, Run& run);
 void addRelightBench(CLI::App& bench, Run& run);
 
 /// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made
@@ -24,6 +25,13 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 template <class Enum, class Names>
 Enum named(const Names& names, const std::string& name) {
     return Enum(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// An option of several values between commas.
+template <class Values, class Check>
+void addList(CLI::App& command, const char* flag, Values& values, const char* text,
+             const Check& check) {
+    command.add_option(flag, values, text)->delimiter(',')->check(check);
 }
 
 template <class Names>

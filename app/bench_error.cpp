@@ -197,14 +197,12 @@ void addErrorBench(CLI::App& bench, Run& run) {
         ->required();
     addLightOptions(*command, o->common);
     command->add_option("-o,--output", o->output, "folder of error.csv and error.json")->required();
-    const auto list = [&](const char* flag, auto& values, const char* text, const auto& check) {
-        command->add_option(flag, values, text)->delimiter(',')->check(check);
-    };
-    list("--surfels", o->surfels, "n_S, a list", CLI::Range(64, 1 << 20));
-    list("--links", o->links, "n_L, a list", CLI::Range(1, 4096));
-    list("--linker", o->linkers, "a list of linkers", oneOf(kLinkerNames));
-    list("--cut", o->cuts, "a list of cuts", oneOf(kCutNames));
-    list("--clustering", o->clusterings, "a list of clusterings", oneOf(kClusteringNames));
+    addList(*command, "--surfels", o->surfels, "n_S, a list", CLI::Range(64, 1 << 20));
+    addList(*command, "--links", o->links, "n_L, a list", CLI::Range(1, 4096));
+    addList(*command, "--linker", o->linkers, "a list of linkers", oneOf(kLinkerNames));
+    addList(*command, "--cut", o->cuts, "a list of cuts", oneOf(kCutNames));
+    addList(*command, "--clustering", o->clusterings, "a list of clusterings",
+            oneOf(kClusteringNames));
     command->add_option("--rays", o->rays, "of a cache")->check(CLI::Range(16, 65536));
     command->add_option("--bands", o->bands, "SH bands")->check(CLI::Range(2, 8));
     command->add_option("--lightmap", o->lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench.h"
+#include "app/bench_bakes.h"
 #include "app/bench_relight_gpu.h"
 #include "app/moving_lights.h"
-#include "app/progress_line.h"
-#include "app/scene_options.h"
 
-#include "engine/bake/stage_store.h"
-#include "engine/core/parallel.h"
-#include "engine/files/document_fields.h"
 #include "engine/measure/read_bandwidth.h"
 #include "engine/relight/relight.h"
 
-#include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -22,52 +15,13 @@ namespace limn {
 namespace {
 
 struct RelightBench {
-    SceneOptions common; ///< lights and sky of every scene
-    std::vector<std::string> scenes;
+    BenchBakes bakes;
     std::string output;
-    std::vector<std::uint32_t> surfels = {32768}, links = {128}, bands = {3};
-    std::vector<std::uint32_t> chromaBands = {0}; ///< 0: as many as bands
-    std::vector<std::string> storages = {"rtp", "sh"};
-    std::vector<std::uint32_t> lights = {0}; ///< points in the scene; 0: its own lights
-    std::uint32_t rays = 1024, lightmap = 10000;
+    std::vector<std::uint32_t> lights = {0};    ///< points in the scene; 0: its own lights
     std::vector<std::string> devices = {"cpu"}; ///< "cpu", "gpu", or part of a device's name
-    int runs = 31, threads = 0;
+    int runs = 31;
     bool json = false;
 };
-
-std::vector<BakeSettings> sweep(const RelightBench& o) {
-    std::vector<BakeSettings> rows;
-    BakeSettings s;
-    s.rays = o.rays;
-    s.lightmapCaches = o.lightmap;
-    for (const std::uint32_t surfels : o.surfels)
-        for (const std::uint32_t links : o.links)
-            for (const std::string& storage : o.storages)
-                for (const std::uint32_t bands : o.bands)
-                    for (const std::uint32_t chroma : o.chromaBands) {
-                        if (chroma > bands)
-                            continue;
-                        s.surfels = surfels;
-                        s.links = links;
-                        s.storage = named<LinkStorage>(kStorageNames, storage);
-                        s.bands = bands;
-                        s.chromaBands = chroma;
-                        rows.push_back(s);
-                    }
-    return rows;
-}
-
-struct Spread {
-    double median = 0, p95 = 0;
-};
-
-Spread spreadOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto at = [&](double share) {
-        return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
-    };
-    return {at(0.5), at(0.95)};
-}
 
 /// What a run took, step by step.
 struct Step {
@@ -80,7 +34,7 @@ constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
                            {"cache_light", &RelightStats::cacheLightMs},
                            {"surfel_read", &RelightStats::surfelReadMs},
                            {"field", &RelightStats::fieldMs},
-                           {"total", &RelightStats::totalMs}};
+                           {"", &RelightStats::totalMs}};
 
 /// One bounce a run, with every light moved.
 std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& trace,
@@ -97,35 +51,26 @@ std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& tra
     return all;
 }
 
-Json describe(const std::string& name, const std::string& device, const Scene& scene,
-              const Bake& bake, const std::vector<RelightStats>& runs, double bytesPerSecond) {
-    const BakeSettings& s = bake.settings;
-    const std::uint64_t bytes = bake.caches.links.size() * sizeof(Link) +
-                                bake.caches.shNode.size() * sizeof(std::uint32_t) +
-                                bake.caches.shCoefficients.size() * sizeof(std::uint16_t);
-    Json row = {{"name", name},
-                {"device", device},
-                {"surfels", s.surfels},
-                {"links", s.links},
-                {"bands", s.bands},
-                {"chroma_bands", chromaBandsOf(s)},
-                {"storage", kStorageNames[std::size_t(s.storage)]},
-                {"lights", scene.lights.size()},
-                {"caches", bake.caches.size()},
-                {"links_in_all", bake.caches.linkCount()},
+Json describe(const BenchBake& baked, const std::string& device, const Scene& scene,
+              const std::vector<RelightStats>& runs, double bytesPerSecond) {
+    const Caches& caches = baked.bake->caches;
+    const std::uint64_t bytes = caches.links.size() * sizeof(Link) +
+                                caches.shNode.size() * sizeof(std::uint32_t) +
+                                caches.shCoefficients.size() * sizeof(std::uint16_t);
+    Json row = {{"name", baked.name}, {"device", device}};
+    row.update(settingsOf(baked));
+    row.update({{"lights", scene.lights.size()},
+                {"caches", caches.size()},
+                {"links_in_all", caches.linkCount()},
                 {"bytes", bytes},
                 {"bytes_per_second", bytesPerSecond},
                 {"floor_ms", 1000 * double(bytes) / bytesPerSecond},
-                {"shadow_rays", runs.back().shadowRays}};
+                {"shadow_rays", runs.back().shadowRays}});
     for (const Step& step : kSteps) {
         std::vector<double> ms;
         for (const RelightStats& r : runs)
             ms.push_back(r.*step.ms);
-        const Spread spread = spreadOf(ms);
-        const std::string key =
-            step.ms == &RelightStats::totalMs ? "" : std::string(step.name) + "_";
-        row[key + "median_ms"] = spread.median;
-        row[key + "p95_ms"] = spread.p95;
+        addSpread(row, step.name, ms);
     }
     return row;
 }
@@ -158,44 +103,25 @@ Result<GpuRuns> runsOn(const std::string& device, const Scene& scene, const Trac
 #endif
 }
 
-Result<void> measureScene(const RelightBench& o, const std::string& path, Json& rows) {
-    SceneOptions options = o.common;
-    options.scene = path;
-    const Result<ImportedScene> imported = openScene(options);
-    if (!imported)
-        return tl::make_unexpected(imported.error());
-    const Scene scene = flatten(imported->document, imported->assets);
-    const std::string name = std::filesystem::path(path).stem().string();
-    const TraceScene trace(scene);
-    StageStore store;
-    for (const BakeSettings& settings : sweep(o)) {
-        Result<Bake> made = bake(trace, progressOnStderr(), &store, &settings);
-        endProgressLine();
-        if (!made)
-            return fail(fmt::format("{}: {}", path, made.error().message));
-        const auto baked = std::make_shared<const Bake>(std::move(*made));
-        const double bandwidth = measureReadBandwidth(std::size_t(256) << 20);
-        for (const std::uint32_t lights : o.lights) {
-            Scene lit = scene;
-            if (lights > 0)
-                lit.lights = pointsOver(scene, baked->surfels, lights);
-            for (const std::string& wanted : o.devices) {
-                Result<GpuRuns> measured = runsOn(wanted, lit, trace, baked, o.runs);
-                if (!measured)
-                    return fail(
-                        fmt::format("{} on {}: {}", path, wanted, measured.error().message));
-                rows.push_back(
-                    describe(name, measured->device, lit, *baked, measured->runs, bandwidth));
-                if (!o.json)
-                    printRow(rows.back());
-            }
+Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& rows) {
+    const double bandwidth = measureReadBandwidth(std::size_t(256) << 20);
+    for (const std::uint32_t lights : o.lights) {
+        Scene lit = baked.scene;
+        if (lights > 0)
+            lit.lights = pointsOver(lit, baked.bake->surfels, lights);
+        for (const std::string& wanted : o.devices) {
+            const Result<GpuRuns> measured = runsOn(wanted, lit, baked.trace, baked.bake, o.runs);
+            if (!measured)
+                return fail(fmt::format("on {}: {}", wanted, measured.error().message));
+            rows.push_back(describe(baked, measured->device, lit, measured->runs, bandwidth));
+            if (!o.json)
+                printRow(rows.back());
         }
     }
     return {};
 }
 
 Exit runRelightBench(const RelightBench& o) {
-    const ThreadLimit threads(o.threads);
     if (!o.json)
         fmt::print("{:<14} {:<8} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8} {:>7} {:>7} {:>7} {:>7} "
                    "{:>7} {:>7} "
@@ -204,9 +130,10 @@ Exit runRelightBench(const RelightBench& o) {
                    "MiB", "floor", "direct", "surfels", "pull", "caches", "read", "field",
                    "all [ms]", "p95");
     Json rows = Json::array();
-    for (const std::string& scene : o.scenes)
-        if (const Result<void> measured = measureScene(o, scene, rows); !measured)
-            return failed(measured.error().message);
+    const Result<void> measured =
+        forEachBake(o.bakes, [&](const BenchBake& baked) { return measureBake(o, baked, rows); });
+    if (!measured)
+        return failed(measured.error().message);
     return writeRows(rows, o.output, "relight", o.json);
 }
 
@@ -216,28 +143,15 @@ void addRelightBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<RelightBench>();
     CLI::App* command = bench.add_subcommand(
         "relight", "Time of each step of relighting while all lights move, one bounce a run");
-    command->add_option("scenes", o->scenes, ".gltf, .glb or .limn files, or names of projects")
-        ->required();
-    addLightOptions(*command, o->common);
+    addBenchBakes(*command, o->bakes);
     command->add_option("-o,--output", o->output, "folder of relight.csv and relight.json")
         ->required();
-    const auto list = [&](const char* flag, auto& values, const char* text, const auto& check) {
-        command->add_option(flag, values, text)->delimiter(',')->check(check);
-    };
-    list("--surfels", o->surfels, "n_S, a list", CLI::Range(64, 1 << 20));
-    list("--links", o->links, "n_L, a list", CLI::Range(1, 4096));
-    list("--bands", o->bands, "SH bands, a list", CLI::Range(2, 8));
-    list("--chroma-bands", o->chromaBands, "of colour, a list; 0: all", CLI::Range(0, 8));
-    list("--lights", o->lights, "moving point lights, a list; 0: those of the scene",
-         CLI::Range(0, 4096));
-    list("--storage", o->storages, "a list of link storages", oneOf(kStorageNames));
-    command->add_option("--rays", o->rays, "of a cache")->check(CLI::Range(16, 65536));
-    command->add_option("--lightmap", o->lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));
+    addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+            CLI::Range(0, 4096));
     command->add_option("--device", o->devices, "a list: cpu, gpu, or part of a device's name")
         ->delimiter(',');
     command->add_option("--runs", o->runs, "of which the median is printed")
         ->check(CLI::Range(1, 100000));
-    command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return runRelightBench(*o); }; });
 }

@@ -50,6 +50,9 @@ void addBenchCommand(CLI::App& app, Run& run) {
     bench->require_subcommand(1);
     addErrorBench(*bench, run);
     addRelightBench(*bench, run);
+#ifdef LIMN_HAS_VIEWPORT
+    addFrameBench(*bench, run);
+#endif
 }
 
 } // namespace limn

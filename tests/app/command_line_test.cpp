@@ -235,6 +235,38 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     EXPECT_EQ(limn("render cornell").exit, 2);
 }
 
+TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {
+    const std::string folder = path("frames");
+    const std::string start = "bench frame cornell --surfels 256 --links 16 --rays 32 --lightmap "
+                              "200 --width 32 --height 24 --runs 9 -o " +
+                              folder;
+    const nlohmann::json rows = json(start + " --lights 1,30 --relight gpu,cpu --json")["rows"];
+    ASSERT_EQ(rows.size(), 4u);
+    for (const nlohmann::json& row : rows) {
+        expectKeys(row, {"name", "device", "relight", "width", "height", "surfels", "links",
+                         "bands", "lights", "lights_without_shadow", "frames", "bytes", "median_ms",
+                         "p95_ms", "per_light_median_ms"});
+        EXPECT_EQ(row["frames"], 9);
+        EXPECT_GE(row["p95_ms"], row["median_ms"]);
+        double passes = 0;
+        for (const char* pass : {"shadow_maps", "lights_on_surfels", "surfels", "pull", "caches",
+                                 "field", "geometry", "direct", "tonemap"}) {
+            const double ms = row[pass + std::string("_median_ms")];
+            EXPECT_GT(ms, 0) << pass;
+            passes += ms;
+        }
+        EXPECT_LT(passes, 1.5 * row["p95_ms"].get<double>()) << "they are parts of the frame";
+        // 32 layers of four maps, of which a point light takes six.
+        EXPECT_EQ(row["lights_without_shadow"], row["lights"] == 1 ? 0 : 9);
+    }
+    EXPECT_EQ(rows[0]["relight"], "gpu");
+    EXPECT_EQ(rows[1]["relight"], "cpu");
+    EXPECT_NE(contents(folder + "/frame.csv").find("shadow_maps_median_ms"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(contents(folder + "/frame.json")).size(), 4u);
+    expectRefusal(start + " --device nowhere", "--device");
+    EXPECT_EQ(limn(start + " --runs 8").exit, 2);
+}
+
 TEST_F(CommandLine, RenderRelightsOnEitherDeviceAndSaysOnWhich) {
     const std::string bake = path("box.limnbake"), cpu = path("cpu.exr"), gpu = path("gpu.exr");
     ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_bakes.h"
+#include "app/moving_lights.h"
+
+#include "engine/files/relight_choice.h"
+#include "engine/gpu/device.h"
+#include "engine/render/viewport_relighter.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+struct FrameBench {
+    BenchBakes bakes;
+    CameraOptions camera;
+    std::string output, device, view = "lit";
+    std::vector<std::uint32_t> lights = {0};      ///< points in the scene; 0: its own lights
+    std::vector<std::string> relightOn = {"gpu"}; ///< "cpu", "gpu"
+    int runs = 15;
+    bool json = false;
+};
+
+/// What a frame took: passes in the GPU's time, but for relighting on the CPU [ms].
+struct FrameTimes {
+    double shadowMaps = 0;
+    double lightsOnSurfels = 0; ///< from shadow maps, or by rays on the CPU
+    double surfels = 0, pull = 0, caches = 0, field = 0;
+    double upload = 0; ///< of the field where it comes from the CPU
+    double geometry = 0, direct = 0, tonemap = 0;
+    double perLight = 0; ///< shadow maps and lights on surfels over the lights
+    double total = 0;    ///< of the clock on the wall
+};
+
+struct Pass {
+    const char* name;
+    double FrameTimes::*ms;
+};
+constexpr Pass kPasses[] = {
+    {"shadow_maps", &FrameTimes::shadowMaps}, {"lights_on_surfels", &FrameTimes::lightsOnSurfels},
+    {"surfels", &FrameTimes::surfels},        {"pull", &FrameTimes::pull},
+    {"caches", &FrameTimes::caches},          {"field", &FrameTimes::field},
+    {"upload", &FrameTimes::upload},          {"geometry", &FrameTimes::geometry},
+    {"direct", &FrameTimes::direct},          {"tonemap", &FrameTimes::tonemap},
+    {"per_light", &FrameTimes::perLight},     {"", &FrameTimes::total}};
+
+/// A viewport with bounced light from one device or the other.
+struct FrameScene {
+    gpu::Device& device;
+    Viewport viewport{device};
+    ViewportOptions options;
+    const TraceScene& trace;
+    std::unique_ptr<Relighter> cpu;
+    std::unique_ptr<ViewportRelighter> gpu; ///< null: `cpu` is not
+
+    FrameTimes draw(const Scene& lit);
+};
+
+/// With one bounce.
+FrameTimes FrameScene::draw(const Scene& lit) {
+    const auto start = std::chrono::steady_clock::now();
+    viewport.setLighting(lit);
+    const RelightStats light = gpu ? gpu->relight(viewport, lit, 1) : cpu->relight(lit, trace, 1);
+    if (cpu)
+        viewport.setIndirect(cpu->field());
+    viewport.render(options);
+    device.waitIdle();
+    const std::chrono::duration<double, std::milli> total =
+        std::chrono::steady_clock::now() - start;
+    const ViewportStats& drawn = viewport.stats();
+    FrameTimes t;
+    t.shadowMaps = drawn.shadowMs + (gpu ? drawn.relightShadowMs : 0);
+    t.lightsOnSurfels = light.directMs - (gpu ? drawn.relightShadowMs : 0);
+    t.surfels = light.surfelLightMs + light.surfelReadMs;
+    t.pull = light.pullMs;
+    t.caches = light.cacheLightMs;
+    t.field = light.fieldMs;
+    t.upload = drawn.uploadMs;
+    t.geometry = drawn.geometryMs;
+    t.direct = drawn.directMs;
+    t.tonemap = drawn.tonemapMs;
+    if (!lit.lights.empty())
+        t.perLight = (t.shadowMaps + t.lightsOnSurfels) / double(lit.lights.size());
+    t.total = total.count();
+    return t;
+}
+
+Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& frame,
+              const Scene& scene, const std::vector<FrameTimes>& frames) {
+    const ViewportStats& stats = frame.viewport.stats();
+    Json row = {{"name", baked.name},
+                {"device", frame.device.properties.deviceName},
+                {"relight", frame.gpu ? "gpu" : "cpu"},
+                {"view", o.view},
+                {"width", frame.options.width},
+                {"height", frame.options.height}};
+    row.update(settingsOf(baked));
+    row.update({{"lights", scene.lights.size()},
+                {"lights_without_shadow", stats.lightsWithoutShadow},
+                {"frames", frames.size()},
+                {"bytes", stats.gpuBytes}});
+    for (const Pass& pass : kPasses) {
+        std::vector<double> ms;
+        for (const FrameTimes& t : frames)
+            ms.push_back(t.*pass.ms);
+        addSpread(row, pass.name, ms);
+    }
+    return row;
+}
+
+void printHead() {
+    fmt::print("{:<14} {:<7} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} "
+               "{:>7} {:>7} {:>7} {:>8} {:>8} {:>8}\n",
+               "scene", "relight", "lights", "surfels", "links", "bands", "kind", "shadows",
+               "direct", "surfels", "pull", "caches", "field", "geom", "shade", "tone", "/light",
+               "all [ms]", "p95");
+}
+
+void printRow(const Json& r) {
+    const auto ms = [&](const std::string& key) { return r[key + "_median_ms"].get<double>(); };
+    fmt::print("{:<14.14} {:<7} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} "
+               "{:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>8.3f} {:>8.2f} {:>8.2f}\n",
+               r["name"].get<std::string>(), r["relight"].get<std::string>(),
+               r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
+               r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
+               r["storage"].get<std::string>(), ms("shadow_maps"), ms("lights_on_surfels"),
+               ms("surfels"), ms("pull"), ms("caches"), ms("field"), ms("geometry"), ms("direct"),
+               ms("tonemap"), ms("per_light"), r["median_ms"].get<double>(),
+               r["p95_ms"].get<double>());
+    std::fflush(stdout);
+}
+
+Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Device& device,
+                           std::uint32_t lights, const std::string& relightOn) {
+    Scene lit = baked.scene;
+    if (lights > 0)
+        lit.lights = pointsOver(lit, baked.bake->surfels, lights);
+    const Result<Camera> camera = chooseCamera(lit, o.camera);
+    if (!camera)
+        return tl::make_unexpected(camera.error());
+    FrameScene frame{.device = device, .trace = baked.trace};
+    frame.options.view = named<View>(kViewNames, o.view);
+    frame.options.camera = *camera;
+    frame.options.width = o.camera.width;
+    frame.options.height = o.camera.height;
+    if (relightOn == "gpu") {
+        auto made = ViewportRelighter::create(device, baked.bake);
+        if (!made)
+            return tl::make_unexpected(made.error());
+        frame.gpu = std::move(*made);
+    } else {
+        frame.cpu = std::make_unique<Relighter>(baked.bake);
+    }
+    frame.viewport.setScene(lit, {baked.bake, &baked.bake->lightmap});
+    std::vector<FrameTimes> frames;
+    const std::vector<Light> standing = lit.lights;
+    for (int k = 0; k <= o.runs; ++k) {
+        lit.lights = movedLights(standing, k);
+        const FrameTimes times = frame.draw(lit);
+        if (k > 0) // the first lights materials and makes pipelines too
+            frames.push_back(times);
+    }
+    return describe(o, baked, frame, lit, frames);
+}
+
+Exit runFrameBench(const FrameBench& o) {
+    const auto device = gpu::createDevice({.name = o.device});
+    if (!device)
+        return failed("--device: " + device.error().message);
+    Json rows = Json::array();
+    if (!o.json)
+        printHead();
+    const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
+        for (const std::uint32_t lights : o.lights)
+            for (const std::string& on : o.relightOn) {
+                Result<Json> row = measureFrames(o, baked, **device, lights, on);
+                if (!row)
+                    return tl::make_unexpected(row.error());
+                rows.push_back(std::move(*row));
+                if (!o.json)
+                    printRow(rows.back());
+            }
+        return {};
+    });
+    if (!measured)
+        return failed(measured.error().message);
+    return writeRows(rows, o.output, "frame", o.json);
+}
+
+} // namespace
+
+void addFrameBench(CLI::App& bench, Run& run) {
+    const auto o = std::make_shared<FrameBench>();
+    o->bakes.storages = {"rtp"};
+    CLI::App* command = bench.add_subcommand(
+        "frame", "Time of each pass of the viewport while all lights move, one bounce a frame");
+    addBenchBakes(*command, o->bakes);
+    addCameraOptions(*command, o->camera);
+    command->add_option("-o,--output", o->output, "folder of frame.csv and frame.json")->required();
+    command->add_option("--view", o->view, "what it shows")->check(oneOf(kViewNames));
+    addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+            CLI::Range(0, 4096));
+    addList(*command, "--relight", o->relightOn,
+            "a list: where bounced light is worked out, gpu or cpu",
+            CLI::IsMember(std::vector<std::string>{"gpu", "cpu"}));
+    command->add_option("--device", o->device, "part of a Vulkan device's name");
+    command->add_option("--runs", o->runs, "frames, of which the median is printed")
+        ->check(CLI::Range(9, 100000));
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return runFrameBench(*o); }; });
+}
+
+} // namespace limn
