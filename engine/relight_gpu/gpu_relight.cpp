@@ -111,7 +111,6 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         gpu::updateBuffer(device, cmd, to, first * sizeof(glm::vec4), std::as_bytes(std::span(v)));
         stats.bytesUploaded += v.size() * sizeof(glm::vec4);
     };
-    assert(inputs.skyCells.empty() || inputs.skyCells.size() == kSkyCells);
     const auto sendIfNew = [&](Sent& sent, std::span<const glm::vec3> values) {
         assert(values.size() == bake->surfels.size());
         if (started && std::ranges::equal(sent.values, values))
