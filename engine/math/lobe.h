@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/math/sh.h"
+
+#include <array>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Exponent n of the normalised lobe (n+1)/(2 pi) cos^n about the mirrored direction, for a
+/// microfacet surface of this roughness in [0, 1]: 2 / alpha^2 - 2, alpha = max(roughness^2, 0.05),
+/// so in [0, 798]. Karis. Specular BRDF Reference. 2013
+float lobeExponent(float roughness);
+
+/// Factors s_l w_l, l < bands, of a lobe that hardly rings in so few bands; 0 from there on.
+/// w_l = exp(-t l (l+1)) is a blur over the sphere; t is the least for which the kernel, the lobe
+/// cut off after `bands`, is nowhere below -1/20 of its peak. Lobes of n >= 1 that are wide enough
+/// for their bands are left as they are. Deviates from Sloan. Deringing Spherical Harmonics. 2017,
+/// whose window depends on the light: this one holds for every light, as a look-up of one number.
+/// bands in [2, kMaxBands].
+std::array<float, kMaxBands> windowedLobeFactors(float n, int bands);
+
+/// Mean radiance in the lobe cos^n about unit `d`, of radiance SH `c` (bands^2 of them); `factors`
+/// are those of the lobe. Not clamped.
+glm::vec3 shLobe(int bands, const glm::vec3* c, glm::vec3 d,
+                 const std::array<float, kMaxBands>& factors);
+
+/// What a reflection in the lobe cos^n loses in l bands, at [l], l in [1, kMaxBands]: the rms over
+/// all directions of what the dropped bands would add, over the mean. Of light from a cap of random
+/// size in the dark, whose power per coefficient falls with l^-3 as that of any light with edges.
+/// The window's loss is not part of it. n in [0, 798].
+std::array<float, kMaxBands + 1> lobeLosses(float n);
+
+} // namespace limn
