@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/scene.h"
-
+#include "engine/scene/specular.h"
 #include "engine/scene/triangle_geometry.h"
 
 #include <array>
@@ -101,6 +101,24 @@ static SurfaceMaterial materialOver(const Scene& scene, const Instance& instance
 SurfaceMaterial surfaceMaterial(const Scene& scene, const Instance& instance,
                                 std::uint32_t triangle, float u, float v) {
     return materialOver(scene, instance, triangle, u, v, 0);
+}
+
+Gloss surfaceGloss(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
+                   float v) {
+    const Material& m = scene.materialOf(instance);
+    const Assets& assets = *scene.assets;
+    const TrianglePoint point = pointOf(scene.meshOf(instance), triangle, u, v);
+    const glm::vec4 texel =
+        point.texture(assets, m.metallicRoughnessTexture, TexelKind::Data, 0); // 1 without one
+    Gloss gloss;
+    gloss.roughness = m.roughness * texel.y;
+    const float metallic = m.metallic * texel.z;
+    if (metallic > 0) {
+        const glm::vec4 base = m.baseColor * point.interpolate(point.mesh.colors, glm::vec4(1)) *
+                               point.texture(assets, m.baseColorTexture, TexelKind::Color, 0);
+        gloss.F0 = glm::mix(gloss.F0, glm::vec3(base), metallic);
+    }
+    return gloss;
 }
 
 SurfaceMaterial surfaceMaterialOver(const Scene& scene, const Instance& instance,
