@@ -61,7 +61,7 @@ std::vector<BakeSettings> sweep(const ErrorBench& o) {
 
 /// What the same bake gives with a link to every sender in sight, to tell the cut's own error.
 CacheReference withoutCut(const TraceScene& trace, const std::shared_ptr<const Bake>& bake) {
-    Relighter relighter(bake);
+    Relighter relighter(bake, LitBands::All);
     relighter.relight(trace.scene(), trace, 1); // reflected once
     const std::vector<glm::vec3>& sh = relighter.cacheSh();
     const int bands = int(bake->settings.bands);
@@ -156,7 +156,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
         if (!made)
             return fail(fmt::format("{}: {}", path, made.error().message));
         const auto baked = std::make_shared<const Bake>(std::move(*made));
-        Relighter relighter(baked);
+        Relighter relighter(baked, LitBands::All);
         relighter.relight(trace.scene(), trace, 1); // reflected once
         const std::vector<glm::vec3>& sh = relighter.cacheSh();
         const int bands = int(settings.bands);

@@ -19,6 +19,7 @@ struct RelightBench {
     std::string output;
     std::vector<std::uint32_t> lights = {0};    ///< points in the scene; 0: its own lights
     std::vector<std::string> devices = {"cpu"}; ///< "cpu", "gpu", or part of a device's name
+    LitBands lit = LitBands::All;
     int runs = 31;
     bool json = false;
 };
@@ -38,8 +39,9 @@ constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
 
 /// One bounce a run, with every light moved.
 std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& trace,
-                                       const std::shared_ptr<const Bake>& bake, int runs) {
-    Relighter relighter(bake);
+                                       const std::shared_ptr<const Bake>& bake, LitBands wanted,
+                                       int runs) {
+    Relighter relighter(bake, wanted);
     Scene lit = scene;
     std::vector<RelightStats> all;
     for (int k = 0; k <= runs; ++k) {
@@ -59,7 +61,8 @@ Json describe(const BenchBake& baked, const std::string& device, const Scene& sc
                                 caches.shCoefficients.size() * sizeof(std::uint16_t);
     Json row = {{"name", baked.name}, {"device", device}};
     row.update(settingsOf(baked));
-    row.update({{"lights", scene.lights.size()},
+    row.update({{"bands_lit", runs.back().bandsLit},
+                {"lights", scene.lights.size()},
                 {"caches", caches.size()},
                 {"links_in_all", caches.linkCount()},
                 {"bytes", bytes},
@@ -92,11 +95,11 @@ void printRow(const Json& r) {
 }
 
 Result<GpuRuns> runsOn(const std::string& device, const Scene& scene, const TraceScene& trace,
-                       const std::shared_ptr<const Bake>& bake, int runs) {
+                       const std::shared_ptr<const Bake>& bake, LitBands wanted, int runs) {
     if (device == "cpu")
-        return GpuRuns{"cpu", relightOnCpu(scene, trace, bake, runs)};
+        return GpuRuns{"cpu", relightOnCpu(scene, trace, bake, wanted, runs)};
 #ifdef LIMN_HAS_VIEWPORT
-    return relightOnGpu(device == "gpu" ? "" : device, scene, trace, bake, runs,
+    return relightOnGpu(device == "gpu" ? "" : device, scene, trace, bake, wanted, runs,
                         [&](int k) { return movedLights(scene.lights, k); });
 #else
     return fail("this build has no Vulkan");
@@ -110,7 +113,7 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
         if (lights > 0)
             lit.lights = pointsOver(lit, baked.bake->surfels, lights);
         for (const std::string& wanted : o.devices) {
-            const Result<GpuRuns> measured = runsOn(wanted, lit, baked.trace, baked.bake, o.runs);
+            const Result<GpuRuns> measured = runsOn(wanted, lit, baked.trace, baked.bake, o.lit, o.runs);
             if (!measured)
                 return fail(fmt::format("on {}: {}", wanted, measured.error().message));
             rows.push_back(describe(baked, measured->device, lit, measured->runs, bandwidth));
@@ -150,6 +153,9 @@ void addRelightBench(CLI::App& bench, Run& run) {
             CLI::Range(0, 4096));
     command->add_option("--device", o->devices, "a list: cpu, gpu, or part of a device's name")
         ->delimiter(',');
+    command->add_flag_callback(
+        "--needed-bands", [o] { o->lit = LitBands::Needed; },
+        "light only the bands that the scene's surfaces need; without it, all");
     command->add_option("--runs", o->runs, "of which the median is printed")
         ->check(CLI::Range(1, 100000));
     command->add_flag("--json", o->json, "one JSON object on stdout");

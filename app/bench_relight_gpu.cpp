@@ -5,13 +5,14 @@
 #include "engine/relight/surfel_light.h"
 #include "engine/relight/surfel_material.h"
 #include "engine/relight_gpu/gpu_relight.h"
+#include "engine/scene/receiver_bands.h"
 
 #include <chrono>
 
 namespace limn {
 
 Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, const TraceScene& trace,
-                             const std::shared_ptr<const Bake>& bake, int runs,
+                             const std::shared_ptr<const Bake>& bake, LitBands wanted, int runs,
                              const std::function<std::vector<Light>(int k)>& lightsOf) {
     const auto made = gpu::createDevice({.name = device});
     if (!made)
@@ -21,7 +22,9 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         return tl::make_unexpected(relighter.error());
     GpuRuns result{(*made)->properties.deviceName, {}};
     Scene lit = scene;
-    const std::vector<glm::vec3> sky = skyCellRadiance(scene.sky);
+    const std::vector<glm::vec3> sky = skyRadiosity(bake->tree, scene.sky);
+    const auto most = int(bake->settings.bands);
+    const auto bands = std::uint32_t(wanted == LitBands::All ? most : receiverBands(scene, most));
     SurfelLight light;
     std::vector<glm::vec3> albedo, emitted;
     surfelMaterials(bake->surfels, scene, albedo, emitted);
@@ -33,7 +36,8 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g =
-            (*relighter)->relight({light.irradiance, albedo, emitted, sky, nullptr}, 1);
+            (*relighter)
+                ->relight({light.irradiance, albedo, emitted, sky, nullptr, bands}, 1);
         RelightStats r;
         r.directMs = traced.count() + g.uploadMs;
         r.surfelLightMs = g.surfelLightMs;
@@ -41,6 +45,8 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         r.cacheLightMs = g.cacheLightMs;
         r.fieldMs = g.fieldMs;
         r.totalMs = traced.count() + g.totalMs;
+        r.bandsLit = bands;
+        r.bandsSkipped = bake->settings.bands - bands;
         r.shadowRays = light.raysTraced;
         if (k > 0) // the first uploads everything
             result.runs.push_back(r);

@@ -142,6 +142,10 @@ static void relightTable(EditorState& state) {
         "Off, black or out of reach of every surface: they cost nothing");
     row("Sky links", groupedNumber(r.last.skyLinksSkipped),
         "Passed over by the last call, because the sky is black");
+    row("Bands lit",
+        std::to_string(r.last.bandsLit) + " of " +
+            std::to_string(r.last.bandsLit + r.last.bandsSkipped),
+        "The others would be seen in glossy reflections only, and no surface needs them");
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
     row("Bake since edit",
         state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",

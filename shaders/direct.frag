@@ -5,7 +5,7 @@
 #include "shaders/shared/gpu_frame.h"
 #include "shaders/shared/gpu_light.h"
 #include "shaders/shared/gpu_material.h"
-#include "shaders/shared/sh_irradiance.glsl"
+#include "shaders/shared/specular.glsl"
 #include "shaders/shared/rectangle_light.glsl"
 #include "shaders/shared/surface_pack.glsl"
 
@@ -36,13 +36,6 @@ vec3 specularBrdf(PackedSurface s, vec3 n, vec3 toLight, vec3 F0) {
     const float V = 0.5 / mix(2.0 * NoL * NoV, NoL + NoV, alpha);
     const vec3 F = F0 + (1.0 - F0) * pow(1.0 - VoH, 5.0);
     return D * V * F;
-}
-
-// Directional albedo of the specular lobe. Karis. Physically Based Shading on Mobile. 2014.
-vec3 specularAlbedo(vec3 F0, float roughness, float NoV) {
-    const vec4 r = roughness * vec4(-1, -0.0275, -0.572, 0.022) + vec4(1, 0.0425, 1.04, -0.04);
-    const float a = min(r.x * r.x, exp2(-9.28 * NoV)) * r.x + r.y;
-    return max(F0 * (-1.04 * a + r.z) + (1.04 * a + r.w), 0.0);
 }
 
 // The lobe is widened by the rectangle's extent and keeps its energy. Karis. Real Shading in Unreal Engine 4. 2013

@@ -8,6 +8,7 @@
 
 layout(constant_id = 2) const int kChromaBands = 3; // [1, kBands]
 layout(constant_id = 3) const uint kStorage = RELIGHT_STORAGE_RTP;
+layout(constant_id = 4) const int kStoredBands = 3; // of links that hold harmonics: kBands or more
 
 layout(std430, binding = RELIGHT_RADIOSITY) readonly buffer Radiosity { vec4 radiosity[]; };
 layout(std430, binding = RELIGHT_CACHES) readonly buffer Caches { GpuCache caches[]; };
@@ -59,7 +60,7 @@ uint expandCone(uint link, out float basis[kCoefficients]) {
 }
 
 uint readHarmonics(uint link, out float basis[kCoefficients]) {
-    const uint at = link * (1 + (kCoefficients + 1) / 2);
+    const uint at = link * (1 + (kStoredBands * kStoredBands + 1) / 2);
     [[unroll]] for (int i = 0; i < kCoefficients; i += 2) {
         const vec2 pair = unpackHalf2x16(links[at + 1 + i / 2]);
         basis[i] = pair.x;

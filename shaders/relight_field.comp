@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The caches' first three bands into the lightmap and the grid that the viewport samples, one coefficient per invocation.
+// The caches' bands into the lightmap and the grid that the viewport samples, one coefficient per invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -11,9 +11,8 @@ layout(std430, binding = RELIGHT_GRID) writeonly buffer Grid { vec4 grid[]; };
 layout(binding = RELIGHT_LIGHTMAP, rgba32f) uniform writeonly image2DArray lightmap;
 
 void main() {
-    const uint kept = min(kCoefficients, RELIGHT_FIELD_COEFFICIENTS);
     const uint item = groupIndex() * kLanes + gl_LocalInvocationIndex;
-    const uint c = range.begin + item / kept, i = item % kept;
+    const uint c = range.begin + item / kCoefficients, i = item % kCoefficients;
     if (c >= range.end)
         return;
     const uint texel = caches[c].texel, width = imageSize(lightmap).x;

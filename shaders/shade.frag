@@ -11,7 +11,7 @@ vec3 shade(Surface s) {
         return s.albedo;
     if (kView == VIEW_NORMALS)
         return s.detailNormal * 0.5 + 0.5;
-    vec3 c[9];
+    vec3 c[kCoefficients];
     const vec3 E = readIndirect(s, c) ? shIrradiance(c, s.detailNormal) : vec3(0);
     return kView == VIEW_IRRADIANCE ? E : s.albedo * E / kPi;
 }

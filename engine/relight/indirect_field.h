@@ -11,12 +11,12 @@
 
 namespace limn {
 
-/// Real-time indirect light, as the viewport samples it: spherical harmonics of incident radiance,
-/// 3 bands. Coefficient (l, m) is number i = l(l+1)+m in 0..8; real, orthonormal, no
-/// Condon-Shortley sign. E(n) = max(0, sum A_l c_i Y_i(n)), A = {pi, 2pi/3, pi/4} [W m^-2]; exitant
-/// radiance is albedo E / pi.
+/// Real-time indirect light, as the viewport samples it: spherical harmonics of incident radiance.
+/// Coefficient (l, m) is number i = l(l+1)+m; real, orthonormal, no Condon-Shortley sign.
+/// E(n) = max(0, sum A_l c_i Y_i(n)) over the first three bands, A = {pi, 2pi/3, pi/4} [W m^-2];
+/// exitant radiance is albedo E / pi. Reflections read all bands that they need and are there.
 struct IndirectField {
-    static constexpr std::uint32_t kCoefficients = 9;
+    std::uint32_t bands = 3; ///< [2, 8]; 3 unless a surface of the scene is glossy
 
     std::uint32_t lightmapWidth = 0, lightmapHeight = 0; ///< texels; 0: no lightmap
     /// Layer i holds coefficient i: lightmap[(i * height + y) * width + x], RGB in xyz, w = 0.
@@ -29,6 +29,7 @@ struct IndirectField {
         grid;                  ///< grid[((i * sz + z) * sy + y) * sx + x]; invalid cells are filled
     std::uint64_t version = 0; ///< grows with every change of the numbers above
 
+    std::uint32_t coefficients() const { return bands * bands; }
     bool operator==(const IndirectField&) const = default;
 };
 

@@ -238,10 +238,12 @@ void lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
     }
 }
 
-/// Adds the links [begin, end) of one cache; `halfs` are theirs, with a vector's worth more behind.
+/// Adds the links [begin, end) of one cache; `halfs` are theirs, `stored` for each, of which the
+/// first Bands^2 are read, with a vector's worth more behind.
 template <int Bands, int Chroma>
 HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* halfs,
-                             std::size_t links, const glm::vec4* radiosity, float* sums) {
+                             std::size_t stored, std::size_t links, const glm::vec4* radiosity,
+                             float* sums) {
     constexpr int kCount = Bands * Bands;
     const Floats d;
     const hn::Rebind<hwy::float16_t, Floats> dh;
@@ -264,8 +266,8 @@ HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* ha
         }
         const V red = hn::Set(d, c[0]), green = hn::Set(d, c[1]), blue = hn::Set(d, c[2]);
         for (int i = 0; i < kVectors; ++i) {
-            const V basis = hn::PromoteTo(
-                d, hn::BitCast(dh, hn::LoadU(dh16, halfs + k * std::size_t(kCount) + i * kLanes)));
+            const V basis =
+                hn::PromoteTo(d, hn::BitCast(dh, hn::LoadU(dh16, halfs + k * stored + i * kLanes)));
             r[i] = hn::MulAdd(basis, red, r[i]);
             if (i < kChroma) {
                 g[i] = hn::MulAdd(basis, green, g[i]);
@@ -288,17 +290,18 @@ void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radios
     constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     constexpr std::size_t kSums = (kCount + kLanes - 1) / kLanes * kLanes;
     alignas(HWY_MAX_BYTES) float sums[3 * kSums] = {};
+    const std::size_t stored = caches.shCoefficients.size() / caches.shNode.size();
     std::vector<std::uint16_t> padded;
     for (std::uint32_t c = begin; c < end; ++c) {
         const std::size_t first = caches.linkBegin[c], last = ends[c];
-        const std::uint16_t* halfs = caches.shCoefficients.data() + first * kCount;
-        if (last * kCount + kLanes > caches.shCoefficients.size()) { // the array's end
-            padded.assign(halfs, halfs + (last - first) * kCount);
+        const std::uint16_t* halfs = caches.shCoefficients.data() + first * stored;
+        if (last * stored + kLanes > caches.shCoefficients.size()) { // the array's end
+            padded.assign(halfs, halfs + (last - first) * stored);
             padded.resize(padded.size() + kLanes, 0);
             halfs = padded.data();
         }
-        addHarmonics<Bands, Chroma>(caches.shNode.data() + first, halfs, last - first, radiosity,
-                                    sums);
+        addHarmonics<Bands, Chroma>(caches.shNode.data() + first, halfs, stored, last - first,
+                                    radiosity, sums);
         writeRgb<(Chroma < Bands)>(sums, sums + kSums, sums + 2 * kSums, 1, int(kCount),
                                    Chroma * Chroma, scaleOf(caches, c), sh + c * kCount);
     }

@@ -11,7 +11,8 @@
 
 namespace limn {
 
-/// How many bands are lit: luma in [2, kMaxBands], chroma in [1, luma].
+/// How many bands are lit: luma in [2, kMaxBands] and no more than the links of
+/// LinkStorage::Sh have; chroma in [1, luma].
 struct LightBands {
     int luma = 3, chroma = 3;
 };

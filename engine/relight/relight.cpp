@@ -7,6 +7,7 @@
 #include "engine/relight/surfel_light.h"
 #include "engine/relight/surfel_material.h"
 #include "engine/relight/surfel_read.h"
+#include "engine/scene/receiver_bands.h"
 
 #include <algorithm>
 #include <chrono>
@@ -38,8 +39,11 @@ private:
 
 struct Relighter::State {
     std::shared_ptr<const Bake> bake;
-    int bands;
-    LightBands bounceBands, finalBands;
+    LitBands lit = LitBands::Needed;
+    int bands = 0; ///< that the caches are lit in
+    /// Of all bounces but the last one, which need irradiance only; of the last one; and of what
+    /// is seen.
+    LightBands innerBands, bounceBands, finalBands;
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
     std::uint64_t skyLinks = 0;                      ///< between the two
     bool started = false, converged = false;
@@ -53,39 +57,34 @@ struct Relighter::State {
     std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
     std::vector<glm::vec4> radiosity; ///< per node
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
+    std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands
     IndirectField field;
 
+    void setBands(int count);
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
     double lightSurfels();
+    void lightLightmapCaches(LinkEnds ends, LightBands in, std::vector<glm::vec3>& out);
     void writeField();
 };
 
-Relighter::Relighter(std::shared_ptr<const Bake> bake) : m_state(std::make_unique<State>()) {
+Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
+    : m_state(std::make_unique<State>()) {
     State& s = *m_state;
     s.bake = std::move(bake);
-    s.bands = int(s.bake->settings.bands);
-    s.finalBands = {s.bands, int(chromaBandsOf(s.bake->settings))};
-    // A surface gets half of its irradiance from the second band: without its colour every bounce
-    // would grey the light.
-    s.bounceBands = {s.bands, std::max(s.finalBands.chroma, 2)};
+    s.lit = lit;
     s.everyLink = allLinks(s.bake->caches);
     s.beforeSky = linksBeforeSky(s.bake->caches, s.bake->tree);
     for (std::size_t c = 0; c < s.everyLink.size(); ++c)
         s.skyLinks += s.everyLink[c] - s.beforeSky[c];
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
-    s.sh.assign(s.bake->caches.size() * std::size_t(s.bands * s.bands), glm::vec3(0));
     s.field.lightmapWidth = s.bake->lightmap.width;
     s.field.lightmapHeight = s.bake->lightmap.height;
-    s.field.lightmap.assign(std::size_t(s.field.lightmapWidth) * s.field.lightmapHeight *
-                                IndirectField::kCoefficients,
-                            glm::vec4(0));
     s.field.gridSize = s.bake->gridSize;
     s.field.gridBounds = s.bake->gridBounds;
-    s.field.grid.assign(std::size_t(s.field.gridSize.x) * s.field.gridSize.y * s.field.gridSize.z *
-                            IndirectField::kCoefficients,
-                        glm::vec4(0));
+    const int most = int(s.bake->settings.bands);
+    s.setBands(lit == LitBands::All ? most : std::min(most, kIrradianceBands));
 }
 
 Relighter::~Relighter() = default;
@@ -102,9 +101,31 @@ const std::vector<glm::vec3>& Relighter::cacheSh() const {
     return m_state->sh;
 }
 
+/// Makes room for them, black.
+void Relighter::State::setBands(int count) {
+    bands = count;
+    const int chroma = int(chromaBandsOf(bake->settings));
+    finalBands = {bands, std::min(chroma, bands)};
+    // A surface gets half of its irradiance from the second band: without its colour every bounce
+    // would grey the light.
+    bounceBands = {bands, std::max(finalBands.chroma, 2)};
+    innerBands.luma = std::min(bands, kIrradianceBands);
+    innerBands.chroma = std::min(bounceBands.chroma, innerBands.luma);
+    const std::size_t n = std::size_t(bands * bands);
+    sh.assign(bake->caches.size() * n, glm::vec3(0));
+    field.bands = std::uint32_t(bands);
+    field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
+                          glm::vec4(0));
+    field.grid.assign(std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z * n,
+                      glm::vec4(0));
+}
+
 bool Relighter::State::updateMaterials(const Scene& scene) {
     if (started && materials == scene.materials)
         return false;
+    const int needed = receiverBands(scene, int(bake->settings.bands));
+    if (lit == LitBands::Needed && needed != bands)
+        setBands(needed);
     surfelMaterials(bake->surfels, scene, albedo, emitted, materials);
     materials = scene.materials;
     return true;
@@ -139,17 +160,25 @@ double Relighter::State::lightSurfels() {
 void Relighter::State::writeField() {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(bands * bands);
-    const auto kept = std::min<std::size_t>(coefficients, IndirectField::kCoefficients);
     const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
     const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
     for (std::size_t c = 0; c < caches.size(); ++c) {
         const bool lightmap = c < caches.lightmapCount;
         std::vector<glm::vec4>& out = lightmap ? field.lightmap : field.grid;
         const std::size_t stride = lightmap ? texels : cells;
-        for (std::size_t i = 0; i < kept; ++i)
+        for (std::size_t i = 0; i < coefficients; ++i)
             out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
     }
     ++field.version;
+}
+
+/// Valid and invalid ones.
+void Relighter::State::lightLightmapCaches(LinkEnds ends, LightBands in,
+                                           std::vector<glm::vec3>& out) {
+    const std::uint32_t count = bake->caches.lightmapCount;
+    out.resize(std::max(out.size(), count * std::size_t(in.luma * in.luma)));
+    lightCaches(bake->caches, ends, radiosity, in, 0, count, out);
+    fillInvalidCaches(bake->caches, in.luma, 0, count, out);
 }
 
 RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
@@ -163,6 +192,8 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.lightsTraced = s.direct.lightsTraced;
     stats.shadowRays = s.direct.raysTraced;
     stats.lightsOff = std::uint32_t(scene.lights.size() - s.direct.lights.size());
+    stats.bandsLit = std::uint32_t(s.bands);
+    stats.bandsSkipped = s.bake->settings.bands - stats.bandsLit;
     stats.directMs = timer.lap();
     if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged) {
         stats.converged = stats.skipped = true;
@@ -175,21 +206,23 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.skyLinksSkipped = s.blackSky ? s.skyLinks : 0;
     const Caches& caches = s.bake->caches;
     const auto all = std::uint32_t(caches.size());
-    for (std::uint32_t k = 0; k < bounces && !s.converged; ++k) {
+    for (bool last = bounces == 0; !last;) {
         // A changed sky alone changes no surfel before the caches have seen it: it takes two rounds
         // to settle.
-        s.converged = s.lightSurfels() < kConverged && !(skyChanged && k < 2);
+        s.converged = s.lightSurfels() < kConverged && !(skyChanged && stats.bounces < 2);
+        ++stats.bounces;
+        last = s.converged || stats.bounces == bounces || progress.cancelled();
         stats.surfelLightMs += timer.lap();
         pullRadiosity(s.bake->tree, s.radiosity);
         stats.pullMs += timer.lap();
-        lightCaches(caches, ends, s.radiosity, s.bounceBands, 0, caches.lightmapCount, s.sh);
-        fillInvalidCaches(caches, s.bands, 0, caches.lightmapCount, s.sh);
+        // Only the last bounce is seen in more bands than surfels read.
+        const bool whole = last || s.bands <= s.innerBands.luma;
+        const LightBands in = whole ? s.bounceBands : s.innerBands;
+        std::vector<glm::vec3>& sh = whole ? s.sh : s.innerSh;
+        s.lightLightmapCaches(ends, in, sh);
         stats.cacheLightMs += timer.lap();
-        readCaches(s.bake->surfels, s.sh, s.bands, s.indirect);
+        readCaches(s.bake->surfels, sh, in.luma, s.indirect);
         stats.surfelReadMs += timer.lap();
-        ++stats.bounces;
-        if (progress.cancelled())
-            break;
     }
     if (s.finalBands.chroma < s.bounceBands.chroma)
         dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);

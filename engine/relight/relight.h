@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/bake/bake.h"
+#include "engine/math/sh.h"
 #include "engine/relight/indirect_field.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -25,15 +27,21 @@ struct RelightStats {
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
     std::uint64_t skyLinksSkipped = 0; ///< per bounce: links to nothing but a black sky
+    std::uint32_t bandsLit = 0;        ///< of the caches
+    std::uint32_t bandsSkipped = 0;    ///< bands of the bake that no surface's reflection needs
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
+
+/// Which of a bake's bands are lit: those that the scene's surfaces need (receiverBands()), which
+/// are 3 where none is glossy; or all.
+enum class LitBands : std::uint8_t { Needed, All };
 
 /// The live runtime on the CPU. Keeps what did not change since the last call.
 /// Not thread-safe: one thread at a time calls relight().
 class Relighter {
 public:
     /// `bake` must come from a scene with the same bakeInputHash as the scenes passed to relight().
-    explicit Relighter(std::shared_ptr<const Bake> bake);
+    explicit Relighter(std::shared_ptr<const Bake> bake, LitBands lit = LitBands::Needed);
     ~Relighter();
 
     /// Brings the field up to date with the lights, materials and sky of `scene`, by at most
@@ -49,7 +57,7 @@ public:
     const std::vector<glm::vec4>& radiosity() const;
 
     /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
-    /// the bake's settings. From band chromaBandsOf(settings) on they are grey.
+    /// field()'s. From band chromaBandsOf(settings) on they are grey.
     const std::vector<glm::vec3>& cacheSh() const;
 
 private:
@@ -62,5 +70,20 @@ private:
 glm::vec3 sampleIrradiance(const IndirectField& field, const LightmapLayout& layout,
                            const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
                            float u, float v, glm::vec3 position, glm::vec3 n);
+
+/// A surface point that looks a field up, as sampleIrradiance() has it.
+struct FieldPoint {
+    const IndirectField& field;
+    const LightmapLayout& layout;
+    const Scene& scene;
+    std::uint32_t instance, triangle;
+    float u, v;
+    glm::vec3 position;
+};
+
+/// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`: of the first `bands`
+/// bands, or as many as the field has, by their factors.
+glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,
+                     const std::array<float, kMaxBands>& factors);
 
 } // namespace limn

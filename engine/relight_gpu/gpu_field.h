@@ -13,6 +13,7 @@ struct GpuField {
     gpu::Image lightmap;
     gpu::Buffer grid; ///< a storage buffer; one element where there is no grid
 
+    std::uint32_t bands = 3;
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;
 

@@ -35,15 +35,13 @@ struct Sent {
 } // namespace
 
 struct GpuRelighter::State {
-    State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made, LightBands bounce,
-          LightBands final)
-        : device(d), bake(std::move(b)), buffers(std::move(made)),
-          steps(d, *bake, buffers, bounce, final), times(d, kMostSteps) {}
+    State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
+        : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMostSteps) {}
 
     gpu::Device& device;
     std::shared_ptr<const Bake> bake;
     RelightBuffers buffers;
-    RelightSteps steps;
+    std::optional<RelightSteps> steps; ///< in the field's bands
     gpu::Timestamps times;
 
     bool started = false, converged = false;
@@ -53,6 +51,7 @@ struct GpuRelighter::State {
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
     std::uint64_t fieldVersion = 0;
 
+    bool setBands(std::uint32_t bands);
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     double bounce(GpuRelightStats& stats);
@@ -80,11 +79,8 @@ Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
     auto buffers = createRelightBuffers(device, *bake, RelightSteps::kItemLanes);
     if (!buffers)
         return tl::make_unexpected(buffers.error());
-    const LightBands final{int(bake->settings.bands), int(chromaBandsOf(bake->settings))};
-    // As Relighter: without the colour of the second band every bounce would grey the light.
-    const LightBands bounce{final.luma, std::max(final.chroma, 2)};
-    auto state =
-        std::make_unique<State>(device, std::move(bake), std::move(*buffers), bounce, final);
+    auto state = std::make_unique<State>(device, std::move(bake), std::move(*buffers));
+    state->setBands(0);
     state->direct.buffer = &state->buffers.direct;
     state->albedo.buffer = &state->buffers.albedo;
     state->emitted.buffer = &state->buffers.emitted;
@@ -96,6 +92,20 @@ static std::vector<glm::vec4> padded(std::span<const glm::vec3> values) {
     for (std::size_t i = 0; i < out.size(); ++i)
         out[i] = glm::vec4(values[i], 0);
     return out;
+}
+
+/// True if the field is another one, black.
+bool GpuRelighter::State::setBands(std::uint32_t bands) {
+    if (bands == 0)
+        bands = bake->settings.bands;
+    if (steps && buffers.field->bands == bands)
+        return false;
+    makeRelitField(device, *bake, bands, buffers);
+    const LightBands final{int(bands), std::min(int(chromaBandsOf(bake->settings)), int(bands))};
+    // As Relighter: without the colour of the second band every bounce would grey the light.
+    const LightBands bounce{final.luma, std::max(final.chroma, 2)};
+    steps.emplace(device, *bake, buffers, bounce, final);
+    return true;
 }
 
 /// True if anything had changed.
@@ -147,7 +157,7 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
     direct.values.clear(); // what was sent is overwritten
     device.immediate("light surfels", [&](VkCommandBuffer cmd) {
         times.begin(cmd);
-        steps.recordDirect(cmd, lights);
+        steps->recordDirect(cmd, lights);
         times.mark(cmd);
     });
     stats.directMs = times.steps()[0];
@@ -159,13 +169,13 @@ double GpuRelighter::State::bounce(GpuRelightStats& stats) {
     device.immediate("bounce", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
         times.begin(cmd);
-        steps.recordSurfels(cmd);
+        steps->recordSurfels(cmd);
         times.mark(cmd);
-        steps.recordPull(cmd);
+        steps->recordPull(cmd);
         times.mark(cmd);
-        steps.recordLightmapCaches(cmd);
+        steps->recordLightmapCaches(cmd);
         times.mark(cmd);
-        steps.recordIndirect(cmd);
+        steps->recordIndirect(cmd);
         times.mark(cmd);
         gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
     });
@@ -186,8 +196,8 @@ double GpuRelighter::State::bounce(GpuRelightStats& stats) {
 void GpuRelighter::State::writeField(GpuRelightStats& stats) {
     device.immediate("field", [&](VkCommandBuffer cmd) {
         times.begin(cmd);
-        steps.recordFinalCaches(cmd);
-        steps.recordField(cmd);
+        steps->recordFinalCaches(cmd);
+        steps->recordField(cmd);
         times.mark(cmd);
     });
     stats.fieldMs = times.steps()[0];
@@ -199,8 +209,9 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     State& s = *m_state;
     GpuRelightStats stats;
     const auto start = Clock::now();
-    const std::uint64_t dispatchesBefore = s.steps.dispatches;
-    bool changed = s.upload(inputs, stats);
+    bool changed = s.setBands(inputs.bands);
+    const std::uint64_t dispatchesBefore = s.steps->dispatches;
+    changed |= s.upload(inputs, stats);
     if (inputs.lights)
         changed |= s.lightSurfels(*inputs.lights, stats);
     s.started = true;
@@ -216,7 +227,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     if (!stats.skipped)
         s.writeField(stats);
     stats.converged = s.converged;
-    stats.dispatches = std::uint32_t(s.steps.dispatches - dispatchesBefore);
+    stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
     stats.totalMs = msSince(start);
     return stats;
 }
@@ -245,28 +256,27 @@ std::vector<glm::vec3> GpuRelighter::readRadiosity() const {
 }
 
 std::vector<glm::vec3> GpuRelighter::readCacheSh() const {
-    const Bake& bake = *m_state->bake;
-    return m_state->readColors(m_state->buffers.sh,
-                               bake.caches.size() * bake.settings.bands * bake.settings.bands);
+    const std::uint32_t bands = m_state->buffers.field->bands;
+    return m_state->readColors(m_state->buffers.sh, m_state->bake->caches.size() * bands * bands);
 }
 
 IndirectField GpuRelighter::readField() const {
     const State& s = *m_state;
     IndirectField out;
+    out.bands = s.buffers.field->bands;
     out.lightmapWidth = s.bake->lightmap.width;
     out.lightmapHeight = s.bake->lightmap.height;
     out.gridSize = s.bake->gridSize;
     out.gridBounds = s.bake->gridBounds;
     out.version = s.fieldVersion;
-    out.lightmap.resize(std::size_t(out.lightmapWidth) * out.lightmapHeight *
-                        IndirectField::kCoefficients);
+    out.lightmap.resize(std::size_t(out.lightmapWidth) * out.lightmapHeight * out.coefficients());
     if (!out.lightmap.empty())
         gpu::readImage(s.device, s.buffers.field->lightmap,
                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, out.lightmapWidth,
                        out.lightmapHeight, std::as_writable_bytes(std::span(out.lightmap)),
-                       IndirectField::kCoefficients);
+                       out.coefficients());
     out.grid.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z *
-                    IndirectField::kCoefficients);
+                    out.coefficients());
     if (!out.grid.empty())
         gpu::readBuffer(s.device, s.buffers.field->grid,
                         std::as_writable_bytes(std::span(out.grid)));

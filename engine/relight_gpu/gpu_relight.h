@@ -24,6 +24,8 @@ struct SurfelInputs {
     std::span<const glm::vec3> sky;     ///< of each of the tree's sky cells, pi L [W m^-2], >= 0
     /// Where set, irradiance comes from these and their shadow maps, anew when their version is.
     const ShadowedLights* lights = nullptr;
+    /// That the caches are lit in: [2, the bake's], by receiverBands(); 0: all of the bake's.
+    std::uint32_t bands = 0;
 };
 
 /// Milliseconds and counters of one GpuRelighter::relight() call. Steps are in the GPU's time.
@@ -62,12 +64,13 @@ public:
 
     /// The field for the viewport, without a way through the CPU. Each relight() that is not
     /// skipped writes it anew, after the frames that were submitted before; it outlives this.
+    /// Another one after a relight() in other bands than the last.
     std::shared_ptr<const GpuField> field() const;
     std::uint64_t fieldVersion() const; ///< grows with every change of the field; 0: still black
 
     // Read-back, for tests and for what needs the numbers on the CPU. Each waits.
     std::vector<glm::vec3> readRadiosity() const; ///< as Relighter::radiosity()
-    std::vector<glm::vec3> readCacheSh() const;   ///< as Relighter::cacheSh()
+    std::vector<glm::vec3> readCacheSh() const;   ///< as Relighter::cacheSh(), in field()'s bands
     IndirectField readField() const;              ///< as Relighter::field()
 
 private:

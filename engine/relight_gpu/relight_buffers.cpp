@@ -119,11 +119,12 @@ static void uploadFills(StorageMaker& make, const Caches& caches, RelightBuffers
     out.fillSources = make.filled(sources, "sources of invalid caches");
 }
 
-static gpu::Image lightmapImage(gpu::Device& device, const LightmapLayout& layout) {
+static gpu::Image lightmapImage(gpu::Device& device, const LightmapLayout& layout,
+                                std::uint32_t layers) {
     return {device,
             {.width = std::max(layout.width, 1U),
              .height = std::max(layout.height, 1U),
-             .layers = IndirectField::kCoefficients,
+             .layers = layers,
              .format = VK_FORMAT_R32G32B32A32_SFLOAT,
              .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                       VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
@@ -131,17 +132,21 @@ static gpu::Image lightmapImage(gpu::Device& device, const LightmapLayout& layou
              .name = "relit lightmap"}};
 }
 
-static void clear(gpu::Device& device, const RelightBuffers& buffers) {
+static void clear(gpu::Device& device, std::initializer_list<VkBuffer> buffers) {
     const VkCommandBuffer cmd = device.begin("clear light");
-    for (const VkBuffer b : {buffers.indirect.handle, buffers.radiosity.handle, buffers.sh.handle,
-                             buffers.field->grid.handle})
+    for (const VkBuffer b : buffers)
         vkCmdFillBuffer(cmd, b, 0, VK_WHOLE_SIZE, 0);
     gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kAllReads);
-    const VkImage image = buffers.field->lightmap.handle;
+    device.submit(cmd);
+}
+
+static void clear(gpu::Device& device, const gpu::Image& lightmap) {
+    const VkCommandBuffer cmd = device.begin("clear lightmap");
+    const VkImage image = lightmap.handle;
     gpu::imageBarrier(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kUndefined, gpu::kTransferWrite);
     const VkClearColorValue black{};
     const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
-                                        IndirectField::kCoefficients};
+                                        VK_REMAINING_ARRAY_LAYERS};
     vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &whole);
     gpu::imageBarrier(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kTransferWrite,
                       gpu::kFragmentRead);
@@ -159,7 +164,6 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
     const std::size_t coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
     const TreeLevels levels = treeLevels(bake.tree);
     RelightBuffers out;
-    out.field = std::make_shared<GpuField>();
     std::string error;
     {
         StorageMaker make(device);
@@ -177,19 +181,30 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
         out.sh = make.empty(bake.caches.size() * coefficients, color, "cache harmonics");
         out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec2), "change",
                                 gpu::MemoryKind::Readback);
-        out.field->grid = make.empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
-                                         bake.gridSize.z * IndirectField::kCoefficients,
-                                     color, "grid cells");
         error = make.error;
     }
     if (!error.empty())
         return fail(error);
-    out.field->lightmap = lightmapImage(device, bake.lightmap);
-    out.field->gridSize = bake.gridSize;
-    out.field->gridBounds = bake.gridBounds;
     out.levelBegin = levels.begin;
-    clear(device, out);
+    clear(device, {out.indirect.handle, out.radiosity.handle});
     return out;
+}
+
+void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
+                    RelightBuffers& buffers) {
+    assert(bands <= bake.settings.bands);
+    auto field = std::make_shared<GpuField>();
+    field->bands = bands;
+    field->lightmap = lightmapImage(device, bake.lightmap, bands * bands);
+    field->gridSize = bake.gridSize;
+    field->gridBounds = bake.gridBounds;
+    // Every cell is a cache, so this is no larger than the harmonics, which fit.
+    field->grid = StorageMaker(device).empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
+                                                 bake.gridSize.z * bands * bands,
+                                             sizeof(glm::vec4), "grid cells");
+    buffers.field = std::move(field);
+    clear(device, {buffers.sh.handle, buffers.field->grid.handle});
+    clear(device, buffers.field->lightmap);
 }
 
 } // namespace limn

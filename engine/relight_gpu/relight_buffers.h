@@ -19,7 +19,7 @@ struct RelightBuffers {
     gpu::Buffer direct, albedo, emitted;                                        ///< what comes in
     gpu::Buffer indirect, radiosity, sh; ///< what is worked out; 0 at first
     gpu::Buffer change;                  ///< mapped
-    std::shared_ptr<GpuField> field;     ///< what comes out; 0 at first
+    std::shared_ptr<GpuField> field;     ///< what comes out; of makeRelitField()
 
     std::vector<std::uint32_t> levelBegin;          ///< as TreeLevels::begin
     std::uint32_t fillCount = 0, lightmapFills = 0; ///< invalid caches; those of the lightmap first
@@ -28,9 +28,13 @@ struct RelightBuffers {
     std::vector<const gpu::Buffer*> inBindingOrder() const;
 };
 
-/// Uploads a bake; `lanes` is the size of a group of surfels. Fails when a buffer would be larger
-/// than what the device can bind, naming both sizes.
+/// Uploads a bake, without a field; `lanes` is the size of a group of surfels. Fails when a buffer
+/// would be larger than what the device can bind, naming both sizes.
 Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
                                             std::uint32_t lanes);
+
+/// A black field of so many bands, no more than the bake's, and black harmonics.
+void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
+                    RelightBuffers& buffers);
 
 } // namespace limn

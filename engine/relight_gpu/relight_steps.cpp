@@ -2,7 +2,6 @@
 #include "engine/relight_gpu/relight_steps.h"
 
 #include "engine/gpu/barrier.h"
-#include "engine/relight/indirect_field.h"
 #include "shaders/relight_caches.comp.h"
 #include "shaders/relight_chroma.comp.h"
 #include "shaders/relight_direct.comp.h"
@@ -20,7 +19,6 @@ using shared::GpuRelightRange;
 
 static_assert(std::uint32_t(LinkStorage::Rtp) == RELIGHT_STORAGE_RTP &&
               std::uint32_t(LinkStorage::Sh) == RELIGHT_STORAGE_SH);
-static_assert(IndirectField::kCoefficients == RELIGHT_FIELD_COEFFICIENTS);
 
 namespace {
 
@@ -89,7 +87,7 @@ gpu::Pipeline RelightSteps::pipeline(gpu::Spirv shader, std::uint32_t lanes, Lig
                                      const char* name) {
     const LinkStorage storage = m_bake.caches.shNode.empty() ? LinkStorage::Rtp : LinkStorage::Sh;
     const std::array constants = {lanes, std::uint32_t(bands.luma), std::uint32_t(bands.chroma),
-                                  std::uint32_t(storage)};
+                                  std::uint32_t(storage), m_bake.settings.bands};
     return gpu::createComputePipeline(m_device, shader, m_layout.handle, constants, name);
 }
 
@@ -176,10 +174,9 @@ void RelightSteps::recordField(VkCommandBuffer cmd) {
     // Frames that were submitted before may still read the grid.
     gpu::memoryBarrier(cmd, gpu::kAllReads, kStep);
     const auto caches = std::uint32_t(m_bake.caches.size());
-    const std::uint32_t kept = std::min(m_coefficients, RELIGHT_FIELD_COEFFICIENTS);
     const glm::uvec3 grid = m_bake.gridSize;
     dispatch(cmd, m_field, {0, caches, m_bake.caches.lightmapCount, grid.x * grid.y * grid.z},
-             groupsOf(std::size_t(caches) * kept));
+             groupsOf(std::size_t(caches) * m_coefficients));
     gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, kStep, gpu::kFragmentRead);
     gpu::memoryBarrier(cmd, kStep, gpu::kAllReads);
 }

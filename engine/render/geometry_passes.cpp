@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/geometry_passes.h"
 
+#include "engine/math/sh.h"
 #include "shaders/depth.vert.h"
 #include "shaders/depth_mask.frag.h"
 #include "shaders/depth_mask.vert.h"
@@ -69,24 +70,25 @@ GeometryPasses::GeometryPasses(gpu::Device& device, VkDescriptorSetLayout frameL
     m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuDraw), "geometry");
 }
 
-gpu::Pipeline GeometryPasses::createShaded(View view, std::uint32_t features) {
+gpu::Pipeline GeometryPasses::createShaded(const Variant& variant) {
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = kShadeVert;
-    desc.fragment = showsDirectLight(view) ? gpu::Spirv(kSurfaceFrag) : gpu::Spirv(kShadeFrag);
+    desc.fragment =
+        showsDirectLight(variant.view) ? gpu::Spirv(kSurfaceFrag) : gpu::Spirv(kShadeFrag);
     desc.layout = m_layout.handle;
     desc.bindings = kBindings;
     desc.attributes = kAttributes;
-    if (!(features & FEATURE_LIGHTMAP)) {
+    if (!(variant.features & FEATURE_LIGHTMAP)) {
         desc.bindings.pop_back();
         desc.attributes.back() = {6, 0, VK_FORMAT_R32G32_SFLOAT, 0}; // declared, not used
     }
     desc.colorFormats = {kLinearFormat};
-    if (showsDirectLight(view))
+    if (showsDirectLight(variant.view))
         desc.colorFormats.push_back(kSurfaceFormat);
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
     desc.dynamicCull = true;
-    desc.constants = {std::uint32_t(view), features};
+    desc.constants = {std::uint32_t(variant.view), variant.features, variant.bands};
     desc.name = "shade";
     return gpu::createGraphicsPipeline(m_device, desc);
 }
@@ -169,6 +171,15 @@ static std::uint32_t variantFeatures(std::uint32_t material, const GpuMesh& mesh
     return f;
 }
 
+// Reflections read what their material needs, irradiance the first three.
+static std::uint32_t bandsRead(std::uint32_t needed, std::uint32_t features,
+                               const GeometryView& view) {
+    const bool indirect = features & (FEATURE_LIGHTMAP | FEATURE_GRID);
+    const std::uint32_t wanted =
+        indirect && view.view == View::Lit ? needed : std::uint32_t(kIrradianceBands);
+    return std::min(wanted, view.bands);
+}
+
 void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
                                 const MaterialSet& materials, const GeometryView& view) {
     orderByDistance(scene, view, m_order);
@@ -178,9 +189,11 @@ void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
         const GpuMesh& mesh = scene.meshes[instance.mesh];
         const std::uint32_t features =
             variantFeatures(materials.features[instance.material], mesh, instance, view);
-        gpu::Pipeline& pipeline = m_shaded[{view.view, features}];
+        const Variant variant{view.view, features,
+                              bandsRead(materials.bands[instance.material], features, view)};
+        gpu::Pipeline& pipeline = m_shaded[variant];
         if (!pipeline)
-            pipeline = createShaded(view.view, features);
+            pipeline = createShaded(variant);
         if (bound != pipeline.handle)
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         bound = pipeline.handle;

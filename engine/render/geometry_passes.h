@@ -26,7 +26,8 @@ struct GeometryView {
     View view = View::Lit;
     glm::mat4 toClip{1};
     glm::vec3 eye{0};
-    bool grid = false; ///< instances without lightmap read the grid
+    bool grid = false;       ///< instances without lightmap read the grid
+    std::uint32_t bands = 3; ///< of the indirect light
     bool cullBackFaces = true;
     std::uint32_t slot = 0;
 };
@@ -52,12 +53,19 @@ public:
                     const GeometryView& view);
 
 private:
-    gpu::Pipeline createShaded(View view, std::uint32_t features);
+    /// What a variant of shading depends on.
+    struct Variant {
+        View view;
+        std::uint32_t features, bands;
+        auto operator<=>(const Variant&) const = default;
+    };
+
+    gpu::Pipeline createShaded(const Variant& variant);
     gpu::Pipeline createDepth(std::uint32_t features);
 
     gpu::Device& m_device;
     gpu::PipelineLayout m_layout;
-    std::map<std::pair<View, std::uint32_t>, gpu::Pipeline> m_shaded;
+    std::map<Variant, gpu::Pipeline> m_shaded;
     std::map<std::uint32_t, gpu::Pipeline>
         m_depth; ///< by FEATURE_BASE_COLOR_TEXTURE and FEATURE_ALPHA_MASK
     std::vector<std::pair<float, std::uint32_t>>

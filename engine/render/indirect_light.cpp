@@ -11,11 +11,12 @@
 
 namespace limn::render {
 
-static gpu::Image lightmapImage(gpu::Device& device, std::uint32_t width, std::uint32_t height) {
+static gpu::Image lightmapImage(gpu::Device& device, std::uint32_t width, std::uint32_t height,
+                                std::uint32_t layers) {
     return {device,
             {.width = width,
              .height = height,
-             .layers = IndirectField::kCoefficients,
+             .layers = layers,
              .format = VK_FORMAT_R32G32B32A32_SFLOAT,
              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
              .array = true,
@@ -28,13 +29,13 @@ static std::span<const std::byte> bytesOf(std::span<const glm::vec4> v) {
 
 static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
                                  const IndirectField& field) {
-    static constexpr std::array<glm::vec4, IndirectField::kCoefficients> kBlack{};
+    const std::vector<glm::vec4> black(field.coefficients());
     const bool any = !field.lightmap.empty();
     assert(field.lightmap.size() ==
-           std::size_t(field.lightmapWidth) * field.lightmapHeight * IndirectField::kCoefficients);
-    gpu::Image image =
-        lightmapImage(device, any ? field.lightmapWidth : 1, any ? field.lightmapHeight : 1);
-    uploader.image(image, any ? bytesOf(field.lightmap) : bytesOf(kBlack));
+           std::size_t(field.lightmapWidth) * field.lightmapHeight * field.coefficients());
+    gpu::Image image = lightmapImage(device, any ? field.lightmapWidth : 1,
+                                     any ? field.lightmapHeight : 1, field.coefficients());
+    uploader.image(image, any ? bytesOf(field.lightmap) : bytesOf(black));
     return image;
 }
 
@@ -55,6 +56,7 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device,
     const bool any = bytes > 0 && fits;
     out->grid = uploader.buffer(any ? bytesOf(field.grid) : bytesOf(kNone),
                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid");
+    out->bands = field.bands;
     out->gridSize = any ? field.gridSize : glm::uvec3(0);
     out->gridBounds = field.gridBounds;
     return out;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/material_set.h"
 
+#include "engine/math/sh.h"
+#include "engine/scene/receiver_bands.h"
+
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -174,6 +177,11 @@ bool MaterialSet::update(const Scene& scene) {
     for (std::size_t i = 0; i < scene.materials.size() && !newMasks; ++i) {
         newSets |= !sameTextures(m_materials[i], scene.materials[i]);
         newMasks |= !sameMask(m_materials[i], scene.materials[i]);
+    }
+    if (newSets || m_materials != scene.materials) {
+        bands.clear();
+        for (const Material& m : scene.materials)
+            bands.push_back(std::uint8_t(receiverBands(*scene.assets, m, kMaxBands)));
     }
     m_materials = scene.materials;
     if (!newSets && !newMasks)

@@ -37,6 +37,7 @@ public:
     /// FEATURE_* of each material.
     std::vector<std::uint32_t> features;
     std::vector<bool> doubleSided;
+    std::vector<std::uint8_t> bands; ///< of indirect light that each material reflects
 
 private:
     using TextureKey = std::pair<std::int32_t, bool>; ///< image, sRGB

@@ -480,6 +480,7 @@ void Viewport::render(const ViewportOptions& options) {
 
     GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
     view.slot = slotIndex;
+    view.bands = v.indirect.field->bands;
     const VkCommandBuffer cmd = v.device.begin("viewport");
     const auto mark = [&](Timestamp t) { gpu::writeTimestamp(cmd, slot.queries.handle, t); };
     vkCmdResetQueryPool(cmd, slot.queries.handle, 0, kTimestamps);

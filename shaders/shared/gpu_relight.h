@@ -33,7 +33,6 @@ using uint = std::uint32_t;
 #define RELIGHT_LIGHTMAP 15u     // the storage image, one layer per coefficient
 #define RELIGHT_BINDINGS 16u
 
-#define RELIGHT_FIELD_COEFFICIENTS 9u
 #define RELIGHT_STORAGE_RTP 0u // as limn::LinkStorage
 #define RELIGHT_STORAGE_SH 1u
 #define RELIGHT_CONE_WORDS 3u // of limn::Link: node; octX, octY; u, transport

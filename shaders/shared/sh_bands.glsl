@@ -4,7 +4,10 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/sh_normalisation.h"
 
-layout(constant_id = 1) const int kBands = 3;
+#ifndef SH_BANDS_CONSTANT
+#define SH_BANDS_CONSTANT 1
+#endif
+layout(constant_id = SH_BANDS_CONSTANT) const int kBands = 3;
 const int kCoefficients = kBands * kBands;
 
 const float kNormalisation[36] = float[](SH_NORMALISATION);

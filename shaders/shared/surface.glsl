@@ -2,7 +2,10 @@
 // What a rasterised fragment is made of: inputs, material, normals, bounced light. For fragment shaders of shade.vert.
 #include "shaders/shared/gpu_frame.h"
 #include "shaders/shared/gpu_material.h"
-#include "shaders/shared/sh_irradiance.glsl"
+#define SH_BANDS_CONSTANT 2 // those that this surface reads
+#include "shaders/shared/sh_bands.glsl"
+#include "shaders/shared/specular.glsl"
+#include "shaders/shared/sh_field.glsl"
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
 layout(constant_id = 1) const uint kFeatures = 0;
@@ -91,11 +94,11 @@ Surface readSurface(vec4 base) {
 }
 
 // SH of the light that reaches the surface by bounces. False: there is none.
-bool readIndirect(Surface s, out vec3 c[9]) {
-    for (int i = 0; i < 9; ++i)
+bool readIndirect(Surface s, out vec3 c[kCoefficients]) {
+    for (int i = 0; i < kCoefficients; ++i)
         c[i] = vec3(0);
     if (has(FEATURE_LIGHTMAP)) {
-        for (int i = 0; i < 9; ++i)
+        for (int i = 0; i < kCoefficients; ++i)
             c[i] = textureLod(lightmap, vec3(fragLightmapUv, i), 0.0).rgb;
         return true;
     }
@@ -111,7 +114,7 @@ bool readIndirect(Surface s, out vec3 c[9]) {
         const vec3 w = mix(1.0 - f, f, vec3(high));
         const uint index =
             (uint(cell.z) * frame.gridSize.y + uint(cell.y)) * frame.gridSize.x + uint(cell.x);
-        for (uint i = 0; i < 9; ++i)
+        for (uint i = 0; i < kCoefficients; ++i)
             c[i] += w.x * w.y * w.z * grid[i * frame.gridCells + index].rgb;
     }
     return true;

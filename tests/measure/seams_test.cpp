@@ -39,7 +39,7 @@ struct TwoCharts {
         layout.instances = {{{first, first, first, second, second, second}}};
         field.lightmapWidth = 2;
         field.lightmapHeight = 1;
-        field.lightmap.assign(2 * IndirectField::kCoefficients, glm::vec4(0));
+        field.lightmap.assign(2 * 9, glm::vec4(0));
         const float perIrradiance = 2 / std::sqrt(std::numbers::pi_v<float>); // E = pi c Y00
         field.lightmap[0] = glm::vec4(glm::vec3(e.x), 0) * perIrradiance;
         field.lightmap[1] = glm::vec4(glm::vec3(e.y), 0) * perIrradiance;
@@ -73,7 +73,7 @@ TEST(Seams, BothSidesAreReadAtTheSamePlaceOfAnEdge) {
     TwoCharts two({1, 3}, 0, 1);
     const std::vector<glm::vec4> before = two.field.lightmap;
     two.layout.width = two.field.lightmapWidth = 4;
-    two.field.lightmap.assign(4 * IndirectField::kCoefficients, glm::vec4(0));
+    two.field.lightmap.assign(4 * 9, glm::vec4(0));
     for (std::size_t i = 0; i < 4; ++i) // from 1 to 3 along the edge, in either chart
         two.field.lightmap[i] = before[i % 2];
     const glm::vec2 a(0.125f, 0.5f), b(0.375f, 0.5f), half(0.5f, 0);

@@ -23,7 +23,7 @@ IndirectField uniformGrid() {
     IndirectField field;
     field.gridSize = {2, 2, 2};
     field.gridBounds = {glm::vec3(-4), glm::vec3(4)};
-    field.grid.assign(IndirectField::kCoefficients * 8, glm::vec4(0));
+    field.grid.assign(9 * 8, glm::vec4(0));
     const float c0 = 2 * std::sqrt(glm::pi<float>());
     for (std::size_t i = 0; i < 8; ++i)
         field.grid[i] = c0 * glm::vec4(1, 2, 3, 0);

@@ -25,13 +25,14 @@ struct Lit {
     RelightStats stats; ///< of the first call
 };
 
-Lit light(Scene scene, std::uint32_t rounds = 400) {
+Lit light(Scene scene, std::uint32_t rounds = 400, LitBands bands = LitBands::All) {
     Lit lit;
     lit.scene = std::move(scene);
     lit.trace = std::make_unique<TraceScene>(lit.scene);
     Result<Bake> baked = bake(*lit.trace);
     EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
-    lit.relighter = std::make_unique<Relighter>(std::make_shared<const Bake>(std::move(*baked)));
+    lit.relighter =
+        std::make_unique<Relighter>(std::make_shared<const Bake>(std::move(*baked)), bands);
     lit.stats = lit.relighter->relight(lit.scene, *lit.trace, rounds);
     return lit;
 }
@@ -396,6 +397,63 @@ TEST(Relight, MoreBandsBringNoOtherIrradiance) {
                         e3 = shIrradiance(3, sh3, caches.normal[c]).x;
             ASSERT_NEAR(e, e3, 1e-5f * e3 + 1e-9f) << bands << " " << c;
         }
+    }
+}
+
+/// A room of two metals, of which one is polished.
+Scene metalRoom(float roughness, LinkStorage storage) {
+    Scene scene = lampRoom();
+    Material metal = scene.materials[0];
+    metal.metallic = 1;
+    metal.roughness = roughness;
+    scene.materials.push_back(metal);
+    scene.instances.back().material = std::uint32_t(scene.materials.size() - 1);
+    scene.bake.bands = 6;
+    scene.bake.storage = storage;
+    return scene;
+}
+
+TEST(Relight, BandsThatNothingReflectsAreNotLit) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        for (const std::uint32_t chroma : {0U, 2U, 5U}) {
+            Scene scene = metalRoom(1, storage);
+            scene.bake.chromaBands = chroma;
+            const Lit whole = light(scene, 3), needed = light(scene, 3, LitBands::Needed);
+            EXPECT_EQ(whole.stats.bandsLit, 6U);
+            EXPECT_EQ(whole.stats.bandsSkipped, 0U);
+            EXPECT_EQ(needed.stats.bandsLit, 3U);
+            EXPECT_EQ(needed.stats.bandsSkipped, 3U);
+            EXPECT_TRUE(needed.relighter->radiosity() == whole.relighter->radiosity());
+            // What is lit and looked up is what all bands would have there.
+            const IndirectField &few = needed.relighter->field(), &all = whole.relighter->field();
+            EXPECT_EQ(few.bands, 3U);
+            EXPECT_EQ(all.bands, 6U);
+            ASSERT_EQ(few.lightmap.size() * 4, all.lightmap.size());
+            ASSERT_EQ(few.grid.size() * 4, all.grid.size());
+            EXPECT_TRUE(std::equal(few.lightmap.begin(), few.lightmap.end(), all.lightmap.begin()));
+            EXPECT_TRUE(std::equal(few.grid.begin(), few.grid.end(), all.grid.begin()));
+        }
+}
+
+TEST(Relight, ASurfaceThatIsPolishedGetsItsBandsAtOnceAndGivesThemBack) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
+        Lit lit = light(metalRoom(1, storage), 400, LitBands::Needed);
+        ASSERT_TRUE(lit.stats.converged);
+        const IndirectField rough = lit.relighter->field();
+        lit.scene.materials.back().roughness = 0.3f;
+        const RelightStats polished = lit.relighter->relight(lit.scene, *lit.trace, 1);
+        EXPECT_EQ(polished.bandsLit, 6U);
+        const Lit fresh = light(metalRoom(0.3f, storage), 400, LitBands::Needed);
+        EXPECT_EQ(lit.relighter->field().bands, 6U);
+        // The same albedos, so the same light; converged to 1e-4.
+        const auto &a = lit.relighter->field().lightmap, &b = fresh.relighter->field().lightmap;
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i)
+            ASSERT_LT(glm::length(a[i] - b[i]), 1e-3f);
+        lit.scene.materials.back().roughness = 1;
+        EXPECT_EQ(lit.relighter->relight(lit.scene, *lit.trace, 1).bandsSkipped, 3U);
+        EXPECT_EQ(lit.relighter->field().bands, 3U);
+        EXPECT_EQ(lit.relighter->field().lightmap.size(), rough.lightmap.size());
     }
 }
 

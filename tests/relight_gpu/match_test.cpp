@@ -69,7 +69,7 @@ void expectRounding(const char* what, const Distance& d, double terms, double sc
 
 void compare(gpu::Device& device, const Scene& scene, const TraceScene& trace,
              std::shared_ptr<const Bake> bake) {
-    Relighter cpu(bake);
+    Relighter cpu(bake, LitBands::All);
     const auto gpu = gpuRelighter(device, bake);
     ASSERT_TRUE(gpu);
     const RelightStats cpuStats = cpu.relight(scene, trace, 5);
@@ -113,6 +113,44 @@ TEST_F(GpuMatch, GivesTheLightOfTheCpuInEveryBufferAtEveryStorageAndBandCount) {
         }
 }
 
+TEST_F(GpuMatch, LightsTheBandsThatAreAskedForAndOthersLater) {
+    const Scene scene = court();
+    const TraceScene trace(scene);
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
+        BakeSettings settings = scene.bake;
+        settings.storage = storage;
+        settings.bands = 6;
+        settings.chromaBands = 4;
+        const std::shared_ptr<Bake> made = baked(trace, settings);
+        Relighter needed(made), all(made, LitBands::All);
+        needed.relight(scene, trace, 4);
+        all.relight(scene, trace, 4);
+        const auto gpu = gpuRelighter(*device, made);
+        ASSERT_TRUE(gpu);
+        const SurfelValues values = surfelValues(*made, scene, trace);
+        SurfelInputs inputs = values.inputs();
+        for (const Relighter* cpu : {&needed, &all}) {
+            inputs.bands = cpu->field().bands;
+            EXPECT_FALSE(gpu->relight(inputs, cpu == &needed ? 4 : 1).skipped);
+            EXPECT_EQ(gpu->field()->bands, inputs.bands);
+            const IndirectField field = gpu->readField();
+            EXPECT_EQ(field.bands, inputs.bands);
+            const double terms = mostLinks(made->caches), brightest = largest(cpu->cacheSh());
+            if (cpu == &needed) {
+                expectRounding("caches", distance(gpu->readCacheSh(), cpu->cacheSh()), terms,
+                               brightest);
+                expectRounding("lightmap", distance(field.lightmap, cpu->field().lightmap), terms,
+                               brightest);
+                expectRounding("grid", distance(field.grid, cpu->field().grid), terms, brightest);
+            } else { // one bounce further
+                ASSERT_EQ(field.lightmap.size(), cpu->field().lightmap.size());
+                EXPECT_LT(distance(field.lightmap, cpu->field().lightmap).max, 0.05 * brightest);
+                EXPECT_LT(distance(field.grid, cpu->field().grid).max, 0.05 * brightest);
+            }
+        }
+    }
+}
+
 TEST_F(GpuMatch, KnowsNoNegativeIrradianceEither) {
     Scene scene = court();
     const TraceScene trace(scene);
@@ -120,7 +158,7 @@ TEST_F(GpuMatch, KnowsNoNegativeIrradianceEither) {
     for (glm::vec3& n : turned->surfels.normal) // away from their caches' light: three bands ring
         n = glm::normalize(glm::vec3(n.y, n.z, n.x) - 2.f * n);
     compare(*device, scene, trace, turned);
-    Relighter cpu(turned);
+    Relighter cpu(turned, LitBands::All);
     cpu.relight(scene, trace, 5);
     const SurfelValues values = surfelValues(*turned, scene, trace);
     std::size_t unlit = 0; // clamped: nothing but their own light
@@ -134,7 +172,7 @@ TEST_F(GpuMatch, FollowsTheLightAsTheCpuDoes) {
     Scene scene = court();
     const TraceScene trace(scene);
     const auto made = baked(trace, scene.bake);
-    Relighter cpu(made);
+    Relighter cpu(made, LitBands::All);
     const auto gpu = gpuRelighter(*device, made);
     ASSERT_TRUE(gpu);
     const auto expectSame = [&](std::uint32_t bounces) {
