@@ -91,7 +91,7 @@ Exit runReference(Options& o) {
 
 void addReferenceCommand(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("reference", "Path-traces ground truth (Lambertian)");
+    CLI::App* command = app.add_subcommand("reference", "Path-traces ground truth");
     addSceneOptions(*command, o->scene);
     addTimeOption(*command, o->scene);
     addCameraOptions(*command, o->camera);

@@ -49,17 +49,18 @@ bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample&
 }
 
 // One point of the rectangle, as if it were all of it.
-glm::vec3 sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
-                          glm::vec2 uv) {
+DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
+                             glm::vec2 uv) {
     const LightRectangle rectangle = lightRectangle(light);
     const glm::vec3 onLight = rectangle.at(uv);
-    if (!(glm::dot(p.geometricNormal, onLight - p.position) > 0))
-        return glm::vec3(0);
+    const glm::vec3 way = onLight - p.position;
+    if (!(glm::dot(p.geometricNormal, way) > 0))
+        return {};
     const float share = rectangle.area * pointIrradiance(rectangle, onLight, p.position, p.normal);
     if (!(share > 0) ||
         trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal)))
-        return glm::vec3(0);
-    return light.color * light.strength * share;
+        return {};
+    return {light.color * light.strength * share, glm::normalize(way)};
 }
 
 float strength(glm::vec3 e) {
@@ -87,13 +88,13 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
     return E;
 }
 
-glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p, float pick,
-                                 glm::vec2 onLight, std::uint64_t& rays) {
+DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
+                               glm::vec2 onLight, std::uint64_t& rays) {
     float total = 0;
     for (const Light& light : trace.scene().lights)
         total += strength(unshadowed(light, p).irradiance);
     if (!(total > 0))
-        return glm::vec3(0);
+        return {};
     float below = 0;
     Unshadowed chosen;
     const Light* light = nullptr;
@@ -109,9 +110,13 @@ glm::vec3 sampleDirectIrradiance(const TraceScene& trace, const SurfacePoint& p,
     }
     ++rays;
     const float weight = total / strength(chosen.irradiance); // 1 / chance
+    DirectSample s;
     if (light->kind == LightKind::Rectangle)
-        return weight * sampleRectangle(trace, p, *light, onLight);
-    return inShadow(trace, p, chosen.sample) ? glm::vec3(0) : weight * chosen.irradiance;
+        s = sampleRectangle(trace, p, *light, onLight);
+    else if (!inShadow(trace, p, chosen.sample))
+        s = {chosen.irradiance, chosen.sample.toLight};
+    s.irradiance *= weight;
+    return s;
 }
 
 } // namespace limn

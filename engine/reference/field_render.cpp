@@ -2,12 +2,14 @@
 #include "engine/reference/field_render.h"
 
 #include "engine/core/parallel.h"
+#include "engine/math/lobe.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
 #include "engine/reference/pixel_rays.h"
 #include "engine/reference/sampler.h"
 #include "engine/reference/surface_point.h"
 #include "engine/relight/relight.h"
+#include "engine/scene/receiver_bands.h"
 
 #include <cassert>
 #include <optional>
@@ -23,6 +25,8 @@ struct FieldContext {
     const IndirectField& field;
     const LightmapLayout& layout;
     View view;
+    bool windowedLobes;
+    std::vector<int> bands; ///< that each material reflects
 
     bool hasField() const { return field.lightmapWidth > 0 || field.gridSize.x > 0; }
 };
@@ -34,6 +38,26 @@ glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePo
                             hit.v, p.position, p.normal);
 }
 
+/// Mean radiance in the lobe.
+glm::vec3 fieldLobe(const FieldContext& c, const Hit& hit, const GlossyPoint& g) {
+    if (!c.hasField())
+        return glm::vec3(0);
+    const Scene& scene = c.trace.scene();
+    const int bands = c.bands[scene.instances[hit.instance].material];
+    const float n = lobeExponent(g.gloss.roughness);
+    return sampleLobe(
+        {c.field, c.layout, scene, hit.instance, hit.triangle, hit.u, hit.v, g.surface.position},
+        g.mirrored, bands, c.windowedLobes ? windowedLobeFactors(n, bands) : lobeFactors(n));
+}
+
+glm::vec3 shadeLit(const FieldContext& c, const Hit& hit, const GlossyPoint& g,
+                   const DirectSample& direct) {
+    const SurfacePoint& p = g.surface;
+    return p.emission + g.reflect(direct.irradiance, direct.toLight) +
+           p.albedo / glm::pi<float>() * fieldIrradiance(c, hit, p) +
+           g.lobeAlbedo() * fieldLobe(c, hit, g);
+}
+
 glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight, glm::vec2 onLight) {
     const Hit hit = c.trace.closestHit(ray);
     if (!hit)
@@ -42,15 +66,13 @@ glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight, glm::vec
     if (!p)
         return glm::vec3(0);
     std::uint64_t rays = 0;
-    const auto direct = [&] {
-        return sampleDirectIrradiance(c.trace, *p, pickLight, onLight, rays);
-    };
+    const auto direct = [&] { return sampleDirectLight(c.trace, *p, pickLight, onLight, rays); };
     const glm::vec3 reflectance = p->albedo / glm::pi<float>();
     switch (c.view) {
     case View::Lit:
-        return p->emission + reflectance * (direct() + fieldIrradiance(c, hit, *p));
+        return shadeLit(c, hit, glossyPoint(c.trace, hit, ray, *p), direct());
     case View::Direct:
-        return reflectance * direct();
+        return reflectance * direct().irradiance;
     case View::Indirect:
         return reflectance * fieldIrradiance(c, hit, *p);
     case View::Irradiance:
@@ -70,7 +92,10 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
     constexpr std::size_t kTile = 256; // pixels
-    const FieldContext context{trace, field, layout, options.view};
+    FieldContext context{trace, field, layout, options.view, options.windowedLobes, {}};
+    for (const Material& m : trace.scene().materials)
+        context.bands.push_back(
+            receiverBands(*trace.scene().assets, m, int(std::max(field.bands, 2U))));
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     ImageF image{options.width, options.height, std::vector<glm::vec3>(pixels)};

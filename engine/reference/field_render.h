@@ -17,11 +17,12 @@ struct FieldRenderOptions {
     std::uint32_t width = 1280, height = 720;
     std::uint32_t samplesPerPixel = 16; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
+    bool windowedLobes = true; ///< else cut off after the field's bands, and so ring; to compare
 };
 
 /// The picture that real-time light makes, on the CPU: direct light with ray-traced shadows,
 /// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
-/// the two differ by the field's error only; Lit has no specular. View::Normals is n / 2 + 1/2.
+/// the two differ by the field's error only. View::Normals is n / 2 + 1/2.
 /// Without a field (no lightmap, no grid) there is no indirect light. `layout` belongs to the
 /// field. Same bytes at any number of threads; empty when cancelled.
 ImageF renderField(const TraceScene& trace, const IndirectField& field,

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kRouletteBounce = 3; ///< shorter paths are never cut
 constexpr std::uint32_t kDimensionsPerBounce = 5;
+constexpr std::uint32_t kLobeSeed = 0x6c6f6265; // parts a lobe's samples from the others of a pixel
 
 // Power heuristic, exponent 2. Veach. Robust Monte Carlo Methods for Light Transport. 1997
 float misWeight(float pdf, float other) {
@@ -104,10 +105,32 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
             T /= survival;
         }
         p = *next;
-        E += T * sampleDirectIrradiance(c.trace, p, picks.y,
-                                        sampler.pair(kOnLightDimension + 1 + bounce), rays);
+        E += T * sampleDirectLight(c.trace, p, picks.y,
+                                   sampler.pair(kOnLightDimension + 1 + bounce), rays)
+                     .irradiance;
     }
     return E;
+}
+
+glm::vec3 sampleLobeRadiance(const PathContext& c, const SurfacePoint& p, glm::vec3 mirrored,
+                             float n, const Sampler& sampler, std::uint64_t& rays) {
+    const Sampler own{mixBits(sampler.seed, kLobeSeed), sampler.index};
+    const glm::vec3 direction = sampleLobeDirection(mirrored, n, own.pair(0));
+    if (c.maxBounces == 0 || !(glm::dot(direction, p.geometricNormal) > 0))
+        return glm::vec3(0);
+    ++rays;
+    const Hit hit = c.trace.closestHit({rayOrigin(c.trace, p), direction});
+    if (!hit)
+        return skyRadiance(c.trace.scene().sky, direction);
+    const std::optional<SurfacePoint> next = surfacePoint(c.trace, hit);
+    if (!next)
+        return glm::vec3(0);
+    const glm::vec3 direct =
+        sampleDirectLight(c.trace, *next, own.pair(1).x, own.pair(kOnLightDimension), rays)
+            .irradiance;
+    const glm::vec3 bounced =
+        sampleIndirectIrradiance({c.trace, c.emitters, c.sky, c.maxBounces - 1}, *next, own, rays);
+    return next->emission + next->albedo / glm::pi<float>() * (direct + bounced);
 }
 
 } // namespace limn

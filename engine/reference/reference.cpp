@@ -2,6 +2,7 @@
 #include "engine/reference/reference.h"
 
 #include "engine/core/parallel.h"
+#include "engine/math/lobe.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
 #include "engine/reference/pixel_rays.h"
@@ -44,15 +45,20 @@ glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Samp
         return p->albedo;
     if (view == View::Irradiance)
         return sampleIndirectIrradiance(c, *p, sampler, rays);
-    glm::vec3 E(0), own(0);
+    DirectSample direct;
+    glm::vec3 indirect(0);
     if (view == View::Lit || view == View::Direct)
-        E += sampleDirectIrradiance(c.trace, *p, sampler.pair(1).x, sampler.pair(kOnLightDimension),
-                                    rays);
+        direct = sampleDirectLight(c.trace, *p, sampler.pair(1).x, sampler.pair(kOnLightDimension),
+                                   rays);
     if (view == View::Lit || view == View::Indirect)
-        E += sampleIndirectIrradiance(c, *p, sampler, rays);
-    if (view == View::Lit)
-        own = p->emission;
-    return own + p->albedo * E / glm::pi<float>();
+        indirect = p->albedo / glm::pi<float>() * sampleIndirectIrradiance(c, *p, sampler, rays);
+    if (view != View::Lit)
+        return p->albedo / glm::pi<float>() * direct.irradiance + indirect;
+    const GlossyPoint g = glossyPoint(c.trace, hit, ray, *p);
+    const glm::vec3 glossy =
+        g.lobeAlbedo() *
+        sampleLobeRadiance(c, *p, g.mirrored, lobeExponent(g.gloss.roughness), sampler, rays);
+    return p->emission + g.reflect(direct.irradiance, direct.toLight) + indirect + glossy;
 }
 
 // Adds samples [begin, end) of one pixel.

@@ -28,12 +28,15 @@ struct ReferenceResult {
     std::uint64_t rays = 0;
 };
 
-/// Path-traced ground truth: every surface Lambertian with surfaceMaterial()'s albedo, no specular
-/// in Lit either. Cosines are those of the interpolated vertex normals, without normal maps; the
-/// triangle itself bounds what is seen. The back of a one-sided surface is black, to the camera and
-/// to paths, and blocks. Emission leaves the front only, unless the material is double-sided.
-/// Nothing is clamped: no fireflies are taken out. Box pixel filter. Same bytes at any number of
-/// threads. A cancelled call returns what it has.
+/// Path-traced ground truth: every surface Lambertian with surfaceMaterial()'s albedo. In Lit the
+/// first one is glossy besides: specularBrdf() of what comes straight from lights, and of all else
+/// the mean over the lobe cos^n about the mirrored direction, n = lobeExponent(), times
+/// specularAlbedo(), which is what bounced light in spherical harmonics can be asked for. Cosines
+/// are those of the interpolated vertex normals, without normal maps; the triangle itself bounds
+/// what is seen. The back of a one-sided surface is black, to the camera and to paths, and blocks.
+/// Emission leaves the front only, unless the material is double-sided. Nothing is clamped: no
+/// fireflies are taken out. Box pixel filter. Same bytes at any number of threads. A cancelled call
+/// returns what it has.
 ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions& options,
                                 const Progress& progress = {});
 

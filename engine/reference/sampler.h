@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -64,15 +65,26 @@ inline glm::vec2 Sampler::pair(std::uint32_t dimension) const {
     return {float(x >> 8) * 0x1p-24f, float(y >> 8) * 0x1p-24f};
 }
 
-/// Direction about unit `n` with density cos / pi.
-inline glm::vec3 sampleCosineHemisphere(glm::vec3 n, glm::vec2 u) {
+/// The direction of that angle to unit `n`, `turns` of a whole turn round it.
+inline glm::vec3 directionAbout(glm::vec3 n, float sine, float cosine, float turns) {
     // Duff et al. Building an Orthonormal Basis, Revisited. 2017
     const float sign = std::copysign(1.f, n.z);
     const float a = -1 / (sign + n.z), b = n.x * n.y * a;
     const glm::vec3 t(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
     const glm::vec3 s(b, sign + n.y * n.y * a, -n.y);
-    const float r = std::sqrt(u.x), phi = 6.2831853f * u.y;
-    return r * std::cos(phi) * t + r * std::sin(phi) * s + std::sqrt(1 - u.x) * n;
+    const float phi = 6.2831853f * turns;
+    return sine * std::cos(phi) * t + sine * std::sin(phi) * s + cosine * n;
+}
+
+/// Direction about unit `n` with density cos / pi.
+inline glm::vec3 sampleCosineHemisphere(glm::vec3 n, glm::vec2 u) {
+    return directionAbout(n, std::sqrt(u.x), std::sqrt(1 - u.x), u.y);
+}
+
+/// Direction about unit `d` with density (n+1)/(2 pi) cos^n, n >= 0.
+inline glm::vec3 sampleLobeDirection(glm::vec3 d, float n, glm::vec2 u) {
+    const float cosine = std::pow(1 - u.x, 1 / (n + 1));
+    return directionAbout(d, std::sqrt(std::max(1 - cosine * cosine, 0.f)), cosine, u.y);
 }
 
 } // namespace limn

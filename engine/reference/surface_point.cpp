@@ -3,7 +3,9 @@
 
 #include <array>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 namespace limn {
 
@@ -37,6 +39,24 @@ std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit
     p.albedo = material.albedo;
     p.emission = material.emission;
     return p;
+}
+
+glm::vec3 GlossyPoint::lobeAlbedo() const {
+    return specularAlbedo(gloss, glm::clamp(glm::dot(surface.normal, toEye), 0.f, 1.f));
+}
+
+glm::vec3 GlossyPoint::reflect(glm::vec3 irradiance, glm::vec3 toLight) const {
+    if (irradiance == glm::vec3(0))
+        return irradiance;
+    return irradiance * (surface.albedo / glm::pi<float>() +
+                         specularBrdf(gloss, surface.normal, toEye, toLight));
+}
+
+GlossyPoint glossyPoint(const TraceScene& trace, const Hit& hit, const Ray& ray,
+                        const SurfacePoint& p) {
+    const Scene& scene = trace.scene();
+    return {p, surfaceGloss(scene, scene.instances[hit.instance], hit.triangle, hit.u, hit.v),
+            -ray.direction, glm::reflect(ray.direction, p.normal)};
 }
 
 glm::vec3 rayOrigin(const TraceScene& trace, const SurfacePoint& p) {

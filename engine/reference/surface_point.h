@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/specular.h"
 #include "engine/trace/trace_scene.h"
 
 #include <optional>
@@ -19,6 +20,23 @@ struct SurfacePoint {
 /// Nothing for the back of a one-sided surface: it is black and blocks. A double-sided surface
 /// reflects and emits on both sides.
 std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit);
+
+/// A surface point as the eye sees it.
+struct GlossyPoint {
+    SurfacePoint surface;
+    Gloss gloss;
+    glm::vec3 toEye{0};    ///< unit
+    glm::vec3 mirrored{0}; ///< unit; the middle of the reflecting lobe
+
+    /// Share of light from everywhere that the lobe reflects to the eye.
+    glm::vec3 lobeAlbedo() const;
+    /// Radiance to the eye of what comes straight from a light: diffuse and glossy.
+    glm::vec3 reflect(glm::vec3 irradiance, glm::vec3 toLight) const;
+};
+
+/// `p` as the ray that found it by `hit` sees it.
+GlossyPoint glossyPoint(const TraceScene& trace, const Hit& hit, const Ray& ray,
+                        const SurfacePoint& p);
 
 /// Just outside the surface, where rays to its front start.
 glm::vec3 rayOrigin(const TraceScene& trace, const SurfacePoint& p);
