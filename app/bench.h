@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 
 void addErrorBench(CLI::App& bench, Run& run);
 void addFrameBench(CLI::App& bench, Run& run);
+void addGlossyBench(CLI::App& bench, Run& run);
 void addRelightBench(CLI::App& bench, Run& run);
 
 /// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made

@@ -49,6 +49,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
     CLI::App* bench = app.add_subcommand("bench", "Measures, and writes tables");
     bench->require_subcommand(1);
     addErrorBench(*bench, run);
+    addGlossyBench(*bench, run);
     addRelightBench(*bench, run);
 #ifdef LIMN_HAS_VIEWPORT
     addFrameBench(*bench, run);

@@ -16,8 +16,10 @@ constexpr int kRuns = 3;
 Scene sceneAt(const Scene& scene, int k) {
     Scene moved = scene;
     moved.lights = movedLights(scene.lights, k);
-    if (moved.lights.empty())
+    if (moved.lights.empty()) { // every kind of sky reads one of these
         moved.sky.radiance += 0.01f * float(k);
+        moved.sky.strength += 0.01f * float(k);
+    }
     return moved;
 }
 

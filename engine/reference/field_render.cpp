@@ -93,9 +93,10 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
     assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
     constexpr std::size_t kTile = 256; // pixels
     FieldContext context{trace, field, layout, options.view, options.windowedLobes, {}};
+    const int most = int(field.bands);
     for (const Material& m : trace.scene().materials)
-        context.bands.push_back(
-            receiverBands(*trace.scene().assets, m, int(std::max(field.bands, 2U))));
+        context.bands.push_back(options.allBands ? most
+                                                 : receiverBands(*trace.scene().assets, m, most));
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     ImageF image{options.width, options.height, std::vector<glm::vec3>(pixels)};

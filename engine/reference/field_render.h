@@ -17,7 +17,9 @@ struct FieldRenderOptions {
     std::uint32_t width = 1280, height = 720;
     std::uint32_t samplesPerPixel = 16; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
-    bool windowedLobes = true; ///< else cut off after the field's bands, and so ring; to compare
+    // To compare with:
+    bool windowedLobes = true; ///< else cut off after the field's bands, and so ring
+    bool allBands = false;     ///< reflections read all of the field's, whatever they need
 };
 
 /// The picture that real-time light makes, on the CPU: direct light with ray-traced shadows,
