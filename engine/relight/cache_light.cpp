@@ -35,11 +35,25 @@ std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTre
 
 void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                  LightBands bands, std::uint32_t begin, std::uint32_t end,
-                 std::vector<glm::vec3>& sh) {
+                 std::vector<glm::vec3>& sh, LinkHalfs halfs) {
     parallelRanges(end - begin, 64, [&](std::size_t first, std::size_t last) {
-        lightLinks(caches, ends, radiosity, bands, begin + std::uint32_t(first),
+        lightLinks(caches, ends, radiosity, bands, halfs, begin + std::uint32_t(first),
                    begin + std::uint32_t(last), sh.data());
     });
+}
+
+std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands) {
+    const std::size_t links = caches.shNode.size(), kept = std::size_t(bands * bands);
+    if (links == 0)
+        return {};
+    const std::size_t stored = caches.shCoefficients.size() / links;
+    std::vector<std::uint16_t> halfs(links * kept);
+    parallelRanges(links, 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            std::copy_n(caches.shCoefficients.begin() + std::ptrdiff_t(k * stored), kept,
+                        halfs.begin() + std::ptrdiff_t(k * kept));
+    });
+    return halfs;
 }
 
 void dropChroma(LightBands bands, std::uint32_t begin, std::uint32_t end,

@@ -23,7 +23,11 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 /// with Chrominance Compression. 2016
 void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                  LightBands bands, std::uint32_t begin, std::uint32_t end,
-                 std::vector<glm::vec3>& sh);
+                 std::vector<glm::vec3>& sh, LinkHalfs halfs = {});
+
+/// The first bands^2 halfs of each link of LinkStorage::Sh, without the others between: memory
+/// brings whole lines. Empty where links are cones.
+std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands);
 
 /// Where the links of each cache end, and where those to more than sky do: all that is read while
 /// the sky is black.

@@ -284,18 +284,18 @@ HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* ha
 }
 
 template <int Bands, int Chroma>
-void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
+void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, LinkHalfs all,
                     std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     constexpr std::size_t kCount = Bands * Bands;
     constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     constexpr std::size_t kSums = (kCount + kLanes - 1) / kLanes * kLanes;
     alignas(HWY_MAX_BYTES) float sums[3 * kSums] = {};
-    const std::size_t stored = caches.shCoefficients.size() / caches.shNode.size();
+    const std::size_t stored = all.size() / caches.shNode.size();
     std::vector<std::uint16_t> padded;
     for (std::uint32_t c = begin; c < end; ++c) {
         const std::size_t first = caches.linkBegin[c], last = ends[c];
-        const std::uint16_t* halfs = caches.shCoefficients.data() + first * stored;
-        if (last * stored + kLanes > caches.shCoefficients.size()) { // the array's end
+        const std::uint16_t* halfs = all.data() + first * stored;
+        if (last * stored + kLanes > all.size()) { // the array's end
             padded.assign(halfs, halfs + (last - first) * stored);
             padded.resize(padded.size() + kLanes, 0);
             halfs = padded.data();
@@ -309,19 +309,19 @@ void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radios
 
 template <int Bands, int Chroma>
 void lightHarmonicsFrom(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
-                        std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+                        LinkHalfs halfs, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     if constexpr (Chroma > 1)
         if (chroma < Chroma)
-            return lightHarmonicsFrom<Bands, Chroma - 1>(caches, ends, radiosity, chroma, begin,
-                                                         end, sh);
-    lightHarmonics<Bands, Chroma>(caches, ends, radiosity, begin, end, sh);
+            return lightHarmonicsFrom<Bands, Chroma - 1>(caches, ends, radiosity, chroma, halfs,
+                                                         begin, end, sh);
+    lightHarmonics<Bands, Chroma>(caches, ends, radiosity, halfs, begin, end, sh);
 }
 
 template <int Bands>
 void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
-                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+                LinkHalfs halfs, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     if (!caches.shNode.empty())
-        lightHarmonicsFrom<Bands, Bands>(caches, ends, radiosity, chroma, begin, end, sh);
+        lightHarmonicsFrom<Bands, Bands>(caches, ends, radiosity, chroma, halfs, begin, end, sh);
     else if (chroma < Bands)
         lightCones<Bands, true>(caches, ends, radiosity, chroma * chroma, begin, end, sh);
     else
@@ -329,12 +329,12 @@ void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
 }
 
 void lightLinks(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, LightBands bands,
-                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    using Light = void (*)(const Caches&, LinkEnds, const glm::vec4*, int, std::uint32_t,
+                LinkHalfs halfs, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+    using Light = void (*)(const Caches&, LinkEnds, const glm::vec4*, int, LinkHalfs, std::uint32_t,
                            std::uint32_t, glm::vec3*);
     constexpr Light kLight[] = {lightBands<2>, lightBands<3>, lightBands<4>, lightBands<5>,
                                 lightBands<6>, lightBands<7>, lightBands<8>};
-    kLight[bands.luma - 2](caches, ends, radiosity, bands.chroma, begin, end, sh);
+    kLight[bands.luma - 2](caches, ends, radiosity, bands.chroma, halfs, begin, end, sh);
 }
 
 } // namespace HWY_NAMESPACE
@@ -347,8 +347,11 @@ namespace limn {
 HWY_EXPORT(lightLinks);
 
 void lightLinks(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    HWY_DYNAMIC_DISPATCH(lightLinks)(caches, ends, radiosity.data(), bands, begin, end, sh);
+                LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
+                glm::vec3* sh) {
+    HWY_DYNAMIC_DISPATCH(lightLinks)
+    (caches, ends, radiosity.data(), bands,
+     halfs.empty() ? LinkHalfs(caches.shCoefficients) : halfs, begin, end, sh);
 }
 
 } // namespace limn

@@ -20,11 +20,16 @@ struct LightBands {
 /// Which links are read: of cache c those from Caches::linkBegin[c] to end[c].
 using LinkEnds = std::span<const std::uint32_t>;
 
+/// Halfs of links of LinkStorage::Sh, as many for each, at least LightBands::luma^2. Empty: those
+/// of Caches::shCoefficients.
+using LinkHalfs = std::span<const std::uint16_t>;
+
 /// The sums of lightCaches for the caches [begin, end), on one thread, by the widest vectors that
 /// this machine has: cones (LinkStorage::Rtp) one link per lane, harmonics one coefficient per
 /// lane. The order of a cache's sums depends on the machine's vectors, so results of two kinds of
 /// machine agree to rounding only.
 void lightLinks(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
+                LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
+                glm::vec3* sh);
 
 } // namespace limn

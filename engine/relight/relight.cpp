@@ -44,6 +44,7 @@ struct Relighter::State {
     /// Of all bounces but the last one, which need irradiance only; of the last one; and of what
     /// is seen.
     LightBands innerBands, bounceBands, finalBands;
+    std::vector<std::uint16_t> halfs; ///< of links in fewer bands than stored; empty: as stored
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
     std::uint64_t skyLinks = 0;                      ///< between the two
     bool started = false, converged = false;
@@ -124,8 +125,11 @@ bool Relighter::State::updateMaterials(const Scene& scene) {
     if (started && materials == scene.materials)
         return false;
     const int needed = receiverBands(scene, int(bake->settings.bands));
-    if (lit == LitBands::Needed && needed != bands)
+    if (lit == LitBands::Needed && (!started || needed != bands)) {
         setBands(needed);
+        halfs = bands < int(bake->settings.bands) ? firstHalfs(bake->caches, bands)
+                                                  : std::vector<std::uint16_t>();
+    }
     surfelMaterials(bake->surfels, scene, albedo, emitted, materials);
     materials = scene.materials;
     return true;
@@ -177,7 +181,7 @@ void Relighter::State::lightLightmapCaches(LinkEnds ends, LightBands in,
                                            std::vector<glm::vec3>& out) {
     const std::uint32_t count = bake->caches.lightmapCount;
     out.resize(std::max(out.size(), count * std::size_t(in.luma * in.luma)));
-    lightCaches(bake->caches, ends, radiosity, in, 0, count, out);
+    lightCaches(bake->caches, ends, radiosity, in, 0, count, out, halfs);
     fillInvalidCaches(bake->caches, in.luma, 0, count, out);
 }
 
@@ -226,7 +230,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     }
     if (s.finalBands.chroma < s.bounceBands.chroma)
         dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);
-    lightCaches(caches, ends, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh);
+    lightCaches(caches, ends, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh, s.halfs);
     fillInvalidCaches(caches, s.bands, caches.lightmapCount, all, s.sh);
     stats.cacheLightMs += timer.lap();
     s.writeField();

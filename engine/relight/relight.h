@@ -33,7 +33,8 @@ struct RelightStats {
 };
 
 /// Which of a bake's bands are lit: those that the scene's surfaces need (receiverBands()), which
-/// are 3 where none is glossy; or all.
+/// are 3 where none is glossy; or all. Of links kept as harmonics those that are needed are copied,
+/// 18 bytes a link for 3 bands.
 enum class LitBands : std::uint8_t { Needed, All };
 
 /// The live runtime on the CPU. Keeps what did not change since the last call.

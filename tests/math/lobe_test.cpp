@@ -57,20 +57,20 @@ TEST(Lobe, WindowedLobesOfConstantRadianceAreThatRadiance) {
 TEST(Lobe, KernelsAreNowhereFarBelowZero) {
     for (int bands = 2; bands <= kMaxBands; ++bands)
         for (float n = 1; n < 800; n *= 1.3f)
-            // A twentieth of the peak; a thousandth for the window's first order.
-            EXPECT_GT(lowest(windowedLobeFactors(n, bands), bands), -0.051) << bands << " " << n;
+            // A tenth of the peak; a thousandth for the window's first order.
+            EXPECT_GT(lowest(windowedLobeFactors(n, bands), bands), -0.101) << bands << " " << n;
 }
 
 TEST(Lobe, OfAMirrorTheWindowIsTheLeastThatDoesSo) {
     for (int bands = 2; bands <= kMaxBands; ++bands) {
         const auto s = windowedLobeFactors(1e7f, bands);
-        EXPECT_NEAR(lowest(s, bands), -0.05, 2e-4) << bands;
-        EXPECT_LT(lowest(s, bands, 0.98), -0.0505) << bands << " bands with 2 % less blur";
+        EXPECT_NEAR(lowest(s, bands), -0.1, 2e-4) << bands;
+        EXPECT_LT(lowest(s, bands, 0.98), -0.1005) << bands << " bands with 2 % less blur";
     }
 }
 
 TEST(Lobe, WideLobesAreLeftAsTheyAre) {
-    for (const auto& [n, bands] : {std::pair(5.f, 5), {5.f, 8}, {14.f, 7}, {18.f, 8}})
+    for (const auto& [n, bands] : {std::pair(5.f, 5), {5.f, 8}, {14.f, 7}, {18.f, 8}, {30.f, 8}})
         for (int l = 0; l < kMaxBands; ++l)
             EXPECT_EQ(windowedLobeFactors(n, bands)[std::size_t(l)],
                       l < bands ? lobeFactors(n)[std::size_t(l)] : 0)
