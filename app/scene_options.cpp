@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/files/project_file.h"
 #include "engine/files/sky_file.h"
+#include "engine/scene/dynamic_spec.h"
 #include "engine/scene/light_spec.h"
 
 #include <algorithm>
@@ -20,6 +21,12 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("scene", options.scene, ".gltf, .glb or .limn file, or the name of a project")
         ->required();
     addLightOptions(command, options);
+    command
+        .add_option("--dynamic", options.dynamics,
+                    "NAME or NAME@x,y,z: the object of that name moves freely, here by x,y,z [m]: "
+                    "lit from the grid, casts shadows, sends no bounced light; may be repeated")
+        ->allow_extra_args(false)
+        ->take_all();
 }
 
 void addLightOptions(CLI::App& command, SceneOptions& options) {
@@ -89,6 +96,9 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
         skyOf(scene->document).strength = *options.skyStrength;
     if (options.skyRotation)
         skyOf(scene->document).rotation = glm::radians(*options.skyRotation);
+    for (const std::string& spec : options.dynamics)
+        if (const Result<void> made = makeDynamic(scene->document, spec); !made)
+            return tl::make_unexpected(made.error());
     for (const std::string& repair : scene->repairs)
         logWarning(fmt::format("{}: {}", options.scene, repair));
     return scene;

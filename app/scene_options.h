@@ -14,13 +14,14 @@
 
 namespace limn {
 
-/// SCENE|PROJECT and the flags that bake, render and reference share for lights and sky.
+/// SCENE|PROJECT and the flags that bake, render and reference share for lights, sky and objects.
 struct SceneOptions {
     std::string scene;
     std::vector<std::string> lights;
     std::string sky;
     std::optional<float> skyStrength, skyRotation; ///< factor, degrees
     double seconds = 0;                            ///< after the start of films
+    std::vector<std::string> dynamics;
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 

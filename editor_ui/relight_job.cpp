@@ -17,9 +17,17 @@ bool sameSurface(const Material& a, const Material& b) {
            a.baseColorTexture == b.baseColorTexture;
 }
 
-bool sameInstance(const Instance& a, const Instance& b) {
+bool sameObject(const Instance& a, const Instance& b) {
     return a.mesh == b.mesh && a.material == b.material && a.node == b.node &&
-           a.dynamic == b.dynamic && a.toWorld == b.toWorld;
+           a.dynamic == b.dynamic;
+}
+
+bool sameInstance(const Instance& a, const Instance& b) {
+    return sameObject(a, b) && a.toWorld == b.toWorld;
+}
+
+bool sameBakedInstance(const Instance& a, const Instance& b) {
+    return sameObject(a, b) && (a.dynamic || a.toWorld == b.toWorld);
 }
 
 } // namespace
@@ -30,7 +38,9 @@ bool sameGeometry(const Scene& a, const Scene& b) {
 }
 
 bool sameBakeInputs(const Scene& a, const Scene& b) {
-    return sameGeometry(a, b) && a.bake == b.bake;
+    return a.assets == b.assets &&
+           std::ranges::equal(a.instances, b.instances, sameBakedInstance) &&
+           std::ranges::equal(a.materials, b.materials, sameSurface) && a.bake == b.bake;
 }
 
 Scene relitScene(const Scene& baked, const Scene& now) {

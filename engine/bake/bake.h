@@ -128,7 +128,7 @@ struct Bake {
 };
 
 /// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Not
-/// lights, albedo, emission.
+/// lights, albedo, emission, nor where dynamic instances are.
 std::uint64_t bakeInputHash(const Scene& scene);
 
 /// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").

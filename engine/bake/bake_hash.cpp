@@ -92,6 +92,8 @@ std::uint64_t bakeInputHash(const Scene& scene) {
     std::uint64_t h = hashSettings(scene.bake, 2);
     for (const Instance& i : scene.instances) {
         h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), hashValue(i.node, h)));
+        if (i.dynamic)
+            continue; // where it is and what it is made of is all the same to a bake
         h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
         // Whether it emits guides the sampling; how much does not.
         const Material& m = scene.materialOf(i);

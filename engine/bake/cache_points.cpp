@@ -84,7 +84,7 @@ Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
 }
 
 Bounds gridBoundsOf(const Scene& scene) {
-    Bounds bounds = scene.bounds;
+    Bounds bounds = staticBounds(scene);
     const float least = std::max(1e-3f * glm::length(bounds.size()), 1e-6f);
     const glm::vec3 missing = glm::max(glm::vec3(0), glm::vec3(least) - bounds.size()) * 0.5f;
     bounds.lower -= missing;

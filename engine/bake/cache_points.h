@@ -35,7 +35,8 @@ Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
 glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,
                           const BakeSettings& settings);
 
-/// The scene's bounds, never empty in any direction.
+/// Those of the static scene, never empty in any direction: a dynamic object may move beyond them,
+/// and reads the nearest cells there.
 Bounds gridBoundsOf(const Scene& scene);
 
 /// Gives every surfel its four caches: the bilinear lookup at its place in the lightmap.

@@ -86,13 +86,13 @@ void joinRoots(const std::vector<Root>& roots, const Scene& scene, std::uint32_t
     if (roots.empty())
         return;
     std::vector<ClusterItem> items;
+    const Bounds bounds = staticBounds(scene);
     for (const Root& r : roots) {
         items.push_back(r.item);
-        items.back().position -= scene.bounds.lower;
+        items.back().position -= bounds.lower;
     }
     const std::uint32_t top = append(
-        clusterItems(scene.bake.clustering, items, metricOf(scene.bake, scene.bounds.size()),
-                     progress),
+        clusterItems(scene.bake.clustering, items, metricOf(scene.bake, bounds.size()), progress),
         std::uint32_t(roots.size()), [&](std::uint32_t i) { return roots[i].node; }, tree);
     tree.left.push_back(top);
     tree.right.push_back(sky);

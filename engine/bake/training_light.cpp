@@ -47,7 +47,7 @@ std::vector<Light> suns() {
 /// the rooms.
 std::vector<Light> lamps(const TraceScene& trace, const Surfels& surfels) {
     std::vector<Light> result;
-    const float extent = glm::length(trace.scene().bounds.size());
+    const float extent = glm::length(staticBounds(trace.scene()).size());
     for (std::uint32_t k = 0; k < kLamps; ++k) {
         const std::size_t s = (2 * k + 1) * surfels.size() / (2 * kLamps);
         const glm::vec3 p = surfels.position[s], n = surfels.normal[s];

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -84,15 +85,20 @@ static void addInstances(Scene& scene, const Node& node, ObjectId id, const Plac
     }
 }
 
-static Bounds boundsOf(const Scene& scene) {
+/// Of all instances, or of the static ones alone.
+static Bounds boundsOf(const Scene& scene, bool dynamic) {
     const float inf = std::numeric_limits<float>::infinity();
     std::vector<Bounds> each(scene.instances.size(), {glm::vec3(inf), glm::vec3(-inf)});
     parallelRanges(scene.instances.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Instance& instance = scene.instances[i];
+            if (instance.dynamic && !dynamic)
+                continue;
             const glm::mat4x3 toWorld(instance.toWorld);
             for (const glm::vec3& p : scene.meshOf(instance).positions) {
                 const glm::vec3 world = toWorld * glm::vec4(p, 1);
+                if (!std::isfinite(world.x) || !std::isfinite(world.y) || !std::isfinite(world.z))
+                    continue;
                 each[i].lower = glm::min(each[i].lower, world);
                 each[i].upper = glm::max(each[i].upper, world);
             }
@@ -104,6 +110,10 @@ static Bounds boundsOf(const Scene& scene) {
         all.upper = glm::max(all.upper, b.upper);
     }
     return all.lower.x <= all.upper.x ? all : Bounds{};
+}
+
+Bounds staticBounds(const Scene& scene) {
+    return boundsOf(scene, false);
 }
 
 bool showTime(Scene& scene, const Document& document, double seconds) {
@@ -146,7 +156,7 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, do
     showTime(scene, document, seconds);
     scene.sky = singleton<Sky>(document);
     scene.bake = singleton<BakeSettings>(document);
-    scene.bounds = boundsOf(scene);
+    scene.bounds = boundsOf(scene, true);
     return scene;
 }
 

@@ -59,6 +59,9 @@ struct Scene {
     const Material& materialOf(const Instance& i) const { return materials[i.material]; }
 };
 
+/// World space, of the static instances: all that a bake may depend on. 0 where there are none.
+Bounds staticBounds(const Scene& scene);
+
 /// As it is `seconds` after the start of its films.
 Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, double seconds = 0);
 

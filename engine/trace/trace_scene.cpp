@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <tbb/task_arena.h>
@@ -216,6 +217,14 @@ void TraceScene::Impl::buildMeshes() {
     });
 }
 
+static float largestCoordinate(const Scene& scene) {
+    const bool anyStatic = std::any_of(scene.instances.begin(), scene.instances.end(),
+                                       [](const Instance& i) { return !i.dynamic; });
+    const Bounds b = anyStatic ? staticBounds(scene) : scene.bounds;
+    const glm::vec3 most = glm::max(glm::abs(b.lower), glm::abs(b.upper));
+    return std::max({most.x, most.y, most.z});
+}
+
 void TraceScene::Impl::buildTop() {
     top = rtcNewScene(device);
     setEmbreeFlags(top);
@@ -240,12 +249,10 @@ void TraceScene::Impl::buildTop() {
         rtcReleaseGeometry(geometry);
     }
     commitAlone(top);
-    RTCBounds b;
-    rtcGetSceneBounds(top, &b);
-    const float largest = std::max({std::abs(b.lower_x), std::abs(b.lower_y), std::abs(b.lower_z),
-                                    std::abs(b.upper_x), std::abs(b.upper_y), std::abs(b.upper_z)});
-    // Infinite where there is nothing. In powers of two, so that rays of the rest of the scene
-    // seldom depend on an object that moves.
+    const float largest = largestCoordinate(scene);
+    // In powers of two, so that rays of the rest of the scene seldom
+    // depend on an object that moves, and of the static scene, so that a bake never depends on a
+    // dynamic one.
     magnitude =
         std::isfinite(largest) && largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
 }

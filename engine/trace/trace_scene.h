@@ -63,7 +63,7 @@ public:
     glm::vec3 clearOf(glm::vec3 p, glm::vec3 normal) const { return p + normal * epsilonAt(p); }
 
     /// Offset that clears a surface at `p` of float rounding [m]; grows with |p| and in powers of
-    /// two with the scene.
+    /// two with the static scene.
     float epsilonAt(glm::vec3 p) const;
 
     const Scene& scene() const;

@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 struct Blocks {
     glm::mat4 low = glm::translate(glm::mat4(1), glm::vec3(2, 0, 1));
     glm::mat4 tall = glm::translate(glm::mat4(1), glm::vec3(0.5f, 0, 2.5f));
+    glm::mat4 ball = glm::translate(glm::mat4(1), glm::vec3(3, 3, 3));
     bool third = false;
 };
 
@@ -48,7 +49,7 @@ Scene room(const Blocks& blocks) {
     b.addInstance(block, blocks.low);
     b.addInstance(block, blocks.tall * glm::scale(glm::mat4(1), glm::vec3(1, 2, 1)));
     const std::uint32_t ball = b.addMesh(sphere(0.2f, 1, false));
-    b.addInstance(ball, glm::translate(glm::mat4(1), glm::vec3(3, 3, 3)), true);
+    b.addInstance(ball, blocks.ball, true);
     if (blocks.third)
         b.addInstance(block, glm::translate(glm::mat4(1), glm::vec3(0.2f, 2.7f, 0.3f))).node = 99;
     Scene scene = b.build();
@@ -132,6 +133,21 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
         EXPECT_EQ(back.hash(), start.hash());
         EXPECT_EQ(back.counts.rays, 0U);
     }
+}
+
+TEST(Stages, ABakeIsTheSameWhereverADynamicObjectIs) {
+    Blocks blocks;
+    const Scene start = room(blocks);
+    const Bake first = baked(start);
+    for (const glm::vec3 at : {glm::vec3(1, 0.5f, 2), glm::vec3(40, -70, 900)}) {
+        blocks.ball = glm::translate(glm::mat4(1), at);
+        Scene moved = room(blocks);
+        EXPECT_EQ(bakeInputHash(moved), bakeInputHash(start));
+        EXPECT_EQ(baked(moved).hash(), first.hash());
+    }
+    Scene fixed = room({});
+    fixed.instances[5].dynamic = false; // the ball
+    EXPECT_NE(bakeInputHash(fixed), bakeInputHash(start));
 }
 
 std::map<std::string, std::uintmax_t> filesOf(const fs::path& folder) {

@@ -167,6 +167,31 @@ TEST_F(SessionTest, AMovedObjectMakesANewBakeNeededAndTheOldLightStays) {
         runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
 }
 
+TEST_F(SessionTest, AMovedDynamicObjectNeedsNoBakeAndMovesItsShadow) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const auto shortBlock = [&]() -> Node& {
+        for (auto& [id, object] : session.state.document.objects)
+            if (auto* node = std::get_if<Node>(&object); node && node->name == "Short block")
+                return *node;
+        throw std::runtime_error("no block");
+    };
+    session.state.autoBake = true;
+    shortBlock().dynamic = true;
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::Needed; }));
+    ASSERT_TRUE(runUntilIdle(session));
+    ASSERT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+    const double seconds = session.bakeSeconds();
+    const auto before = session.field();
+    shortBlock().transform.translation = {0.4f, 0.8f, 0};
+    ASSERT_TRUE(runUntil(session, [&] { return session.field() != before && session.idle(); }));
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+    EXPECT_EQ(session.bakeSeconds(), seconds);
+    EXPECT_NE(session.field()->lightmap, before->lightmap);
+}
+
 TEST_F(SessionTest, ABakeUsesTheSettingsOfTheDocument) {
     Session session(options());
     session.open(project);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/dynamic_spec.h"
 #include "engine/scene/scene.h"
 
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -98,6 +100,37 @@ TEST(Flatten, TransformsVisibilityAndDynamicComeDownTheTree) {
     scene = flatten(document, assets);
     EXPECT_EQ(scene.instances.size(), 1u);
     EXPECT_EQ(scene.bounds.upper, glm::vec3(1, 1, 0));
+}
+
+TEST(Flatten, StaticBoundsLeaveDynamicInstancesAndInfinitePlacesOut) {
+    auto assets = std::make_shared<Assets>();
+    assets->meshes = {unitTriangle()};
+    Document document;
+    addNode(document, 0, {1, 2, 3}, {0});
+    const ObjectId moving = addNode(document, 0, {50, 0, 0}, {0});
+    addNode(document, 0, {std::numeric_limits<float>::infinity(), 0, 0}, {0});
+    std::get<Node>(document.objects[moving]).dynamic = true;
+    const Bounds fixed = staticBounds(flatten(document, assets));
+    EXPECT_EQ(fixed.lower, glm::vec3(1, 2, 3));
+    EXPECT_EQ(fixed.upper, glm::vec3(2, 3, 3));
+}
+
+TEST(DynamicSpec, MarksAndMovesObjectsByName) {
+    Document document;
+    const ObjectId box = addNode(document, 0, {1, 0, 0}, {}), other = addNode(document, 0, {}, {});
+    std::get<Node>(document.objects[box]).name = "Box @ 2";
+    std::get<Node>(document.objects[other]).name = "Box";
+    ASSERT_TRUE(makeDynamic(document, "Box @ 2@0,-0.5,2e1"));
+    const Node& moved = std::get<Node>(document.objects[box]);
+    EXPECT_TRUE(moved.dynamic);
+    EXPECT_EQ(moved.transform.translation, glm::vec3(1, -0.5f, 20));
+    EXPECT_FALSE(std::get<Node>(document.objects[other]).dynamic);
+    ASSERT_TRUE(makeDynamic(document, "Box"));
+    EXPECT_TRUE(std::get<Node>(document.objects[other]).dynamic);
+    const Document before = document;
+    for (const char* wrong : {"Ball", "Box@", "Box@1,2", "Box@1,2,3,4", "Box@1,2,nan", "@1,2,3"})
+        EXPECT_FALSE(makeDynamic(document, wrong)) << wrong;
+    EXPECT_EQ(document, before);
 }
 
 TEST(Flatten, AParentMayHaveALaterIdAndAMissingParentIsARoot) {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/dynamic_spec.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+Result<void> makeDynamic(Document& document, std::string_view spec) {
+    const std::size_t at = spec.rfind('@');
+    const std::string_view name = spec.substr(0, at);
+    glm::vec3 by(0);
+    if (at != std::string_view::npos) {
+        const std::string way(spec.substr(at + 1));
+        int end = 0;
+        if (std::sscanf(way.c_str(), "%f,%f,%f%n", &by.x, &by.y, &by.z, &end) != 3 ||
+            std::size_t(end) != way.size() || !std::isfinite(by.x + by.y + by.z))
+            return fail(fmt::format("dynamic '{}': expected three numbers x,y,z after @", spec));
+    }
+    bool found = false;
+    for (auto& [id, object] : document.objects)
+        if (Node* node = std::get_if<Node>(&object); node && node->name == name) {
+            node->dynamic = found = true;
+            node->transform.translation += by;
+        }
+    if (!found)
+        return fail(fmt::format("dynamic '{}': there is no object of that name", name));
+    return {};
+}
+
+} // namespace limn
