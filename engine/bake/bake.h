@@ -112,6 +112,7 @@ struct Bake {
     LightmapLayout lightmap;
     glm::uvec3 gridSize{0};
     Bounds gridBounds;
+    std::vector<std::uint16_t> gridDepth; ///< kGridDepthTexels per cell: how far each one sees
     Surfels surfels;
     ClusterTree tree;
     Caches caches;

@@ -3,6 +3,7 @@
 
 #include "engine/bake/cache_points.h"
 #include "engine/bake/cluster_tree.h"
+#include "engine/bake/grid_depth.h"
 #include "engine/bake/link_storage.h"
 #include "engine/scene/triangle_geometry.h"
 
@@ -44,7 +45,8 @@ BakeBytes bytesOf(const Bake& bake) {
     b.surfels = surfelArrays(bake.surfels, kBytes);
     b.clusters = innerNodeArrays(t, kBytes) + kBytes(t.parent, t.skyDirection);
     b.links = kBytes(c.linkBegin, c.linkExponent, c.links, c.shNode, c.shCoefficients);
-    b.caches = cacheArrays(c, kBytes) + kBytes(c.fillBegin, c.fillSource, c.fillWeight);
+    b.caches = cacheArrays(c, kBytes) + kBytes(c.fillBegin, c.fillSource, c.fillWeight) +
+               kBytes(bake.gridDepth);
     return b;
 }
 
@@ -68,6 +70,8 @@ BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std:
               caches * (kBytesPerEntry(c.linkExponent) +
                         settings.links * bytesPerLink(settings.storage, settings.bands));
     b.caches = caches * cacheArrays(c, kBytesPerEntry) + (caches + 1) * kBytesPerEntry(c.fillBegin);
+    b.caches += std::uint64_t(settings.grid.x) * settings.grid.y * settings.grid.z *
+                kGridDepthTexels * sizeof(std::uint16_t);
     return b;
 }
 

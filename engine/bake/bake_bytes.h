@@ -21,7 +21,8 @@ BakeBytes bytesOf(const Bake& bake, LinkStorage storage, std::uint32_t bands);
 /// What a bake with these settings will take, known before it starts. Exact for as many surfels as
 /// given. Links: an upper bound, n_L for every cache; those in walls get none, those that see less
 /// get fewer, and CutCriterion::Detail keeps to the same sum. Caches: exact but for the sources of
-/// those in walls, at most 32 bytes each.
+/// those in walls, at most 32 bytes each, and, where the settings leave the grid's size open, for
+/// how far its cells see, 512 bytes each.
 BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std::uint64_t caches);
 
 /// About how many caches a bake of the scene will have. With texelsPerMetre the texels at the

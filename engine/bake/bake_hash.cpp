@@ -57,6 +57,7 @@ std::uint64_t Bake::hash() const {
     h = hashVector(c.kind, hashVector(c.position, hashVector(c.normal, hashVector(c.texel, h))));
     h = hashVector(c.linkBegin, hashVector(c.links, hashValue(c.lightmapCount, h)));
     h = hashVector(c.linkExponent, hashVector(c.shNode, hashVector(c.shCoefficients, h)));
+    h = hashVector(gridDepth, h);
     return hashVector(c.fillBegin, hashVector(c.fillSource, hashVector(c.fillWeight, h)));
 }
 

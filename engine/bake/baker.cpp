@@ -6,6 +6,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut.h"
 #include "engine/bake/fill_invalid.h"
+#include "engine/bake/grid_depth.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
@@ -146,12 +147,14 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     clock.finish("caches");
 
     GatherHits hits;
-    Result<TraceReport> traced = traceHits(
-        {trace, set, result.caches, points, scene.bake.linker, raysPerCache(scene.bake), meshes},
-        progress, store, hits);
+    Result<TraceReport> traced =
+        traceHits({trace, set, result.caches, points, scene.bake.linker, raysPerCache(scene.bake),
+                   meshes, gridReach(result.gridBounds, result.gridSize)},
+                  progress, store, hits);
     if (!traced)
         return tl::make_unexpected(traced.error());
     result.notes = std::move(traced->notes);
+    result.gridDepth = std::move(traced->gridDepth);
     clock.finish("trace");
     const std::vector<float> seen =
         seenByCaches(set.surfels, hits, points, result.caches, result.tree);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/trace_stage.h"
 
+#include "engine/bake/grid_depth.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/trace_record.h"
 #include "engine/core/archive.h"
@@ -351,6 +352,8 @@ bool Tracing::finish() {
             if (!reader.ok || m_hits.aimedBegin.size() != in.caches.size() + 1)
                 m_hits.aimedBegin.clear();
         }
+    m_report.gridDepth =
+        gridDepths(in.set.surfels, in.caches, in.points, m_hits.sender, in.rays, in.gridReach);
     const bool fresh = m_hits.aimedBegin.empty();
     std::uint64_t aimed = 0;
     if (!finishHits(in.trace, in.set, in.caches, in.points, in.linker, m_progress, m_hits, aimed))

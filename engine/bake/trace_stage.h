@@ -20,6 +20,7 @@ struct TraceInput {
     Linker linker;
     std::uint32_t rays;                       ///< per cache
     const std::vector<std::uint64_t>& meshes; ///< hashMeshes of the scene
+    float gridReach = 0;                      ///< gridReach() of the grid [m]
 };
 
 /// What moved since an earlier trace in which all surfels had the same numbers.
@@ -30,10 +31,11 @@ struct MovedSince {
 };
 
 struct TraceReport {
-    std::uint64_t key = 0;           ///< hash of all that the hits depend on
-    std::uint64_t rays = 0;          ///< traced now, whatever for
-    std::vector<std::string> notes;  ///< what was traced again and why
-    std::optional<MovedSince> moved; ///< where hits of such a trace were used
+    std::uint64_t key = 0;                ///< hash of all that the hits depend on
+    std::uint64_t rays = 0;               ///< traced now, whatever for
+    std::vector<std::string> notes;       ///< what was traced again and why
+    std::vector<std::uint16_t> gridDepth; ///< gridDepths() of the hits
+    std::optional<MovedSince> moved;      ///< where hits of such a trace were used
 };
 
 /// The trace stage: fills `hits` from what the store knows and traces the rest. Hits are stored in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/bake_file.h"
 
+#include "engine/bake/grid_depth.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/core/archive.h"
 #include "engine/core/hash.h"
@@ -24,7 +25,7 @@ namespace limn {
 namespace {
 
 constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 36; // per chunk, unpacked: more is damage
 
 template <class A, class B>
@@ -75,6 +76,11 @@ void cacheFields(A& a, B& b) {
     a(c.fillBegin), a(c.fillSource), a(c.fillWeight);
 }
 
+template <class A, class B>
+void gridDepthFields(A& a, B& b) {
+    a(b.gridDepth);
+}
+
 /// Calls visit(name, fields) for every chunk; `fields` takes an archive and a Bake, const where it
 /// writes.
 template <class F>
@@ -85,6 +91,7 @@ void forChunks(F visit) {
     visit("SURFELS ", [](auto& a, auto& b) { surfelFields(a, b); });
     visit("CLUSTERS", [](auto& a, auto& b) { treeFields(a, b); });
     visit("CACHES  ", [](auto& a, auto& b) { cacheFields(a, b); });
+    visit("GRIDDEEP", [](auto& a, auto& b) { gridDepthFields(a, b); });
 }
 
 std::string packChunk(const char* name, const std::string& plain) {
@@ -161,6 +168,8 @@ std::string indexDefect(const Bake& b) {
         if (c.linkBegin[i] > c.linkBegin[i + 1] || c.fillBegin[i] > c.fillBegin[i + 1])
             return "CACHES: offsets run backwards";
     }
+    if (b.gridDepth.size() != cells * kGridDepthTexels)
+        return "GRIDDEEP: not one map per cell";
     if (c.fillBegin.front() != 0 || c.fillBegin.back() != c.fillSource.size())
         return "CACHES: offsets do not cover the sources";
     for (const std::uint32_t source : c.fillSource)
