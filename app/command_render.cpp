@@ -30,7 +30,7 @@ struct Options {
     OverlayFlags overlay;
     std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
     float exposureEv = 0;
-    bool json = false;
+    bool noDimming = false, json = false;
 };
 
 /// What a picture needs of a bake: indirect light, and what is drawn over it. Empty: nothing.
@@ -76,7 +76,9 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
     Result<Bake> read = readBake(options.bake);
     if (!read)
         return read;
+    const bool dimming = scene.bake.dimming; // the document's, not that of the time of the bake
     scene.bake = read->settings;
+    scene.bake.dimming = dimming;
     if (read->sceneHash != bakeInputHash(scene))
         return fail(
             fmt::format("{}: is the bake of another scene than {}, or of an older state of it",
@@ -217,6 +219,7 @@ Exit runRender(const Options& options) {
     if (!imported)
         return failed(imported.error().message);
     Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
+    scene.bake.dimming = scene.bake.dimming && !options.noDimming;
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
         return failed(camera.error().message);
@@ -267,6 +270,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
             "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or "
             "auto, which the editor has found faster here; cpu until it has")
         ->check(CLI::IsMember(strings(kRelightOnNames)));
+    command->add_flag("--no-dimming", options->noDimming,
+                      "dynamic objects do not keep bounced light off what is behind them");
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

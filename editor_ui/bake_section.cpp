@@ -195,6 +195,10 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
     ImGui::Separator();
     countRow(edit, "Most bounces", "Relighting stops earlier once the light no longer changes",
              s.maxBounces, 1, 256, "Bounces");
+    fieldLabel("Dimming",
+               "Dynamic objects keep bounced light off what is behind them. Needs no bake");
+    ImGui::Checkbox("##dimming", &s.dimming);
+    fieldEdited(edit, "Dimming");
     memoryLine(edit.state, s);
     bakeStateLine(edit.state);
 }

@@ -146,6 +146,13 @@ static void relightTable(EditorState& state) {
         std::to_string(r.last.bandsLit) + " of " +
             std::to_string(r.last.bandsLit + r.last.bandsSkipped),
         "The others would be seen in glossy reflections only, and no surface needs them");
+    row("Grid skipped", groupedNumber(r.last.gridCachesSkipped),
+        "Cells not lit, because no object reads them: none is dynamic or without lightmap");
+    row("Dimmed caches", groupedNumber(r.last.cachesDimmed),
+        "That dynamic objects take bounced light from; 0 where there are none");
+    row("Dimmed links", groupedNumber(r.last.linksDimmed), "Of those caches");
+    row("Dimming", ms(r.last.dimMs),
+        "Finding what dynamic objects hide, by the last call; 0 while they stand still");
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
     row("Bake since edit",
         state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",

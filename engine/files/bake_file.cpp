@@ -34,7 +34,7 @@ void settingsFields(A& a, B& b) {
     a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
     a(s.placement), a(s.linker), a(s.cut), a(s.storage), a(s.chromaBands);
     a(s.clustering), a(s.clusterNormalWeight), a(s.clusterBalanceWeight);
-    a(s.grid), a(s.maxBounces), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
+    a(s.grid), a(s.maxBounces), a(s.dimming), a(b.sceneHash), a(b.gridSize), a(b.gridBounds);
     auto& c = b.counts;
     a(c.triangles), a(c.surfels), a(c.clusters), a(c.caches), a(c.invalidCaches), a(c.links),
         a(c.rays);

@@ -125,6 +125,7 @@ void describeBakeSettings(Fields& fields, T& b) {
     fields("texelsPerMetre", b.texelsPerMetre, kNotNegative);
     fields("grid", b.grid);
     fields("maxBounces", b.maxBounces);
+    fields("dimming", b.dimming);
     fields("placement", b.placement, kPlacementNames);
     fields("linker", b.linker, kLinkerNames);
     fields("cut", b.cut, kCutNames);

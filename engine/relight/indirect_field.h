@@ -4,6 +4,7 @@
 #include "engine/scene/scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -26,11 +27,13 @@ struct IndirectField {
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;      ///< cell c's centre is lower + (c + 0.5) / gridSize * size
     std::vector<glm::vec4>
-        grid;                  ///< grid[((i * sz + z) * sy + y) * sx + x]; invalid cells are filled
+        grid; ///< grid[((i * sz + z) * sy + y) * sx + x]; invalid cells are filled
+    /// How far each cell sees, kGridDepthTexels numbers per cell; null: the cells see everything.
+    std::shared_ptr<const std::vector<std::uint16_t>> gridDepth;
     std::uint64_t version = 0; ///< grows with every change of the numbers above
 
     std::uint32_t coefficients() const { return bands * bands; }
-    bool operator==(const IndirectField&) const = default;
+    bool operator==(const IndirectField&) const;
 };
 
 } // namespace limn

@@ -4,6 +4,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
 #include "engine/relight/cache_light.h"
+#include "engine/relight/dimming.h"
 #include "engine/relight/surfel_light.h"
 #include "engine/relight/surfel_material.h"
 #include "engine/relight/surfel_read.h"
@@ -37,6 +38,13 @@ private:
 
 } // namespace
 
+bool needsGrid(const Scene& scene, const LightmapLayout& layout) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (i >= layout.instances.size() || layout.instances[i].uv.empty())
+            return true;
+    return false;
+}
+
 struct Relighter::State {
     std::shared_ptr<const Bake> bake;
     LitBands lit = LitBands::Needed;
@@ -47,6 +55,7 @@ struct Relighter::State {
     std::vector<std::uint16_t> halfs; ///< of links in fewer bands than stored; empty: as stored
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
     std::uint64_t skyLinks = 0;                      ///< between the two
+    LinkEnds ends;                                   ///< the ones in use
     bool started = false, converged = false;
 
     std::vector<Material> materials; ///< that albedo and emitted belong to
@@ -60,12 +69,24 @@ struct Relighter::State {
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
     std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands
     IndirectField field;
+    bool gridLit = false; ///< the field has a grid
+
+    std::uint64_t blockers = 0; ///< hash of those that `dimmed` belongs to; 0: none
+    BlockerShapes shapes;
+    std::vector<SenderPlace> places; ///< empty until needed
+    DimmedLinks dimmed;
+    std::vector<std::uint32_t> dimmedEnds; ///< of its links
+    std::vector<std::uint32_t> otherEnds;  ///< of the bake's; dimmed caches read none of these
+    std::vector<glm::vec3> dimmedSh;       ///< as sh, per dimmed cache
+
+    bool updateDimming(const Scene& scene);
+    void chooseEnds();
+    void lightRange(LightBands in, bool grid, std::vector<glm::vec3>& out);
 
     void setBands(int count);
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
     double lightSurfels();
-    void lightLightmapCaches(LinkEnds ends, LightBands in, std::vector<glm::vec3>& out);
     void writeField();
 };
 
@@ -82,7 +103,6 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
     s.field.lightmapWidth = s.bake->lightmap.width;
     s.field.lightmapHeight = s.bake->lightmap.height;
-    s.field.gridSize = s.bake->gridSize;
     s.field.gridBounds = s.bake->gridBounds;
     const int most = int(s.bake->settings.bands);
     s.setBands(lit == LitBands::All ? most : std::min(most, kIrradianceBands));
@@ -117,8 +137,6 @@ void Relighter::State::setBands(int count) {
     field.bands = std::uint32_t(bands);
     field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
                           glm::vec4(0));
-    field.grid.assign(std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z * n,
-                      glm::vec4(0));
 }
 
 bool Relighter::State::updateMaterials(const Scene& scene) {
@@ -147,6 +165,50 @@ bool Relighter::State::updateSky(const Scene& scene) {
     return true;
 }
 
+bool Relighter::State::updateDimming(const Scene& scene) {
+    const std::uint64_t now = scene.bake.dimming ? hashBlockers(scene) : 0;
+    if (now == blockers)
+        return false;
+    blockers = now;
+    if (places.empty() && now != 0)
+        places = senderPlaces(bake->surfels, bake->tree);
+    dimmed =
+        dimLinks(*bake, places, now != 0 ? sceneBlockers(scene, shapes) : std::vector<Blocker>());
+    return true;
+}
+
+void Relighter::State::chooseEnds() {
+    otherEnds.clear();
+    if (dimmed.cache.empty())
+        return;
+    otherEnds = blackSky ? beforeSky : everyLink;
+    for (const std::uint32_t c : dimmed.cache)
+        otherEnds[c] = bake->caches.linkBegin[c];
+    dimmedEnds = blackSky ? dimmed.beforeSky : allLinks(dimmed.links);
+}
+
+/// Lights the lightmap's caches, or the grid's, valid and invalid ones.
+void Relighter::State::lightRange(LightBands in, bool grid, std::vector<glm::vec3>& out) {
+    const Caches& caches = bake->caches;
+    const std::uint32_t begin = grid ? caches.lightmapCount : 0,
+                        end = grid ? std::uint32_t(caches.size()) : caches.lightmapCount;
+    const auto coefficients = std::size_t(in.luma * in.luma);
+    out.resize(std::max(out.size(), end * coefficients));
+    lightCaches(caches, otherEnds.empty() ? ends : LinkEnds(otherEnds), radiosity, in, begin, end,
+                out, halfs);
+    const auto all = std::uint32_t(dimmed.cache.size());
+    const std::uint32_t first = grid ? dimmed.lightmapCount : 0,
+                        last = grid ? all : dimmed.lightmapCount;
+    if (first < last) {
+        dimmedSh.resize(std::max(dimmedSh.size(), last * coefficients));
+        lightCaches(dimmed.links, dimmedEnds, radiosity, in, first, last, dimmedSh);
+        for (std::size_t k = first; k < last; ++k)
+            std::copy_n(dimmedSh.begin() + std::ptrdiff_t(k * coefficients), coefficients,
+                        out.begin() + std::ptrdiff_t(dimmed.cache[k] * coefficients));
+    }
+    fillInvalidCaches(caches, in.luma, begin, end, out);
+}
+
 /// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.
 double Relighter::State::lightSurfels() {
     const Surfels& s = bake->surfels;
@@ -165,8 +227,14 @@ void Relighter::State::writeField() {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(bands * bands);
     const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
+    const std::size_t written = gridLit ? caches.size() : caches.lightmapCount;
+    field.gridSize = gridLit ? bake->gridSize : glm::uvec3(0);
     const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
-    for (std::size_t c = 0; c < caches.size(); ++c) {
+    field.grid.resize(cells * coefficients, glm::vec4(0));
+    field.gridDepth =
+        gridLit ? std::shared_ptr<const std::vector<std::uint16_t>>(bake, &bake->gridDepth)
+                : nullptr;
+    for (std::size_t c = 0; c < written; ++c) {
         const bool lightmap = c < caches.lightmapCount;
         std::vector<glm::vec4>& out = lightmap ? field.lightmap : field.grid;
         const std::size_t stride = lightmap ? texels : cells;
@@ -174,15 +242,6 @@ void Relighter::State::writeField() {
             out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
     }
     ++field.version;
-}
-
-/// Valid and invalid ones.
-void Relighter::State::lightLightmapCaches(LinkEnds ends, LightBands in,
-                                           std::vector<glm::vec3>& out) {
-    const std::uint32_t count = bake->caches.lightmapCount;
-    out.resize(std::max(out.size(), count * std::size_t(in.luma * in.luma)));
-    lightCaches(bake->caches, ends, radiosity, in, 0, count, out, halfs);
-    fillInvalidCaches(bake->caches, in.luma, 0, count, out);
 }
 
 RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
@@ -199,21 +258,31 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.bandsLit = std::uint32_t(s.bands);
     stats.bandsSkipped = s.bake->settings.bands - stats.bandsLit;
     stats.directMs = timer.lap();
-    if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged) {
+    const bool dimmingChanged = s.updateDimming(scene);
+    stats.cachesDimmed = std::uint32_t(s.dimmed.cache.size());
+    stats.linksDimmed = s.dimmed.dimmed;
+    stats.dimMs = dimmingChanged ? timer.lap() : 0;
+    const Caches& caches = s.bake->caches;
+    const bool grid = caches.size() > caches.lightmapCount && needsGrid(scene, s.bake->lightmap);
+    stats.gridCachesSkipped = grid ? 0 : std::uint32_t(caches.size()) - caches.lightmapCount;
+    const bool gridMissing = grid && !s.gridLit;
+    s.gridLit = grid;
+    if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged &&
+        !dimmingChanged && !gridMissing) {
         stats.converged = stats.skipped = true;
         stats.totalMs = total.lap();
         return stats;
     }
     s.started = true;
     s.converged = false;
-    const LinkEnds ends = s.blackSky ? s.beforeSky : s.everyLink;
+    s.ends = s.blackSky ? s.beforeSky : s.everyLink;
+    s.chooseEnds();
     stats.skyLinksSkipped = s.blackSky ? s.skyLinks : 0;
-    const Caches& caches = s.bake->caches;
-    const auto all = std::uint32_t(caches.size());
     for (bool last = bounces == 0; !last;) {
-        // A changed sky alone changes no surfel before the caches have seen it: it takes two rounds
-        // to settle.
-        s.converged = s.lightSurfels() < kConverged && !(skyChanged && stats.bounces < 2);
+        // A changed sky, or links that are dimmed otherwise, alone change no surfel before the
+        // caches have seen it: it takes two rounds to settle.
+        s.converged =
+            s.lightSurfels() < kConverged && !((skyChanged || dimmingChanged) && stats.bounces < 2);
         ++stats.bounces;
         last = s.converged || stats.bounces == bounces || progress.cancelled();
         stats.surfelLightMs += timer.lap();
@@ -223,15 +292,15 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         const bool whole = last || s.bands <= s.innerBands.luma;
         const LightBands in = whole ? s.bounceBands : s.innerBands;
         std::vector<glm::vec3>& sh = whole ? s.sh : s.innerSh;
-        s.lightLightmapCaches(ends, in, sh);
+        s.lightRange(in, false, sh);
         stats.cacheLightMs += timer.lap();
         readCaches(s.bake->surfels, sh, in.luma, s.indirect);
         stats.surfelReadMs += timer.lap();
     }
     if (s.finalBands.chroma < s.bounceBands.chroma)
         dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);
-    lightCaches(caches, ends, s.radiosity, s.finalBands, caches.lightmapCount, all, s.sh, s.halfs);
-    fillInvalidCaches(caches, s.bands, caches.lightmapCount, all, s.sh);
+    if (grid)
+        s.lightRange(s.finalBands, true, s.sh);
     stats.cacheLightMs += timer.lap();
     s.writeField();
     stats.fieldMs = timer.lap();

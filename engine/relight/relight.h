@@ -19,6 +19,7 @@ struct RelightStats {
     double cacheLightMs = 0;  ///< links into the caches
     double surfelReadMs = 0;  ///< bounced light at the surfels, from the caches
     double fieldMs = 0;       ///< what the viewport samples
+    double dimMs = 0;         ///< which links dynamic objects block; 0 while they stand still
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint32_t shadowRays = 0;
@@ -26,9 +27,12 @@ struct RelightStats {
         false; ///< the radiosity's total changed by less than 1e-4 of itself in the last bounce
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
-    std::uint64_t skyLinksSkipped = 0; ///< per bounce: links to nothing but a black sky
-    std::uint32_t bandsLit = 0;        ///< of the caches
-    std::uint32_t bandsSkipped = 0;    ///< bands of the bake that no surface's reflection needs
+    std::uint64_t skyLinksSkipped = 0;   ///< per bounce: links to nothing but a black sky
+    std::uint32_t bandsLit = 0;          ///< of the caches
+    std::uint32_t bandsSkipped = 0;      ///< bands of the bake that no surface's reflection needs
+    std::uint32_t gridCachesSkipped = 0; ///< nothing would read them
+    std::uint32_t cachesDimmed = 0;      ///< that dynamic objects take light from
+    std::uint64_t linksDimmed = 0;       ///< of those
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 
@@ -36,6 +40,9 @@ struct RelightStats {
 /// are 3 where none is glossy; or all. Of links kept as harmonics those that are needed are copied,
 /// 18 bytes a link for 3 bands.
 enum class LitBands : std::uint8_t { Needed, All };
+
+/// Whether some instance of `scene` is lit from the grid: dynamic, or without lightmap.
+bool needsGrid(const Scene& scene, const LightmapLayout& layout);
 
 /// The live runtime on the CPU. Keeps what did not change since the last call.
 /// Not thread-safe: one thread at a time calls relight().
@@ -45,9 +52,10 @@ public:
     explicit Relighter(std::shared_ptr<const Bake> bake, LitBands lit = LitBands::Needed);
     ~Relighter();
 
-    /// Brings the field up to date with the lights, materials and sky of `scene`, by at most
-    /// `bounces` iterations of B = albedo (E_direct + E_indirect(B)) + pi L_e. Call again to
-    /// converge further. `trace` answers the shadow rays. Cancelled calls leave a valid field.
+    /// Brings the field up to date with the lights, materials, sky and, with scene.bake.dimming,
+    /// the dynamic objects of `scene`, by at most `bounces` iterations of B = albedo (E_direct +
+    /// E_indirect(B)) + pi L_e. Call again to converge further. `trace` answers the shadow rays.
+    /// Cancelled calls leave a valid field.
     RelightStats relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
                          const Progress& progress = {});
 
@@ -80,6 +88,7 @@ struct FieldPoint {
     std::uint32_t instance, triangle;
     float u, v;
     glm::vec3 position;
+    glm::vec3 normal; ///< unit
 };
 
 /// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`: of the first `bands`

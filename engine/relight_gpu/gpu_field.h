@@ -5,6 +5,8 @@
 #include "engine/gpu/image.h"
 #include "engine/scene/scene.h"
 
+#include <memory>
+
 namespace limn {
 
 /// An IndirectField on the GPU, laid out alike, for shaders to sample.
@@ -12,6 +14,8 @@ struct GpuField {
     /// RGBA32F, a layer per coefficient, in SHADER_READ_ONLY_OPTIMAL; 1x1 black without a lightmap.
     gpu::Image lightmap;
     gpu::Buffer grid; ///< a storage buffer; one element where there is no grid
+    /// As IndirectField::gridDepth; null: the cells see everything.
+    std::shared_ptr<const gpu::Buffer> gridDepth;
 
     std::uint32_t bands = 3;
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid

@@ -275,6 +275,8 @@ IndirectField GpuRelighter::readField() const {
                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, out.lightmapWidth,
                        out.lightmapHeight, std::as_writable_bytes(std::span(out.lightmap)),
                        out.coefficients());
+    if (!s.bake->gridDepth.empty())
+        out.gridDepth = {s.bake, &s.bake->gridDepth};
     out.grid.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z *
                     out.coefficients());
     if (!out.grid.empty())

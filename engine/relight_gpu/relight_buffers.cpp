@@ -181,6 +181,9 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
         out.sh = make.empty(bake.caches.size() * coefficients, color, "cache harmonics");
         out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec2), "change",
                                 gpu::MemoryKind::Readback);
+        if (!bake.gridDepth.empty())
+            out.gridDepth =
+                std::make_shared<const gpu::Buffer>(make.filled(bake.gridDepth, "grid depths"));
         error = make.error;
     }
     if (!error.empty())
@@ -202,6 +205,7 @@ void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
     field->grid = StorageMaker(device).empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
                                                  bake.gridSize.z * bands * bands,
                                              sizeof(glm::vec4), "grid cells");
+    field->gridDepth = buffers.gridDepth;
     buffers.field = std::move(field);
     clear(device, {buffers.sh.handle, buffers.field->grid.handle});
     clear(device, buffers.field->lightmap);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/indirect_light.h"
 
+#include "engine/bake/grid_depth.h"
 #include "engine/core/log.h"
 #include "engine/gpu/uploader.h"
 
@@ -40,8 +41,8 @@ static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
 }
 
 // A frame in flight may still sample the old field, so the new one is another.
-static std::shared_ptr<const GpuField> uploadField(gpu::Device& device,
-                                                   const IndirectField& field) {
+static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const IndirectField& field,
+                                                   std::shared_ptr<const gpu::Buffer> depth) {
     static constexpr std::array<glm::vec4, 1> kNone{};
     gpu::Uploader uploader(device);
     auto out = std::make_shared<GpuField>();
@@ -59,17 +60,26 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device,
     out->bands = field.bands;
     out->gridSize = any ? field.gridSize : glm::uvec3(0);
     out->gridBounds = field.gridBounds;
+    if (any && field.gridDepth)
+        out->gridDepth = depth ? std::move(depth)
+                               : std::make_shared<const gpu::Buffer>(uploader.buffer(
+                                     std::as_bytes(std::span(*field.gridDepth)),
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid depths"));
     return out;
 }
 
 IndirectLight createIndirectLight(gpu::Device& device) {
-    return {.field = uploadField(device, {})};
+    return {.field = uploadField(device, {}, nullptr)};
 }
 
 bool updateIndirectLight(gpu::Device& device, IndirectLight& target, const IndirectField& field) {
     if (field.version == target.version)
         return false;
-    target = {.field = uploadField(device, field), .version = field.version};
+    // How far cells see is the bake's and seldom another.
+    const bool sameDepth = target.depth && target.depth == field.gridDepth;
+    target = {.field = uploadField(device, field, sameDepth ? target.field->gridDepth : nullptr),
+              .version = field.version,
+              .depth = field.gridDepth};
     return true;
 }
 
@@ -80,6 +90,8 @@ void describeGrid(const GpuField& field, shared::GpuFrame& frame) {
     frame.gridLower = field.gridBounds.lower;
     frame.gridSize = field.gridSize;
     frame.gridScale = glm::vec3(field.gridSize) / size;
+    if (field.gridDepth)
+        frame.gridReach = gridReach(field.gridBounds, field.gridSize);
     frame.gridCells = field.gridSize.x * field.gridSize.y * field.gridSize.z;
 }
 

@@ -13,6 +13,7 @@ namespace limn::render {
 struct IndirectLight {
     std::shared_ptr<const GpuField> field;
     std::uint64_t version = ~0ull; ///< of the IndirectField that `field` was uploaded from
+    std::shared_ptr<const std::vector<std::uint16_t>> depth; ///< its gridDepth
 };
 
 /// A black one.

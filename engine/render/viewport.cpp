@@ -40,7 +40,8 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -230,6 +231,9 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
     gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.field->grid.handle);
     gpu::writeTexture(device, slot.set, 6, targets.surface.view, texelSampler.handle);
     gpu::writeTexture(device, slot.set, 7, targets.depth.view, texelSampler.handle);
+    const gpu::Buffer* depth = indirect.field->gridDepth.get(); // without, it is not read
+    gpu::writeBuffer(device, slot.set, 8, kFrameTypes[8],
+                     depth ? depth->handle : indirect.field->grid.handle);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,

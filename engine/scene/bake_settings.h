@@ -40,6 +40,7 @@ struct BakeSettings {
     float texelsPerMetre = 0;      ///< > 0: fixes the texel density instead
     glm::uvec3 grid{0};            ///< cells of the grid caches; 0: chosen from the bounds
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
+    bool dimming = true;           ///< dynamic objects keep bounced light off what is behind them
 
     SurfelPlacement placement = SurfelPlacement::Relaxed;
     Linker linker = Linker::Gather;

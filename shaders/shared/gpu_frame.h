@@ -27,7 +27,7 @@ struct GpuFrame {
     uvec3 gridSize; float lightBias;  // cells; shadow texels towards the light
     vec3 rayCentre; float depthScale;  // ray of the picture's middle, 1 m deep; distance along it is
     vec3 rayRight;  float depthOffset; // depthScale / (depth + depthOffset)
-    vec3 rayUp;     float pad0;        // from the middle to the right and upper edges
+    vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m, 0: no depths
     vec2 pixelSize; vec2 pad1;         // 1 / picture's size in pixels
 };
 

@@ -15,6 +15,7 @@ layout(push_constant) uniform Draw { GpuDraw draw; };
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
 layout(set = 0, binding = 5, std430) readonly buffer Grid { vec4 grid[]; };
+layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
 
 layout(set = 1, binding = 0) uniform MaterialBlock { GpuMaterial material; };
 layout(set = 1, binding = 1) uniform sampler2D textures0;
@@ -37,6 +38,8 @@ vec2 textureUv(int k) {
     const vec3 uv = vec3(material.uvRows[2 * k].w > 0.5 ? fragUv.zw : fragUv.xy, 1);
     return vec2(dot(material.uvRows[2 * k].xyz, uv), dot(material.uvRows[2 * k + 1].xyz, uv));
 }
+
+#include "shaders/shared/grid_depth.glsl"
 
 struct Surface {
     vec3 position;
@@ -108,15 +111,27 @@ bool readIndirect(Surface s, out vec3 c[kCoefficients]) {
     const vec3 x = clamp((s.position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
     const ivec3 lower = min(ivec3(x), last);
     const vec3 f = x - vec3(lower);
+    const vec3 cellSize = 1.0 / frame.gridScale; // the rest as sampleIrradiance of the CPU
+    const vec3 clear = s.position +
+                       s.normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
+    float sum = 0.0;
     for (int k = 0; k < 8; ++k) {
         const ivec3 high = ivec3(k & 1, (k >> 1) & 1, k >> 2);
         const ivec3 cell = min(lower + high, last);
         const vec3 w = mix(1.0 - f, f, vec3(high));
         const uint index =
             (uint(cell.z) * frame.gridSize.y + uint(cell.y)) * frame.gridSize.x + uint(cell.x);
-        for (uint i = 0; i < kCoefficients; ++i)
-            c[i] += w.x * w.y * w.z * grid[i * frame.gridCells + index].rgb;
+        float weight = w.x * w.y * w.z;
+        if (frame.gridReach > 0.0) {
+            const vec3 centre = frame.gridLower + (vec3(cell) + 0.5) * cellSize;
+            weight *= 1e-5 + seenFromCell(index, clear - centre, frame.gridReach);
+        }
+        sum += weight;
+        for (int i = 0; i < kCoefficients; ++i)
+            c[i] += weight * grid[i * frame.gridCells + index].rgb;
     }
+    for (int i = 0; i < kCoefficients; ++i)
+        c[i] /= sum;
     return true;
 }
 

@@ -148,6 +148,7 @@ private:
             b.texelsPerMetre = notNegative();
             b.grid = {below(100), below(100), below(100)};
             b.maxBounces = std::uint32_t(m_random());
+            b.dimming = coin();
             b.placement = SurfelPlacement(below(3));
             b.linker = Linker(below(2));
             b.cut = CutCriterion(below(2));

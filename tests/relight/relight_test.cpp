@@ -70,7 +70,14 @@ TEST(Furnace, ClosedRoomReachesItsRadiosityAtEveryBandCount) {
 }
 
 TEST(Furnace, GridCachesSeeTheSameRadianceFromEverywhere) {
-    const Lit lit = light(furnace(0.5f, 1, 3));
+    Scene scene = furnace(0.5f, 1, 3);
+    SceneBuilder b;
+    b.scene = scene;
+    b.assets = std::make_shared<Assets>(*scene.assets);
+    b.add(sphere(0.01f, 0, false), glm::mat4(1), true); // reads the grid
+    scene = b.build();
+    scene.bake.dimming = false;
+    const Lit lit = light(std::move(scene));
     for (const glm::vec3 n :
          {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::normalize(glm::vec3(1, 2, 3))}) {
         Scene noLightmap = lit.scene; // an instance unknown to the lightmap is lit from the grid

@@ -37,7 +37,8 @@ inline SurfelValues surfelValues(const Bake& bake, const Scene& scene, const Tra
 }
 
 /// A court under a coloured sky: walls of three colours, one of which glows, a lamp, and a block
-/// that hides caches below and inside it.
+/// that hides caches below and inside it. A dynamic ball reads the grid; it dims nothing, as the
+/// GPU does not know how.
 inline Scene court() {
     using namespace simple;
     SceneBuilder b;
@@ -49,7 +50,9 @@ inline Scene court() {
     b.add(quad({4, 0, 0}, {0, 0, 5}, {0, 3, 0}, 2));  // looks along -x
     b.add(quad({0, 0, 0}, {4, 0, 0}, {0, 3, 0}, 0));  // looks along +z
     b.add(box({1, 0, 1.5f}, {2.5f, 1.5f, 3.5f}, false, 2));
+    b.add(sphere(0.1f, 0, false, 0), glm::mat4(1), true).toWorld[3] = {3.5f, 1, 1, 1};
     Scene scene = b.build();
+    scene.bake.dimming = false;
     Light lamp;
     lamp.position = {3, 2, 4};
     lamp.color = {1, 0.6f, 0.2f};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "engine/bake/grid_depth.h"
 #include "tests/relight_gpu/relit_scene.h"
 #include "tests/render/viewport_fixture.h"
+
+#include <random>
 
 namespace limn {
 namespace {
@@ -78,6 +81,40 @@ TEST_F(ViewportGpuField, TheFieldOutlivesItsRelighterAndGivesWayToAnother) {
     EXPECT_TRUE(draw(scene, View::Irradiance).rgb == before.rgb);
     viewport->setIndirect(IndirectField{.version = copy.version}); // a number that was seen before
     EXPECT_EQ(meanOf(draw(scene, View::Irradiance)), 0);
+}
+
+using ViewportGrid = ViewportTest;
+
+TEST_F(ViewportGrid, IsReadPastWallsAsOnTheCpu) {
+    IndirectField field;
+    field.version = 1;
+    field.gridSize = {5, 3, 4};
+    field.gridBounds = {{-2, -0.8f, -1.8f}, {2.2f, 1.1f, 2}};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> radiance(0, 9);
+    field.grid.assign(5 * 3 * 4 * 9, glm::vec4(0));
+    for (std::size_t cell = 0; cell < 5 * 3 * 4; ++cell)
+        field.grid[cell] = glm::vec4(radiance(random), radiance(random), radiance(random), 0);
+    // Walls from a tenth of the reach to beyond it, in no order; some cells in solids.
+    std::vector<std::uint16_t> depth(5 * 3 * 4 * kGridDepthTexels);
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        depth[i] = i / kGridDepthTexels % 7 == 0 ? 0xffff : std::uint16_t(random() % 10240);
+    field.gridDepth = std::make_shared<const std::vector<std::uint16_t>>(depth);
+    viewport->setIndirect(field);
+    const Scene scene = plane().build();
+    const ImageF image = draw(scene, View::Irradiance);
+    double difference = 0;
+    IndirectField plain = field;
+    plain.gridDepth = nullptr;
+    for (std::uint32_t y = 0; y < 32; ++y)
+        for (std::uint32_t x = 0; x < 32; ++x) {
+            const glm::vec3 p = planePoint(options, x, y), n(0, 1, 0);
+            const glm::vec3 is = sampleIrradiance(field, {}, scene, 0, 0, 0, 0, p, n);
+            expectNear(pixel(image, x, y), is, 2e-3f);
+            difference +=
+                double(std::abs(is.x - sampleIrradiance(plain, {}, scene, 0, 0, 0, 0, p, n).x));
+        }
+    EXPECT_GT(difference / (32 * 32), 0.3); // else the walls are not seen at all
 }
 
 } // namespace

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight/dimming.h"
+
+#include "engine/bake/cluster_tree.h"
+#include "engine/core/parallel.h"
+#include "engine/math/packing.h"
+#include "engine/math/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr float kPlanar = 0.99f; // length of the mean normal
+
+/// What a link's light comes through.
+struct LinkCone {
+    std::uint32_t node;
+    glm::vec3 direction; ///< unit
+    float u;             ///< 1 - cos(half-angle)
+};
+
+LinkCone coneOf(const Caches& caches, std::uint32_t k, std::size_t coefficients) {
+    if (caches.shNode.empty()) {
+        const Link& link = caches.links[k];
+        return {link.node, unpackOct(link.octX, link.octY), halfToFloat(link.u)};
+    }
+    // The first two bands of a cone: transport Y_00 and transport (2 - u) / 2 Y_1m.
+    const std::uint16_t* h = caches.shCoefficients.data() + std::size_t(k) * coefficients;
+    const glm::vec3 first(halfToFloat(h[3]), halfToFloat(h[1]), halfToFloat(h[2]));
+    const float length = glm::length(first), zeroth = halfToFloat(h[0]);
+    if (!(length > 0) || !(zeroth > 0))
+        return {caches.shNode[k], {0, 0, 1}, 2};
+    const float u = 2 * (1 - length / (std::numbers::sqrt3_v<float> * zeroth));
+    return {caches.shNode[k], first / length, std::clamp(u, 0.f, 2.f)};
+}
+
+/// The lattice of DirectionSet, as strata of height and directions about the axis.
+struct Spread {
+    float stratum[ConeSamples::kCount], x[ConeSamples::kCount], y[ConeSamples::kCount];
+
+    Spread() {
+        const DirectionSet set(ConeSamples::kCount, false, 0);
+        for (std::uint32_t k = 0; k < ConeSamples::kCount; ++k) {
+            const glm::vec3 d = set[k];
+            const float r = std::sqrt(d.x * d.x + d.y * d.y);
+            stratum[k] = 1 - d.z, x[k] = d.x / r, y[k] = d.y / r;
+        }
+    }
+};
+
+/// How a cache sees a blocker's sphere.
+struct Sight {
+    const Blocker* blocker;
+    glm::vec3 direction; ///< unit
+    float cosine, sine;  ///< of the half-angle; -1, 0 from within
+    float nearest;       ///< [m]
+};
+
+/// How far light comes from along unit `d`, where the cluster's centre lies `way` from the cache.
+float distanceAlong(const SenderPlace& place, glm::vec3 way, float distance, glm::vec3 d) {
+    if (place.normal == glm::vec3(0))
+        return distance + place.radius;
+    const float along = glm::dot(place.normal, d);
+    const float t = std::abs(along) > 0.02f ? glm::dot(place.normal, way) / along : distance;
+    return std::clamp(t, distance - place.radius, distance + place.radius);
+}
+
+struct Dimmer {
+    const Bake& bake;
+    const std::vector<SenderPlace>& places;
+    const std::vector<Blocker>& blockers;
+    glm::vec3 cell; ///< of the grid [m]
+
+    std::vector<Sight> sights(std::uint32_t cache) const {
+        std::vector<Sight> result;
+        const glm::vec3 x = bake.caches.position[cache], n = bake.caches.normal[cache];
+        const bool hemisphere = bake.caches.kind[cache] == CacheKind::Hemisphere,
+                   grid = bake.caches.kind[cache] == CacheKind::Grid;
+        for (const Blocker& b : blockers) {
+            const glm::vec3 way = b.centre - x;
+            const float distance = glm::length(way);
+            if (hemisphere && glm::dot(n, way) < -b.radius)
+                continue;
+            if (grid && glm::all(glm::greaterThan(x, b.bounds.lower - cell)) &&
+                glm::all(glm::lessThan(x, b.bounds.upper + cell)))
+                continue;
+            if (distance <= b.radius) {
+                result.push_back({&b, {0, 0, 1}, -1, 0, 0});
+                continue;
+            }
+            const float sine = b.radius / distance, cosine = std::sqrt(1 - sine * sine);
+            if (sine * sine / (1 + cosine) >= kLeastBlocked) // 1 - cosine, without cancellation
+                result.push_back({&b, way / distance, cosine, sine, distance - b.radius});
+        }
+        return result;
+    }
+
+    /// The share of a link's cone that is free, in [0, 1].
+    float freeShare(glm::vec3 from, const LinkCone& cone, const std::vector<Sight>& sights) const {
+        const SenderPlace& place = places[cone.node];
+        const glm::vec3 way = place.centre - from;
+        const float distance = glm::length(way), farthest = distance + place.radius;
+        const float c = 1 - cone.u, s = std::sqrt(cone.u * (2 - cone.u));
+        ConeSamples samples;
+        bool made = false;
+        for (const Sight& sight : sights) {
+            const bool wide = c <= -sight.cosine; // together they go all the way round
+            if (sight.nearest >= farthest || (!wide && glm::dot(cone.direction, sight.direction) <
+                                                           c * sight.cosine - s * sight.sine))
+                continue;
+            if (!made)
+                fill(cone, place, way, distance, samples);
+            made = true;
+            block(*sight.blocker, from, samples);
+        }
+        if (!made)
+            return 1;
+        const auto blocked =
+            std::count(std::begin(samples.blocked), std::end(samples.blocked), true);
+        return 1 - float(blocked) / float(ConeSamples::kCount);
+    }
+
+    static void fill(const LinkCone& cone, const SenderPlace& place, glm::vec3 way, float distance,
+                     ConeSamples& out) {
+        static const Spread spread;
+        const glm::mat3 toWorld = basisAround(cone.direction);
+        for (std::size_t k = 0; k < ConeSamples::kCount; ++k) {
+            const float z = 1 - cone.u * spread.stratum[k]; // equal solid angles
+            const float r = std::sqrt(std::max(1 - z * z, 0.f));
+            const glm::vec3 d = toWorld * glm::vec3(spread.x[k] * r, spread.y[k] * r, z);
+            out.x[k] = d.x, out.y[k] = d.y, out.z[k] = d.z;
+            out.tMost[k] = distanceAlong(place, way, distance, d) * 0.999f;
+            out.blocked[k] = false;
+        }
+    }
+
+    /// Per link of the cache; empty where all are 1.
+    std::vector<float> freeShares(std::uint32_t cache) const {
+        const Caches& c = bake.caches;
+        const std::vector<Sight> seen = sights(cache);
+        std::vector<float> shares;
+        if (seen.empty())
+            return shares;
+        const auto coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
+        bool any = false;
+        for (std::uint32_t k = c.linkBegin[cache]; k < c.linkBegin[cache + 1]; ++k) {
+            shares.push_back(freeShare(c.position[cache], coneOf(c, k, coefficients), seen));
+            any = any || shares.back() < 1;
+        }
+        if (!any)
+            shares.clear();
+        return shares;
+    }
+};
+
+/// Appends a cache's links, dimmed.
+void append(const Bake& bake, std::uint32_t cache, const std::vector<float>& shares,
+            const std::vector<bool>& sky, DimmedLinks& out) {
+    const Caches& from = bake.caches;
+    const std::uint32_t begin = from.linkBegin[cache];
+    const auto coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
+    const auto dim = [](std::uint16_t half, float share) {
+        return share < 1 ? floatToHalf(halfToFloat(half) * share) : half;
+    };
+    Caches& to = out.links;
+    auto beforeSky = std::uint32_t(to.linkCount());
+    for (std::uint32_t k = begin; k < from.linkBegin[cache + 1]; ++k) {
+        const float share = shares[k - begin];
+        out.dimmed += share < 1 ? 1 : 0;
+        if (!(share > 0))
+            continue;
+        std::uint32_t node = 0;
+        if (from.shNode.empty()) {
+            Link link = from.links[k];
+            node = link.node;
+            link.transport = dim(link.transport, share);
+            to.links.push_back(link);
+        } else {
+            node = from.shNode[k];
+            to.shNode.push_back(node);
+            for (std::size_t i = 0; i < coefficients; ++i)
+                to.shCoefficients.push_back(dim(from.shCoefficients[k * coefficients + i], share));
+        }
+        if (!sky[node])
+            beforeSky = std::uint32_t(to.linkCount()); // those to sky come last
+    }
+    to.linkBegin.push_back(std::uint32_t(to.linkCount()));
+    to.linkExponent.push_back(from.linkExponent[cache]);
+    out.beforeSky.push_back(beforeSky);
+    out.cache.push_back(cache);
+    out.lightmapCount += cache < from.lightmapCount ? 1 : 0;
+}
+
+} // namespace
+
+std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree& tree) {
+    std::vector<SenderPlace> places(tree.size());
+    std::vector<glm::vec3> normals(tree.size(), glm::vec3(0)); // means
+    for (std::uint32_t s = 0; s < tree.surfels; ++s) {
+        places[s].centre = surfels.position[s];
+        places[s].radius = std::sqrt(surfels.area[s] / std::numbers::pi_v<float>);
+        places[s].normal = normals[s] = surfels.normal[s];
+    }
+    for (std::uint32_t s = tree.surfels; s < tree.leaves(); ++s)
+        places[s].radius = std::numeric_limits<float>::infinity();
+    for (std::uint32_t k = 0; k < tree.left.size(); ++k) {
+        const std::uint32_t l = tree.left[k], r = tree.right[k];
+        SenderPlace& p = places[tree.leaves() + k];
+        const float w = tree.leftWeight[k];
+        if (std::isinf(places[l].radius) || std::isinf(places[r].radius)) {
+            p.radius = std::numeric_limits<float>::infinity();
+            continue;
+        }
+        p.centre = glm::mix(places[r].centre, places[l].centre, w);
+        p.radius = std::max(glm::distance(p.centre, places[l].centre) + places[l].radius,
+                            glm::distance(p.centre, places[r].centre) + places[r].radius);
+        const glm::vec3 n = normals[tree.leaves() + k] = glm::mix(normals[r], normals[l], w);
+        const float length = glm::length(n);
+        p.normal = length > kPlanar ? n / length : glm::vec3(0);
+    }
+    return places;
+}
+
+DimmedLinks dimLinks(const Bake& bake, const std::vector<SenderPlace>& places,
+                     const std::vector<Blocker>& blockers) {
+    DimmedLinks out;
+    out.links.linkBegin = {0};
+    if (blockers.empty())
+        return out;
+    const glm::vec3 cell =
+        bake.gridBounds.size() / glm::vec3(glm::max(bake.gridSize, glm::uvec3(1)));
+    const Dimmer dimmer{bake, places, blockers, cell};
+    std::vector<std::vector<float>> shares(bake.caches.size());
+    parallelRanges(shares.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            shares[c] = dimmer.freeShares(std::uint32_t(c));
+    });
+    const std::vector<bool> sky = skyNodes(bake.tree);
+    for (std::uint32_t c = 0; c < shares.size(); ++c)
+        if (!shares[c].empty())
+            append(bake, c, shares[c], sky, out);
+    return out;
+}
+
+} // namespace limn

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What the cells of the grid see of a point; as engine/bake/grid_depth.h. Needs gridDepth[], two numbers a word.
+#define GRID_DEPTH_SIDE 16
+#define GRID_DEPTH_SCALE 64.0
+
+float unfolded(float v, float signOf) {
+    return signOf < 0.0 ? -v : v;
+}
+
+// A texel beyond the map's border is one within it: the square's sides are folded at their middle.
+uint gridDepthTexel(int x, int y) {
+    if (x < 0 || x >= GRID_DEPTH_SIDE) {
+        x = x < 0 ? -1 - x : 2 * GRID_DEPTH_SIDE - 1 - x;
+        y = GRID_DEPTH_SIDE - 1 - y;
+    }
+    if (y < 0 || y >= GRID_DEPTH_SIDE) {
+        y = y < 0 ? -1 - y : 2 * GRID_DEPTH_SIDE - 1 - y;
+        x = GRID_DEPTH_SIDE - 1 - x;
+    }
+    return uint(y * GRID_DEPTH_SIDE + x);
+}
+
+float seenFromCell(uint cell, vec3 way, float reach) {
+    const float length1 = abs(way.x) + abs(way.y) + abs(way.z);
+    const uint first = cell * uint(GRID_DEPTH_SIDE * GRID_DEPTH_SIDE);
+    vec2 p = way.xy / max(length1, 1e-30);
+    if (way.z < 0.0)
+        p = vec2(unfolded(1.0 - abs(p.y), way.x), unfolded(1.0 - abs(p.x), way.y));
+    const vec2 at = (p * 0.5 + 0.5) * float(GRID_DEPTH_SIDE) - 0.5;
+    const vec2 base = floor(at), f = at - base;
+    float inverse = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const ivec2 high = ivec2(k & 1, k >> 1);
+        const vec2 w = mix(1.0 - f, f, vec2(high));
+        const ivec2 texel = ivec2(base) + high;
+        const uint i = first + gridDepthTexel(texel.x, texel.y);
+        inverse += w.x * w.y * float(gridDepth[i >> 1] >> (16u * (i & 1u)) & 0xffffu);
+    }
+    if (length1 == 0.0)
+        return inverse == 65535.0 ? 0.0 : 1.0;
+    const float share = length1 * inverse * (GRID_DEPTH_SCALE / 65535.0 / reach);
+    return clamp((1.15 - share) * 10.0, 0.0, 1.0);
+}
