@@ -45,9 +45,10 @@ glm::vec3 fieldLobe(const FieldContext& c, const Hit& hit, const GlossyPoint& g)
     const Scene& scene = c.trace.scene();
     const int bands = c.bands[scene.instances[hit.instance].material];
     const float n = lobeExponent(g.gloss.roughness);
-    return sampleLobe(
-        {c.field, c.layout, scene, hit.instance, hit.triangle, hit.u, hit.v, g.surface.position},
-        g.mirrored, bands, c.windowedLobes ? windowedLobeFactors(n, bands) : lobeFactors(n));
+    return sampleLobe({c.field, c.layout, scene, hit.instance, hit.triangle, hit.u, hit.v,
+                       g.surface.position, g.surface.normal},
+                      g.mirrored, bands,
+                      c.windowedLobes ? windowedLobeFactors(n, bands) : lobeFactors(n));
 }
 
 glm::vec3 shadeLit(const FieldContext& c, const Hit& hit, const GlossyPoint& g,
