@@ -17,6 +17,7 @@ void addErrorBench(CLI::App& bench, Run& run);
 void addFrameBench(CLI::App& bench, Run& run);
 void addGlossyBench(CLI::App& bench, Run& run);
 void addRelightBench(CLI::App& bench, Run& run);
+void addStressBench(CLI::App& bench, Run& run);
 
 /// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made
 /// where it is missing, and on stdout where `json` is asked for.

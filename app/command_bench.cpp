@@ -53,6 +53,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
     addRelightBench(*bench, run);
 #ifdef LIMN_HAS_VIEWPORT
     addFrameBench(*bench, run);
+    addStressBench(*bench, run);
 #endif
 }
 

@@ -267,6 +267,34 @@ TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {
     EXPECT_EQ(limn(start + " --runs 8").exit, 2);
 }
 
+TEST_F(CommandLine, BenchStressFindsNothingWrongButWhatIs) {
+    const std::string start = "bench stress cornell --surfels 256 --links 16 --rays 32 --lightmap "
+                              "200 --width 32 --height 24 --json -o " +
+                              path("stress");
+    const Outcome none = limn(start + " --seconds 0.1");
+    if (none.err.find("validation layer is missing") != std::string::npos)
+        GTEST_SKIP() << none.err;
+    const nlohmann::json rows = json(start + " --seconds 4")["rows"];
+    ASSERT_EQ(rows.size(), 1u);
+    const nlohmann::json& row = rows[0];
+    expectKeys(row, {"name", "device", "seed", "frames", "resident_start", "resident_warm",
+                     "resident_end", "growth_mib", "bytes", "median_ms", "p95_ms"});
+    for (const char* count : {"messages", "invalid_pixels", "invalid_field"})
+        EXPECT_EQ(row[count], 0);
+    EXPECT_GT(row["frames"], 5);
+    EXPECT_GT(row["field_looks"], 0);
+    std::uint64_t shakes = 0;
+    for (const char* shake : {"move_light", "change_light", "switch_light", "add_light",
+                              "remove_light", "change_material", "change_sky", "move_object"})
+        shakes += row[shake].get<std::uint64_t>();
+    EXPECT_GT(shakes, 0u);
+    EXPECT_EQ(nlohmann::json::parse(contents(path("stress/stress.json"))), rows);
+    // A light that no float can hold any more.
+    const Outcome bad = limn(start + " --seconds 1 --light 'point pos=0,1,0 cd=3e38'");
+    EXPECT_EQ(bad.exit, 1);
+    EXPECT_NE(bad.err.find("not finite"), std::string::npos) << bad.err;
+}
+
 TEST_F(CommandLine, RenderRelightsOnEitherDeviceAndSaysOnWhich) {
     const std::string bake = path("box.limnbake"), cpu = path("cpu.exr"), gpu = path("gpu.exr");
     ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);
