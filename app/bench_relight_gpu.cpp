@@ -28,7 +28,6 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
     SurfelLight light;
     std::vector<glm::vec3> albedo, emitted;
     surfelMaterials(bake->surfels, scene, albedo, emitted);
-    const std::vector<glm::vec3> sky = skyRadiosity(bake->tree, scene.sky);
     for (int k = 0; k <= runs; ++k) {
         lit.lights = lightsOf(k);
         const auto start = std::chrono::steady_clock::now();

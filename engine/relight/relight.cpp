@@ -3,6 +3,7 @@
 
 #include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
+#include "engine/relight/bouncing.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/dimming.h"
 #include "engine/relight/surfel_light.h"
@@ -19,8 +20,6 @@
 namespace limn {
 
 namespace {
-
-constexpr double kConverged = 1e-4; // of the total radiosity, per bounce
 
 class Timer {
 public:
@@ -56,7 +55,8 @@ struct Relighter::State {
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
     std::uint64_t skyLinks = 0;                      ///< between the two
     LinkEnds ends;                                   ///< the ones in use
-    bool started = false, converged = false;
+    bool started = false;
+    Convergence convergence;
 
     std::vector<Material> materials; ///< that albedo and emitted belong to
     std::vector<glm::vec3> albedo;   ///< per surfel
@@ -125,11 +125,8 @@ const std::vector<glm::vec3>& Relighter::cacheSh() const {
 /// Makes room for them, black.
 void Relighter::State::setBands(int count) {
     bands = count;
-    const int chroma = int(chromaBandsOf(bake->settings));
-    finalBands = {bands, std::min(chroma, bands)};
-    // A surface gets half of its irradiance from the second band: without its colour every bounce
-    // would grey the light.
-    bounceBands = {bands, std::max(finalBands.chroma, 2)};
+    finalBands = limn::finalBands(bake->settings, bands);
+    bounceBands = limn::bounceBands(bake->settings, bands);
     innerBands.luma = std::min(bands, kIrradianceBands);
     innerBands.chroma = std::min(bounceBands.chroma, innerBands.luma);
     const std::size_t n = std::size_t(bands * bands);
@@ -267,24 +264,23 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.gridCachesSkipped = grid ? 0 : std::uint32_t(caches.size()) - caches.lightmapCount;
     const bool gridMissing = grid && !s.gridLit;
     s.gridLit = grid;
-    if (s.started && s.converged && !materialsChanged && !skyChanged && !directChanged &&
-        !dimmingChanged && !gridMissing) {
+    if (materialsChanged || directChanged || gridMissing)
+        s.convergence.lightChanged();
+    if (skyChanged || dimmingChanged)
+        s.convergence.skyChanged();
+    s.started = true;
+    if (s.convergence.reached()) {
         stats.converged = stats.skipped = true;
         stats.totalMs = total.lap();
         return stats;
     }
-    s.started = true;
-    s.converged = false;
     s.ends = s.blackSky ? s.beforeSky : s.everyLink;
     s.chooseEnds();
     stats.skyLinksSkipped = s.blackSky ? s.skyLinks : 0;
     for (bool last = bounces == 0; !last;) {
-        // A changed sky, or links that are dimmed otherwise, alone change no surfel before the
-        // caches have seen it: it takes two rounds to settle.
-        s.converged =
-            s.lightSurfels() < kConverged && !((skyChanged || dimmingChanged) && stats.bounces < 2);
+        s.convergence.addRound(s.lightSurfels());
         ++stats.bounces;
-        last = s.converged || stats.bounces == bounces || progress.cancelled();
+        last = s.convergence.reached() || stats.bounces == bounces || progress.cancelled();
         stats.surfelLightMs += timer.lap();
         pullRadiosity(s.bake->tree, s.radiosity);
         stats.pullMs += timer.lap();
@@ -304,7 +300,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.cacheLightMs += timer.lap();
     s.writeField();
     stats.fieldMs = timer.lap();
-    stats.converged = s.converged;
+    stats.converged = s.convergence.reached();
     stats.totalMs = total.lap();
     return stats;
 }

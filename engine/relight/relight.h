@@ -23,8 +23,7 @@ struct RelightStats {
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint32_t shadowRays = 0;
-    bool converged =
-        false; ///< the radiosity's total changed by less than 1e-4 of itself in the last bounce
+    bool converged = false;         ///< another bounce would change next to nothing (Convergence)
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
     std::uint64_t skyLinksSkipped = 0;   ///< per bounce: links to nothing but a black sky

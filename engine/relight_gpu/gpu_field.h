@@ -24,4 +24,8 @@ struct GpuField {
     bool hasGrid() const { return gridSize.x > 0; }
 };
 
+/// GpuField::lightmap, its contents undefined, for shaders to sample and for `written`.
+gpu::Image createFieldLightmap(gpu::Device& device, std::uint32_t width, std::uint32_t height,
+                               std::uint32_t coefficients, VkImageUsageFlags written);
+
 } // namespace limn

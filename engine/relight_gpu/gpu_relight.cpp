@@ -4,6 +4,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
+#include "engine/relight/bouncing.h"
 #include "engine/relight_gpu/relight_steps.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace limn {
 
 namespace {
 
-constexpr double kConverged = 1e-4; // of the total radiosity, per bounce
 constexpr std::uint32_t kMostSteps = 4;
 
 using Clock = std::chrono::steady_clock;
@@ -44,8 +44,8 @@ struct GpuRelighter::State {
     std::optional<RelightSteps> steps; ///< in the field's bands
     gpu::Timestamps times;
 
-    bool started = false, converged = false;
-    std::uint32_t unseenRounds = 0; ///< iterations until every surfel has read what last changed
+    bool started = false;
+    Convergence convergence;
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;                 ///< as sent
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
@@ -101,14 +101,12 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
     if (steps && buffers.field->bands == bands)
         return false;
     makeRelitField(device, *bake, bands, buffers);
-    const LightBands final{int(bands), std::min(int(chromaBandsOf(bake->settings)), int(bands))};
-    // As Relighter: without the colour of the second band every bounce would grey the light.
-    const LightBands bounce{final.luma, std::max(final.chroma, 2)};
-    steps.emplace(device, *bake, buffers, bounce, final);
+    steps.emplace(device, *bake, buffers, bounceBands(bake->settings, int(bands)),
+                  finalBands(bake->settings, int(bands)));
     return true;
 }
 
-/// True if anything had changed.
+/// True if lights or materials had changed.
 bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats) {
     const auto start = Clock::now();
     VkCommandBuffer cmd = VK_NULL_HANDLE;
@@ -139,9 +137,7 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
     if (!started || !std::ranges::equal(sky, inputs.sky)) {
         sky.assign(inputs.sky.begin(), inputs.sky.end());
         send(buffers.radiosity, bake->tree.surfels, padded(sky));
-        // It reaches the caches in the first round and the surfels' radiosity in the second.
-        unseenRounds = 2;
-        changed = true;
+        convergence.skyChanged();
     }
     if (cmd)
         device.submit(cmd);
@@ -215,18 +211,17 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     if (inputs.lights)
         changed |= s.lightSurfels(*inputs.lights, stats);
     s.started = true;
-    s.converged &= !changed;
-    stats.skipped = s.converged;
-    for (std::uint32_t k = 0; k < bounces && !s.converged; ++k) {
-        const double change = s.bounce(stats);
-        s.converged = change < kConverged && s.unseenRounds == 0;
-        s.unseenRounds -= s.unseenRounds > 0;
+    if (changed)
+        s.convergence.lightChanged();
+    stats.skipped = s.convergence.reached();
+    for (std::uint32_t k = 0; k < bounces && !s.convergence.reached(); ++k) {
+        s.convergence.addRound(s.bounce(stats));
         if (progress.cancelled())
             break;
     }
     if (!stats.skipped)
         s.writeField(stats);
-    stats.converged = s.converged;
+    stats.converged = s.convergence.reached();
     stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
     stats.totalMs = msSince(start);
     return stats;

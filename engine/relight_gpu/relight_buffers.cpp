@@ -119,19 +119,6 @@ static void uploadFills(StorageMaker& make, const Caches& caches, RelightBuffers
     out.fillSources = make.filled(sources, "sources of invalid caches");
 }
 
-static gpu::Image lightmapImage(gpu::Device& device, const LightmapLayout& layout,
-                                std::uint32_t layers) {
-    return {device,
-            {.width = std::max(layout.width, 1U),
-             .height = std::max(layout.height, 1U),
-             .layers = layers,
-             .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-             .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-             .array = true,
-             .name = "relit lightmap"}};
-}
-
 static void clear(gpu::Device& device, std::initializer_list<VkBuffer> buffers) {
     const VkCommandBuffer cmd = device.begin("clear light");
     for (const VkBuffer b : buffers)
@@ -198,7 +185,10 @@ void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
     assert(bands <= bake.settings.bands);
     auto field = std::make_shared<GpuField>();
     field->bands = bands;
-    field->lightmap = lightmapImage(device, bake.lightmap, bands * bands);
+    field->lightmap =
+        createFieldLightmap(device, bake.lightmap.width, bake.lightmap.height, bands * bands,
+                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     field->gridSize = bake.gridSize;
     field->gridBounds = bake.gridBounds;
     // Every cell is a cache, so this is no larger than the harmonics, which fit.

@@ -12,18 +12,6 @@
 
 namespace limn::render {
 
-static gpu::Image lightmapImage(gpu::Device& device, std::uint32_t width, std::uint32_t height,
-                                std::uint32_t layers) {
-    return {device,
-            {.width = width,
-             .height = height,
-             .layers = layers,
-             .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-             .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-             .array = true,
-             .name = "lightmap"}};
-}
-
 static std::span<const std::byte> bytesOf(std::span<const glm::vec4> v) {
     return std::as_bytes(v);
 }
@@ -34,8 +22,8 @@ static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
     const bool any = !field.lightmap.empty();
     assert(field.lightmap.size() ==
            std::size_t(field.lightmapWidth) * field.lightmapHeight * field.coefficients());
-    gpu::Image image = lightmapImage(device, any ? field.lightmapWidth : 1,
-                                     any ? field.lightmapHeight : 1, field.coefficients());
+    gpu::Image image = createFieldLightmap(device, field.lightmapWidth, field.lightmapHeight,
+                                           field.coefficients(), VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     uploader.image(image, any ? bytesOf(field.lightmap) : bytesOf(black));
     return image;
 }

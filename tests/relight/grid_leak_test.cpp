@@ -84,7 +84,7 @@ TEST(GridLeak, WhereNoCellSeesThePointTheLookupIsTrilinear) {
     IndirectField field;
     field.gridSize = {2, 2, 2};
     field.gridBounds = {glm::vec3(0), glm::vec3(2)};
-    field.grid.assign(8 * IndirectField::kCoefficients, glm::vec4(0));
+    field.grid.assign(8 * std::size_t(9), glm::vec4(0));
     for (std::size_t i = 0; i < 8; ++i)
         field.grid[i] = glm::vec4(float(i + 1));
     const glm::vec3 p(0.8f, 1.1f, 1.4f), n(0, 0, 1);
