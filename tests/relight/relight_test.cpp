@@ -151,6 +151,22 @@ TEST(Sky, AConstantPanoramaIsAConstantColourAndATurnIsSeenAtOnce) {
     EXPECT_NEAR(beside(2, pi), hidden, 0.05f * hidden);
 }
 
+TEST(Sky, OneThatComesBackReachesTheSurfelsEvenOneBounceAtATime) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    Scene scene = b.build();
+    scene.bake.lightmapCaches = 200;
+    scene.bake.surfels = 200;
+    Lit lit = light(scene);
+    ASSERT_TRUE(lit.stats.converged);
+    lit.scene.sky.radiance = {1, 2, 3};
+    std::uint32_t calls = 0;
+    while (!lit.relighter->relight(lit.scene, *lit.trace, 1).converged)
+        ASSERT_LT(++calls, 10U);
+    EXPECT_NEAR(lit.relighter->radiosity()[7].x, 0.5f * kPi, 0.05f); // it sees nothing but sky
+}
+
 /// Irradiance at the middle of the upper of two facing unit squares at distance h from the lower
 /// one of radiosity B is B F, F = (4/2pi) (2 X / sqrt(1+X^2) atan(X / sqrt(1+X^2))) with X =
 /// 1/(2h): the point-to-rectangle factor of Howell. A Catalog of Radiation Heat Transfer
