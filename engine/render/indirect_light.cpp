@@ -56,19 +56,11 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
     return out;
 }
 
-IndirectLight createIndirectLight(gpu::Device& device) {
-    return {.field = uploadField(device, {}, nullptr)};
-}
-
-bool updateIndirectLight(gpu::Device& device, IndirectLight& target, const IndirectField& field) {
-    if (field.version == target.version)
-        return false;
-    // How far cells see is the bake's and seldom another.
-    const bool sameDepth = target.depth && target.depth == field.gridDepth;
-    target = {.field = uploadField(device, field, sameDepth ? target.field->gridDepth : nullptr),
-              .version = field.version,
-              .depth = field.gridDepth};
-    return true;
+IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
+                                  const IndirectLight& before) {
+    const bool sameDepth = before.depth && before.depth == field.gridDepth;
+    return {.field = uploadField(device, field, sameDepth ? before.field->gridDepth : nullptr),
+            .depth = field.gridDepth};
 }
 
 void describeGrid(const GpuField& field, shared::GpuFrame& frame) {

@@ -12,15 +12,13 @@ namespace limn::render {
 /// The indirect field that frames sample.
 struct IndirectLight {
     std::shared_ptr<const GpuField> field;
-    std::uint64_t version = ~0ull; ///< of the IndirectField that `field` was uploaded from
-    std::shared_ptr<const std::vector<std::uint16_t>> depth; ///< its gridDepth
+    std::shared_ptr<const std::vector<std::uint16_t>> depth; ///< gridDepth of what was uploaded
 };
 
-/// A black one.
-IndirectLight createIndirectLight(gpu::Device& device);
-
-/// Uploads if field.version is new. False: nothing was done.
-bool updateIndirectLight(gpu::Device& device, IndirectLight& target, const IndirectField& field);
+/// Black where the field is empty. How far cells see is the bake's: it is not uploaded again where
+/// `before` has it.
+IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
+                                  const IndirectLight& before = {});
 
 /// Fills the grid's rows of `frame`.
 void describeGrid(const GpuField& field, shared::GpuFrame& frame);

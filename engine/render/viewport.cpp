@@ -154,7 +154,7 @@ Viewport::Impl::Impl(gpu::Device& d)
       sky(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
-      tonemap(d), overlay(d), shadows(d), indirect(createIndirectLight(d)), relightTimes(d, 1) {
+      tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})), relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -436,7 +436,7 @@ void Viewport::setLighting(const Scene& scene) {
 
 void Viewport::setIndirect(const IndirectField& field) {
     const auto start = Clock::now();
-    updateIndirectLight(m_impl->device, m_impl->indirect, field);
+    m_impl->indirect = uploadIndirectLight(m_impl->device, field, m_impl->indirect);
     m_impl->pendingUploadMs += msSince(start);
 }
 

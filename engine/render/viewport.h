@@ -60,7 +60,7 @@ public:
     /// Lights, materials and sky: cheap, every frame if need be.
     void setLighting(const Scene& scene);
 
-    /// Indirect light; uploads only if `field.version` is new.
+    /// Indirect light; uploads it, whatever its version: fields of two bakes may have the same.
     void setIndirect(const IndirectField& field);
     /// The same from where it was worked out: nothing is uploaded, and what its owner writes later
     /// shows in the frames after that. On the viewport's device; not null.

@@ -71,6 +71,18 @@ TEST_F(ViewportGpuField, ShowsWhatIsRelitBetweenFramesWithoutAnotherCall) {
     EXPECT_NEAR(meanOf(draw(scene, View::Irradiance)), 2 * once, 2e-3 * once);
 }
 
+TEST_F(ViewportGpuField, AnotherFieldOfTheSameVersionIsAnother) {
+    relighter->relight(values.inputs(), 4);
+    IndirectField field = relighter->readField();
+    viewport->setIndirect(field);
+    const double once = meanOf(draw(scene, View::Irradiance));
+    for (auto* part : {&field.lightmap, &field.grid})
+        for (glm::vec4& c : *part)
+            c *= 2.f;
+    viewport->setIndirect(field);
+    EXPECT_NEAR(meanOf(draw(scene, View::Irradiance)), 2 * once, 1e-5 * once);
+}
+
 TEST_F(ViewportGpuField, TheFieldOutlivesItsRelighterAndGivesWayToAnother) {
     relighter->relight(values.inputs(), 4);
     const IndirectField copy = relighter->readField();
@@ -79,7 +91,7 @@ TEST_F(ViewportGpuField, TheFieldOutlivesItsRelighterAndGivesWayToAnother) {
     viewport->setIndirect(relighter->field());
     relighter.reset();
     EXPECT_TRUE(draw(scene, View::Irradiance).rgb == before.rgb);
-    viewport->setIndirect(IndirectField{.version = copy.version}); // a number that was seen before
+    viewport->setIndirect(IndirectField{.version = copy.version});
     EXPECT_EQ(meanOf(draw(scene, View::Irradiance)), 0);
 }
 
