@@ -48,10 +48,12 @@ struct GpuRelighter::State {
     Convergence convergence;
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;                 ///< as sent
+    std::uint64_t skyLinksSkipped = 0;          ///< per bounce
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
     std::uint64_t fieldVersion = 0;
 
     bool setBands(std::uint32_t bands);
+    std::vector<shared::GpuCache> cachesUnder(bool blackSky);
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     double bounce(GpuRelightStats& stats);
@@ -106,18 +108,30 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
     return true;
 }
 
+/// As they are read under a black sky, where links to nothing else are passed over, or under
+/// another.
+std::vector<shared::GpuCache> GpuRelighter::State::cachesUnder(bool blackSky) {
+    const Caches& caches = bake->caches;
+    const std::vector<std::uint32_t> all = allLinks(caches);
+    const std::vector<std::uint32_t> ends = blackSky ? linksBeforeSky(caches, bake->tree) : all;
+    skyLinksSkipped = 0;
+    for (std::size_t c = 0; c < all.size(); ++c)
+        skyLinksSkipped += all[c] - ends[c];
+    return packCaches(caches, ends);
+}
+
 /// True if lights or materials had changed.
 bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats) {
     const auto start = Clock::now();
     VkCommandBuffer cmd = VK_NULL_HANDLE;
-    const auto send = [&](const gpu::Buffer& to, std::size_t first,
-                          const std::vector<glm::vec4>& v) {
+    const auto send = [&](const gpu::Buffer& to, std::size_t first, const auto& v) {
         if (v.empty())
             return;
         if (!cmd)
             cmd = device.begin("relight inputs");
-        gpu::updateBuffer(device, cmd, to, first * sizeof(glm::vec4), std::as_bytes(std::span(v)));
-        stats.bytesUploaded += v.size() * sizeof(glm::vec4);
+        const auto bytes = std::as_bytes(std::span(v));
+        gpu::updateBuffer(device, cmd, to, first * sizeof v[0], bytes);
+        stats.bytesUploaded += bytes.size();
     };
     const auto sendIfNew = [&](Sent& sent, std::span<const glm::vec3> values) {
         assert(values.size() == bake->surfels.size());
@@ -137,6 +151,9 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
     if (!started || !std::ranges::equal(sky, inputs.sky)) {
         sky.assign(inputs.sky.begin(), inputs.sky.end());
         send(buffers.radiosity, bake->tree.surfels, padded(sky));
+        const bool black = std::ranges::all_of(sky, [](glm::vec3 c) { return c == glm::vec3(0); });
+        if (black != (skyLinksSkipped > 0))
+            send(buffers.caches, 0, cachesUnder(black));
         convergence.skyChanged();
     }
     if (cmd)
@@ -222,6 +239,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     if (!stats.skipped)
         s.writeField(stats);
     stats.converged = s.convergence.reached();
+    stats.skyLinksSkipped = stats.skipped ? 0 : s.skyLinksSkipped;
     stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
     stats.totalMs = msSince(start);
     return stats;

@@ -38,8 +38,9 @@ struct GpuRelightStats {
     std::uint32_t bounces = 0;    ///< iterations run by this call
     std::uint32_t dispatches = 0; ///< 0 when skipped
     std::uint64_t bytesUploaded = 0;
-    bool converged = false; ///< as RelightStats::converged
-    bool skipped = false;   ///< nothing had changed and bounces had converged: no work was done
+    std::uint64_t skyLinksSkipped = 0; ///< as RelightStats::skyLinksSkipped
+    bool converged = false;            ///< as RelightStats::converged
+    bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 
 /// Relighter's steps as Vulkan compute. The same light up to the rounding of 32-bit sums in another

@@ -3,6 +3,7 @@
 
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/uploader.h"
+#include "engine/relight/cache_light.h"
 #include "engine/relight/indirect_field.h"
 #include "engine/relight_gpu/tree_levels.h"
 
@@ -77,11 +78,11 @@ static std::vector<GpuSurfel> packSurfels(const Surfels& surfels) {
     return out;
 }
 
-static std::vector<GpuCache> packCaches(const Caches& caches) {
+std::vector<GpuCache> packCaches(const Caches& caches, LinkEnds ends) {
     std::vector<GpuCache> out(caches.size());
     for (std::size_t c = 0; c < out.size(); ++c)
-        out[c] = {caches.linkBegin[c], caches.linkBegin[c + 1],
-                  std::ldexp(1.f, -caches.linkExponent[c]), caches.texel[c]};
+        out[c] = {caches.linkBegin[c], ends[c], std::ldexp(1.f, -caches.linkExponent[c]),
+                  caches.texel[c]};
     return out;
 }
 
@@ -157,7 +158,7 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
         out.surfels = make.filled(packSurfels(bake.surfels), "surfels");
         out.innerNodes = make.filled(levels.nodes, "inner nodes");
         out.levels = make.filled(levels.begin, "tree levels");
-        out.caches = make.filled(packCaches(bake.caches), "caches");
+        out.caches = make.filled(packCaches(bake.caches, allLinks(bake.caches)), "caches");
         out.links = uploadLinks(make, bake.caches, coefficients);
         uploadFills(make, bake.caches, out);
         out.direct = make.empty(surfels, color, "direct irradiance");

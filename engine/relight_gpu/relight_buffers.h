@@ -4,7 +4,9 @@
 #include "engine/bake/bake.h"
 #include "engine/core/result.h"
 #include "engine/gpu/buffer.h"
+#include "engine/relight/light_links.h"
 #include "engine/relight_gpu/gpu_field.h"
+#include "shaders/shared/gpu_relight.h"
 
 #include <cstdint>
 #include <memory>
@@ -28,6 +30,9 @@ struct RelightBuffers {
     /// In the order of their bindings. The lightmap's comes last and is not among them.
     std::vector<const gpu::Buffer*> inBindingOrder() const;
 };
+
+/// RelightBuffers::caches, of which links before `ends` are read.
+std::vector<shared::GpuCache> packCaches(const Caches& caches, LinkEnds ends);
 
 /// Uploads a bake, without a field; `lanes` is the size of a group of surfels. Fails when a buffer
 /// would be larger than what the device can bind, naming both sizes.

@@ -39,6 +39,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.bounces = g.bounces;
     stats.converged = g.converged;
     stats.skipped = g.skipped;
+    stats.skyLinksSkipped = g.skyLinksSkipped;
     stats.lightsTraced = drawn.relightShadowMaps;
     stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count;
     const std::chrono::duration<double, std::milli> total =

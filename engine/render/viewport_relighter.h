@@ -25,7 +25,7 @@ public:
     /// Relighter::relight(). Call after setScene() and setLighting(). Waits for the GPU.
     /// directMs: shadow maps and lights onto the surfels. surfelReadMs is part of surfelLightMs.
     /// Steps are in the GPU's time, totalMs is from call to return. lightsTraced counts shadow maps
-    /// drawn, no ray is traced, and no link to a black sky is passed over.
+    /// drawn, and no ray is traced.
     RelightStats relight(Viewport& viewport, const Scene& scene, std::uint32_t bounces,
                          const Progress& progress = {});
 

@@ -76,6 +76,7 @@ void compare(gpu::Device& device, const Scene& scene, const TraceScene& trace,
     const GpuRelightStats stats = gpu->relight(surfelValues(*bake, scene, trace).inputs(), 5);
     EXPECT_EQ(stats.bounces, cpuStats.bounces);
     EXPECT_EQ(stats.converged, cpuStats.converged);
+    EXPECT_EQ(stats.skyLinksSkipped, cpuStats.skyLinksSkipped);
     const double terms = mostLinks(bake->caches), brightest = largest(cpu.cacheSh());
     ASSERT_GT(brightest, 0);
     expectRounding("radiosity", distance(gpu->readRadiosity(), radiosityOf(cpu)), terms,
@@ -87,6 +88,23 @@ void compare(gpu::Device& device, const Scene& scene, const TraceScene& trace,
     EXPECT_EQ(field.gridSize, cpu.field().gridSize);
     EXPECT_EQ(field.lightmapWidth, cpu.field().lightmapWidth);
     EXPECT_EQ(field.version, 1U);
+}
+
+TEST_F(GpuMatch, PassesOverLinksToASkyForAsLongAsItIsBlack) {
+    Scene scene = court();
+    const TraceScene trace(scene);
+    const std::shared_ptr<Bake> made = baked(trace, scene.bake);
+    const auto gpu = gpuRelighter(*device, made);
+    Relighter cpu(made);
+    for (const glm::vec3 sky : {glm::vec3(0), glm::vec3(0.1f, 0.3f, 0.9f), glm::vec3(0)}) {
+        scene.sky.radiance = sky;
+        const RelightStats cpuStats = cpu.relight(scene, trace, 30);
+        const GpuRelightStats stats = gpu->relight(surfelValues(*made, scene, trace).inputs(), 30);
+        EXPECT_EQ(stats.skyLinksSkipped > 0, sky == glm::vec3(0));
+        EXPECT_EQ(stats.skyLinksSkipped, cpuStats.skyLinksSkipped);
+        expectRounding("caches", distance(gpu->readCacheSh(), cpu.cacheSh()),
+                       mostLinks(made->caches), largest(cpu.cacheSh()));
+    }
 }
 
 TEST_F(GpuMatch, GivesTheLightOfTheCpuInEveryBufferAtEveryStorageAndBandCount) {
