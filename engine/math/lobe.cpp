@@ -11,7 +11,7 @@ namespace limn {
 
 /// The least t for a lobe without width, of so many bands.
 static constexpr std::array<float, kMaxBands + 1> kMirrorBlur = {
-    0, 0, 0.44897f, 0.12417f, 0.09887f, 0.02879f, 0.02643f, 0.01244f, 0.00910f};
+    0, 0, 0.20273f, 0.12417f, 0.09887f, 0.02879f, 0.02643f, 0.01244f, 0.00910f};
 
 float lobeExponent(float roughness) {
     const float alpha = std::max(roughness * roughness, 0.05f);

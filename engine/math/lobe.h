@@ -16,11 +16,12 @@ float lobeExponent(float roughness);
 
 /// Factors s_l w_l, l < bands, of a lobe that hardly rings in so few bands; 0 from there on.
 /// w_l = exp(-t l (l+1)) is a blur over the sphere; t is the least for which the kernel, the lobe
-/// cut off after `bands`, is nowhere below -1/10 of its peak: with 1/20 polished metal in 8 bands
-/// is a third further from the truth than without a window (limn bench glossy). Lobes of n >= 1
-/// that are wide enough for their bands are left as they are. Deviates from Sloan. Deringing
-/// Spherical Harmonics. 2017, whose window depends on the light: this one holds for every light, as
-/// a look-up of one number. bands in [2, kMaxBands].
+/// cut off after `bands`, is nowhere below -1/10 of its peak. With 1/20, polished metal in 8 bands
+/// is a third further from the truth than without a window (limn bench glossy). No lobe becomes
+/// wider than a diffuse one, which is why 2 bands still ring; those of n >= 1 that are wide enough
+/// for their bands are left as they are. Deviates from Sloan. Deringing Spherical Harmonics. 2017,
+/// whose window depends on the light: this one holds for every light. n >= 0; bands in
+/// [2, kMaxBands].
 std::array<float, kMaxBands> windowedLobeFactors(float n, int bands);
 
 /// Mean radiance in the lobe cos^n about unit `d`, of radiance SH `c` (bands^2 of them); `factors`

@@ -15,7 +15,7 @@ vec3 shIrradiance(vec3 c[kCoefficients], vec3 n) {
 
 /// Mean radiance in the lobe cos^n about d: windowedLobeFactors() of engine/math/lobe.h.
 vec3 shLobe(vec3 c[kCoefficients], vec3 d, float n) {
-    const float kMirrorBlur[9] = float[](0.0, 0.0, 0.44897, 0.12417, 0.09887, 0.02879, 0.02643, 0.01244, 0.00910);
+    const float kMirrorBlur[9] = float[](0.0, 0.0, 0.20273, 0.12417, 0.09887, 0.02879, 0.02643, 0.01244, 0.00910);
     const float t = max(kMirrorBlur[kBands] - 0.5 * log((n + 2.0) / (n + 1.0)), 0.0);
     float s[kBands];
     s[0] = 1.0;
