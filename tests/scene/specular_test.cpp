@@ -84,6 +84,10 @@ TEST(ReceiverBands, GrowWithPolishAndReflectance) {
     EXPECT_EQ(receiverBands(none, metal(0.731f), 8), 4);
     EXPECT_EQ(receiverBands(none, metal(0.5f), 8), 8);
     EXPECT_EQ(receiverBands(none, metal(0.5f), 6), 6) << "there are no more";
+    Material grey = metal(0.731f);
+    grey.baseColor = {0.45f, 0.45f, 0.45f,
+                      1}; // of 0.27, 0.086 are 0.023: a little more than may be
+    EXPECT_EQ(receiverBands(none, grey, 8), 4);
     Material dark = metal(0.731f);
     dark.baseColor = {0.1f, 0.05f, 0, 1};
     EXPECT_EQ(receiverBands(none, dark, 8), 3);
