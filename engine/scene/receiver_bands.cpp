@@ -2,7 +2,6 @@
 #include "engine/scene/receiver_bands.h"
 
 #include "engine/math/lobe.h"
-#include "engine/math/packing.h"
 #include "engine/scene/specular.h"
 
 #include <algorithm>
@@ -27,20 +26,16 @@ struct TexelCounts {
     }
 };
 
-/// Of the largest mip of at most 64 x 64 texels: surfaces are seen, and lit, no finer.
-TexelCounts countTexels(const Assets& assets, std::size_t image) {
+/// Of 64 x 64 texels spread over the image, or all where there are fewer.
+TexelCounts countTexels(const Image& image) {
     TexelCounts counts;
-    for (const auto& level : assets.mips.of(assets.images, image, TexelKind::Data).levels) {
-        if (level.width > 64 || level.height > 64)
-            continue;
-        for (const auto& texel : level.rgba)
-            counts.add(halfToFloat(texel[1]), halfToFloat(texel[2]));
-        break;
-    }
-    if (counts.all == 0) { // an image of one texel has no mips
-        const auto& rgba = assets.images[image].rgba;
-        counts.add(float(rgba[1]) / 255, float(rgba[2]) / 255);
-    }
+    const std::uint32_t stepX = std::max(image.width / 64, 1U),
+                        stepY = std::max(image.height / 64, 1U);
+    for (std::uint32_t y = stepY / 2; y < image.height; y += stepY)
+        for (std::uint32_t x = stepX / 2; x < image.width; x += stepX) {
+            const std::uint8_t* texel = &image.rgba[(std::size_t(y) * image.width + x) * 4];
+            counts.add(float(texel[1]) / 255, float(texel[2]) / 255);
+        }
     return counts;
 }
 
@@ -78,7 +73,7 @@ int receiverBands(const Assets& assets, const Material& m, int most) {
     if (image < 0 || std::size_t(image) >= assets.images.size() ||
         assets.images[std::size_t(image)].rgba.empty())
         return bandsAt(1, 1);
-    const TexelCounts counts = countTexels(assets, std::size_t(image));
+    const TexelCounts counts = countTexels(assets.images[std::size_t(image)]);
     int bands = std::min(kIrradianceBands, most);
     for (std::size_t k = 0; k < counts.count.size() && bands < most; ++k)
         if (counts.count[k] * 100 >= counts.all)
