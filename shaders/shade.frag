@@ -11,8 +11,7 @@ vec3 shade(Surface s) {
         return s.albedo;
     if (kView == VIEW_NORMALS)
         return s.detailNormal * 0.5 + 0.5;
-    vec3 c[kCoefficients];
-    const vec3 E = readIndirect(s, c) ? shIrradiance(c, s.detailNormal) : vec3(0);
+    const vec3 E = readIndirect(s, s.detailNormal, 0.0).irradiance; // the lobe is not used
     return kView == VIEW_IRRADIANCE ? E : s.albedo * E / kPi;
 }
 

@@ -10,14 +10,11 @@ layout(location = 1) out uvec4 outSurface;
 
 // Emission and what bounced light makes of the surface.
 vec3 indirectRadiance(Surface s) {
-    vec3 c[kCoefficients];
-    if (!readIndirect(s, c))
-        return emission();
+    const FieldSums field =
+        readIndirect(s, reflect(-s.toEye, s.detailNormal), lobeExponent(s.roughness));
     const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
     const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
-    const vec3 specular = specularAlbedo(F0, s.roughness, NoV) *
-                          shLobe(c, reflect(-s.toEye, s.detailNormal), lobeExponent(s.roughness));
-    return s.albedo * shIrradiance(c, s.detailNormal) / kPi + specular + emission();
+    return s.albedo * field.irradiance / kPi + specularAlbedo(F0, s.roughness, NoV) * field.lobe + emission();
 }
 
 void main() {

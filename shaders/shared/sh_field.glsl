@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
-// What surfaces make of spherical harmonics of radiance, kBands of them. Needs specular.glsl and sh_bands.glsl.
+// What surfaces make of spherical harmonics of radiance, kBands of them: sums of coefficients by the weights that are
+// worked out here. Needs specular.glsl and sh_bands.glsl.
 
-/// Irradiance [W m^-2] on a plane facing n, of the first three bands.
-vec3 shIrradiance(vec3 c[kCoefficients], vec3 n) {
+/// Of irradiance [W m^-2] on a plane facing n: of the first three bands, the others 0.
+void irradianceWeights(vec3 n, out float w[kCoefficients]) {
     const float A[3] = float[](kPi, 2.0 / 3.0 * kPi, kPi / 4.0);
-    float Y[kCoefficients];
-    shBasis(n, Y);
-    vec3 sum = vec3(0);
-    [[unroll]] for (int l = 0; l < min(kBands, 3); ++l)
+    shBasis(n, w);
+    [[unroll]] for (int l = 0; l < kBands; ++l)
         [[unroll]] for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            sum += A[l] * Y[i] * c[i];
-    return max(sum, 0.0);
+            w[i] *= l < 3 ? A[l < 3 ? l : 0] : 0.0;
 }
 
-/// Mean radiance in the lobe cos^n about d: windowedLobeFactors() of engine/math/lobe.h.
-vec3 shLobe(vec3 c[kCoefficients], vec3 d, float n) {
+/// Of mean radiance in the lobe cos^n about d: windowedLobeFactors() of engine/math/lobe.h.
+void lobeWeights(vec3 d, float n, out float w[kCoefficients]) {
     const float kMirrorBlur[9] = float[](0.0, 0.0, 0.20273, 0.12417, 0.09887, 0.02879, 0.02643, 0.01244, 0.00910);
     const float t = max(kMirrorBlur[kBands] - 0.5 * log((n + 2.0) / (n + 1.0)), 0.0);
     float s[kBands];
@@ -22,13 +20,10 @@ vec3 shLobe(vec3 c[kCoefficients], vec3 d, float n) {
     s[1] = (n + 1.0) / (n + 2.0);
     [[unroll]] for (int l = 2; l < kBands; ++l)
         s[l] = s[l - 2] * (n + 2.0 - float(l)) / (n + float(l) + 1.0);
-    float Y[kCoefficients];
-    shBasis(d, Y);
-    vec3 sum = vec3(0);
+    shBasis(d, w);
     [[unroll]] for (int l = 0; l < kBands; ++l) {
         const float factor = s[l] * exp(-t * float(l * (l + 1)));
         [[unroll]] for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            sum += factor * Y[i] * c[i];
+            w[i] *= factor;
     }
-    return max(sum, 0.0);
 }

@@ -96,24 +96,33 @@ Surface readSurface(vec4 base) {
     return s;
 }
 
-// SH of the light that reaches the surface by bounces. False: there is none.
-bool readIndirect(Surface s, out vec3 c[kCoefficients]) {
-    for (int i = 0; i < kCoefficients; ++i)
-        c[i] = vec3(0);
-    if (has(FEATURE_LIGHTMAP)) {
-        for (int i = 0; i < kCoefficients; ++i)
-            c[i] = textureLod(lightmap, vec3(fragLightmapUv, i), 0.0).rgb;
-        return true;
-    }
-    if (!has(FEATURE_GRID))
-        return false;
+/// Two sums over the harmonics of the light that reaches the surface by bounces. Unrolled: on a software rasteriser a
+/// loop over 64 lookups takes half as long again.
+struct FieldSums {
+    vec3 irradiance, lobe;
+};
+
+void addCoefficient(inout FieldSums sums, vec3 c, float irradiance, float lobe) {
+    sums.irradiance += irradiance * c;
+    sums.lobe += lobe * c;
+}
+
+FieldSums readLightmap(float irradiance[kCoefficients], float lobe[kCoefficients]) {
+    FieldSums sums = FieldSums(vec3(0), vec3(0));
+    [[unroll]] for (int i = 0; i < kCoefficients; ++i)
+        addCoefficient(sums, textureLod(lightmap, vec3(fragLightmapUv, i), 0.0).rgb, irradiance[i], lobe[i]);
+    return sums;
+}
+
+FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], float lobe[kCoefficients]) {
+    FieldSums sums = FieldSums(vec3(0), vec3(0));
     const ivec3 last = ivec3(frame.gridSize) - 1;
-    const vec3 x = clamp((s.position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
+    const vec3 x = clamp((position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
     const ivec3 lower = min(ivec3(x), last);
     const vec3 f = x - vec3(lower);
     const vec3 cellSize = 1.0 / frame.gridScale; // the rest as sampleIrradiance of the CPU
-    const vec3 clear = s.position +
-                       s.normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
+    const vec3 clear = position +
+                       normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
     float sum = 0.0;
     for (int k = 0; k < 8; ++k) {
         const ivec3 high = ivec3(k & 1, (k >> 1) & 1, k >> 2);
@@ -127,12 +136,25 @@ bool readIndirect(Surface s, out vec3 c[kCoefficients]) {
             weight *= 1e-5 + seenFromCell(index, clear - centre, frame.gridReach);
         }
         sum += weight;
-        for (int i = 0; i < kCoefficients; ++i)
-            c[i] += weight * grid[i * frame.gridCells + index].rgb;
+        [[unroll]] for (int i = 0; i < kCoefficients; ++i)
+            addCoefficient(sums, weight * grid[uint(i) * frame.gridCells + index].rgb, irradiance[i], lobe[i]);
     }
-    for (int i = 0; i < kCoefficients; ++i)
-        c[i] /= sum;
-    return true;
+    return FieldSums(sums.irradiance / sum, sums.lobe / sum);
+}
+
+/// Irradiance at s.detailNormal, and mean radiance in the lobe cos^n about `mirrored`, both at least 0.
+FieldSums readIndirect(Surface s, vec3 mirrored, float n) {
+    FieldSums sums = FieldSums(vec3(0), vec3(0));
+    if (!has(FEATURE_LIGHTMAP | FEATURE_GRID))
+        return sums;
+    float irradiance[kCoefficients], lobe[kCoefficients];
+    irradianceWeights(s.detailNormal, irradiance);
+    lobeWeights(mirrored, n, lobe);
+    if (has(FEATURE_LIGHTMAP))
+        sums = readLightmap(irradiance, lobe);
+    else
+        sums = readGrid(s.position, s.normal, irradiance, lobe);
+    return FieldSums(max(sums.irradiance, 0.0), max(sums.lobe, 0.0));
 }
 
 vec3 emission() {
