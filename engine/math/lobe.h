@@ -22,6 +22,14 @@ float lobeExponent(float roughness);
 /// for their bands are left as they are. Deviates from Sloan. Deringing Spherical Harmonics. 2017,
 /// whose window depends on the light: this one holds for every light. n >= 0; bands in
 /// [2, kMaxBands].
+///
+/// Error of a metal wall in a Cornell box with and without window (limn bench glossy, nRMSE against
+/// path tracing, of which 0.02 is noise; links as cones and as harmonics agree to 1e-4):
+///
+///     bands      2          3          4          5          6          7          8
+///     n = 5   .19 .14    .10 .14    .055 .057  .035 .035  .033 .033  .033 .033  .033 .033
+///     n = 30  .46 .50    .46 .58    .44 .48    .41 .41    .35 .33    .23 .23    .16 .16
+///     n = 100 .83 .88    .84 .96    .84 .90    .83 .83    .77 .73    .63 .58    .49 .45
 std::array<float, kMaxBands> windowedLobeFactors(float n, int bands);
 
 /// Mean radiance in the lobe cos^n about unit `d`, of radiance SH `c` (bands^2 of them); `factors`

@@ -76,6 +76,24 @@ TEST(Lobe, OfAMirrorTheWindowIsTheLeastThatDoesSo) {
     }
 }
 
+// The window adds what it takes off the bands that stay: of the same skies as lobeLosses().
+TEST(Lobe, WindowsCostLessThanTheBandsThatAreMissing) {
+    for (int bands = 3; bands <= kMaxBands; ++bands)
+        for (const float n : {5.f, 30.f, 100.f, 798.f}) {
+            const auto whole = lobeFactors(n), s = windowedLobeFactors(n, bands);
+            double blur = 0;
+            for (int l = 1; l < bands; ++l) {
+                const double q = (1.0 / (2 * l - 1) + 1.0 / (2 * l + 3)) / (2 * l + 1);
+                blur += q * std::pow(double(whole[std::size_t(l)] - s[std::size_t(l)]), 2);
+            }
+            const double lost = double(lobeLosses(n)[std::size_t(bands)]);
+            EXPECT_LT(std::sqrt(blur), 1.2 * lost) << n << " " << bands;
+            if (bands >= 5) {
+                EXPECT_LT(std::sqrt(blur), 0.7 * lost) << n << " " << bands;
+            }
+        }
+}
+
 TEST(Lobe, WideLobesAreLeftAsTheyAre) {
     for (const auto& [n, bands] : {std::pair(5.f, 5), {5.f, 8}, {14.f, 7}, {18.f, 8}, {30.f, 8}})
         for (int l = 0; l < kMaxBands; ++l)
