@@ -20,6 +20,8 @@ namespace limn {
 namespace {
 
 constexpr float kPlanar = 0.99f; // length of the mean normal
+// u of a cone that four samples are enough for: a hundred of them fill the hemisphere.
+constexpr float kNarrow = 0.01f;
 
 /// What a link's light comes through.
 struct LinkCone {
@@ -45,11 +47,11 @@ LinkCone coneOf(const Caches& caches, std::uint32_t k, std::size_t coefficients)
 
 /// The lattice of DirectionSet, as strata of height and directions about the axis.
 struct Spread {
-    float stratum[ConeSamples::kCount], x[ConeSamples::kCount], y[ConeSamples::kCount];
+    float stratum[ConeSamples::kMost], x[ConeSamples::kMost], y[ConeSamples::kMost];
 
-    Spread() {
-        const DirectionSet set(ConeSamples::kCount, false, 0);
-        for (std::uint32_t k = 0; k < ConeSamples::kCount; ++k) {
+    explicit Spread(std::uint32_t count) {
+        const DirectionSet set(count, false, 0);
+        for (std::uint32_t k = 0; k < count; ++k) {
             const glm::vec3 d = set[k];
             const float r = std::sqrt(d.x * d.x + d.y * d.y);
             stratum[k] = 1 - d.z, x[k] = d.x / r, y[k] = d.y / r;
@@ -106,34 +108,35 @@ struct Dimmer {
 
     /// The share of a link's cone that is free, in [0, 1].
     float freeShare(glm::vec3 from, const LinkCone& cone, const std::vector<Sight>& sights) const {
-        const SenderPlace& place = places[cone.node];
-        const glm::vec3 way = place.centre - from;
-        const float distance = glm::length(way), farthest = distance + place.radius;
         const float c = 1 - cone.u, s = std::sqrt(cone.u * (2 - cone.u));
-        ConeSamples samples;
-        bool made = false;
+        ConeSamples samples; // made when needed
         for (const Sight& sight : sights) {
             const bool wide = c <= -sight.cosine; // together they go all the way round
-            if (sight.nearest >= farthest || (!wide && glm::dot(cone.direction, sight.direction) <
-                                                           c * sight.cosine - s * sight.sine))
+            if (!wide &&
+                glm::dot(cone.direction, sight.direction) < c * sight.cosine - s * sight.sine)
                 continue;
-            if (!made)
-                fill(cone, place, way, distance, samples);
-            made = true;
-            block(*sight.blocker, from, samples);
+            if (samples.count == 0)
+                fill(cone, places[cone.node], from, samples);
+            if (sight.nearest < samples.farthest)
+                block(*sight.blocker, from, samples);
         }
-        if (!made)
+        if (samples.count == 0)
             return 1;
-        const auto blocked =
-            std::count(std::begin(samples.blocked), std::end(samples.blocked), true);
-        return 1 - float(blocked) / float(ConeSamples::kCount);
+        const auto blocked = std::count(samples.blocked, samples.blocked + samples.count, true);
+        return 1 - float(blocked) / float(samples.count);
     }
 
-    static void fill(const LinkCone& cone, const SenderPlace& place, glm::vec3 way, float distance,
+    static void fill(const LinkCone& cone, const SenderPlace& place, glm::vec3 from,
                      ConeSamples& out) {
-        static const Spread spread;
+        const glm::vec3 way = place.centre - from;
+        const float distance = glm::length(way);
+        out.farthest = distance + place.radius;
+        static const Spread few(4), many(ConeSamples::kMost);
+        const bool narrow = cone.u < kNarrow;
+        const Spread& spread = narrow ? few : many;
+        out.count = narrow ? 4 : ConeSamples::kMost;
         const glm::mat3 toWorld = basisAround(cone.direction);
-        for (std::size_t k = 0; k < ConeSamples::kCount; ++k) {
+        for (std::size_t k = 0; k < out.count; ++k) {
             const float z = 1 - cone.u * spread.stratum[k]; // equal solid angles
             const float r = std::sqrt(std::max(1 - z * z, 0.f));
             const glm::vec3 d = toWorld * glm::vec3(spread.x[k] * r, spread.y[k] * r, z);
@@ -162,43 +165,71 @@ struct Dimmer {
     }
 };
 
-/// Appends a cache's links, dimmed.
-void append(const Bake& bake, std::uint32_t cache, const std::vector<float>& shares,
-            const std::vector<bool>& sky, DimmedLinks& out) {
-    const Caches& from = bake.caches;
-    const std::uint32_t begin = from.linkBegin[cache];
-    const auto coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
-    const auto dim = [](std::uint16_t half, float share) {
-        return share < 1 ? floatToHalf(halfToFloat(half) * share) : half;
-    };
-    Caches& to = out.links;
-    auto beforeSky = std::uint32_t(to.linkCount());
-    for (std::uint32_t k = begin; k < from.linkBegin[cache + 1]; ++k) {
-        const float share = shares[k - begin];
-        out.dimmed += share < 1 ? 1 : 0;
-        if (!(share > 0))
-            continue;
-        std::uint32_t node = 0;
-        if (from.shNode.empty()) {
-            Link link = from.links[k];
-            node = link.node;
-            link.transport = dim(link.transport, share);
-            to.links.push_back(link);
-        } else {
-            node = from.shNode[k];
-            to.shNode.push_back(node);
-            for (std::size_t i = 0; i < coefficients; ++i)
-                to.shCoefficients.push_back(dim(from.shCoefficients[k * coefficients + i], share));
+/// Writes the links of the k-th dimmed cache to their place.
+struct Writer {
+    const Bake& bake;
+    const std::vector<std::vector<float>>& shares; ///< per cache of the bake
+    const std::vector<bool>& sky;
+    DimmedLinks& out;
+
+    /// Makes room for the caches that have shares; says where each one's links go.
+    void place() {
+        const Caches& from = bake.caches;
+        Caches& to = out.links;
+        for (std::uint32_t c = 0; c < shares.size(); ++c) {
+            if (shares[c].empty())
+                continue;
+            const auto gone = std::uint32_t(std::count(shares[c].begin(), shares[c].end(), 0.f)),
+                       whole = std::uint32_t(std::count(shares[c].begin(), shares[c].end(), 1.f)),
+                       all = std::uint32_t(shares[c].size());
+            to.linkBegin.push_back(to.linkBegin.back() + all - gone);
+            to.linkExponent.push_back(from.linkExponent[c]);
+            out.cache.push_back(c);
+            out.lightmapCount += c < from.lightmapCount ? 1 : 0;
+            out.dimmed += all - whole;
         }
-        if (!sky[node])
-            beforeSky = std::uint32_t(to.linkCount()); // those to sky come last
+        out.beforeSky.resize(out.cache.size());
+        if (from.shNode.empty())
+            to.links.resize(to.linkBegin.back());
+        to.shNode.resize(from.shNode.empty() ? 0 : to.linkBegin.back());
+        to.shCoefficients.resize(to.shNode.size() * coefficients());
     }
-    to.linkBegin.push_back(std::uint32_t(to.linkCount()));
-    to.linkExponent.push_back(from.linkExponent[cache]);
-    out.beforeSky.push_back(beforeSky);
-    out.cache.push_back(cache);
-    out.lightmapCount += cache < from.lightmapCount ? 1 : 0;
-}
+
+    std::size_t coefficients() const {
+        return std::size_t(bake.settings.bands) * bake.settings.bands;
+    }
+
+    static std::uint16_t dim(std::uint16_t half, float share) {
+        return share < 1 ? floatToHalf(halfToFloat(half) * share) : half;
+    }
+
+    void write(std::size_t k) {
+        const Caches& from = bake.caches;
+        Caches& to = out.links;
+        const std::uint32_t begin = from.linkBegin[out.cache[k]];
+        const std::vector<float>& share = shares[out.cache[k]];
+        std::uint32_t at = to.linkBegin[k], beforeSky = at;
+        for (std::uint32_t i = 0; i < share.size(); ++i) {
+            if (!(share[i] > 0))
+                continue;
+            const bool cones = from.shNode.empty();
+            const std::uint32_t node = cones ? from.links[begin + i].node : from.shNode[begin + i];
+            if (cones) {
+                to.links[at] = from.links[begin + i];
+                to.links[at].transport = dim(to.links[at].transport, share[i]);
+            } else {
+                to.shNode[at] = node;
+                for (std::size_t n = 0; n < coefficients(); ++n)
+                    to.shCoefficients[at * coefficients() + n] =
+                        dim(from.shCoefficients[(begin + i) * coefficients() + n], share[i]);
+            }
+            ++at;
+            if (!sky[node])
+                beforeSky = at; // those to sky come last
+        }
+        out.beforeSky[k] = beforeSky;
+    }
+};
 
 } // namespace
 
@@ -245,9 +276,12 @@ DimmedLinks dimLinks(const Bake& bake, const std::vector<SenderPlace>& places,
             shares[c] = dimmer.freeShares(std::uint32_t(c));
     });
     const std::vector<bool> sky = skyNodes(bake.tree);
-    for (std::uint32_t c = 0; c < shares.size(); ++c)
-        if (!shares[c].empty())
-            append(bake, c, shares[c], sky, out);
+    Writer writer{bake, shares, sky, out};
+    writer.place();
+    parallelRanges(out.cache.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            writer.write(k);
+    });
     return out;
 }
 

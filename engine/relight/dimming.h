@@ -32,11 +32,11 @@ struct DimmedLinks {
 /// angle: there it takes 0.2 % of a uniform light, at most.
 inline constexpr float kLeastBlocked = 1e-3f;
 
-/// A cone of a link is 16 directions; one is blocked where an object lies before the cluster. A
-/// cache within a closed object sees nothing. A cell of the grid is not dimmed by an object that
-/// reads it, one within a cell's length: an object does not shade itself. Only light coming from
-/// behind an object is taken away; what the object reflects is not added. O(links of the caches
-/// near blockers).
+/// A cone of a link is 16 directions, or 4 where it is narrow; one is blocked where an object lies
+/// before the cluster. A cache within a closed object sees nothing. A cell of the grid is not
+/// dimmed by an object that reads it, one within a cell's length: an object does not shade itself.
+/// Only light coming from behind an object is taken away; what the object reflects is not added.
+/// O(links of the caches near blockers).
 DimmedLinks dimLinks(const Bake& bake, const std::vector<SenderPlace>& places,
                      const std::vector<Blocker>& blockers);
 

@@ -209,11 +209,20 @@ TEST(BlockerShape, IsABoxForABoxAndTrianglesForOthers) {
     Mesh open = box(glm::vec3(0), glm::vec3(1), false);
     open.indices.resize(30); // without its last side
     b.add(open);
+    Mesh turned = box(glm::vec3(0), {1, 2, 3}, false);
+    const glm::mat3 turn(glm::rotate(glm::mat4(1), 0.7f, glm::normalize(glm::vec3(1, 2, 3))));
+    for (glm::vec3& p : turned.positions)
+        p = turn * (p + glm::vec3(4, 5, 6));
+    b.add(turned);
     const Scene scene = b.build();
     EXPECT_FALSE(blockerShape(scene, 0).triangles);
-    EXPECT_EQ(blockerShape(scene, 0).box, (Bounds{{-1, -2, -3}, {1, 2, 3}}));
+    EXPECT_NEAR(glm::length(blockerShape(scene, 0).box.size()), glm::length(glm::vec3(2, 4, 6)),
+                1e-5f);
     for (const std::uint32_t mesh : {1U, 2U, 3U})
         EXPECT_TRUE(blockerShape(scene, mesh).triangles) << mesh;
+    const BlockerShape box = blockerShape(scene, 4);
+    EXPECT_FALSE(box.triangles);
+    EXPECT_NEAR(glm::length(box.box.size()), glm::length(glm::vec3(1, 2, 3)), 1e-4f);
 }
 
 TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
@@ -221,7 +230,11 @@ TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
     Scene scene = room(block, moved({1, 1, 1}));
     BlockerShapes shapes;
     ASSERT_EQ(sceneBlockers(scene, shapes).size(), 1U);
-    EXPECT_EQ(sceneBlockers(scene, shapes)[0].bounds, (Bounds{glm::vec3(1), glm::vec3(2)}));
+    const Blocker blocker = sceneBlockers(scene, shapes)[0];
+    EXPECT_LT(glm::distance(blocker.bounds.lower, glm::vec3(1)), 1e-5f);
+    EXPECT_LT(glm::distance(blocker.bounds.upper, glm::vec3(2)), 1e-5f);
+    EXPECT_LT(glm::distance(blocker.centre, glm::vec3(1.5f)), 1e-5f);
+    EXPECT_NEAR(blocker.radius, std::sqrt(0.75f), 1e-5f);
     EXPECT_NE(hashBlockers(scene), 0U);
     scene.instances[1].toWorld[1] = glm::vec4(0);
     EXPECT_TRUE(sceneBlockers(scene, shapes).empty());
