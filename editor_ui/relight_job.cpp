@@ -37,10 +37,14 @@ bool sameGeometry(const Scene& a, const Scene& b) {
            std::ranges::equal(a.materials, b.materials, sameSurface);
 }
 
-bool sameBakeInputs(const Scene& a, const Scene& b) {
+static bool sameStaticGeometry(const Scene& a, const Scene& b) {
     return a.assets == b.assets &&
            std::ranges::equal(a.instances, b.instances, sameBakedInstance) &&
-           std::ranges::equal(a.materials, b.materials, sameSurface) && a.bake == b.bake;
+           std::ranges::equal(a.materials, b.materials, sameSurface);
+}
+
+bool sameBakeInputs(const Scene& a, const Scene& b) {
+    return sameStaticGeometry(a, b) && a.bake == b.bake;
 }
 
 Scene relitScene(const Scene& baked, const Scene& now) {
@@ -74,10 +78,12 @@ struct RelightJob::Worker {
 
 void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
     const bool sameRays = scene && sameGeometry(*scene, *next);
+    const bool sameFixed = scene && sameStaticGeometry(*scene, *next);
     const bool sameInputs = scene && sameBakeInputs(*scene, *next);
     scene = std::move(next);
     if (!sameRays)
-        trace = std::make_shared<const TraceScene>(*scene);
+        trace = sameFixed ? std::make_shared<const TraceScene>(*scene, *trace)
+                          : std::make_shared<const TraceScene>(*scene);
     if (!sameInputs)
         inputHash = bakeInputHash(*scene);
     status.converged = false;

@@ -24,8 +24,8 @@ inline constexpr std::array<RelightStep, 5> kRelightSteps = {
       [](const RelightStats& r) { return r.surfelLightMs + r.surfelReadMs; }},
      {"Pull", "Sums flux up the cluster tree", 0xff739e00,
       [](const RelightStats& r) { return r.pullMs; }},
-     {"Cache light", "Gathers linked clusters into the caches", 0xffb27200,
-      [](const RelightStats& r) { return r.cacheLightMs; }},
+     {"Cache light", "Gathers linked clusters into the caches; finds what moved objects hide",
+      0xffb27200, [](const RelightStats& r) { return r.cacheLightMs + r.dimMs; }},
      {"Field", "What the viewport samples, from the caches", 0xffa779cc,
       [](const RelightStats& r) { return r.fieldMs; }}}};
 

@@ -80,44 +80,79 @@ bool invertsWell(const glm::mat4& m) {
 
 } // namespace
 
-struct TraceScene::Impl {
-    Scene scene;
+/// Acceleration structures over the static instances, or the dynamic ones.
+struct TraceScene::Trees {
+    std::shared_ptr<const Assets> assets; ///< Embree reads their vertices
     RTCDevice device = nullptr;
-    RTCScene top = nullptr;
     std::map<MeshKey, SharedMesh> meshes; ///< nodes stay where they are: Embree points at the masks
-    std::vector<HitFrame> frames;         ///< per instance
-    float magnitude = 0; ///< the power of two above the scene's largest coordinate [m]
+    RTCScene top = nullptr;
 
-    Impl(const Scene& s, const std::vector<bool>* only);
-    ~Impl();
-    MeshKey keyOf(const Instance& instance) const;
-    void placeInstances(const std::vector<bool>* only);
-    void buildMeshes();
-    void buildTop();
-    RTCGeometry triangles(const Instance& instance, const SharedMesh& shared, bool inWorld) const;
-    void setPositions(RTCGeometry geometry, const Instance& instance, bool inWorld) const;
+    explicit Trees(RTCDevice shared);
+    ~Trees();
+    Trees(const Trees&) = delete;
+    Trees& operator=(const Trees&) = delete;
 };
 
-TraceScene::Impl::Impl(const Scene& s, const std::vector<bool>* only) : scene(s) {
-    if (!scene.assets)
-        scene.assets = std::make_shared<const Assets>();
-    device = rtcNewDevice(nullptr);
+TraceScene::Trees::Trees(RTCDevice shared) : device(shared ? shared : rtcNewDevice(nullptr)) {
     if (!device)
         throw std::runtime_error("Embree: no device");
-    rtcSetDeviceErrorFunction(
-        device, [](void*, RTCError, const char* text) { logError(std::string("Embree: ") + text); },
-        nullptr);
-    placeInstances(only);
-    buildMeshes();
-    buildTop();
+    if (shared)
+        rtcRetainDevice(device);
+    else
+        rtcSetDeviceErrorFunction(
+            device,
+            [](void*, RTCError, const char* text) { logError(std::string("Embree: ") + text); },
+            nullptr);
 }
 
-TraceScene::Impl::~Impl() {
-    rtcReleaseScene(top);
+TraceScene::Trees::~Trees() {
+    if (top)
+        rtcReleaseScene(top);
     for (auto& [key, shared] : meshes)
         if (shared.scene)
             rtcReleaseScene(shared.scene);
     rtcReleaseDevice(device);
+}
+
+struct TraceScene::Impl {
+    Scene scene;
+    std::vector<HitFrame> frames; ///< per instance
+    float magnitude = 0; ///< the power of two above the static scene's largest coordinate [m]
+    std::shared_ptr<const Trees> fixed, moving; ///< null where there is no such instance
+
+    Impl(const Scene& s, const std::vector<bool>* only, const Impl* before);
+    MeshKey keyOf(const Instance& instance) const;
+    void placeInstances(const std::vector<bool>* only);
+    std::shared_ptr<const Trees> makeTrees(bool dynamic, RTCDevice shared) const;
+    void buildMeshes(Trees& trees, bool dynamic) const;
+    void buildTop(Trees& trees, bool dynamic) const;
+    bool belongs(std::size_t i, bool dynamic) const {
+        return frames[i].present && scene.instances[i].dynamic == dynamic;
+    }
+    RTCGeometry triangles(RTCDevice device, const Instance& instance, const SharedMesh& shared,
+                          bool inWorld) const;
+    void setPositions(RTCGeometry geometry, const Instance& instance, bool inWorld) const;
+};
+
+static float magnitudeOf(const Scene& scene) {
+    const bool anyStatic = std::any_of(scene.instances.begin(), scene.instances.end(),
+                                       [](const Instance& i) { return !i.dynamic; });
+    const Bounds b = anyStatic ? staticBounds(scene) : scene.bounds;
+    const glm::vec3 most = glm::max(glm::abs(b.lower), glm::abs(b.upper));
+    const float largest = std::max({most.x, most.y, most.z});
+    // In powers of two, so that rays of the rest of the scene seldom depend on an object that
+    // moves, and of the static scene, so that a bake never depends on a dynamic one.
+    return std::isfinite(largest) && largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
+}
+
+TraceScene::Impl::Impl(const Scene& s, const std::vector<bool>* only, const Impl* before)
+    : scene(s) {
+    if (!scene.assets)
+        scene.assets = std::make_shared<Assets>();
+    placeInstances(only);
+    fixed = before ? before->fixed : makeTrees(false, nullptr);
+    moving = makeTrees(true, fixed ? fixed->device : nullptr);
+    magnitude = before ? before->magnitude : magnitudeOf(scene);
 }
 
 MeshKey TraceScene::Impl::keyOf(const Instance& instance) const {
@@ -134,7 +169,6 @@ void TraceScene::Impl::placeInstances(const std::vector<bool>* only) {
         ++uses[instance.mesh];
         staticTriangles += instance.dynamic ? 0 : scene.meshOf(instance).triangleCount();
     }
-    AlphaImages images;
     for (const Instance& instance : scene.instances) {
         const glm::mat4& toWorld = instance.toWorld;
         HitFrame frame{toWorld, determinant3(toWorld) < 0 ? -1.f : 1.f};
@@ -144,14 +178,31 @@ void TraceScene::Impl::placeInstances(const std::vector<bool>* only) {
                             (uses[instance.mesh] == 1 || staticTriangles <= kMaxCopiedTriangles);
         frame.inWorld = copied || !invertsWell(toWorld);
         frames.push_back(frame);
-        if (!frame.present)
+    }
+}
+
+std::shared_ptr<const TraceScene::Trees> TraceScene::Impl::makeTrees(bool dynamic,
+                                                                     RTCDevice shared) const {
+    std::shared_ptr<Trees> trees;
+    AlphaImages images;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (!belongs(i, dynamic))
             continue;
+        if (!trees)
+            trees = std::make_shared<Trees>(shared);
+        const Instance& instance = scene.instances[i];
         const MeshKey key = keyOf(instance);
-        const auto [entry, isNew] = meshes.try_emplace(key);
+        const auto [entry, isNew] = trees->meshes.try_emplace(key);
         if (isNew && key.cutout != ~0u)
             entry->second.mask = makeAlphaMask(*scene.assets, scene.meshOf(instance),
                                                scene.materials[key.cutout], images);
     }
+    if (!trees)
+        return nullptr;
+    trees->assets = scene.assets;
+    buildMeshes(*trees, dynamic);
+    buildTop(*trees, dynamic);
+    return trees;
 }
 
 void TraceScene::Impl::setPositions(RTCGeometry geometry, const Instance& instance,
@@ -174,8 +225,8 @@ void TraceScene::Impl::setPositions(RTCGeometry geometry, const Instance& instan
             asTheyAre ? positions[i] : glm::vec3(instance.toWorld * glm::vec4(positions[i], 1));
 }
 
-RTCGeometry TraceScene::Impl::triangles(const Instance& instance, const SharedMesh& shared,
-                                        bool inWorld) const {
+RTCGeometry TraceScene::Impl::triangles(RTCDevice device, const Instance& instance,
+                                        const SharedMesh& shared, bool inWorld) const {
     const Mesh& mesh = scene.meshOf(instance);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     setPositions(geometry, instance, inWorld);
@@ -196,19 +247,19 @@ static void commitAlone(RTCScene scene) {
     tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
 }
 
-void TraceScene::Impl::buildMeshes() {
+void TraceScene::Impl::buildMeshes(Trees& trees, bool dynamic) const {
     std::map<MeshKey, const Instance*> needed;
     for (std::size_t i = 0; i < frames.size(); ++i)
-        if (frames[i].present && !frames[i].inWorld)
+        if (belongs(i, dynamic) && !frames[i].inWorld)
             needed.try_emplace(keyOf(scene.instances[i]), &scene.instances[i]);
     const std::vector<std::pair<MeshKey, const Instance*>> work(needed.begin(), needed.end());
     parallelRanges(work.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            SharedMesh& shared = meshes.at(work[i].first);
-            RTCGeometry geometry = triangles(*work[i].second, shared, false);
+            SharedMesh& shared = trees.meshes.at(work[i].first);
+            RTCGeometry geometry = triangles(trees.device, *work[i].second, shared, false);
             rtcSetGeometryMask(geometry, ~0u);
             rtcCommitGeometry(geometry);
-            shared.scene = rtcNewScene(device);
+            shared.scene = rtcNewScene(trees.device);
             setEmbreeFlags(shared.scene);
             rtcAttachGeometry(shared.scene, geometry);
             rtcReleaseGeometry(geometry);
@@ -217,50 +268,39 @@ void TraceScene::Impl::buildMeshes() {
     });
 }
 
-static float largestCoordinate(const Scene& scene) {
-    const bool anyStatic = std::any_of(scene.instances.begin(), scene.instances.end(),
-                                       [](const Instance& i) { return !i.dynamic; });
-    const Bounds b = anyStatic ? staticBounds(scene) : scene.bounds;
-    const glm::vec3 most = glm::max(glm::abs(b.lower), glm::abs(b.upper));
-    return std::max({most.x, most.y, most.z});
-}
-
-void TraceScene::Impl::buildTop() {
-    top = rtcNewScene(device);
-    setEmbreeFlags(top);
+void TraceScene::Impl::buildTop(Trees& trees, bool dynamic) const {
+    trees.top = rtcNewScene(trees.device);
+    setEmbreeFlags(trees.top);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        if (!frames[i].present)
+        if (!belongs(i, dynamic))
             continue;
-        const SharedMesh& shared = meshes.at(keyOf(instance));
+        const Instance& instance = scene.instances[i];
+        const SharedMesh& shared = trees.meshes.at(keyOf(instance));
         RTCGeometry geometry = nullptr;
         if (frames[i].inWorld) {
-            geometry = triangles(instance, shared, true);
+            geometry = triangles(trees.device, instance, shared, true);
         } else {
-            geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+            geometry = rtcNewGeometry(trees.device, RTC_GEOMETRY_TYPE_INSTANCE);
             rtcSetGeometryInstancedScene(geometry, shared.scene);
             rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
                                     &instance.toWorld);
         }
-        rtcSetGeometryMask(geometry,
-                           unsigned(instance.dynamic ? TraceMask::Dynamic : TraceMask::Static));
+        rtcSetGeometryMask(geometry, ~0u);
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(top, geometry, i);
+        rtcAttachGeometryByID(trees.top, geometry, i);
         rtcReleaseGeometry(geometry);
     }
-    commitAlone(top);
-    const float largest = largestCoordinate(scene);
-    // In powers of two, so that rays of the rest of the scene seldom
-    // depend on an object that moves, and of the static scene, so that a bake never depends on a
-    // dynamic one.
-    magnitude =
-        std::isfinite(largest) && largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
+    commitAlone(trees.top);
 }
 
-TraceScene::TraceScene(const Scene& scene) : m_impl(std::make_unique<Impl>(scene, nullptr)) {}
+TraceScene::TraceScene(const Scene& scene)
+    : m_impl(std::make_unique<Impl>(scene, nullptr, nullptr)) {}
 
 TraceScene::TraceScene(const Scene& scene, const std::vector<bool>& present)
-    : m_impl(std::make_unique<Impl>(scene, &present)) {}
+    : m_impl(std::make_unique<Impl>(scene, &present, nullptr)) {}
+
+TraceScene::TraceScene(const Scene& scene, const TraceScene& before)
+    : m_impl(std::make_unique<Impl>(scene, nullptr, before.m_impl.get())) {}
 
 TraceScene::~TraceScene() = default;
 
@@ -268,7 +308,11 @@ const Scene& TraceScene::scene() const {
     return m_impl->scene;
 }
 
-static RTCRay embreeRay(const Ray& ray, TraceMask mask) {
+static bool asks(TraceMask mask, TraceMask which) {
+    return (unsigned(mask) & unsigned(which)) != 0;
+}
+
+static RTCRay embreeRay(const Ray& ray) {
     RTCRay r{};
     r.org_x = ray.origin.x;
     r.org_y = ray.origin.y;
@@ -278,23 +322,45 @@ static RTCRay embreeRay(const Ray& ray, TraceMask mask) {
     r.dir_z = ray.direction.z;
     r.tnear = ray.tNear;
     r.tfar = ray.tFar;
-    r.mask = unsigned(mask);
+    r.mask = ~0u;
     return r;
+}
+
+static RTCRayHit unhit(const Ray& ray) {
+    RTCRayHit rh{};
+    rh.ray = embreeRay(ray);
+    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return rh;
+}
+
+static bool met(const RTCRayHit& rh) {
+    return rh.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+static unsigned instanceOf(const RTCRayHit& rh) {
+    return rh.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? rh.hit.geomID : rh.hit.instID[0];
 }
 
 // Position and normal come from the triangle itself: the position is exact to a few roundings of
 // the vertices however far the ray came from.
 Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
-    RTCRayHit rh{};
-    rh.ray = embreeRay(ray, mask);
-    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embreeIntersect(m_impl->top, rh);
+    RTCRayHit rh = unhit(ray);
+    if (m_impl->fixed && asks(mask, TraceMask::Static))
+        embreeIntersect(m_impl->fixed->top, rh);
+    if (m_impl->moving && asks(mask, TraceMask::Dynamic)) {
+        RTCRayHit other = unhit(ray);
+        other.ray.tfar = rh.ray.tfar * (1 + 0x1p-20f); // as far as that and a little
+        embreeIntersect(m_impl->moving->top, other);
+        // Of equally distant ones that of the lowest instance, as within a tree.
+        if (met(other) && (!met(rh) || other.ray.tfar < rh.ray.tfar ||
+                           (other.ray.tfar == rh.ray.tfar && instanceOf(other) < instanceOf(rh))))
+            rh = other;
+    }
     Hit hit;
-    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    if (!met(rh))
         return hit;
-    const unsigned instanced = rh.hit.instID[0];
-    hit.instance = instanced == RTC_INVALID_GEOMETRY_ID ? rh.hit.geomID : instanced;
+    hit.instance = instanceOf(rh);
     hit.triangle = rh.hit.primID;
     hit.u = rh.hit.u;
     hit.v = rh.hit.v;
@@ -314,9 +380,14 @@ Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
 }
 
 bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
-    RTCRay r = embreeRay(ray, mask);
-    embreeOccluded(m_impl->top, r);
-    return r.tfar < 0;
+    const auto meets = [&](const std::shared_ptr<const Trees>& trees, TraceMask which) {
+        if (!trees || !asks(mask, which))
+            return false;
+        RTCRay r = embreeRay(ray);
+        embreeOccluded(trees->top, r);
+        return r.tfar < 0;
+    };
+    return meets(m_impl->fixed, TraceMask::Static) || meets(m_impl->moving, TraceMask::Dynamic);
 }
 
 bool TraceScene::blocked(glm::vec3 from, glm::vec3 to, TraceMask mask) const {

@@ -34,8 +34,8 @@ struct Hit {
 /// Which surfaces a query may meet.
 enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3 };
 
-/// Embree's acceleration structure over a Scene: static triangles in one tree, moving and often
-/// repeated meshes as instances of their own. Immutable, thread-safe to
+/// Embree's acceleration structure over a Scene: static triangles in one tree, often repeated
+/// meshes as instances of their own; what moves in another tree. Immutable, thread-safe to
 /// query. Holds a copy of the instance table and shares the assets; the Scene may die or change
 /// meanwhile.
 class TraceScene {
@@ -45,6 +45,10 @@ public:
 
     /// The same with only those `present` of its instances, each met exactly as in the whole scene.
     TraceScene(const Scene& scene, const std::vector<bool>& present);
+
+    /// Of `before` with its dynamic instances elsewhere: static ones are as they were there, with
+    /// the same numbers, assets and holes, and their structure is shared. O(dynamic instances).
+    TraceScene(const Scene& scene, const TraceScene& before);
 
     ~TraceScene();
     TraceScene(const TraceScene&) = delete;
@@ -69,6 +73,7 @@ public:
     const Scene& scene() const;
 
 private:
+    struct Trees;
     struct Impl;
     std::unique_ptr<Impl> m_impl;
 };

@@ -2,6 +2,7 @@
 #include "engine/trace/trace_scene.h"
 
 #include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -270,6 +271,39 @@ TEST(TraceScene, MasksTellStaticFromDynamic) {
     shorter.tFar = 1.5f;
     EXPECT_TRUE(trace.occluded(shorter));
     EXPECT_FALSE(trace.occluded(shorter, TraceMask::Static));
+}
+
+TEST(TraceScene, AMovedDynamicObjectIsMetAsInASceneOfItsOwn) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(0), glm::vec3(4), true));
+    b.add(sphere(0.5f, 2, false), glm::mat4(1), true).toWorld[3] = {1, 1, 1, 1};
+    b.add(box({1, 0, 3}, {3, 1, 3.5f}, false));
+    Scene scene = b.build();
+    auto before = std::make_unique<TraceScene>(scene);
+    for (const glm::vec3 to : {glm::vec3(2, 2, 2), glm::vec3(3, 0.4f, 1)}) {
+        scene.instances[1].toWorld[3] = glm::vec4(to, 1);
+        auto moved = std::make_unique<TraceScene>(scene, *before);
+        before = nullptr; // what they share outlives it
+        const TraceScene whole(scene);
+        std::uint32_t onBall = 0;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            const DirectionSet directions(2000, true, 0);
+            const Ray ray{{2.2f, 1.7f, 0.3f}, directions[i]};
+            const Hit a = moved->closestHit(ray), c = whole.closestHit(ray);
+            ASSERT_TRUE(a && c);
+            EXPECT_EQ(a.instance, c.instance);
+            EXPECT_EQ(a.t, c.t);
+            EXPECT_EQ(a.position, c.position);
+            EXPECT_EQ(a.geometricNormal, c.geometricNormal);
+            EXPECT_EQ(moved->occluded(ray, TraceMask::Dynamic),
+                      whole.occluded(ray, TraceMask::Dynamic));
+            onBall += a.instance == 1 ? 1 : 0;
+        }
+        EXPECT_GT(onBall, 20u);
+        EXPECT_EQ(moved->epsilonAt(glm::vec3(0)), whole.epsilonAt(glm::vec3(0)));
+        before = std::move(moved);
+    }
 }
 
 class TraceSceneInstances : public testing::TestWithParam<bool> {};
