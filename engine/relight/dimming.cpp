@@ -233,6 +233,11 @@ struct Writer {
 
 } // namespace
 
+bool dimsLinks(const Scene& scene) {
+    return scene.bake.dimming && std::any_of(scene.instances.begin(), scene.instances.end(),
+                                             [](const Instance& i) { return i.dynamic; });
+}
+
 std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree& tree) {
     std::vector<SenderPlace> places(tree.size());
     std::vector<glm::vec3> normals(tree.size(), glm::vec3(0)); // means

@@ -9,6 +9,9 @@
 
 namespace limn {
 
+/// Whether dynamic objects of `scene` dim links: only Relighter does that, GpuRelighter does not.
+bool dimsLinks(const Scene& scene);
+
 /// Where the light of a tree's node comes from.
 struct SenderPlace {
     glm::vec3 centre{0};

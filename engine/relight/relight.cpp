@@ -163,7 +163,7 @@ bool Relighter::State::updateSky(const Scene& scene) {
 }
 
 bool Relighter::State::updateDimming(const Scene& scene) {
-    const std::uint64_t now = scene.bake.dimming ? hashBlockers(scene) : 0;
+    const std::uint64_t now = dimsLinks(scene) ? hashBlockers(scene) : 0;
     if (now == blockers)
         return false;
     blockers = now;

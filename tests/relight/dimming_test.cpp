@@ -238,7 +238,12 @@ TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
     EXPECT_NE(hashBlockers(scene), 0U);
     scene.instances[1].toWorld[1] = glm::vec4(0);
     EXPECT_TRUE(sceneBlockers(scene, shapes).empty());
+    EXPECT_TRUE(dimsLinks(scene));
+    scene.bake.dimming = false;
+    EXPECT_FALSE(dimsLinks(scene));
+    scene.bake.dimming = true;
     scene.instances[1].dynamic = false;
+    EXPECT_FALSE(dimsLinks(scene));
     EXPECT_EQ(hashBlockers(scene), 0U);
 }
 
