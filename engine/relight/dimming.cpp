@@ -26,23 +26,32 @@ constexpr float kNarrow = 0.01f;
 /// What a link's light comes through.
 struct LinkCone {
     std::uint32_t node;
-    glm::vec3 direction; ///< unit
-    float u;             ///< 1 - cos(half-angle)
+    glm::vec3 direction; ///< of this length: most cones meet nothing and need no unit
+    float length;
+    float u; ///< 1 - cos(half-angle)
 };
+
+/// As unpackOctUnnormalised, without a call of fmax.
+glm::vec3 octVector(const Link& link) {
+    const float x = float(std::int16_t(link.octX)), y = float(std::int16_t(link.octY));
+    const float z = 32767 - std::abs(x) - std::abs(y), fold = z < 0 ? -z : 0;
+    return {x - std::copysign(fold, x), y - std::copysign(fold, y), z};
+}
 
 LinkCone coneOf(const Caches& caches, std::uint32_t k, std::size_t coefficients) {
     if (caches.shNode.empty()) {
         const Link& link = caches.links[k];
-        return {link.node, unpackOct(link.octX, link.octY), halfToFloat(link.u)};
+        const glm::vec3 d = octVector(link);
+        return {link.node, d, glm::length(d), halfToFloat(link.u)};
     }
     // The first two bands of a cone: transport Y_00 and transport (2 - u) / 2 Y_1m.
     const std::uint16_t* h = caches.shCoefficients.data() + std::size_t(k) * coefficients;
     const glm::vec3 first(halfToFloat(h[3]), halfToFloat(h[1]), halfToFloat(h[2]));
     const float length = glm::length(first), zeroth = halfToFloat(h[0]);
     if (!(length > 0) || !(zeroth > 0))
-        return {caches.shNode[k], {0, 0, 1}, 2};
+        return {caches.shNode[k], {0, 0, 1}, 1, 2};
     const float u = 2 * (1 - length / (std::numbers::sqrt3_v<float> * zeroth));
-    return {caches.shNode[k], first / length, std::clamp(u, 0.f, 2.f)};
+    return {caches.shNode[k], first, length, std::clamp(u, 0.f, 2.f)};
 }
 
 /// The lattice of DirectionSet, as strata of height and directions about the axis.
@@ -112,8 +121,8 @@ struct Dimmer {
         ConeSamples samples; // made when needed
         for (const Sight& sight : sights) {
             const bool wide = c <= -sight.cosine; // together they go all the way round
-            if (!wide &&
-                glm::dot(cone.direction, sight.direction) < c * sight.cosine - s * sight.sine)
+            const float least = c * sight.cosine - s * sight.sine;
+            if (!wide && glm::dot(cone.direction, sight.direction) < least * cone.length)
                 continue;
             if (samples.count == 0)
                 fill(cone, places[cone.node], from, samples);
@@ -135,7 +144,7 @@ struct Dimmer {
         const bool narrow = cone.u < kNarrow;
         const Spread& spread = narrow ? few : many;
         out.count = narrow ? 4 : ConeSamples::kMost;
-        const glm::mat3 toWorld = basisAround(cone.direction);
+        const glm::mat3 toWorld = basisAround(cone.direction / cone.length);
         for (std::size_t k = 0; k < out.count; ++k) {
             const float z = 1 - cone.u * spread.stratum[k]; // equal solid angles
             const float r = std::sqrt(std::max(1 - z * z, 0.f));
@@ -153,6 +162,7 @@ struct Dimmer {
         std::vector<float> shares;
         if (seen.empty())
             return shares;
+        shares.reserve(c.linkBegin[cache + 1] - c.linkBegin[cache]);
         const auto coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
         bool any = false;
         for (std::uint32_t k = c.linkBegin[cache]; k < c.linkBegin[cache + 1]; ++k) {
