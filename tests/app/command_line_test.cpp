@@ -319,6 +319,22 @@ TEST_F(CommandLine, RenderRelightsOnEitherDeviceAndSaysOnWhich) {
     EXPECT_EQ(limn(start + "--relight nonsense -o " + gpu).exit, 2);
 }
 
+TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndDimsTheLightWhereverItIs) {
+    const std::string bake = path("box.limnbake"), a = path("a.exr"), b = path("b.exr");
+    ASSERT_EQ(limn("bake cornell --dynamic 'Short block'" + kCoarse + "-o " + bake).exit, 0);
+    const std::string start =
+        "render cornell --bake " + bake + " --device cpu --view irradiance --width 48 --height 32 ";
+    ASSERT_EQ(limn(start + "--dynamic 'Short block@0.3,0.7,0.3' -o " + a).exit, 0);
+    ASSERT_EQ(limn(start + "--dynamic 'Short block@0.3,0.7,0.3' --no-dimming -o " + b).exit, 0);
+    EXPECT_GT(json("compare " + a + " " + b + " --json")["nrmse"], 0.05);
+    EXPECT_LT(json("compare " + a + " " + b + " --json")["bias"], -0.01);
+    ASSERT_EQ(limn(start + "--dynamic 'Short block' -o " + b).exit, 0);
+    EXPECT_GT(json("compare " + a + " " + b + " --json")["nrmse"], 0.05);
+    expectRefusal(start + "-o " + b, "another scene"); // the block is static here
+    expectRefusal(start + "--dynamic Ball -o " + b, "Ball");
+    expectRefusal(start + "--dynamic 'Short block@1,2' -o " + b, "x,y,z");
+}
+
 TEST_F(CommandLine, RenderDrawsAnOverlayAndSaysWhatItsColoursMean) {
     const std::string bake = path("box.limnbake"), picture = path("box.png");
     ASSERT_EQ(limn("bake cornell" + kCoarse + "-o " + bake).exit, 0);
