@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/dimming.h"
 
+#include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/math/sh.h"
 #include "engine/relight/relight.h"
@@ -146,7 +147,10 @@ TEST(Dimming, FollowsAnObjectAsIfItHadAlwaysBeenThere) {
     scene.instances[1].toWorld = moved({2.5f, 1.5f, 3});
     const TraceScene there(scene);
     relighter.relight(scene, there, 8);
-    other.relight(scene, there, 8);
+    {
+        const ThreadLimit alone(1);
+        other.relight(scene, there, 8);
+    }
     EXPECT_FALSE(relighter.cacheSh() == before);
     EXPECT_TRUE(relighter.cacheSh() == other.cacheSh()); // no albedo: nothing to converge
     scene.instances[1].toWorld = moved({1, 0.8f, 1});
