@@ -229,6 +229,32 @@ TEST(BlockerShape, IsABoxForABoxAndTrianglesForOthers) {
     EXPECT_NEAR(glm::length(box.box.size()), glm::length(glm::vec3(1, 2, 3)), 1e-4f);
 }
 
+TEST(Block, BeginsAtTheBoxAndBeforeTheLightsOrigin) {
+    const Scene scene = room(box(glm::vec3(0), glm::vec3(1), false), moved({1, 1, 1}));
+    BlockerShapes shapes;
+    const Blocker blocker = sceneBlockers(scene, shapes)[0];
+    const auto blocked = [&](glm::vec3 from, glm::vec3 d, float tMost) {
+        ConeSamples samples;
+        samples.count = 4;
+        for (std::size_t k = 0; k < 4; ++k) {
+            samples.x[k] = d.x, samples.y[k] = d.y, samples.z[k] = d.z;
+            samples.tMost[k] = k == 0 ? 0.f : tMost;
+            samples.blocked[k] = false;
+        }
+        block(blocker, from, samples);
+        EXPECT_FALSE(samples.blocked[0]);
+        return samples.blocked[3];
+    };
+    const glm::vec3 up(0, 1, 0);
+    EXPECT_TRUE(blocked({1.5f, 0, 1.5f}, up, 1.1f));
+    EXPECT_FALSE(blocked({1.5f, 0, 1.5f}, up, 0.9f)); // it begins behind the light's origin
+    EXPECT_FALSE(blocked({1.5f, 0, 1.5f}, -up, 9));
+    EXPECT_FALSE(blocked({2.5f, 0, 1.5f}, up, 9));
+    EXPECT_TRUE(blocked({1.5f, 1.5f, 1.5f}, up, 9)); // from within
+    EXPECT_FALSE(blocked({1.5f, 2, 1.5f}, up, 9));   // from its top, away
+    EXPECT_TRUE(blocked({1.5f, 2, 1.5f}, -up, 9));
+}
+
 TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
     const Mesh block = box(glm::vec3(0), glm::vec3(1), false);
     Scene scene = room(block, moved({1, 1, 1}));
