@@ -17,10 +17,6 @@ namespace limn {
 
 namespace {
 
-bool shines(const Light& l) {
-    return l.enabled && l.strength > 0 && (l.color.x > 0 || l.color.y > 0 || l.color.z > 0);
-}
-
 Bounds boundsOf(const std::vector<glm::vec3>& points) {
     Bounds bounds{glm::vec3(1e30f), glm::vec3(-1e30f)};
     for (const glm::vec3 p : points) {
@@ -28,14 +24,6 @@ Bounds boundsOf(const std::vector<glm::vec3>& points) {
         bounds.upper = glm::max(bounds.upper, p);
     }
     return bounds;
-}
-
-/// Whether anything within `bounds` can lie in the light's range.
-bool reaches(const Light& l, const Bounds& bounds) {
-    const bool ranged = l.kind == LightKind::Point || l.kind == LightKind::Spot;
-    if (!ranged || !(l.range > 0))
-        return true;
-    return glm::distance(glm::clamp(l.position, bounds.lower, bounds.upper), l.position) < l.range;
 }
 
 /// The light with everything that moves no shadow set to one.

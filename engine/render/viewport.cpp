@@ -128,7 +128,7 @@ struct Viewport::Impl {
     ShadowMaps shadows;
     IndirectLight indirect;
     RenderScene scene;
-    std::vector<Light> lights; ///< those that shine
+    std::vector<Light> lights; ///< those that shine on anything
     LightTable relightTable;   ///< of the last shadowedLights()
     std::vector<Light> relightLights;
     std::uint64_t relightScene = 0, relightVersion = 0;
@@ -427,11 +427,9 @@ void Viewport::setLighting(const Scene& scene) {
     m_impl->maskVersion += m_impl->materials.update(scene);
     m_impl->sky.set(scene.sky);
     m_impl->lights.clear();
-    for (const Light& light : scene.lights) {
-        const glm::vec3 strength = light.color * light.strength;
-        if (light.enabled && strength.x + strength.y + strength.z > 0)
+    for (const Light& light : scene.lights)
+        if (shines(light) && reaches(light, scene.bounds))
             m_impl->lights.push_back(light);
-    }
 }
 
 void Viewport::setIndirect(const IndirectField& field) {

@@ -112,6 +112,17 @@ static Bounds boundsOf(const Scene& scene, bool dynamic) {
     return all.lower.x <= all.upper.x ? all : Bounds{};
 }
 
+bool shines(const Light& l) {
+    return l.enabled && l.strength > 0 && (l.color.x > 0 || l.color.y > 0 || l.color.z > 0);
+}
+
+bool reaches(const Light& l, const Bounds& bounds) {
+    const bool ranged = l.kind == LightKind::Point || l.kind == LightKind::Spot;
+    if (!ranged || !(l.range > 0))
+        return true;
+    return glm::distance(glm::clamp(l.position, bounds.lower, bounds.upper), l.position) < l.range;
+}
+
 Bounds staticBounds(const Scene& scene) {
     return boundsOf(scene, false);
 }

@@ -44,6 +44,12 @@ struct Bounds {
     bool operator==(const Bounds&) const = default;
 };
 
+/// Whether the light is on and sends anything.
+bool shines(const Light& light);
+
+/// Whether anything within `bounds` can lie in the light's range.
+bool reaches(const Light& light, const Bounds& bounds);
+
 /// The document flattened: what the tracer, baker, reference and viewport read.
 struct Scene {
     std::shared_ptr<const Assets> assets;

@@ -208,7 +208,7 @@ TEST_F(ViewportShadows, AreDrawnOnlyWhenALightOrAnObjectMoved) {
     EXPECT_EQ(mapsDrawn(scene), 0u) << "nothing changed";
     scene.lights[0].strength = 5;
     scene.lights[1].color = {1, 0, 0};
-    scene.lights[2].range = 3;
+    scene.lights[2].range = 3.5f; // the roof is 3 m away
     scene.lights[2].innerAngle = 0.1f;
     scene.sky.radiance = glm::vec3(1);
     scene.materials[0].baseColor = glm::vec4(0.5f);
@@ -234,11 +234,12 @@ TEST_F(ViewportShadows, LightsThatDoNotShineCostNothing) {
     mapsDrawn(b.build());
     device->waitIdle();
     const std::uint64_t bytes = viewport->stats().gpuBytes;
-    Light off = lightOf(LightKind::Point, {0, 4, 0}, {}, 10), black = off, weak = off;
+    Light off = lightOf(LightKind::Point, {0, 4, 0}, {}, 10), black = off, weak = off, far = off;
     off.enabled = false;
     black.color = glm::vec3(0);
     weak.strength = 0;
-    b.scene.lights = {off, black, weak};
+    far.range = 2.9f; // the roof is 3 m away
+    b.scene.lights = {off, black, weak, far};
     b.build();
     viewport->setLighting(b.scene);
     viewport->render(options);

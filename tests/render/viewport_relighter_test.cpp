@@ -119,6 +119,23 @@ TEST_F(RelightViewport, DoesNothingWhenNothingChangedAndBouncesHaveConverged) {
     EXPECT_EQ(relighter->gpu().fieldVersion(), version);
 }
 
+TEST_F(RelightViewport, LightsThatReachNothingCostNothing) {
+    relight();
+    Light far = scene.lights[0], black = far;
+    far.position = {0, 0, 20}; // the corner ends at 5
+    far.range = 14.9f;
+    black.color = glm::vec3(0);
+    scene.lights.insert(scene.lights.end(), {far, black});
+    const RelightStats stats = relight();
+    EXPECT_EQ(stats.lightsOff, 2U);
+    EXPECT_EQ(stats.lightsTraced, 0U);
+    EXPECT_TRUE(stats.skipped);
+    scene.lights[3].range = 15.1f;
+    const RelightStats near = relight();
+    EXPECT_EQ(near.lightsOff, 1U);
+    EXPECT_GT(near.lightsTraced, 0U);
+}
+
 TEST_F(RelightViewport, TheViewportShowsItsField) {
     relight();
     viewport->render(options);
