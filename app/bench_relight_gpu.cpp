@@ -35,8 +35,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g =
-            (*relighter)
-                ->relight({light.irradiance, albedo, emitted, sky, nullptr, bands}, 1);
+            (*relighter)->relight({light.irradiance, albedo, emitted, sky, nullptr, bands}, 1);
         RelightStats r;
         r.directMs = traced.count() + g.uploadMs;
         r.surfelLightMs = g.surfelLightMs;

@@ -86,13 +86,29 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
     return read;
 }
 
+CpuLight relight(const Scene& scene, Baked& baked) {
+    if (!baked.relighter) // an overlay of light has one already
+        baked.relighter = std::make_unique<Relighter>(baked.bake);
+    const RelightStats stats = baked.relighter->relight(
+        scene, *baked.trace, baked.bake->settings.maxBounces, progressOnStderr());
+    endProgressLine();
+    return {baked.relighter->field(), stats};
+}
+
 Result<void> addOverlay(const Options& options, const Scene& scene, const TraceScene& trace,
                         const Camera& camera, Baked& baked) {
     const Result<OverlayOptions> wanted = overlayOptions(
         options.overlay, *baked.bake, trace, camera, options.camera.width, options.camera.height);
     if (!wanted)
         return tl::make_unexpected(wanted.error());
-    baked.overlay = std::make_shared<const OverlayData>(makeOverlay(*baked.bake, scene, *wanted));
+    std::optional<LitBake> lit;
+    if (showsLight(wanted->kind)) {
+        relight(scene, baked);
+        const Relighter& r = *baked.relighter;
+        lit = {r.radiosity(), r.cacheSh(), int(r.field().bands)};
+    }
+    baked.overlay = std::make_shared<const OverlayData>(
+        makeOverlay(*baked.bake, scene, *wanted, lit ? &*lit : nullptr));
     return {};
 }
 
@@ -112,14 +128,6 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
             return tl::make_unexpected(added.error());
     baked.light = light;
     return baked;
-}
-
-CpuLight relight(const Scene& scene, Baked& baked) {
-    baked.relighter = std::make_unique<Relighter>(baked.bake);
-    const RelightStats stats = baked.relighter->relight(
-        scene, *baked.trace, baked.bake->settings.maxBounces, progressOnStderr());
-    endProgressLine();
-    return {baked.relighter->field(), stats};
 }
 
 // Before anything is read or baked for it.

@@ -92,7 +92,8 @@ bool EditorApp::waitForWork() {
     double seconds = m_picture.secondsToNext();
     if (ImGui::GetIO().WantTextInput)
         seconds = seconds < 0 ? kCursorBlinkSeconds : std::min(seconds, kCursorBlinkSeconds);
-    const bool due = m_framesOwed > 0 || state.view.animating || m_window->pending();
+    const bool due =
+        m_framesOwed > 0 || state.view.animating || state.playing || m_window->pending();
     const auto before = Clock::now();
     // No sleep without an end: a thread of the Vulkan driver that reads the same X connection can
     // take in the event we sleep for, a key or a wake(), without waking us. A look costs nothing
@@ -108,7 +109,7 @@ bool EditorApp::waitForWork() {
     const bool woken = m_window->takeWake();
     if ((woken || timer) && m_framesOwed == 0)
         m_framesOwed = 1;
-    return m_framesOwed > 0 || state.view.animating;
+    return m_framesOwed > 0 || state.view.animating || state.playing;
 }
 
 void EditorApp::takeWindowEvents() {

@@ -18,12 +18,14 @@ void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
     command.add_option("--overlay", flags.name, "what of the bake is drawn over a .png")
         ->check(CLI::IsMember(names));
     command.add_option("--overlay-depth", flags.depth,
-                       "depth of the tree that 'clusters' shows; 0: the root (default: 6)");
-    CLI::Option* pick =
-        command.add_option("--pick", flags.pick, "x,y of the pixel whose cache 'links' shows")
-            ->delimiter(',')
-            ->expected(2);
-    command.add_option("--cache", flags.cache, "number of the cache that 'links' shows")
+                       "depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
+                       "(default: 6)");
+    CLI::Option* pick = command
+                            .add_option("--pick", flags.pick,
+                                        "x,y of the pixel whose cache 'links' or 'lobes' show")
+                            ->delimiter(',')
+                            ->expected(2);
+    command.add_option("--cache", flags.cache, "number of the cache that 'links' or 'lobes' show")
         ->excludes(pick);
 }
 
@@ -36,10 +38,10 @@ static Overlay kindOf(const OverlayFlags& flags) {
 Result<void> checkOverlayFlags(const OverlayFlags& flags) {
     const Overlay kind = kindOf(flags);
     const bool picked = !flags.pick.empty() || flags.cache;
-    if (flags.depth && kind != Overlay::Clusters)
-        return fail("--overlay-depth: is for --overlay clusters");
-    if (picked && kind != Overlay::Links)
-        return fail("--pick, --cache: are for --overlay links");
+    if (flags.depth && !hasDepth(kind))
+        return fail("--overlay-depth: is for --overlay clusters and lit-clusters");
+    if (picked && !hasCache(kind))
+        return fail("--pick, --cache: are for --overlay links and lobes");
     if (!picked && kind == Overlay::Links)
         return fail("--overlay links: needs --pick X,Y or --cache N");
     return {};

@@ -26,6 +26,7 @@ struct PictureRequest {
     OverlayOptions overlay;
     std::shared_ptr<const Bake> bake;        ///< that the overlay shows; null: there is no overlay
     std::shared_ptr<const Scene> bakedScene; ///< that `bake` was made from
+    std::shared_ptr<const LitBake> light;    ///< for overlays that showsLight(), unless `relight`
     BakedScene lit;       ///< whose bounced light is shown; null members: no bake
     bool relight = false; ///< it is worked out here, on the viewport's device, instead of `field`
     /// Of `scene`. Set: how long relighting takes is measured first, on either device. `lit` is of

@@ -105,17 +105,33 @@ void RenderWorker::takeField(const PictureRequest& request) {
     m_ownField = false;
 }
 
+static LitBake readLit(const GpuRelighter& gpu) {
+    LitBake lit;
+    for (const glm::vec3 b : gpu.readRadiosity())
+        lit.radiosity.emplace_back(b, 0);
+    lit.cacheSh = gpu.readCacheSh();
+    lit.bands = int(gpu.field()->bands);
+    return lit;
+}
+
 void RenderWorker::makeOverlay(const PictureRequest& request) {
     // Albedo is the one thing it shows that can change without a bake.
     const bool newAlbedo = request.overlay.kind == Overlay::Surfels &&
                            request.scene != shown.scene &&
                            (!shown.scene || shown.scene->materials != request.scene->materials);
-    if (request.bake == shown.bake && request.overlay == shown.overlay && !newAlbedo)
+    const bool light = showsLight(request.overlay.kind);
+    const bool newLight = light && (request.light != shown.light || m_relighter);
+    if (request.bake == shown.bake && request.overlay == shown.overlay && !newAlbedo && !newLight)
         return;
     overlay = nullptr;
-    if (request.bake && request.overlay.kind != Overlay::None)
-        overlay = std::make_shared<const OverlayData>(limn::makeOverlay(
-            *request.bake, relitScene(*request.bakedScene, *request.scene), request.overlay));
+    if (request.bake && request.overlay.kind != Overlay::None) {
+        const std::shared_ptr<const LitBake> lit =
+            light && m_relighter ? std::make_shared<const LitBake>(readLit(m_relighter->gpu()))
+                                 : request.light;
+        overlay = std::make_shared<const OverlayData>(
+            limn::makeOverlay(*request.bake, relitScene(*request.bakedScene, *request.scene),
+                              request.overlay, lit.get()));
+    }
     viewport.setOverlay(overlay);
 }
 

@@ -88,9 +88,10 @@ void ViewportPicture::update(Session& session) {
     takeDrawn(session);
     const ViewState& view = state.view;
     const glm::uvec2 full = glm::max(glm::uvec2(view.size), glm::uvec2(1));
-    Shown shown{view.view, view.tonemap,    view.exposureEv,      view.camera,
-                full,      session.scene(), session.layout(),     session.field(),
-                {},        nullptr,         session.baked().bake, session.viewportRelights()};
+    Shown shown{
+        view.view,       view.tonemap,         view.exposureEv,           view.camera, full,
+        session.scene(), session.layout(),     session.field(),           {},          nullptr,
+        session.lit(),   session.baked().bake, session.viewportRelights()};
     if (state.overlay.options.kind != Overlay::None) {
         shown.overlay = state.overlay.options;
         shown.bake = state.overlay.bake;
@@ -113,8 +114,8 @@ void ViewportPicture::update(Session& session) {
                                 .height = size.y,
                                 .tonemap = view.tonemap,
                                 .exposureEv = view.exposureEv},
-                shown.overlay, shown.bake, state.overlay.scene, session.baked(), shown.relight,
-                measure ? state.trace : nullptr});
+                shown.overlay, shown.bake, state.overlay.scene, shown.light, session.baked(),
+                shown.relight, measure ? state.trace : nullptr});
     m_drawn = m_job.result();
     if (shown.relight)
         state.relight = m_drawn.relight;

@@ -46,8 +46,9 @@ private:
         std::shared_ptr<const IndirectField> field;
         OverlayOptions overlay;
         std::shared_ptr<const Bake> bake; ///< of the overlay; null: there is none
-        std::shared_ptr<const Bake> lit;  ///< whose light is shown
-        bool relight = false;             ///< by the viewport's device
+        std::shared_ptr<const LitBake> light;
+        std::shared_ptr<const Bake> lit; ///< whose light is shown
+        bool relight = false;            ///< by the viewport's device
 
         bool operator==(const Shown&) const = default;
     };

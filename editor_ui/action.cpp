@@ -199,6 +199,21 @@ void startBake(EditorState& s) {
 void cancelBake(EditorState& s) {
     request(s, Request::Kind::CancelBake);
 }
+bool hasFilm(const EditorState& s) {
+    return std::ranges::any_of(s.document.objects, [](const auto& entry) {
+        const Material* m = std::get_if<Material>(&entry.second);
+        return m && isAnimated(*m);
+    });
+}
+bool plays(const EditorState& s) {
+    return s.playing;
+}
+void togglePlay(EditorState& s) {
+    s.playing = !s.playing;
+}
+void rewindFilms(EditorState& s) {
+    s.seconds = 0;
+}
 void toggleAutoBake(EditorState& s) {
     s.autoBake = !s.autoBake;
 }
@@ -261,6 +276,8 @@ constexpr Action kActions[] = {
     {"view.bottom", "From below", Menu::View, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
     {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, setTool<Tool::Select>, hasTool<Tool::Select>},
     {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, setTool<Tool::Move>, hasTool<Tool::Move>},
+    {"view.play", "Play films", Menu::View, plain(key::kSpace), kNoKey, true, hasFilm, togglePlay, plays},
+    {"view.rewind", "Rewind films", Menu::View, kNoKey, kNoKey, false, hasFilm, rewindFilms},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
     overlayAction<Overlay::None>("overlay.none"),
@@ -273,6 +290,9 @@ constexpr Action kActions[] = {
     overlayAction<Overlay::Charts>("overlay.charts"),
     overlayAction<Overlay::Density>("overlay.density"),
     overlayAction<Overlay::Overlap>("overlay.overlap"),
+    overlayAction<Overlay::LitSurfels>("overlay.lit_surfels"),
+    overlayAction<Overlay::LitClusters>("overlay.lit_clusters"),
+    overlayAction<Overlay::Lobes>("overlay.lobes"),
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},

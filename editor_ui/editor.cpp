@@ -176,6 +176,8 @@ static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
 }
 
 void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {
+    if (state.playing) // after a sleep: no leap
+        state.seconds += double(std::min(ImGui::GetIO().DeltaTime, 0.25f));
     shortcuts(state, pressed);
     menuBar(state);
     panels(state, ImGui::GetFrameHeight());

@@ -115,6 +115,8 @@ struct EditorState {
     bool paletteOpen = false;
     std::string paletteFilter;
     bool autoBake = false;
+    double seconds = 0;   ///< after the start of films in materials
+    bool playing = false; ///< seconds go on
 
     std::uint64_t expectedCaches = 0;        ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null

@@ -117,7 +117,7 @@ static void cacheRow(OverlayState& overlay) {
                         "that lights it");
     if (ImGui::InputInt("##cache", &cache, 1, 100))
         pickCache(overlay,
-                  std::uint32_t(std::clamp(cache, 0, int(overlay.bake->caches.size()) - 1)));
+                  std::uint32_t(std::clamp(cache, -1, int(overlay.bake->caches.size()) - 1)));
     wrappedTooltip("Number of the cache shown; -1: none picked. Lightmap texels first, then the "
                    "grid's cells");
 }
@@ -210,9 +210,9 @@ void overlayPanel(EditorState& state) {
         ImGui::TextColored(ImColor(color::kWarning), "Nothing baked yet");
         return;
     }
-    if (overlay.options.kind == Overlay::Clusters)
+    if (hasDepth(overlay.options.kind))
         depthRow(overlay);
-    if (overlay.options.kind == Overlay::Links)
+    if (hasCache(overlay.options.kind))
         cacheRow(overlay);
     legendRows(overlay.legend);
     if (overlay.options.kind == Overlay::Links)

@@ -66,6 +66,7 @@ struct RelightJob::Worker {
     std::array<std::shared_ptr<IndirectField>, 3>
         pool; ///< fields nobody looks at any more are used again
     RelightStatus status;
+    std::shared_ptr<const LitBake> lit; ///< null: nobody asks
     bool lighting = true;
 
     bool hasWork() const { return lighting && relighter && scene && !status.converged; }
@@ -74,6 +75,7 @@ struct RelightJob::Worker {
     void takeBake(BakedScene next);
     void relight(const Progress& progress);
     std::shared_ptr<const IndirectField> copyField();
+    std::shared_ptr<const LitBake> copyLit() const;
 };
 
 void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
@@ -123,6 +125,14 @@ std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
         return field;
     }
     return std::make_shared<const IndirectField>(relighter->field());
+}
+
+/// Empty where nothing is lit here.
+std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
+    auto copy = std::make_shared<LitBake>();
+    if (relighter && lighting)
+        *copy = {relighter->radiosity(), relighter->cacheSh(), int(relighter->field().bands)};
+    return copy;
 }
 
 void countUpdate(RelightStatus& status, std::uint32_t maxBounces) {
@@ -177,6 +187,18 @@ void RelightJob::setLighting(bool here) {
     m_changed.notify_one();
 }
 
+void RelightJob::keepLit(bool keep) {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (keep == m_keepLit)
+            return;
+        m_keepLit = keep;
+        if (!keep)
+            m_result.lit = nullptr;
+    }
+    m_changed.notify_one();
+}
+
 Relit RelightJob::result() const {
     const std::lock_guard lock(m_mutex);
     return m_result;
@@ -190,13 +212,14 @@ void RelightJob::run() {
     for (;;) {
         m_changed.wait(lock, [&] {
             return m_stop || m_nextScene || m_nextBake || m_lighting != worker.lighting ||
-                   worker.hasWork();
+                   m_keepLit != (worker.lit != nullptr) || worker.hasWork();
         });
         if (m_stop)
             return;
         worker.setLighting(m_lighting);
         auto scene = std::exchange(m_nextScene, nullptr);
         auto baked = std::exchange(m_nextBake, {});
+        const bool keepLit = m_keepLit;
         lock.unlock();
         if (scene)
             worker.takeScene(std::move(scene));
@@ -207,9 +230,14 @@ void RelightJob::run() {
             worker.relight(progress);
             field = worker.copyField();
         }
+        if (!keepLit)
+            worker.lit = nullptr;
+        else if (field || !worker.lit)
+            worker.lit = worker.copyLit();
         lock.lock();
         if (field || !worker.relighter || !worker.lighting)
             m_result.field = worker.lighting ? std::move(field) : nullptr;
+        m_result.lit = worker.lit;
         m_result.trace = worker.trace;
         m_result.hashedScene = worker.scene;
         m_result.inputHash = worker.inputHash;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "editor_ui/bake_job.h"
+#include "engine/overlay/overlay.h"
 #include "engine/relight/relight.h"
 
 #include <condition_variable>
@@ -11,9 +12,10 @@ namespace limn {
 /// What the relighting thread has to show. Everything is immutable or a copy.
 struct Relit {
     std::shared_ptr<const IndirectField> field; ///< null: no bake yet
-    std::shared_ptr<const TraceScene> trace;    ///< of the newest scene but for the last moments
-    std::shared_ptr<const Scene> hashedScene;   ///< what `inputHash` belongs to
-    std::uint64_t inputHash = 0;                ///< bakeInputHash(*hashedScene)
+    std::shared_ptr<const LitBake> lit; ///< that the field belongs to; null unless keepLit(true)
+    std::shared_ptr<const TraceScene> trace;  ///< of the newest scene but for the last moments
+    std::shared_ptr<const Scene> hashedScene; ///< what `inputHash` belongs to
+    std::uint64_t inputHash = 0;              ///< bakeInputHash(*hashedScene)
     RelightStatus status;
 };
 
@@ -39,6 +41,9 @@ public:
     /// no field.
     void setLighting(bool here);
 
+    /// Whether Relit::lit is wanted, for an overlay of light. At first it is not.
+    void keepLit(bool keep);
+
     Relit result() const;
 
 private:
@@ -50,7 +55,7 @@ private:
     std::condition_variable m_changed;
     std::shared_ptr<const Scene> m_nextScene; ///< not yet taken
     std::optional<BakedScene> m_nextBake;     ///< not yet taken
-    bool m_lighting = true;
+    bool m_lighting = true, m_keepLit = false;
     bool m_stop = false;
     Relit m_result;
     std::atomic<bool> m_cancel{false};

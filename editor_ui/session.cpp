@@ -130,6 +130,7 @@ void Session::takeOpened() {
     m_scene = hasBake ? file.baked.scene
                       : std::make_shared<const Scene>(flatten(state.document, state.assets));
     m_followed = state.document.objects;
+    m_shownSeconds = state.seconds;
     state.view.camera = chooseCamera(*m_scene, {});
     state.sceneBounds = m_scene->bounds;
     state.expectedCaches = expectedCaches(*m_scene);
@@ -219,7 +220,9 @@ void Session::followDocument() {
     if (state.document.objects == m_followed)
         return;
     m_followed = state.document.objects;
-    auto scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
+    m_shownSeconds = state.seconds;
+    auto scene =
+        std::make_shared<const Scene>(flatten(state.document, state.assets, m_shownSeconds));
     if (lightChanged(*m_scene, *scene)) {
         m_bakeSecondsAtLightEdit = bakeSeconds();
         m_lightEdited = true;
@@ -230,6 +233,17 @@ void Session::followDocument() {
     state.expectedCaches = expectedCaches(*m_scene);
     if (!sameList)
         fitLayout();
+    m_relightJob.setScene(m_scene);
+}
+
+void Session::followTime() {
+    if (state.seconds == m_shownSeconds)
+        return;
+    m_shownSeconds = state.seconds;
+    Scene scene = *m_scene;
+    if (!showTime(scene, state.document, m_shownSeconds))
+        return;
+    m_scene = std::make_shared<const Scene>(std::move(scene));
     m_relightJob.setScene(m_scene);
 }
 
@@ -246,6 +260,7 @@ void Session::showStatus() {
     m_relit = m_relightJob.result();
     state.trace = m_relit.trace;
     m_relightJob.setLighting(!viewportRelights());
+    m_relightJob.keepLit(showsLight(state.overlay.options.kind) && !viewportRelights());
     if (!viewportRelights())
         state.relight = m_relit.status;
     m_bakeJob.report(state.bake);
@@ -277,6 +292,7 @@ void Session::update() {
     takeSaved();
     takeBaked();
     followDocument();
+    followTime();
     showStatus();
 }
 

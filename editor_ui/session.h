@@ -49,6 +49,9 @@ public:
         return m_baked.bake && state.relightPlace.used() == RelightOn::Gpu;
     }
 
+    /// What an overlay of light shows; null: there is no such overlay, or the viewport relights.
+    const std::shared_ptr<const LitBake>& lit() const { return m_relit.lit; }
+
     bool wantsQuit() const { return m_quit; }
     /// Nothing is being opened, saved, baked or relit.
     bool idle() const;
@@ -62,6 +65,7 @@ private:
     void takeSaved();
     void takeBaked();
     void followDocument();
+    void followTime();
     void showStatus();
     void useBake(BakedScene baked);
     void fitLayout();
@@ -72,7 +76,8 @@ private:
     FileJob m_files;
     BakeJob m_bakeJob;
     RelightJob m_relightJob;
-    ObjectsById m_followed; ///< the document's objects as m_scene shows them
+    double m_shownSeconds = 0; ///< of films, as m_scene shows them
+    ObjectsById m_followed;    ///< the document's objects as m_scene shows them
     std::shared_ptr<const Scene> m_scene;
     std::shared_ptr<const LightmapLayout> m_layout;
     BakedScene m_baked;

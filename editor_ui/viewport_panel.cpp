@@ -122,7 +122,7 @@ static void release(EditorState& state) {
     if (glm::length(mousePosition() - view.pressedAt) > kClickPixels)
         return;
     pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
-    if (state.overlay.options.kind == Overlay::Links)
+    if (hasCache(state.overlay.options.kind))
         pickCacheAt(state, view.pressedAt);
 }
 

@@ -2,6 +2,7 @@
 #include "engine/overlay/overlay.h"
 
 #include "engine/core/parallel.h"
+#include "engine/overlay/light_overlay.h"
 #include "engine/overlay/link_cut.h"
 #include "engine/overlay/palette.h"
 #include "engine/overlay/texel_overlay.h"
@@ -66,6 +67,10 @@ static std::vector<OverlayMark> surfelMarks(const Surfels& surfels, const ColorO
         }
     });
     return marks;
+}
+
+std::vector<OverlayMark> surfelMarks(const Surfels& surfels, const std::vector<glm::vec3>& colors) {
+    return surfelMarks(surfels, [&](std::uint32_t i) { return colors[i]; });
 }
 
 static std::string sizeNote(const Surfels& surfels) {
@@ -243,7 +248,8 @@ static OverlayData linkOverlay(const Bake& bake, const Scene& scene, std::uint32
     return out;
 }
 
-OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options) {
+OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options,
+                        const LitBake* lit) {
     switch (options.kind) {
     case Overlay::None:
         return {};
@@ -263,6 +269,10 @@ OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptio
     case Overlay::Density:
     case Overlay::Overlap:
         return texelOverlay(bake, scene, options.kind);
+    case Overlay::LitSurfels:
+    case Overlay::LitClusters:
+    case Overlay::Lobes:
+        return lightOverlay(bake, options, lit);
     }
     return {};
 }

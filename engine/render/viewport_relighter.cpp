@@ -2,6 +2,7 @@
 #include "engine/render/viewport_relighter.h"
 
 #include "engine/relight/surfel_material.h"
+#include "engine/scene/receiver_bands.h"
 
 #include <chrono>
 
@@ -20,14 +21,20 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     const auto start = std::chrono::steady_clock::now();
     const Bake& bake = *m_gpu->bake();
     if (m_albedo.size() != bake.surfels.size() || m_materials != scene.materials) {
-        surfelMaterials(bake.surfels, scene, m_albedo, m_emitted);
+        surfelMaterials(bake.surfels, scene, m_albedo, m_emitted, m_materials);
         m_materials = scene.materials;
     }
     const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, scene.sky);
     const ShadowedLights lights = viewport.shadowedLights();
-    const GpuRelightStats g = m_gpu->relight(
-        {.direct = {}, .albedo = m_albedo, .emitted = m_emitted, .sky = sky, .lights = &lights},
-        bounces, progress);
+    const auto most = int(bake.settings.bands);
+    const auto bands = std::uint32_t(receiverBands(scene, most));
+    const GpuRelightStats g = m_gpu->relight({.direct = {},
+                                              .albedo = m_albedo,
+                                              .emitted = m_emitted,
+                                              .sky = sky,
+                                              .lights = &lights,
+                                              .bands = bands},
+                                             bounces, progress);
     viewport.setIndirect(m_gpu->field());
     const ViewportStats& drawn = viewport.stats();
     RelightStats stats;
@@ -36,6 +43,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.pullMs = g.pullMs;
     stats.cacheLightMs = g.cacheLightMs;
     stats.fieldMs = g.fieldMs;
+    stats.bandsLit = bands;
+    stats.bandsSkipped = std::uint32_t(most) - bands;
     stats.bounces = g.bounces;
     stats.converged = g.converged;
     stats.skipped = g.skipped;

@@ -213,8 +213,10 @@ TEST(Overlays, OneWithoutAPickOrWithoutABakeSaysSoAndDrawsNothing) {
 
 TEST(Overlays, EachHasALegend) {
     for (std::uint32_t k = 1; k < kOverlays.size(); ++k) {
-        const OverlayData data =
-            makeOverlay(room().bake, room().scene, {.kind = Overlay(k), .depth = 3, .cache = 0});
+        const LitBake lit{std::vector<glm::vec4>(room().bake.tree.size(), glm::vec4(1)),
+                          std::vector<glm::vec3>(room().bake.caches.size() * 4, glm::vec3(1)), 2};
+        const OverlayData data = makeOverlay(room().bake, room().scene,
+                                             {.kind = Overlay(k), .depth = 3, .cache = 0}, &lit);
         EXPECT_FALSE(data.legend.title.empty()) << kOverlays[k].name;
         EXPECT_FALSE(data.legend.entries.empty() && data.legend.notes.empty());
         EXPECT_FALSE(data.marks.empty() && data.texels.empty()) << kOverlays[k].name;
@@ -295,6 +297,51 @@ TEST(TexelUses, ABakesLightmapHasNoOverlapAndUsesTheTexelsOfItsCaches) {
         EXPECT_NE(use.kind[bake.caches.texel[c]], TexelUse::Kind::Unused) << c;
     for (const TexelUse::Kind kind : use.kind)
         EXPECT_NE(kind, TexelUse::Kind::Overlap);
+}
+
+TEST(LightOverlays, EqualRadiosityIsOneColourAndTwiceAsMuchIsBrighter) {
+    const Bake& bake = room().bake;
+    LitBake lit{std::vector<glm::vec4>(bake.tree.size(), glm::vec4(2)),
+                std::vector<glm::vec3>(bake.caches.size() * 4, glm::vec3(0)), 2};
+    lit.radiosity[5] = glm::vec4(4);
+    const OverlayData data = makeOverlay(bake, room().scene, {.kind = Overlay::LitSurfels}, &lit);
+    ASSERT_EQ(data.marks.size(), bake.surfels.size());
+    for (std::size_t i = 0; i < data.marks.size(); ++i)
+        EXPECT_EQ(data.marks[i].color == data.marks[0].color, i != 5) << i;
+    EXPECT_GT(data.marks[5].color & 255, data.marks[0].color & 255);
+    // At the root there is one cluster.
+    const OverlayData root =
+        makeOverlay(bake, room().scene, {.kind = Overlay::LitClusters, .depth = 0}, &lit);
+    for (const OverlayMark& m : root.marks)
+        EXPECT_EQ(m.color, root.marks[0].color);
+}
+
+TEST(LightOverlays, ALobeReachesAsFarAsTheLightAndIsOrangeWhereThatIsNegative) {
+    const Bake& bake = room().bake;
+    const std::uint32_t cache = firstCache(true);
+    LitBake lit{std::vector<glm::vec4>(bake.tree.size(), glm::vec4(0)),
+                std::vector<glm::vec3>(bake.caches.size() * 4, glm::vec3(0)), 2};
+    lit.cacheSh[cache * 4 + 1] = glm::vec3(1); // L = sqrt(3 / 4 pi) y
+    const OverlayOptions options{.kind = Overlay::Lobes, .cache = cache};
+    const OverlayData data = makeOverlay(bake, room().scene, options, &lit);
+    ASSERT_FALSE(data.marks.empty());
+    glm::vec3 centre(0); // the figure is symmetric
+    for (const OverlayMark& m : data.marks)
+        centre += m.position / float(data.marks.size());
+    const auto isOrange = [](const OverlayMark& m) {
+        return (m.color & 255) > (m.color >> 16 & 255);
+    };
+    float reach = 0;
+    for (const OverlayMark& m : data.marks)
+        reach = std::max(reach, glm::distance(m.position, centre));
+    for (const OverlayMark& m : data.marks) {
+        const glm::vec3 d = m.position - centre;
+        const float r = glm::length(d);
+        if (r < 0.1f * reach)
+            continue;
+        EXPECT_EQ(isOrange(m), d.y < 0);
+        EXPECT_NEAR(r / reach, std::abs(d.y) / r, 0.02f); // r = cos
+    }
 }
 
 TEST(Palette, ViridisGrowsLighterAndDistinctColoursDiffer) {
