@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
+#include "engine/relight/dimming.h"
 #include "engine/render/viewport_relighter.h"
 
 #include <algorithm>
@@ -12,7 +13,10 @@
 namespace limn {
 
 // Nothing is measured for one picture: that would take longer than to relight it on either.
-static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
+static RelightOn choose(const gpu::Device& device, const Scene& scene,
+                        const RenderRequest& request) {
+    if (request.relightOn == RelightOn::Auto && dimsLinks(scene))
+        return RelightOn::Cpu; // only it does that
     const VkPhysicalDeviceProperties& p = device.properties;
     return chooseRelight(
         request.relightOn, true,
@@ -25,7 +29,7 @@ static Result<void> relight(gpu::Device& device, Viewport& viewport, const Scene
                             const RenderRequest& request, RenderedImage& result) {
     if (!request.relight)
         return {};
-    const bool onGpu = choose(device, request) == RelightOn::Gpu;
+    const bool onGpu = choose(device, scene, request) == RelightOn::Gpu;
     auto relighter = onGpu ? ViewportRelighter::create(device, request.bake)
                            : Result<std::unique_ptr<ViewportRelighter>>();
     if (!relighter && request.relightOn == RelightOn::Gpu)

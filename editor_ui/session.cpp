@@ -4,6 +4,7 @@
 #include "editor_ui/document_edit.h"
 #include "editor_ui/overlay_panel.h"
 #include "editor_ui/recent_files.h"
+#include "engine/relight/dimming.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -259,6 +260,7 @@ static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, cons
 void Session::showStatus() {
     m_relit = m_relightJob.result();
     state.trace = m_relit.trace;
+    state.relightPlace.dims = dimsLinks(*m_scene);
     m_relightJob.setLighting(!viewportRelights());
     m_relightJob.keepLit(showsLight(state.overlay.options.kind) && !viewportRelights());
     if (!viewportRelights())

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/files/enum_names.h"
+#include "engine/files/material_fields.h"
 #include "engine/scene/document.h"
 
-#include <limits>
 #include <string_view>
 
 #include <glm/gtc/constants.hpp>
 
 namespace limn {
-
-/// What a number may be. Every number must be finite besides.
-struct FieldRange {
-    double lower = std::numeric_limits<double>::lowest();
-    double upper = std::numeric_limits<double>::max();
-};
-inline constexpr FieldRange kNotNegative{0};
-inline constexpr FieldRange kUnitRange{0, 1};
-inline constexpr FieldRange kFilmFrames{1, 256};
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
 
@@ -30,18 +20,6 @@ void describeTransform(Fields& fields, T& t) {
 }
 
 template <class Fields, class T>
-void describeTexture(Fields& fields, T& t) {
-    fields("image", t.image, FieldRange{-1});
-    fields("texCoord", t.texCoord, kUnitRange);
-    fields("offset", t.offset);
-    fields("scale", t.scale);
-    fields("rotation", t.rotation);
-    fields("wrapU", t.wrapU, kWrapNames);
-    fields("wrapV", t.wrapV, kWrapNames);
-    fields("nearest", t.nearest);
-}
-
-template <class Fields, class T>
 void describeNode(Fields& fields, T& n) {
     fields("name", n.name);
     fields("parent", n.parent);
@@ -49,33 +27,6 @@ void describeNode(Fields& fields, T& n) {
     fields("meshes", n.meshes);
     fields("visible", n.visible);
     fields("dynamic", n.dynamic);
-}
-
-template <class Fields, class T>
-void describeFilm(Fields& fields, T& f) {
-    fields("columns", f.columns, kFilmFrames);
-    fields("rows", f.rows, kFilmFrames);
-    fields("framesPerSecond", f.framesPerSecond, FieldRange{0, 1000});
-}
-
-template <class Fields, class T>
-void describeMaterial(Fields& fields, T& m) {
-    const auto texture = [](auto& f, auto& t) { describeTexture(f, t); };
-    fields("name", m.name);
-    fields("baseColor", m.baseColor, kUnitRange);
-    fields("metallic", m.metallic, kUnitRange);
-    fields("roughness", m.roughness, kUnitRange);
-    fields("emission", m.emission, kNotNegative);
-    fields("alphaMode", m.alphaMode, kAlphaNames);
-    fields("alphaCutoff", m.alphaCutoff, kNotNegative);
-    fields("doubleSided", m.doubleSided);
-    fields("normalScale", m.normalScale);
-    fields.object("baseColorTexture", m.baseColorTexture, texture);
-    fields.object("metallicRoughnessTexture", m.metallicRoughnessTexture, texture);
-    fields.object("normalTexture", m.normalTexture, texture);
-    fields.object("emissiveTexture", m.emissiveTexture, texture);
-    fields.object("emissiveFilm", m.emissiveFilm,
-                  [](auto& f, auto& film) { describeFilm(f, film); });
 }
 
 template <class Fields, class T>
