@@ -113,7 +113,8 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
         if (lights > 0)
             lit.lights = pointsOver(lit, baked.bake->surfels, lights);
         for (const std::string& wanted : o.devices) {
-            const Result<GpuRuns> measured = runsOn(wanted, lit, baked.trace, baked.bake, o.lit, o.runs);
+            const Result<GpuRuns> measured =
+                runsOn(wanted, lit, baked.trace, baked.bake, o.lit, o.runs);
             if (!measured)
                 return fail(fmt::format("on {}: {}", wanted, measured.error().message));
             rows.push_back(describe(baked, measured->device, lit, measured->runs, bandwidth));

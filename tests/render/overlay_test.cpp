@@ -119,6 +119,8 @@ TEST_F(ViewportOverlays, EachOverlayOfABakeIsDrawnInTurn) {
     const TraceScene trace(scene);
     const Result<Bake> baked = bake(trace);
     ASSERT_TRUE(baked);
+    const LitBake lit{std::vector<glm::vec4>(baked->tree.size(), {1, 0.5f, 0.2f, 0}),
+                      std::vector<glm::vec3>(baked->caches.size() * 4, glm::vec3(1)), 2};
     layout = std::make_shared<LightmapLayout>(baked->lightmap);
     options.camera.eye = {0.3f, 1.7f, 1.2f};
     options.width = options.height = 64;
@@ -126,7 +128,11 @@ TEST_F(ViewportOverlays, EachOverlayOfABakeIsDrawnInTurn) {
     for (int round = 0; round < 2; ++round) // frames in flight, buffers replaced
         for (std::uint32_t k = 1; k < kOverlays.size(); ++k) {
             const auto data = std::make_shared<const OverlayData>(
-                makeOverlay(*baked, scene, {.kind = Overlay(k), .depth = 4, .cache = 0}));
+                makeOverlay(*baked, scene,
+                            {.kind = Overlay(k),
+                             .depth = 4,
+                             .cache = k == std::uint32_t(Overlay::Links) ? 0 : ~0u},
+                            &lit));
             const Image image = drawOver(scene, data);
             std::size_t colored = 0;
             for (std::size_t p = 0; p < image.rgba.size(); p += 4)
