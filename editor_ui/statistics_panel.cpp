@@ -100,7 +100,8 @@ static void placeRow(RelightPlace& place) {
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
-    const bool open = ImGui::BeginCombo("##relight on", shown.c_str());
+    const bool open =
+        ImGui::BeginCombo("##relight on", shown.c_str(), ImGuiComboFlags_NoArrowButton);
     ImGui::PopStyleVar();
     if (!open)
         wrappedTooltip(placeTooltip(place.wanted));

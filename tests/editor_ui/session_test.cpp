@@ -4,8 +4,10 @@
 
 #include "editor_ui/action.h"
 #include "editor_ui/document_edit.h"
+#include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -81,6 +83,70 @@ TEST_F(SessionTest, AnOpenedSceneIsBakedAndLitUntilItConverges) {
     EXPECT_EQ(session.layout()->instances.size(), session.scene()->instances.size());
     ASSERT_TRUE(session.field());
     EXPECT_FALSE(hasUnsavedChanges(session.state));
+}
+
+TEST_F(SessionTest, ASkyImageIsReadLightsTheSceneWithoutABakeAndIsUndone) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const auto before = session.field();
+    const double bakeSeconds = session.bakeSeconds();
+    const std::string path = (folder / "sky.exr").string();
+    ASSERT_TRUE(writeExr(path, {4, 2, std::vector<glm::vec3>(8, glm::vec3(3))}));
+    session.state.requests.push_back({Request::Kind::OpenSkyImage, path});
+    ASSERT_TRUE(runUntil(session, [&] { return session.scene()->sky.showsImage(); }));
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_EQ(session.scene()->sky.image, path);
+    EXPECT_NE(session.field()->lightmap, before->lightmap);
+    EXPECT_EQ(session.bakeSeconds(), bakeSeconds);
+    EXPECT_TRUE(hasUnsavedChanges(session.state));
+    ASSERT_TRUE(undoEdit(session.state));
+    EXPECT_EQ(singleton<Sky>(session.state.document).kind, SkyKind::Color);
+    EXPECT_FALSE(hasUnsavedChanges(session.state));
+
+    session.state.requests.push_back({Request::Kind::OpenSkyImage, folder / "none.exr"});
+    ASSERT_TRUE(runUntil(session, [&] {
+        return session.state.log.back().level == LogLine::Level::Error && session.idle();
+    }));
+    EXPECT_NE(session.state.log.back().text.find("none.exr"), std::string::npos);
+}
+
+TEST_F(SessionTest, TimeThatGoesOnPlaysFilmsAndOnlyThoseAndChangesNoDocument) {
+    Session session(options());
+    session.open("signs");
+    ASSERT_TRUE(runUntil(session, [&] { return session.scene()->materials.size() > 7; }));
+    const auto still = session.scene();
+    session.state.seconds = 0.01; // all films still show their first frame
+    session.update();
+    EXPECT_EQ(session.scene(), still);
+    session.state.seconds = 0.5;
+    session.update();
+    ASSERT_NE(session.scene(), still);
+    for (std::size_t m = 0; m < still->materials.size(); ++m) {
+        const bool film = isAnimated(still->materials[m]);
+        EXPECT_EQ(session.scene()->materials[m] != still->materials[m], film) << m;
+    }
+    EXPECT_FALSE(hasUnsavedChanges(session.state));
+    const auto play = std::ranges::find(actions(), std::string("view.play"), &Action::id);
+    ASSERT_TRUE(play != actions().end() && play->enabled(session.state));
+    runAction(session.state, *play);
+    EXPECT_TRUE(session.state.playing);
+}
+
+TEST_F(SessionTest, AnOverlayOfLightGetsWhatTheFieldWasMadeOf) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_FALSE(session.lit());
+    session.state.overlay.options.kind = Overlay::LitSurfels;
+    ASSERT_TRUE(runUntil(session, [&] { return session.lit() != nullptr; }));
+    EXPECT_EQ(session.lit()->radiosity.size(), session.baked().bake->tree.size());
+    EXPECT_EQ(session.lit()->cacheSh.size(),
+              session.baked().bake->caches.size() *
+                  std::size_t(session.lit()->bands * session.lit()->bands));
+    session.state.overlay.options.kind = Overlay::None;
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] { return !session.lit(); }));
 }
 
 TEST_F(SessionTest, AnEditedLightChangesTheFieldWithoutABakeAndUndoRestoresIt) {
