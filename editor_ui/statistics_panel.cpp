@@ -37,8 +37,8 @@ static bool beginTable(const char* id, const char* heading) {
     ImGui::TextUnformatted(heading);
     if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_RowBg))
         return false;
-    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.6f);
-    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.4f);
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.53f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.47f);
     return true;
 }
 
