@@ -2,6 +2,7 @@
 #include "app/bench_bakes.h"
 #include "app/random_scene.h"
 
+#include "engine/core/log.h"
 #include "engine/gpu/device.h"
 #include "engine/measure/compare.h"
 #include "engine/render/shadow_maps.h"
@@ -29,8 +30,10 @@ struct StressBench {
     bool json = false;
 };
 
-/// Share of the time after which caches and pools have grown to what they need.
+/// Share of the time, and frames, after which caches and pools have grown to what they need and a
+/// driver has compiled its shaders.
 constexpr double kWarmUp = 0.2;
+constexpr std::uint64_t kWarmFrames = 100;
 
 constexpr std::uint32_t kMostShadowLayers = render::ShadowMaps::kMaxLayers;
 
@@ -58,7 +61,10 @@ struct StressResult {
     std::uint64_t gpuBytesWarm = 0, gpuBytesEnd = 0;
     std::vector<double> frameMs;
 
+    /// After the warm-up. 0 where it took all of the time: that says nothing.
     double growthMiB() const {
+        if (residentWarm == 0)
+            return 0;
         return (double(residentEnd) - double(residentWarm)) / double(1 << 20);
     }
 };
@@ -138,11 +144,15 @@ Result<StressResult> stress(const StressBench& o, const BenchBake& baked, gpu::D
         if (const Result<void> drawn = viewport.draw(random, result); !drawn)
             return tl::make_unexpected(drawn.error());
         seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        if (result.residentWarm == 0 && seconds >= kWarmUp * o.seconds) {
+        if (result.residentWarm == 0 && seconds >= kWarmUp * o.seconds &&
+            result.frames >= kWarmFrames) {
             result.gpuBytesWarm = viewport.gpuBytes();
             result.residentWarm = residentBytes();
         }
     }
+    if (result.residentWarm == 0)
+        logWarning(fmt::format("{}: {} frames are too few to tell whether memory grows", baked.name,
+                               result.frames));
     result.gpuBytesEnd = viewport.gpuBytes();
     result.residentEnd = residentBytes();
     return result;
@@ -247,7 +257,8 @@ void addStressBench(CLI::App& bench, Run& run) {
     command->add_option("--seed", o->seed, "the same makes the same changes");
     command
         ->add_option("--growth", o->growthMiB,
-                     "resident memory may grow by so much after a fifth of the time [MiB]")
+                     "resident memory may grow by so much after a fifth of the time and 100 frames "
+                     "[MiB]")
         ->check(CLI::Range(0.0, 1e6));
     command->add_option("--device", o->device, "part of a Vulkan device's name");
     command->add_flag("--json", o->json, "one JSON object on stdout");
