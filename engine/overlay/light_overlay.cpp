@@ -108,7 +108,7 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
     const Caches& caches = bake.caches;
     const auto count = std::uint32_t(caches.size());
     const auto coefficients = std::size_t(lit.bands * lit.bands);
-    const bool one = picked < count, grid = one ? picked >= caches.lightmapCount : false;
+    const bool one = picked < count, grid = one && picked >= caches.lightmapCount;
     const std::uint32_t every = std::max(1U, (caches.lightmapCount + kMostLobes - 1) / kMostLobes);
     const DirectionSet directions(one ? kPickedDots : kDots, true, 0);
     std::vector<float> basis(directions.count * coefficients);
@@ -161,10 +161,7 @@ OverlayData lightOverlay(const Bake& bake, const OverlayOptions& options, const 
             bake, *lit,
             fmt::format("Lit clusters at depth {} of {}", options.depth, treeDepth(bake.tree)),
             clustersAtDepth(bake.tree, options.depth));
-    std::vector<std::uint32_t> self(bake.surfels.size());
-    for (std::uint32_t i = 0; i < self.size(); ++i)
-        self[i] = i;
-    return radiosityOverlay(bake, *lit, "Lit surfels", self);
+    return radiosityOverlay(bake, *lit, "Lit surfels", clustersAtDepth(bake.tree, ~0u));
 }
 
 } // namespace limn

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/relight.h"
 
-#include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
 #include "engine/relight/bouncing.h"
 #include "engine/relight/cache_light.h"

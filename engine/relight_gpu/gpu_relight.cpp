@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight_gpu/gpu_relight.h"
 
-#include "engine/bake/cluster_tree.h"
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
 #include "engine/relight/bouncing.h"

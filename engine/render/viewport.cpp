@@ -106,6 +106,7 @@ struct Viewport::Impl {
     void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
     void recordShade(VkCommandBuffer cmd, const FrameSlot& slot, const GeometryView& view,
                      const ViewportOptions& options);
+    void beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options);
     void recordSky(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options,
                    std::uint32_t slotIndex);
     void recordDirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options);
@@ -313,16 +314,21 @@ void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
                       gpu::kFragmentRead);
 }
 
-void Viewport::Impl::recordSky(VkCommandBuffer cmd, const FrameSlot& slot,
-                               const ViewportOptions& options, std::uint32_t slotIndex) {
-    if (options.view != View::Lit || !sky.active())
-        return;
+// Draws over the whole linear image, after what is in it.
+void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options) {
     gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
     const std::array color = {attachment(targets.linear.view,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_LOAD, {})};
     beginRendering(cmd, options.width, options.height, color, nullptr);
     setViewport(cmd, options.width, options.height, false);
+}
+
+void Viewport::Impl::recordSky(VkCommandBuffer cmd, const FrameSlot& slot,
+                               const ViewportOptions& options, std::uint32_t slotIndex) {
+    if (options.view != View::Lit || !sky.active())
+        return;
+    beginOnLinear(cmd, options);
     sky.record(cmd, slot.set, slotIndex);
     vkCmdEndRendering(cmd);
 }
@@ -330,12 +336,7 @@ void Viewport::Impl::recordSky(VkCommandBuffer cmd, const FrameSlot& slot,
 void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
                                   const ViewportOptions& options) {
     if (showsDirectLight(options.view) && !lights.empty()) {
-        gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
-        const std::array color = {attachment(targets.linear.view,
-                                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                             VK_ATTACHMENT_LOAD_OP_LOAD, {})};
-        beginRendering(cmd, options.width, options.height, color, nullptr);
-        setViewport(cmd, options.width, options.height, false);
+        beginOnLinear(cmd, options);
         direct.record(cmd, slot.set, options.view);
         vkCmdEndRendering(cmd);
     }
