@@ -56,9 +56,7 @@ static Result<std::uint32_t> pickedCache(const OverlayFlags& flags, const Bake& 
     const glm::vec2 ndc = (at + 0.5f) / size * 2.f - 1.f;
     const glm::vec3 d = rayDirection(camera, size.x / size.y, ndc.x, -ndc.y);
     const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)});
-    const auto cache =
-        hit ? cacheAt(bake, trace.scene(), hit.instance, hit.triangle, hit.u, hit.v, hit.position)
-            : std::nullopt;
+    const auto cache = hit ? cacheAt(bake, trace.scene(), hit) : std::nullopt;
     if (!cache)
         return fail("--pick: there is no cache at this pixel");
     return *cache;

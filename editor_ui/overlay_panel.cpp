@@ -54,7 +54,7 @@ void pickCacheAt(EditorState& state, glm::vec2 mouse) {
     if (!state.trace || !overlay.bake)
         return;
     const Picture picture = state.view.picture();
-    const Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
+    Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
     if (!hit)
         return;
     const Instance& seen = state.trace->scene().instances[hit.instance];
@@ -62,9 +62,8 @@ void pickCacheAt(EditorState& state, glm::vec2 mouse) {
     const auto same = std::ranges::find_if(
         baked, [&](const Instance& i) { return i.node == seen.node && i.mesh == seen.mesh; });
     // One that the bake does not know is lit from the grid, as its number past the end says.
-    const auto instance = std::uint32_t(same - baked.begin());
-    if (const auto cache = cacheAt(*overlay.bake, *overlay.scene, instance, hit.triangle, hit.u,
-                                   hit.v, hit.position))
+    hit.instance = std::uint32_t(same - baked.begin());
+    if (const auto cache = cacheAt(*overlay.bake, *overlay.scene, hit))
         pickCache(overlay, *cache);
 }
 
@@ -126,8 +125,6 @@ static const char* kindText(CacheKind kind) {
     switch (kind) {
     case CacheKind::Hemisphere:
         return "Lightmap texel";
-    case CacheKind::TwoSided:
-        return "Lightmap texel, both sides";
     case CacheKind::Grid:
         return "Grid cell";
     }

@@ -11,7 +11,6 @@ layout(location = 1) in float radius;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec4 color;
 layout(location = 4) in uint shape;
-layout(location = 5) in uint twoSided;
 
 layout(location = 0) out vec2 local; // [-1, 1]^2
 layout(location = 1) flat out vec4 markColor;
@@ -38,6 +37,6 @@ void main() {
     const vec3 p = position + r * (kLift * n + local.x * t + local.y * cross(n, t));
     gl_Position = push.toClip * vec4(p, 1);
     gl_Position.z *= kNearer; // depth is near / distance
-    if (facing <= 0.0 && twoSided == 0)
+    if (facing <= 0.0)
         gl_Position = vec4(2, 2, 2, 1); // outside, all four
 }

@@ -17,7 +17,8 @@ layout(location = 1) in vec2 fragLightmapUv;
 layout(location = 0) out vec4 outColor;
 
 void main() {
-    const vec2 x = fragLightmapUv * vec2(width, height);
+    const bool back = gl_FrontFacing == (draw.sideOffset < 0.0);
+    const vec2 x = (fragLightmapUv + vec2(0, back ? abs(draw.sideOffset) : 0.0)) * vec2(width, height);
     // Not of x: helper invocations need not read buffers.
     const vec2 texelsPerPixel = fwidth(fragLightmapUv) * vec2(width, height);
     const vec3 g = cross(dFdx(fragPosition), dFdy(fragPosition));

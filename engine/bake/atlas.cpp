@@ -32,7 +32,7 @@ double lightmappedArea(const AtlasInput& in) {
             for (std::size_t t = 0; t < in.scene.meshOf(instance).triangleCount(); ++t)
                 mesh += double(triangleArea(in.scene.meshOf(instance), t));
         }
-        sum += mesh * double(in.scale[i]) * double(in.scale[i]);
+        sum += mesh * double(in.scale[i]) * double(in.scale[i]) * sidesOf(in, instance);
     }
     return sum;
 }
@@ -46,7 +46,7 @@ std::uint32_t countAt(const AtlasInput& in, float density, const Progress& progr
         std::vector<std::uint8_t> scratch;
         std::uint32_t sum = 0;
         for (std::size_t p = begin; p < end; ++p)
-            sum += countTexels(in, places[p], scratch);
+            sum += countTexels(in, places[p], scratch) * places[p].sides;
         count += sum;
     });
     return count;
@@ -86,29 +86,46 @@ float findDensity(const AtlasInput& in, std::uint32_t wanted, const Progress& pr
     return density(low);
 }
 
-/// Packs the places; sets their offsets and the atlas size.
-void packPlaces(std::vector<ChartPlace>& places, LightmapLayout& layout) {
+/// Packs those places that have so many sides into rows of texels from `top` on; sets their
+/// offsets. Returns how many rows they take.
+std::uint32_t packPlaces(std::vector<ChartPlace>& places, std::uint32_t sides, std::uint32_t width,
+                         std::uint32_t top) {
     std::vector<stbrp_rect> rects;
-    std::uint64_t area = 0;
-    std::uint32_t widest = 1, tallestSum = 1;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        rects.push_back({int(i), int(places[i].size.x), int(places[i].size.y), 0, 0, 0});
-        area += std::uint64_t(places[i].size.x) * places[i].size.y;
-        widest = std::max(widest, places[i].size.x);
-        tallestSum += places[i].size.y;
-    }
-    layout.width = std::max(widest, std::uint32_t(std::ceil(std::sqrt(double(area) * 1.1))));
-    std::vector<stbrp_node> nodes(layout.width);
+    std::uint32_t tallestSum = 1, rows = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (places[i].sides == sides) {
+            rects.push_back({int(i), int(places[i].size.x), int(places[i].size.y), 0, 0, 0});
+            tallestSum += places[i].size.y;
+        }
+    std::vector<stbrp_node> nodes(width);
     stbrp_context context;
-    stbrp_init_target(&context, int(layout.width), int(std::min(tallestSum, 1U << 30)),
-                      nodes.data(), int(nodes.size()));
+    stbrp_init_target(&context, int(width), int(std::min(tallestSum, 1U << 30)), nodes.data(),
+                      int(nodes.size()));
     stbrp_pack_rects(&context, rects.data(), int(rects.size()));
-    layout.height = 1;
     for (const stbrp_rect& r : rects) {
         assert(r.was_packed);
-        places[std::size_t(r.id)].offset = {r.x, r.y};
-        layout.height = std::max(layout.height, std::uint32_t(r.y + r.h));
+        places[std::size_t(r.id)].offset = {r.x, int(top) + r.y};
+        rows = std::max(rows, std::uint32_t(r.y + r.h));
     }
+    return rows;
+}
+
+/// Packs the places and sets the atlas size: the fronts of two-sided instances at the top, their
+/// backs in the same order below, and the rest under both. So one distance leads from every front
+/// to its back.
+void packAtlas(std::vector<ChartPlace>& places, LightmapLayout& layout) {
+    std::uint64_t area = 0;
+    std::uint32_t widest = 1;
+    for (const ChartPlace& p : places) {
+        area += std::uint64_t(p.size.x) * p.size.y * p.sides;
+        widest = std::max(widest, p.size.x);
+    }
+    layout.width = std::max(widest, std::uint32_t(std::ceil(std::sqrt(double(area) * 1.1))));
+    const std::uint32_t backRows = packPlaces(places, 2, layout.width, 0);
+    layout.height = std::max(1U, 2 * backRows + packPlaces(places, 1, layout.width, 2 * backRows));
+    for (const ChartPlace& p : places)
+        if (p.sides == 2)
+            layout.instances[p.instance].backRows = backRows;
 }
 
 void writeUv(const ChartPlace& place, const AtlasInput& in, LightmapLayout& layout) {
@@ -156,14 +173,17 @@ Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeS
     LightmapLayout& layout = atlas.layout;
     layout.instances.resize(scene.instances.size());
     if (done && !places.empty())
-        packPlaces(places, layout);
+        packAtlas(places, layout);
     for (std::size_t p = 0; done && p < places.size(); ++p) {
         writeUv(places[p], in, layout);
-        for (const LocalTexel& t : covered[p]) {
-            const glm::uvec2 at = glm::uvec2(places[p].offset) + t.at;
-            atlas.texels.push_back(
-                {at.y * layout.width + at.x, places[p].instance, t.count, t.points});
-        }
+        const std::uint32_t instance = places[p].instance;
+        for (const LocalTexel& t : covered[p])
+            for (std::uint32_t back = 0; back < places[p].sides; ++back) {
+                const glm::uvec2 at = glm::uvec2(places[p].offset) + t.at;
+                const std::uint32_t y = at.y + back * layout.instances[instance].backRows;
+                atlas.texels.push_back(
+                    {y * layout.width + at.x, instance, back, t.count, t.points});
+            }
     }
     std::sort(atlas.texels.begin(), atlas.texels.end(),
               [](const AtlasTexel& x, const AtlasTexel& y) { return x.texel < y.texel; });
@@ -184,12 +204,17 @@ Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv) {
             {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
 }
 
+float backOffset(const LightmapLayout& layout, std::uint32_t instance) {
+    return float(layout.instances[instance].backRows) / float(layout.height);
+}
+
 glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
-                     std::uint32_t triangle, float u, float v) {
+                     std::uint32_t triangle, float u, float v, bool back) {
     const std::vector<glm::vec2>& uv = layout.instances[instance].uv;
     const std::vector<std::uint32_t>& indices = layout.meshes[mesh].indices;
-    return uv[indices[3 * triangle]] * (1 - u - v) + uv[indices[3 * triangle + 1]] * u +
-           uv[indices[3 * triangle + 2]] * v;
+    const glm::vec2 front = uv[indices[3 * triangle]] * (1 - u - v) +
+                            uv[indices[3 * triangle + 1]] * u + uv[indices[3 * triangle + 2]] * v;
+    return {front.x, front.y + (back ? backOffset(layout, instance) : 0.f)};
 }
 
 } // namespace limn

@@ -11,14 +11,15 @@
 
 namespace limn {
 
-/// A texel that a bilinear lookup can meet, and the surface it stands for: points spread over the
-/// part of the surface that lies in it; the closest point where none does.
+/// A texel that a bilinear lookup can meet, and the side of the surface it stands for: points
+/// spread over the part of the surface that lies in it; the closest point where none does.
 struct AtlasTexel {
     /// Not a Fibonacci number: every seventh direction of a Fibonacci lattice is again well spread.
     static constexpr std::uint32_t kMostPoints = 7;
 
     std::uint32_t texel;     ///< y * width + x
     std::uint32_t instance;  ///< index into Scene::instances
+    std::uint32_t back;      ///< 1: it stands for the back of a two-sided surface
     std::uint32_t count = 0; ///< of points, [1, kMostPoints]
     std::array<MeshPoint, kMostPoints> points;
 };
@@ -32,10 +33,11 @@ struct Atlas {
 /// Places every static instance's charts in one atlas. A chart of extent e metres gets round(e *
 /// density) + 1 texels a side, its borders on texel centres, so bilinear lookups stay inside
 /// without padding; a side under half a texel becomes one texel; charts smaller than that in both
-/// share a texel with their neighbours of like orientation. The density is settings.texelsPerMetre,
-/// or found by bisection so that about settings.lightmapCaches texels are met. `charts` per mesh,
-/// as Assets::meshes. Of the instances it reads only mesh, dynamic and atlasScale. Unfinished when
-/// cancelled.
+/// share a texel with their neighbours of like orientation. A two-sided surface has two places of
+/// like shape, one for each side: light on one side says nothing about the other. The density is
+/// settings.texelsPerMetre, or found by bisection so that about settings.lightmapCaches texels are
+/// met. `charts` per mesh, as Assets::meshes. Of the instances it reads only mesh, dynamic,
+/// atlasScale and whether they are two-sided. Unfinished when cancelled.
 Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
                  const Progress& progress = {});
 
@@ -50,9 +52,12 @@ struct Bilinear {
 };
 Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv);
 
-/// Normalised atlas coordinate at barycentrics (u, v) of a triangle. Precondition: the instance has
-/// a lightmap.
+/// How far below an instance's front its back lies, in normalised atlas coordinates.
+float backOffset(const LightmapLayout& layout, std::uint32_t instance);
+
+/// Normalised atlas coordinate at barycentrics (u, v) of a triangle, of its back where `back`; on a
+/// one-sided surface both are its front. Precondition: the instance has a lightmap.
 glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
-                     std::uint32_t triangle, float u, float v);
+                     std::uint32_t triangle, float u, float v, bool back);
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/bake/input_hash.h"
 #include "engine/bake/open_points.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/surfels.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 
@@ -32,11 +33,13 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
 
 /// Of all that buildAtlas reads.
 std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes) {
-    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 24);
+    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 26);
     h = hashValue(scene.bake.texelsPerMetre, h);
-    for (const Instance& i : scene.instances)
+    for (const Instance& i : scene.instances) {
+        h = hashValue(atlasScale(i), hashValue(meshes[i.mesh], h));
         h = hashValue(std::uint32_t(i.dynamic),
-                      hashValue(atlasScale(i), hashValue(meshes[i.mesh], h)));
+                      hashValue(std::uint32_t(isTwoSided(scene.materialOf(i))), h));
+    }
     return h;
 }
 

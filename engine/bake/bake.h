@@ -67,16 +67,16 @@ struct Link {
 };
 static_assert(sizeof(Link) == 12);
 
-/// What a cache sees. TwoSided: a surface that shows both sides; the front half-space from its
-/// front, the rest from its back. Grid: everything around a point in the air.
-enum class CacheKind : std::uint8_t { Hemisphere, TwoSided, Grid };
+/// What a cache sees. Hemisphere: all before one side of a surface. Grid: all around a point in the
+/// air.
+enum class CacheKind : std::uint8_t { Hemisphere, Grid };
 
 /// Where radiance is gathered: texels of the lightmap first, then cells of the grid.
 struct Caches {
     std::uint32_t lightmapCount = 0;
     std::vector<CacheKind> kind;
     std::vector<glm::vec3> position;  ///< world
-    std::vector<glm::vec3> normal;    ///< unit geometric normal of the front; 0 for Grid
+    std::vector<glm::vec3> normal;    ///< unit geometric normal of its side; 0 for Grid
     std::vector<std::uint32_t> texel; ///< lightmap: y * width + x; grid: cell index
     /// size()+1 offsets into its links; those to nothing but sky come last.
     std::vector<std::uint32_t> linkBegin;

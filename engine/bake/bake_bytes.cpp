@@ -85,7 +85,7 @@ std::uint64_t expectedCaches(const Scene& scene) {
             continue;
         layout.instances.back().uv.emplace_back(0);
         if (s.texelsPerMetre > 0)
-            area += worldArea(scene, i);
+            area += worldArea(scene, i) * (isTwoSided(scene.materialOf(i)) ? 2 : 1);
     }
     if (s.texelsPerMetre > 0)
         texels = area * double(s.texelsPerMetre) * double(s.texelsPerMetre);

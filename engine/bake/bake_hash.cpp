@@ -15,7 +15,7 @@ std::uint64_t hashLayout(const LightmapLayout& layout, std::uint64_t h) {
         h = hashVector(m.chartOfTriangle, hashVector(m.chartUv, hashVector(m.chartSize, h)));
     }
     for (const InstanceLightmap& i : layout.instances)
-        h = hashVector(i.uv, h);
+        h = hashValue(i.backRows, hashVector(i.uv, h));
     return h;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cache_points.h"
 
-#include "engine/bake/surfels.h"
 #include "engine/math/sampling.h"
 
 #include <algorithm>
@@ -24,8 +23,17 @@ WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPo
             length > 0 ? n / length : glm::vec3(0, 1, 0)};
 }
 
-std::uint32_t seedOf(const Instance& instance, const MeshPoint& point) {
-    std::uint32_t seed = mixBits(instance.mesh);
+WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t k) {
+    WorldPoint p = worldPoint(scene, scene.instances[texel.instance], texel.points[k]);
+    if (texel.back)
+        p.normal = -p.normal;
+    return p;
+}
+
+std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel) {
+    const Instance& instance = scene.instances[texel.instance];
+    const MeshPoint& point = texel.points[0];
+    std::uint32_t seed = mixBits(instance.mesh ^ (texel.back << 31));
     for (const std::uint32_t v : {std::uint32_t(instance.node), point.triangle,
                                   std::bit_cast<std::uint32_t>(point.barycentric.x),
                                   std::bit_cast<std::uint32_t>(point.barycentric.y)})
@@ -37,11 +45,10 @@ namespace {
 
 void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
                       CachePoints& points) {
-    const Instance& instance = scene.instances[texel.instance];
     const std::size_t first = points.position.size();
     glm::vec3 position{0}, normal{0};
     for (std::uint32_t k = 0; k < texel.count; ++k) {
-        const WorldPoint p = worldPoint(scene, instance, texel.points[k]);
+        const WorldPoint p = texelPoint(scene, texel, k);
         points.position.push_back(p.position);
         points.normal.push_back(p.normal);
         position += p.position / float(texel.count);
@@ -49,12 +56,11 @@ void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& cache
     }
     const float length = glm::length(normal);
     points.begin.push_back(std::uint32_t(points.position.size()));
-    caches.kind.push_back(isTwoSided(scene.materialOf(instance)) ? CacheKind::TwoSided
-                                                                 : CacheKind::Hemisphere);
+    caches.kind.push_back(CacheKind::Hemisphere);
     caches.position.push_back(position);
     caches.normal.push_back(length > 1e-3f ? normal / length : points.normal[first]);
     caches.texel.push_back(texel.texel);
-    points.seed.push_back(seedOf(instance, texel.points[0]));
+    points.seed.push_back(seedOf(scene, texel));
 }
 
 } // namespace
@@ -115,9 +121,11 @@ void connectSurfels(const Scene& scene, const LightmapLayout& layout, const Cach
     for (std::size_t s = 0; s < surfels.size(); ++s) {
         if (layout.instances[surfels.instance[s]].uv.empty())
             continue;
-        const glm::vec2 uv =
-            lightmapUv(layout, surfels.instance[s], scene.instances[surfels.instance[s]].mesh,
-                       surfels.triangle[s], surfels.barycentric[s].x, surfels.barycentric[s].y);
+        const Instance& instance = scene.instances[surfels.instance[s]];
+        const MeshPoint at{surfels.triangle[s], surfels.barycentric[s]};
+        const bool back = glm::dot(worldPoint(scene, instance, at).normal, surfels.normal[s]) < 0;
+        const glm::vec2 uv = lightmapUv(layout, surfels.instance[s], instance.mesh, at.triangle,
+                                        at.barycentric.x, at.barycentric.y, back);
         const Bilinear lookup = bilinearAt(layout, uv);
         float sum = 0;
         for (int k = 0; k < 4; ++k) {

@@ -22,8 +22,11 @@ struct WorldPoint {
 };
 WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point);
 
-/// Of a cache whose first point is `point`.
-std::uint32_t seedOf(const Instance& instance, const MeshPoint& point);
+/// Point k of a texel, with the normal of the side it stands for.
+WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t k);
+
+/// Of the cache of a texel.
+std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel);
 
 /// The caches of an atlas' texels, then those of the grid: kind, mean position, mean normal and
 /// texel are filled.
@@ -39,7 +42,7 @@ glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,
 /// and reads the nearest cells there.
 Bounds gridBoundsOf(const Scene& scene);
 
-/// Gives every surfel its four caches: the bilinear lookup at its place in the lightmap.
+/// Gives every surfel its four caches: the bilinear lookup at its side's place in the lightmap.
 void connectSurfels(const Scene& scene, const LightmapLayout& layout, const Caches& caches,
                     Surfels& surfels);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/chart_places.h"
 
+#include "engine/bake/surfels.h"
 #include "engine/scene/triangle_geometry.h"
 
 #include <algorithm>
@@ -133,6 +134,7 @@ void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUn
                  std::span<const Piece> pieces, std::vector<ChartPlace>& out) {
     const std::uint32_t mesh = in.scene.instances[instance].mesh;
     const MeshChartShapes& shapes = in.shapes[mesh];
+    const std::uint32_t sides = sidesOf(in, in.scene.instances[instance]);
     DisjointSets sets = joinTouching(cellsOf(shapes, pieces, texelsPerUnit), pieces.size());
     std::vector<std::uint32_t> placeOf(pieces.size());
     const std::size_t first = out.size();
@@ -140,7 +142,7 @@ void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUn
         const std::uint32_t set = sets.find(i); // <= i
         if (set == i) {
             placeOf[i] = std::uint32_t(out.size());
-            out.push_back({instance, {}, shapes.side[pieces[i].chart] / 2, {}, {}, {}, {}});
+            out.push_back({instance, sides, {}, shapes.side[pieces[i].chart] / 2, {}, {}, {}, {}});
         }
         out[placeOf[set]].charts.push_back(pieces[i].chart);
     }
@@ -165,10 +167,11 @@ void placeInstance(const AtlasInput& in, std::uint32_t instance, float texelsPer
                    std::vector<ChartPlace>& out) {
     const std::uint32_t mesh = in.scene.instances[instance].mesh;
     const MeshChartShapes& shapes = in.shapes[mesh];
+    const std::uint32_t sides = sidesOf(in, in.scene.instances[instance]);
     std::vector<Piece> pieces;
     for (std::uint32_t c = 0; c < in.charts[mesh].chartSize.size(); ++c) {
         if (standsAlone(shapes, in.charts[mesh], c, texelsPerUnit)) {
-            out.push_back({instance, {c}, -1, {}, {}, {}, {}});
+            out.push_back({instance, sides, {c}, -1, {}, {}, {}, {}});
             fitSize(out.back(), in.charts[mesh].chartSize[c], texelsPerUnit);
             continue;
         }
@@ -211,6 +214,10 @@ MeshChartShapes shapesOf(const Mesh& mesh, const MeshCharts& charts) {
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance) {
     return !instance.dynamic && !in.charts[instance.mesh].indices.empty();
+}
+
+std::uint32_t sidesOf(const AtlasInput& in, const Instance& instance) {
+    return isTwoSided(in.scene.materialOf(instance)) ? 2 : 1;
 }
 
 glm::vec2 cornerInPlace(const AtlasInput& in, const ChartPlace& place, std::uint32_t triangle,

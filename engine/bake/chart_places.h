@@ -34,10 +34,14 @@ struct AtlasInput {
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance);
 
+/// That are lit: 2 where the instance's material shows both.
+std::uint32_t sidesOf(const AtlasInput& in, const Instance& instance);
+
 /// A rectangle of texels onto which one or several charts of an instance are drawn. Its borders lie
 /// on texel centres.
 struct ChartPlace {
     std::uint32_t instance;
+    std::uint32_t sides; ///< that need such a rectangle each
     std::vector<std::uint32_t> charts;
     /// The charts' plane: -1, that of its only chart (MeshCharts::chartUv); else the plane of the
     /// object's axes (axis + 1) mod 3 and (axis + 2) mod 3.

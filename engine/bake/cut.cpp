@@ -63,8 +63,8 @@ glm::mat3 turnAboutZ(float turns) {
     return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// Irradiance, over its solid angle / pi, of a sender of radiosity 1; for a cache without one side
-/// (two-sided, grid) the mean over all normals that see it, by half.
+/// Irradiance, over its solid angle / pi, of a sender of radiosity 1; for a cell of the grid the
+/// mean over all normals that see it, by half.
 float irradianceShare(CacheKind kind, float cosTheta) {
     return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
 }

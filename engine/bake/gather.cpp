@@ -33,11 +33,9 @@ std::vector<std::uint32_t> emissiveSurfels(const Scene& scene, const SurfelSet& 
     return result.size() <= rays ? result : std::vector<std::uint32_t>();
 }
 
-/// Where a ray starts that leaves a cache's point on the front (or back) of its surface.
-glm::vec3 startOf(const TraceScene& trace, const CachePoints& points, std::uint32_t point,
-                  bool front) {
-    return trace.clearOf(points.position[point],
-                         front ? points.normal[point] : -points.normal[point]);
+/// Where a ray starts that leaves a cache's point.
+glm::vec3 startOf(const TraceScene& trace, const CachePoints& points, std::uint32_t point) {
+    return trace.clearOf(points.position[point], points.normal[point]);
 }
 
 struct Finisher {
@@ -102,7 +100,7 @@ private:
         const SenderView view = viewOf(set.surfels, points, kind, sample);
         if (!(view.transport > 0))
             return false;
-        const glm::vec3 from = startOf(trace, points, sample.point, view.cosTheta >= 0);
+        const glm::vec3 from = startOf(trace, points, sample.point);
         const std::uint32_t s = sample.sender;
         const bool hidden =
             s >= set.surfels.size()
@@ -173,9 +171,7 @@ const SurfelOwners& RayGatherer::owners(std::uint32_t mesh) const {
 
 Ray RayGatherer::ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const {
     const std::uint32_t k = r % directions.points;
-    const glm::vec3 local = directions.local[r];
-    return {startOf(m_trace, m_points, m_points.begin[cache] + k, local.z >= 0),
-            directions.toWorld[k] * local};
+    return {startOf(m_trace, m_points, m_points.begin[cache] + k), directions[r]};
 }
 
 RawHit RayGatherer::trace(const Ray& ray) const {

@@ -24,8 +24,8 @@ struct AimedSample {
 
 /// How a sender would look from a point if nothing stood between.
 struct SenderView {
-    float transport = 0; ///< solid angle / pi; 0: they do not face each other
-    float cosTheta = 0;  ///< at the point; negative behind a two-sided surface, 0 for the grid
+    float transport = 0;          ///< solid angle / pi; 0: they do not face each other
+    float cosTheta = 0;           ///< at the point; 0 for the grid
     glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
 };
 

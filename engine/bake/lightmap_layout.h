@@ -27,6 +27,9 @@ struct InstanceLightmap {
     /// anywhere inside a triangle reads only texels of its own chart. Empty: the instance is lit
     /// from the grid.
     std::vector<glm::vec2> uv;
+    /// Of a surface that shows both sides: rows of texels from a point's place for its front down
+    /// to that for its back. 0: one-sided.
+    std::uint32_t backRows = 0;
 
     bool operator==(const InstanceLightmap&) const = default;
 };

@@ -13,16 +13,14 @@ namespace {
 constexpr std::uint32_t kProbesPerPoint = 8;
 
 std::uint32_t countOpen(const TraceScene& trace, float reach, const WorldPoint& point,
-                        bool twoSided, std::uint32_t seed) {
-    const DirectionSet directions(kProbesPerPoint, twoSided, seed);
+                        std::uint32_t seed) {
+    const DirectionSet directions(kProbesPerPoint, false, seed);
     const glm::mat3 toWorld = basisAround(point.normal);
     std::uint32_t open = 0;
     for (std::uint32_t i = 0; i < kProbesPerPoint; ++i) {
-        const glm::vec3 local = directions[i];
-        const Hit hit = trace.closestHit(
-            {trace.clearOf(point.position, local.z >= 0 ? point.normal : -point.normal),
-             toWorld * local},
-            TraceMask::Static);
+        const Hit hit =
+            trace.closestHit({trace.clearOf(point.position, point.normal), toWorld * directions[i]},
+                             TraceMask::Static);
         const bool inSolid =
             hit && !hit.frontFace &&
             !isTwoSided(trace.scene().materialOf(trace.scene().instances[hit.instance]));
@@ -34,14 +32,11 @@ std::uint32_t countOpen(const TraceScene& trace, float reach, const WorldPoint& 
 void favourOpen(const TraceScene& trace, float reach, AtlasTexel& texel) {
     constexpr std::uint32_t kSlots = AtlasTexel::kMostPoints;
     const Scene& scene = trace.scene();
-    const Instance& instance = scene.instances[texel.instance];
-    const bool twoSided = isTwoSided(scene.materialOf(instance));
-    const std::uint32_t seed = seedOf(instance, texel.points[0]);
+    const std::uint32_t seed = seedOf(scene, texel);
     std::array<std::uint32_t, kSlots> open;
     std::uint32_t sum = 0;
     for (std::uint32_t k = 0; k < texel.count; ++k)
-        sum += open[k] = countOpen(trace, reach, worldPoint(scene, instance, texel.points[k]),
-                                   twoSided, seed + k);
+        sum += open[k] = countOpen(trace, reach, texelPoint(scene, texel, k), seed + k);
     if (sum == 0)
         return;
     const std::array<MeshPoint, kSlots> from = texel.points;

@@ -20,7 +20,7 @@ void chartFields(A& a, C& c) {
 template <class A, class T>
 void atlasFields(A& a, T& t) {
     a(t.layout.width), a(t.layout.height), a(t.texels), a(t.texelsPerMetre);
-    a.each(t.layout.instances, [&](auto& i) { a(i.uv); });
+    a.each(t.layout.instances, [&](auto& i) { a(i.uv), a(i.backRows); });
 }
 
 /// What is kept under `key`, or nothing. `fields(archive, T)` lists T's fields.

@@ -25,7 +25,7 @@ namespace limn {
 namespace {
 
 constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 36; // per chunk, unpacked: more is damage
 
 template <class A, class B>
@@ -50,7 +50,7 @@ void lightmapFields(A& a, B& b) {
     auto& l = b.lightmap;
     a(l.width), a(l.height);
     a.each(l.meshes, [&](auto& m) { chartFields(a, m); });
-    a.each(l.instances, [&](auto& i) { a(i.uv); });
+    a.each(l.instances, [&](auto& i) { a(i.uv), a(i.backRows); });
 }
 
 template <class A, class B>

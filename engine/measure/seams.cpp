@@ -27,7 +27,7 @@ struct SeamSums {
         const glm::vec2 uv(weights.y, weights.z);
         const Instance& i = scene.instances[instance];
         const glm::vec3 p = i.toWorld * glm::vec4(trianglePoint(scene.meshOf(i), e / 3, uv), 1);
-        return sampleIrradiance(field, layout, scene, instance, e / 3, uv.x, uv.y, p, n);
+        return sampleIrradiance({field, layout, scene, instance, e / 3, uv.x, uv.y, p, n});
     }
 
     void addEdge(std::uint32_t instance, std::uint32_t a, std::uint32_t b, glm::vec3 n) {

@@ -67,13 +67,13 @@ static std::optional<std::uint32_t> gridCacheAt(const Bake& bake, glm::vec3 posi
     return std::uint32_t(at - bake.caches.texel.begin());
 }
 
-std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, std::uint32_t instance,
-                                     std::uint32_t triangle, float u, float v, glm::vec3 position) {
+std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, const Hit& hit) {
     const LightmapLayout& layout = bake.lightmap;
-    if (instance >= layout.instances.size() || layout.instances[instance].uv.empty())
-        return gridCacheAt(bake, position);
-    const std::uint32_t mesh = scene.instances[instance].mesh;
-    const Bilinear b = bilinearAt(layout, lightmapUv(layout, instance, mesh, triangle, u, v));
+    if (hit.instance >= layout.instances.size() || layout.instances[hit.instance].uv.empty())
+        return gridCacheAt(bake, hit.position);
+    const std::uint32_t mesh = scene.instances[hit.instance].mesh;
+    const Bilinear b = bilinearAt(
+        layout, lightmapUv(layout, hit.instance, mesh, hit.triangle, hit.u, hit.v, !hit.frontFace));
     const auto strongest = std::max_element(b.weight, b.weight + 4) - b.weight;
     const auto end = bake.caches.texel.begin() + bake.caches.lightmapCount;
     const auto at = std::find(bake.caches.texel.begin(), end, b.texel[strongest]);

@@ -30,10 +30,9 @@ struct LinkCut {
 /// Precondition: `cache` is one of the bake's.
 LinkCut linkCut(const Bake& bake, std::uint32_t cache);
 
-/// The cache that lights a point of a surface most: of the lightmap where the instance has one,
-/// else of the grid. `instance` is that of the baked scene, (u, v) barycentrics of `triangle`.
-/// None: there is no such cache.
-std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, std::uint32_t instance,
-                                     std::uint32_t triangle, float u, float v, glm::vec3 position);
+/// The cache that lights the side of a surface that was hit most: of the lightmap where the
+/// instance has one, else of the grid. `hit` names an instance of the baked scene, or one past its
+/// end for the grid. None: there is no such cache.
+std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, const Hit& hit);
 
 } // namespace limn

@@ -163,7 +163,6 @@ static OverlayMark cacheMark(const Bake& bake, std::uint32_t c, std::span<const 
     m.normal = caches.normal[c];
     m.radius = grid ? 0.1f * gridSpacing(bake) : kTexelScale * radii[caches.texel[c]];
     m.shape = grid ? MarkShape::Disc : MarkShape::Square;
-    m.twoSided = caches.kind[c] == CacheKind::TwoSided;
     m.color = packColor(!isValid(caches, c) ? kInvalid : grid ? kValidCell : kValidTexel);
     return m;
 }

@@ -77,11 +77,10 @@ struct OverlayMark {
     glm::vec3 normal{0};     ///< unit, seen from its front only; 0: turned to the viewer
     std::uint32_t color = 0; ///< sRGB-encoded bytes R, G, B, A
     MarkShape shape = MarkShape::Disc;
-    std::uint32_t twoSided = 0; ///< 1: seen from both sides
 
     bool operator==(const OverlayMark&) const = default;
 };
-static_assert(sizeof(OverlayMark) == 40);
+static_assert(sizeof(OverlayMark) == 36);
 
 /// What the colours mean.
 struct OverlayLegend {

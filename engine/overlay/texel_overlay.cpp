@@ -72,6 +72,7 @@ static bool hasLightmap(const LightmapLayout& layout, const Scene& scene, std::s
            !layout.meshes[scene.instances[i].mesh].indices.empty();
 }
 
+/// Of the front.
 static AtlasTriangle atlasTriangle(const LightmapLayout& layout, const Scene& scene,
                                    std::size_t instance, std::size_t t) {
     const Instance& inst = scene.instances[instance];
@@ -160,6 +161,7 @@ void Raster::add(const AtlasTriangle& t, std::uint32_t chart, float density) {
 static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
     const LightmapLayout& layout = raster.layout;
     const MeshCharts& charts = layout.meshes[scene.instances[i].mesh];
+    const std::uint32_t backRows = layout.instances[i].backRows;
     std::vector<AtlasTriangle> triangles;
     std::vector<ChartExtent> extents(charts.chartSize.size());
     for (std::size_t t = 0; t < charts.chartOfTriangle.size(); ++t) {
@@ -175,6 +177,11 @@ static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
         const double density =
             e.collapsed() ? e.density()
                           : std::sqrt(triangles[t].texels() / std::max(triangles[t].area, 1e-30));
+        raster.add(triangles[t], raster.use.charts + chart, float(density));
+        if (backRows == 0)
+            continue;
+        for (glm::vec2& p : triangles[t].at)
+            p.y += float(backRows);
         raster.add(triangles[t], raster.use.charts + chart, float(density));
     }
     raster.use.charts += std::uint32_t(extents.size());

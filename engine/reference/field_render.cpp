@@ -34,8 +34,8 @@ struct FieldContext {
 glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePoint& p) {
     if (!c.hasField())
         return glm::vec3(0);
-    return sampleIrradiance(c.field, c.layout, c.trace.scene(), hit.instance, hit.triangle, hit.u,
-                            hit.v, p.position, p.normal);
+    return sampleIrradiance({c.field, c.layout, c.trace.scene(), hit.instance, hit.triangle, hit.u,
+                             hit.v, p.position, p.normal, !hit.frontFace});
 }
 
 /// Mean radiance in the lobe.
@@ -46,7 +46,7 @@ glm::vec3 fieldLobe(const FieldContext& c, const Hit& hit, const GlossyPoint& g)
     const int bands = c.bands[scene.instances[hit.instance].material];
     const float n = lobeExponent(g.gloss.roughness);
     return sampleLobe({c.field, c.layout, scene, hit.instance, hit.triangle, hit.u, hit.v,
-                       g.surface.position, g.surface.normal},
+                       g.surface.position, g.surface.normal, !hit.frontFace},
                       g.mirrored, bands,
                       c.windowedLobes ? windowedLobeFactors(n, bands) : lobeFactors(n));
 }

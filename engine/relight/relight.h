@@ -73,22 +73,21 @@ private:
     std::unique_ptr<State> m_state;
 };
 
-/// Irradiance [W m^-2] from the lightmap at a surface point with unit normal `n`; from the grid
-/// where the instance has no lightmap. (u, v) are barycentrics of `triangle`.
-glm::vec3 sampleIrradiance(const IndirectField& field, const LightmapLayout& layout,
-                           const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
-                           float u, float v, glm::vec3 position, glm::vec3 n);
-
-/// A surface point that looks a field up, as sampleIrradiance() has it.
+/// A surface point that looks a field up: in the lightmap, or in the grid where its instance has no
+/// lightmap.
 struct FieldPoint {
     const IndirectField& field;
     const LightmapLayout& layout;
     const Scene& scene;
     std::uint32_t instance, triangle;
-    float u, v;
+    float u, v; ///< barycentrics of the triangle
     glm::vec3 position;
-    glm::vec3 normal; ///< unit
+    glm::vec3 normal;  ///< unit, of the side in question
+    bool back = false; ///< that side is the back of a two-sided surface
 };
+
+/// Irradiance [W m^-2], >= 0.
+glm::vec3 sampleIrradiance(const FieldPoint& at);
 
 /// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`: of the first `bands`
 /// bands, or as many as the field has, by their factors.

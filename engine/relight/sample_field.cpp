@@ -86,7 +86,7 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
     if (at.instance < layout.instances.size() && !layout.instances[at.instance].uv.empty())
         return sampleLightmap(at.field, layout,
                               lightmapUv(layout, at.instance, at.scene.instances[at.instance].mesh,
-                                         at.triangle, at.u, at.v),
+                                         at.triangle, at.u, at.v, at.back),
                               count);
     return at.field.grid.empty() ? Coefficients{}
                                  : sampleGrid(at.field, at.position, at.normal, count);
@@ -102,13 +102,10 @@ bool IndirectField::operator==(const IndirectField& o) const {
            gridBounds == o.gridBounds && grid == o.grid && version == o.version;
 }
 
-glm::vec3 sampleIrradiance(const IndirectField& field, const LightmapLayout& layout,
-                           const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
-                           float u, float v, glm::vec3 position, glm::vec3 n) {
-    const int bands = std::min(int(field.bands), kIrradianceBands);
-    const Coefficients c =
-        sampleField({field, layout, scene, instance, triangle, u, v, position, n}, bands);
-    return glm::max(shIrradiance(bands, c.data(), n), glm::vec3(0));
+glm::vec3 sampleIrradiance(const FieldPoint& at) {
+    const int bands = std::min(int(at.field.bands), kIrradianceBands);
+    const Coefficients c = sampleField(at, bands);
+    return glm::max(shIrradiance(bands, c.data(), at.normal), glm::vec3(0));
 }
 
 glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,

@@ -46,6 +46,7 @@ void drawInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& m
     for (int r = 0; r < 3; ++r)
         draw.toWorld[r] = rows[r];
     draw.flags = flags;
+    draw.backOffset = instance.backOffset;
     vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_ALL, 0, sizeof draw, &draw);
     const std::array buffers = {mesh.positions.handle, mesh.attributes.handle,
                                 instance.lightmapUv ? instance.lightmapUv.handle

@@ -79,8 +79,7 @@ static gpu::GraphicsPipelineDesc markDesc(VkPipelineLayout layout) {
                        {1, 0, VK_FORMAT_R32_SFLOAT, offsetof(OverlayMark, radius)},
                        {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(OverlayMark, normal)},
                        {3, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(OverlayMark, color)},
-                       {4, 0, VK_FORMAT_R32_UINT, offsetof(OverlayMark, shape)},
-                       {5, 0, VK_FORMAT_R32_UINT, offsetof(OverlayMark, twoSided)}};
+                       {4, 0, VK_FORMAT_R32_UINT, offsetof(OverlayMark, shape)}};
     desc.colorFormats = {kColorFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
@@ -123,6 +122,7 @@ void OverlayPass::drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
         for (int r = 0; r < 3; ++r)
             draw.toWorld[r] = rows[r];
         draw.eye = view.eye;
+        draw.sideOffset = instance.mirrored ? -instance.backOffset : instance.backOffset;
         vkCmdPushConstants(cmd, m_surfaceLayout.handle, VK_SHADER_STAGE_ALL, 0, sizeof draw, &draw);
         const std::array buffers = {mesh.positions.handle, instance.hasLightmap
                                                                ? instance.lightmapUv.handle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/render_scene.h"
 
+#include "engine/bake/atlas.h"
 #include "engine/core/parallel.h"
 #include "engine/gpu/uploader.h"
 
@@ -133,6 +134,7 @@ void updateRenderScene(gpu::Device& device, RenderScene& target, const Scene& sc
             g.lightmapUv = uploadLightmapUv(uploader, target, i, scene.instances.size(),
                                             target.meshes[g.mesh].vertexCount);
             g.hasLightmap = bool(g.lightmapUv);
+            g.backOffset = g.hasLightmap ? backOffset(*target.layout, std::uint32_t(i)) : 0;
         }
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {

@@ -37,6 +37,7 @@ struct GpuInstance {
     bool mirrored = false;
     bool hasLightmap = false;
     gpu::Buffer lightmapUv; ///< vec2 per vertex; empty without lightmap
+    float backOffset = 0;   ///< of limn::backOffset
     Bounds bounds;          ///< world space
 };
 

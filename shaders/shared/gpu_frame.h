@@ -36,7 +36,8 @@ struct GpuDraw {
     mat4 toClip;     // object to clip
     vec4 toWorld[3]; // rows of object to world
     uint flags;      // DRAW_*
-    uint pad0, pad1, pad2;
+    float backOffset; // v of the lightmap from a front's place down to its back's
+    uint pad0, pad1;
 };
 // clang-format on
 

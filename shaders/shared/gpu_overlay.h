@@ -31,7 +31,8 @@ struct GpuOverlayMarks {
 struct GpuOverlaySurface {
     mat4 toClip;         // object to clip
     vec4 toWorld[3];     // rows of object to world
-    vec3 eye; float pad; // m
+    vec3 eye;            // m
+    float sideOffset;    // v of the lightmap from a front's place down to its back's; negative: the transform mirrors
 };
 // clang-format on
 

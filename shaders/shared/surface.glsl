@@ -109,8 +109,9 @@ void addCoefficient(inout FieldSums sums, vec3 c, float irradiance, float lobe) 
 
 FieldSums readLightmap(float irradiance[kCoefficients], float lobe[kCoefficients]) {
     FieldSums sums = FieldSums(vec3(0), vec3(0));
+    const vec2 uv = fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset);
     [[unroll]] for (int i = 0; i < kCoefficients; ++i)
-        addCoefficient(sums, textureLod(lightmap, vec3(fragLightmapUv, i), 0.0).rgb, irradiance[i], lobe[i]);
+        addCoefficient(sums, textureLod(lightmap, vec3(uv, i), 0.0).rgb, irradiance[i], lobe[i]);
     return sums;
 }
 

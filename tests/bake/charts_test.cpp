@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 #include <set>
 
@@ -155,7 +156,7 @@ TEST(Atlas, ALookupMeetsTexelsOfItsOwnChartOrOfNeighboursThatFaceTheSameSide) {
                 if (b.x + b.y > 1)
                     b = 1.f - b;
                 const Bilinear lookup =
-                    bilinearAt(atlas.layout, lightmapUv(atlas.layout, i, mesh, t, b.x, b.y));
+                    bilinearAt(atlas.layout, lightmapUv(atlas.layout, i, mesh, t, b.x, b.y, false));
                 for (int c = 0; c < 4; ++c) {
                     if (lookup.weight[c] < 1e-3f) // rounding at a texel centre
                         continue;
@@ -188,6 +189,52 @@ TEST(Atlas, ALookupMeetsTexelsOfItsOwnChartOrOfNeighboursThatFaceTheSameSide) {
         EXPECT_LT(std::max({size.x, size.y, size.z}), 4.f);
     }
     EXPECT_LT(shared, atlas.texels.size() / 10);
+}
+
+TEST(Atlas, ATwoSidedSurfaceHasOnePlaceForEachSide) {
+    Scene scene = awkwardScene();
+    BakeSettings settings;
+    settings.texelsPerMetre = 4;
+    const Atlas one = atlasOf(scene, settings);
+    SceneBuilder b;
+    b.scene = scene;
+    b.assets = std::make_shared<Assets>(*scene.assets);
+    Material both = lambert(glm::vec3(0.5f));
+    both.doubleSided = true;
+    b.addMaterial(both);
+    b.scene.instances[1].material = 1;
+    const Atlas two = atlasOf(b.build(), settings);
+    const auto count = [](const Atlas& atlas, std::uint32_t instance, std::uint32_t back) {
+        return std::ranges::count_if(atlas.texels, [&](const AtlasTexel& t) {
+            return t.instance == instance && t.back == back;
+        });
+    };
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        EXPECT_EQ(two.layout.instances[i].backRows > 0, i == 1);
+        EXPECT_EQ(count(two, i, 0), count(one, i, 0));
+        EXPECT_EQ(count(two, i, 1), i == 1 ? count(one, i, 0) : 0);
+    }
+    std::map<std::uint32_t, const AtlasTexel*> at;
+    for (const AtlasTexel& t : two.texels)
+        EXPECT_TRUE(at.emplace(t.texel, &t).second);
+    const std::uint32_t down = two.layout.instances[1].backRows * two.layout.width;
+    for (const AtlasTexel& t : two.texels)
+        if (t.instance == 1 && !t.back) {
+            const AtlasTexel& below = *at.at(t.texel + down);
+            EXPECT_TRUE(below.instance == 1 && below.back == 1 && below.count == t.count);
+        }
+    const std::uint32_t mesh = scene.instances[1].mesh;
+    for (std::uint32_t t = 0; t < two.layout.meshes[mesh].chartOfTriangle.size(); ++t) {
+        const Bilinear front = bilinearAt(two.layout,
+                                          lightmapUv(two.layout, 1, mesh, t, 0.3f, 0.3f, false)),
+                       back = bilinearAt(two.layout,
+                                         lightmapUv(two.layout, 1, mesh, t, 0.3f, 0.3f, true));
+        for (int k = 0; k < 4; ++k)
+            if (front.weight[k] > 1e-3f) {
+                EXPECT_EQ(back.texel[k], front.texel[k] + down);
+                EXPECT_NEAR(back.weight[k], front.weight[k], 1e-4f);
+            }
+    }
 }
 
 TEST(Atlas, MeetsTheWantedNumberOfTexels) {

@@ -119,8 +119,12 @@ TEST(LinkCut, TheCacheAtATexelsOwnPlaceIsThatTexels) {
     std::uint32_t found = 0;
     for (std::uint32_t s = 0; s < bake.surfels.size(); ++s) {
         const glm::vec2 b = bake.surfels.barycentric[s];
-        const auto cache = cacheAt(bake, room().scene, bake.surfels.instance[s],
-                                   bake.surfels.triangle[s], b.x, b.y, bake.surfels.position[s]);
+        Hit hit;
+        hit.instance = bake.surfels.instance[s];
+        hit.triangle = bake.surfels.triangle[s];
+        hit.u = b.x, hit.v = b.y;
+        hit.position = bake.surfels.position[s];
+        const auto cache = cacheAt(bake, room().scene, hit);
         ASSERT_TRUE(cache);
         int best = 0;
         for (int k = 1; k < 4; ++k)

@@ -45,10 +45,16 @@ double onBall(const IndirectField& field, const Scene& scene) {
     const Mesh& mesh = scene.meshOf(ball);
     double sum = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        sum +=
-            double(sampleIrradiance(field, {}, scene, 2, 0, 0, 0,
-                                    ball.toWorld * glm::vec4(mesh.positions[i], 1), mesh.normals[i])
-                       .x);
+        sum += double(sampleIrradiance({field,
+                                        {},
+                                        scene,
+                                        2,
+                                        0,
+                                        0,
+                                        0,
+                                        ball.toWorld * glm::vec4(mesh.positions[i], 1),
+                                        mesh.normals[i]})
+                          .x);
     return sum / double(mesh.positions.size());
 }
 
@@ -88,13 +94,13 @@ TEST(GridLeak, WhereNoCellSeesThePointTheLookupIsTrilinear) {
     for (std::size_t i = 0; i < 8; ++i)
         field.grid[i] = glm::vec4(float(i + 1));
     const glm::vec3 p(0.8f, 1.1f, 1.4f), n(0, 0, 1);
-    const glm::vec3 plain = sampleIrradiance(field, {}, scene, 9, 0, 0, 0, p, n);
+    const glm::vec3 plain = sampleIrradiance({field, {}, scene, 9, 0, 0, 0, p, n});
     field.gridDepth = std::make_shared<const std::vector<std::uint16_t>>(8 * 256, 0xffff); // solids
-    EXPECT_NEAR(sampleIrradiance(field, {}, scene, 9, 0, 0, 0, p, n).x, plain.x, 1e-5f * plain.x);
+    EXPECT_NEAR(sampleIrradiance({field, {}, scene, 9, 0, 0, 0, p, n}).x, plain.x, 1e-5f * plain.x);
     std::vector<std::uint16_t> one(8 * 256, 0xffff);
     std::fill_n(one.begin() + 5 * 256, 256, 0); // cell 5 alone is in the open
     field.gridDepth = std::make_shared<const std::vector<std::uint16_t>>(one);
-    const glm::vec3 seen = sampleIrradiance(field, {}, scene, 9, 0, 0, 0, p, n);
+    const glm::vec3 seen = sampleIrradiance({field, {}, scene, 9, 0, 0, 0, p, n});
     EXPECT_NEAR(seen.x, 6 * std::sqrt(std::numbers::pi) / 2, 1e-3f); // pi c Y_00
 }
 

@@ -81,10 +81,38 @@ TEST(Furnace, GridCachesSeeTheSameRadianceFromEverywhere) {
     for (const glm::vec3 n :
          {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::normalize(glm::vec3(1, 2, 3))}) {
         Scene noLightmap = lit.scene; // an instance unknown to the lightmap is lit from the grid
-        const glm::vec3 e =
-            sampleIrradiance(lit.relighter->field(), {}, noLightmap, 99, 0, 0, 0, {2, 1.5f, 2}, n);
+        const glm::vec3 e = sampleIrradiance(
+            {lit.relighter->field(), {}, noLightmap, 99, 0, 0, 0, {2, 1.5f, 2}, n});
         EXPECT_NEAR(e.x, 2 * kPi, 0.01 * 2 * kPi);
     }
+}
+
+TEST(Sky, ATwoSidedPlateIsLitByItAboveAndDarkBelow) {
+    SceneBuilder b;
+    Material m = lambert(glm::vec3(0.5f));
+    m.doubleSided = true;
+    b.addMaterial(m);
+    b.add(quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
+    Scene scene = b.build();
+    scene.sky.kind = SkyKind::Gradient;
+    scene.sky.radiance = glm::vec3(3);
+    scene.bake.lightmapCaches = 400;
+    scene.bake.surfels = 200;
+    scene.bake.rays = 1024;
+    const Lit lit = light(scene);
+    const Bake& bake = lit.relighter->bake();
+    EXPECT_GT(bake.lightmap.instances[0].backRows, 0U);
+    const auto irradiance = [&](glm::vec3 n, bool back) {
+        return sampleIrradiance({lit.relighter->field(), bake.lightmap, lit.scene, 0, 0, 0.3f, 0.3f,
+                                 glm::vec3(0), n, back})
+            .x;
+    };
+    // Radiance 3 sin(elevation) over the upper half: E = 3 * 2 pi / 3.
+    EXPECT_NEAR(irradiance({0, 1, 0}, false), 2 * kPi, 0.01 * 2 * kPi);
+    EXPECT_EQ(irradiance({0, -1, 0}, true), 0);
+    for (std::uint32_t s = 0; s < bake.surfels.size(); ++s)
+        EXPECT_NEAR(lit.relighter->radiosity()[s].x, bake.surfels.normal[s].y > 0 ? kPi : 0,
+                    0.01 * kPi);
 }
 
 TEST(Sky, UnoccludedGroundGetsPiTimesItsRadiance) {
@@ -97,8 +125,15 @@ TEST(Sky, UnoccludedGroundGetsPiTimesItsRadiance) {
     scene.bake.surfels = 200;
     scene.bake.rays = 256;
     const Lit lit = light(scene);
-    const glm::vec3 e = sampleIrradiance(lit.relighter->field(), lit.relighter->bake().lightmap,
-                                         lit.scene, 0, 0, 0.3f, 0.3f, {0, 0, 0}, {0, 1, 0});
+    const glm::vec3 e = sampleIrradiance({lit.relighter->field(),
+                                          lit.relighter->bake().lightmap,
+                                          lit.scene,
+                                          0,
+                                          0,
+                                          0.3f,
+                                          0.3f,
+                                          {0, 0, 0},
+                                          {0, 1, 0}});
     EXPECT_NEAR(e.x, kPi, 0.01 * kPi);
     EXPECT_NEAR(e.y, 2 * kPi, 0.02 * kPi);
     EXPECT_NEAR(e.z, 3 * kPi, 0.03 * kPi);
@@ -139,8 +174,15 @@ TEST(Sky, AConstantPanoramaIsAConstantColourAndATurnIsSeenAtOnce) {
         }
         // At z = 0: in the first triangle for x > 0, in the second for x < 0.
         const glm::vec2 uv = x > 0 ? glm::vec2(x / 10, 0.5f) : glm::vec2((x + 5) / 10, -x / 10);
-        return sampleIrradiance(lit.relighter->field(), lit.relighter->bake().lightmap, lit.scene,
-                                0, x > 0 ? 0 : 1, uv.x, uv.y, {x, 0, 0}, {0, 1, 0})
+        return sampleIrradiance({lit.relighter->field(),
+                                 lit.relighter->bake().lightmap,
+                                 lit.scene,
+                                 0,
+                                 x > 0 ? 0U : 1U,
+                                 uv.x,
+                                 uv.y,
+                                 {x, 0, 0},
+                                 {0, 1, 0}})
             .x;
     };
     const float pi = glm::pi<float>();
@@ -189,8 +231,15 @@ TEST(ParallelPlates, TheMiddleSeesTheClosedFormFactor) {
         scene.bake.rays = 4096;
         scene.bake.links = 4000;
         const Lit lit = light(scene);
-        const glm::vec3 e = sampleIrradiance(lit.relighter->field(), lit.relighter->bake().lightmap,
-                                             lit.scene, 1, 0, 0.f, 0.5f, {0, h, 0}, {0, -1, 0});
+        const glm::vec3 e = sampleIrradiance({lit.relighter->field(),
+                                              lit.relighter->bake().lightmap,
+                                              lit.scene,
+                                              1,
+                                              0,
+                                              0.f,
+                                              0.5f,
+                                              {0, h, 0},
+                                              {0, -1, 0}});
         // Three bands of the clamped cosine: error below 2 % of the largest irradiance for small
         // senders; rays: 1 %.
         EXPECT_NEAR(e.x, kPi * factorToSquare(h), 0.03 * kPi * factorToSquare(h) + 0.01)
@@ -378,9 +427,15 @@ TEST(Bake, CachesInsideASolidAreInvalidAndFilledFromOutside) {
     scene = b.build();
     const Lit lit = light(scene);
     EXPECT_GT(lit.relighter->bake().counts.invalidCaches, 0U);
-    const glm::vec3 hidden =
-        sampleIrradiance(lit.relighter->field(), lit.relighter->bake().lightmap, lit.scene, 0, 4,
-                         0.3f, 0.3f, {2, 0, 2}, {0, 1, 0});
+    const glm::vec3 hidden = sampleIrradiance({lit.relighter->field(),
+                                               lit.relighter->bake().lightmap,
+                                               lit.scene,
+                                               0,
+                                               4,
+                                               0.3f,
+                                               0.3f,
+                                               {2, 0, 2},
+                                               {0, 1, 0}});
     EXPECT_GT(hidden.x, 0);
 }
 

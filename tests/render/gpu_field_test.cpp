@@ -121,10 +121,10 @@ TEST_F(ViewportGrid, IsReadPastWallsAsOnTheCpu) {
     for (std::uint32_t y = 0; y < 32; ++y)
         for (std::uint32_t x = 0; x < 32; ++x) {
             const glm::vec3 p = planePoint(options, x, y), n(0, 1, 0);
-            const glm::vec3 is = sampleIrradiance(field, {}, scene, 0, 0, 0, 0, p, n);
+            const glm::vec3 is = sampleIrradiance({field, {}, scene, 0, 0, 0, 0, p, n});
             expectNear(pixel(image, x, y), is, 2e-3f);
             difference +=
-                double(std::abs(is.x - sampleIrradiance(plain, {}, scene, 0, 0, 0, 0, p, n).x));
+                double(std::abs(is.x - sampleIrradiance({plain, {}, scene, 0, 0, 0, 0, p, n}).x));
         }
     EXPECT_GT(difference / (32 * 32), 0.3); // else the walls are not seen at all
 }

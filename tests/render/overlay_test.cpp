@@ -60,9 +60,6 @@ TEST_F(ViewportOverlays, MarksHideBehindSurfacesAndShowTheirFrontOnly) {
     EXPECT_NE(middle(disc({0, 1, 0}, {0, -1, 0})), kOrange);
     EXPECT_EQ(middle(disc({0, 1, 0}, {0, 1, 0})), kOrange);
     EXPECT_EQ(middle(disc({0, 1, 0}, {0, 0, 0})), kOrange); // turned to the viewer
-    auto both = disc({0, 1, 0}, {0, -1, 0});
-    both->marks[0].twoSided = 1;
-    EXPECT_EQ(middle(both), kOrange);
 }
 
 TEST_F(ViewportOverlays, TexelsColourTheSurfaceWhereTheirUvSaysAndLeaveOutUnpaintedOnes) {
@@ -88,6 +85,26 @@ TEST_F(ViewportOverlays, TexelsColourTheSurfaceWhereTheirUvSaysAndLeaveOutUnpain
         else
             EXPECT_TRUE(c.r == c.g && c.g == c.b);
     }
+}
+
+TEST_F(ViewportOverlays, TexelsColourEachSideOfATwoSidedSurfaceMirroredOrNot) {
+    simple::SceneBuilder b = plane();
+    b.scene.materials[0].doubleSided = true;
+    layout = std::make_shared<LightmapLayout>();
+    layout->width = 1;
+    layout->height = 2;
+    layout->meshes = {{{0, 1, 2, 3}, {0, 1, 2, 0, 2, 3}, {0, 0}, {}, {{1, 1}}}};
+    layout->instances = {{std::vector<glm::vec2>(4, {0.5f, 0.25f}), 1}};
+    auto data = std::make_shared<OverlayData>();
+    data->width = 1;
+    data->height = 2;
+    data->texels = {packColor({1, 0.5f, 0}), packColor({0, 0.5f, 1})}; // front, back
+    for (const float x : {1.f, -1.f})
+        for (const float y : {1.f, -1.f}) { // the camera looks down on it
+            b.scene.instances[0].toWorld = glm::scale(glm::mat4(1), glm::vec3(x, y, 1));
+            const glm::uvec3 c = pixelOf(drawOver(b.build(), data), 16, 16);
+            EXPECT_EQ(c.r > c.b, y > 0) << x << ", " << y << ": " << c.r << " " << c.b;
+        }
 }
 
 TEST_F(ViewportOverlays, OffCostsNoMemoryAndChangesNothing) {

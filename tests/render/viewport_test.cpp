@@ -211,32 +211,6 @@ TEST_F(ViewportViews, TheGridIsInterpolatedLinearly) {
     }
 }
 
-TEST_F(ViewportViews, TheLightmapIsReadBetweenTexelCentresLinearlyAndWithVDown) {
-    layout = std::make_shared<LightmapLayout>();
-    layout->width = 4;
-    layout->height = 2;
-    layout->meshes.resize(1);
-    layout->instances.resize(1);
-    // From the middle of texel (0, 0) at x = -10 to that of (3, 0) at x = 10; row 1 is poison.
-    layout->instances[0].uv = {{0.125f, 0.25f}, {0.875f, 0.25f}, {0.875f, 0.25f}, {0.125f, 0.25f}};
-    IndirectField field;
-    field.version = 1;
-    field.lightmapWidth = 4;
-    field.lightmapHeight = 2;
-    field.lightmap.assign(8 * 9, glm::vec4(0));
-    for (std::uint32_t x = 0; x < 4; ++x) {
-        field.lightmap[x] = glm::vec4(glm::vec3(2 * std::sqrt(kPi) * float(x)), 0);
-        field.lightmap[4 + x] = glm::vec4(1e6f);
-    }
-    viewport->setIndirect(field);
-    const ImageF image = draw(plane().build(), View::Irradiance);
-    for (std::uint32_t x = 0; x < 32; ++x) {
-        const float texel = (planePoint(options, x, 16).x + 10) / 20 * 3;
-        // Texture units interpolate with 8 bits of weight.
-        EXPECT_NEAR(pixel(image, x, 16).r, kPi * texel, kPi / 256);
-    }
-}
-
 TEST_F(ViewportViews, IndirectIsAlbedoOverPiTimesIrradianceAndLitIsTheSumWithEmission) {
     simple::SceneBuilder b = plane();
     b.scene.lights = {pointLight({0, 2, 0}, 30)};
