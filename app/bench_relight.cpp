@@ -5,7 +5,9 @@
 
 #include "engine/measure/read_bandwidth.h"
 #include "engine/relight/relight.h"
+#include "engine/relight/seen_caches.h"
 
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -20,6 +22,9 @@ struct RelightBench {
     std::vector<std::uint32_t> lights = {0};    ///< points in the scene; 0: its own lights
     std::vector<std::string> devices = {"cpu"}; ///< "cpu", "gpu", or part of a device's name
     LitBands lit = LitBands::All;
+    std::vector<std::string> caches = {"all"}; ///< "all", "seen" by the camera
+    CameraOptions camera;
+    std::uint32_t bounces = 1; ///< a run
     int runs = 31;
     bool json = false;
 };
@@ -37,33 +42,85 @@ constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
                            {"field", &RelightStats::fieldMs},
                            {"", &RelightStats::totalMs}};
 
-/// One bounce a run, with every light moved.
-std::vector<RelightStats> relightOnCpu(const Scene& scene, const TraceScene& trace,
-                                       const std::shared_ptr<const Bake>& bake, LitBands wanted,
-                                       int runs) {
-    Relighter relighter(bake, wanted);
-    Scene lit = scene;
-    std::vector<RelightStats> all;
-    for (int k = 0; k <= runs; ++k) {
-        lit.lights = movedLights(scene.lights, k);
-        const RelightStats stats = relighter.relight(lit, trace, 1);
-        if (k > 0) // the first lights materials too
-            all.push_back(stats);
+/// What a device did with a bake.
+struct Measured {
+    std::string device, caches;
+    std::vector<RelightStats> runs;
+    std::optional<double> nrmse; ///< of the field at what is seen, against that of "all"
+};
+
+/// Adds up the field of caches that are seen, and by how much it differs from another's.
+struct FieldDifference {
+    double square = 0, difference = 0;
+
+    void add(const Caches& caches, const CacheFlags& seen, const IndirectField& field,
+             const IndirectField& all) {
+        const std::size_t texels = std::size_t(all.lightmapWidth) * all.lightmapHeight;
+        for (std::size_t c = 0; c < seen.size(); ++c)
+            for (std::size_t i = 0; seen[c] != 0 && i < all.coefficients(); ++i) {
+                const std::size_t at = i * texels + caches.texel[c];
+                const glm::vec4 d = field.lightmap[at] - all.lightmap[at];
+                square += double(glm::dot(all.lightmap[at], all.lightmap[at]));
+                difference += double(glm::dot(d, d));
+            }
     }
+    double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
+};
+
+/// With every light moved each run. What is to be compared takes turns.
+Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& scene,
+                                           const BenchBake& baked) {
+    const Result<Camera> camera = chooseCamera(scene, o.camera);
+    if (!camera)
+        return tl::make_unexpected(camera.error());
+    const CacheFlags seen = seenCaches(cacheFootprints(scene, *baked.bake), *camera,
+                                       float(o.camera.width) / float(o.camera.height));
+    std::vector<Measured> all;
+    std::vector<std::unique_ptr<Relighter>> relighters;
+    std::vector<FieldDifference> differences(o.caches.size());
+    std::size_t whole = o.caches.size(); // the one that lights all
+    for (const std::string& caches : o.caches) {
+        if (caches == "all")
+            whole = all.size();
+        all.push_back({"cpu", caches, {}, {}});
+        relighters.push_back(std::make_unique<Relighter>(baked.bake, o.lit));
+    }
+    Scene lit = scene;
+    for (int k = 0; k <= o.runs; ++k) {
+        lit.lights = movedLights(scene.lights, k);
+        for (std::size_t m = 0; m < all.size(); ++m) {
+            const bool every = k == 0 || all[m].caches == "all"; // the first lights materials too
+            const RelightStats stats =
+                relighters[m]->relight(lit, baked.trace, o.bounces, {}, every ? nullptr : &seen);
+            if (k > 0)
+                all[m].runs.push_back(stats);
+        }
+        for (std::size_t m = 0; whole < all.size() && m < all.size(); ++m)
+            differences[m].add(baked.bake->caches, seen, relighters[m]->field(),
+                               relighters[whole]->field());
+    }
+    for (std::size_t m = 0; whole < all.size() && m < all.size(); ++m)
+        all[m].nrmse = differences[m].nrmse();
     return all;
 }
 
-Json describe(const BenchBake& baked, const std::string& device, const Scene& scene,
-              const std::vector<RelightStats>& runs, double bytesPerSecond) {
+Json describe(const RelightBench& o, const BenchBake& baked, const Measured& measured,
+              const Scene& scene, double bytesPerSecond) {
+    const std::vector<RelightStats>& runs = measured.runs;
     const Caches& caches = baked.bake->caches;
     const std::uint64_t bytes = caches.links.size() * sizeof(Link) +
                                 caches.shNode.size() * sizeof(std::uint32_t) +
                                 caches.shCoefficients.size() * sizeof(std::uint16_t);
-    Json row = {{"name", baked.name}, {"device", device}};
+    Json row = {{"name", baked.name}, {"device", measured.device}};
     row.update(settingsOf(baked));
     row.update({{"bands_lit", runs.back().bandsLit},
                 {"lights", scene.lights.size()},
+                {"bounces", o.bounces},
                 {"caches", caches.size()},
+                {"caches_lit", measured.caches},
+                {"caches_unseen", runs.back().cachesUnseen},
+                {"caches_unread", runs.back().cachesUnread},
+                {"nrmse", measured.nrmse ? Json(*measured.nrmse) : Json()},
                 {"links_in_all", caches.linkCount()},
                 {"bytes", bytes},
                 {"bytes_per_second", bytesPerSecond},
@@ -80,27 +137,33 @@ Json describe(const BenchBake& baked, const std::string& device, const Scene& sc
 
 void printRow(const Json& r) {
     const auto ms = [&](const char* key) { return r[key].get<double>(); };
-    fmt::print("{:<14.14} {:<8.8} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8.2f} {:>7.2f} {:>7.2f} "
-               "{:>7.2f} {:>7.2f} "
-               "{:>7.2f} {:>7.2f} {:>7.2f} {:>8.2f} {:>8.2f}\n",
-               r["name"].get<std::string>(), r["device"].get<std::string>(),
-               r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
-               r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
-               r["chroma_bands"].get<std::uint32_t>(), r["storage"].get<std::string>(),
-               double(r["bytes"].get<std::uint64_t>()) / (1 << 20), ms("floor_ms"),
-               ms("direct_median_ms"), ms("surfel_light_median_ms"), ms("pull_median_ms"),
-               ms("cache_light_median_ms"), ms("surfel_read_median_ms"), ms("field_median_ms"),
-               ms("median_ms"), ms("p95_ms"));
+    fmt::print(
+        "{:<14.14} {:<8.8} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8.2f} {:>7.2f} "
+        "{:>7.2f} "
+        "{:>7.2f} {:>7.2f} "
+        "{:>7.2f} {:>7.2f} {:>7.2f} {:>8.2f} {:>8.2f}\n",
+        r["name"].get<std::string>(), r["device"].get<std::string>(),
+        r["caches_lit"].get<std::string>(), r["caches_unseen"].get<std::uint32_t>(),
+        r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
+        r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
+        r["chroma_bands"].get<std::uint32_t>(), r["storage"].get<std::string>(),
+        double(r["bytes"].get<std::uint64_t>()) / (1 << 20), ms("floor_ms"), ms("direct_median_ms"),
+        ms("surfel_light_median_ms"), ms("pull_median_ms"), ms("cache_light_median_ms"),
+        ms("surfel_read_median_ms"), ms("field_median_ms"), ms("median_ms"), ms("p95_ms"));
     std::fflush(stdout);
 }
 
-Result<GpuRuns> runsOn(const std::string& device, const Scene& scene, const TraceScene& trace,
-                       const std::shared_ptr<const Bake>& bake, LitBands wanted, int runs) {
+Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBench& o,
+                                     const Scene& scene, const BenchBake& baked) {
     if (device == "cpu")
-        return GpuRuns{"cpu", relightOnCpu(scene, trace, bake, wanted, runs)};
+        return relightOnCpu(o, scene, baked);
 #ifdef LIMN_HAS_VIEWPORT
-    return relightOnGpu(device == "gpu" ? "" : device, scene, trace, bake, wanted, runs,
-                        [&](int k) { return movedLights(scene.lights, k); });
+    Result<GpuRuns> gpu =
+        relightOnGpu(device == "gpu" ? "" : device, scene, baked.trace, baked.bake, o.lit,
+                     o.bounces, o.runs, [&](int k) { return movedLights(scene.lights, k); });
+    if (!gpu)
+        return tl::make_unexpected(gpu.error());
+    return std::vector<Measured>{{gpu->device, "all", std::move(gpu->runs), {}}};
 #else
     return fail("this build has no Vulkan");
 #endif
@@ -113,13 +176,14 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
         if (lights > 0)
             lit.lights = pointsOver(lit, baked.bake->surfels, lights);
         for (const std::string& wanted : o.devices) {
-            const Result<GpuRuns> measured =
-                runsOn(wanted, lit, baked.trace, baked.bake, o.lit, o.runs);
+            const Result<std::vector<Measured>> measured = runsOn(wanted, o, lit, baked);
             if (!measured)
                 return fail(fmt::format("on {}: {}", wanted, measured.error().message));
-            rows.push_back(describe(baked, measured->device, lit, measured->runs, bandwidth));
-            if (!o.json)
-                printRow(rows.back());
+            for (const Measured& m : *measured) {
+                rows.push_back(describe(o, baked, m, lit, bandwidth));
+                if (!o.json)
+                    printRow(rows.back());
+            }
         }
     }
     return {};
@@ -127,12 +191,13 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
 
 Exit runRelightBench(const RelightBench& o) {
     if (!o.json)
-        fmt::print("{:<14} {:<8} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8} {:>7} {:>7} {:>7} {:>7} "
+        fmt::print("{:<14} {:<8} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8} {:>7} {:>7} "
+                   "{:>7} {:>7} "
                    "{:>7} {:>7} "
                    "{:>7} {:>8} {:>8}\n",
-                   "scene", "device", "lights", "surfels", "links", "bands", "chroma", "kind",
-                   "MiB", "floor", "direct", "surfels", "pull", "caches", "read", "field",
-                   "all [ms]", "p95");
+                   "scene", "device", "lit", "unseen", "lights", "surfels", "links", "bands",
+                   "chroma", "kind", "MiB", "floor", "direct", "surfels", "pull", "caches", "read",
+                   "field", "all [ms]", "p95");
     Json rows = Json::array();
     const Result<void> measured =
         forEachBake(o.bakes, [&](const BenchBake& baked) { return measureBake(o, baked, rows); });
@@ -145,8 +210,8 @@ Exit runRelightBench(const RelightBench& o) {
 
 void addRelightBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<RelightBench>();
-    CLI::App* command = bench.add_subcommand(
-        "relight", "Time of each step of relighting while all lights move, one bounce a run");
+    CLI::App* command =
+        bench.add_subcommand("relight", "Time of each step of relighting while all lights move");
     addBenchBakes(*command, o->bakes);
     command->add_option("-o,--output", o->output, "folder of relight.csv and relight.json")
         ->required();
@@ -157,6 +222,12 @@ void addRelightBench(CLI::App& bench, Run& run) {
     command->add_flag_callback(
         "--needed-bands", [o] { o->lit = LitBands::Needed; },
         "light only the bands that the scene's surfaces need; without it, all");
+    addList(*command, "--caches", o->caches,
+            "a list: all, or those that the camera's picture looks up (cpu); with both, nrmse is "
+            "how far the light of what is seen differs",
+            CLI::IsMember(std::vector<std::string>{"all", "seen"}));
+    addCameraOptions(*command, o->camera);
+    command->add_option("--bounces", o->bounces, "of a run")->check(CLI::Range(1, 64));
     command->add_option("--runs", o->runs, "of which the median is printed")
         ->check(CLI::Range(1, 100000));
     command->add_flag("--json", o->json, "one JSON object on stdout");

@@ -12,7 +12,8 @@
 namespace limn {
 
 Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, const TraceScene& trace,
-                             const std::shared_ptr<const Bake>& bake, LitBands wanted, int runs,
+                             const std::shared_ptr<const Bake>& bake, LitBands wanted,
+                             std::uint32_t bounces, int runs,
                              const std::function<std::vector<Light>(int k)>& lightsOf) {
     const auto made = gpu::createDevice({.name = device});
     if (!made)
@@ -35,7 +36,8 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g =
-            (*relighter)->relight({light.irradiance, albedo, emitted, sky, nullptr, bands}, 1);
+            (*relighter)
+                ->relight({light.irradiance, albedo, emitted, sky, nullptr, bands}, bounces);
         RelightStats r;
         r.directMs = traced.count() + g.uploadMs;
         r.surfelLightMs = g.surfelLightMs;

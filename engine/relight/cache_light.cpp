@@ -42,6 +42,16 @@ void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec
     });
 }
 
+void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                 LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
+                 LinkHalfs halfs) {
+    parallelRanges(runs.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k)
+            lightLinks(caches, ends, radiosity, bands, halfs, runs[k].begin, runs[k].end,
+                       sh.data());
+    });
+}
+
 std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands) {
     const std::size_t links = caches.shNode.size(), kept = std::size_t(bands * bands);
     if (links == 0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/bake.h"
+#include "engine/relight/cache_runs.h"
 #include "engine/relight/light_links.h"
 
 #include <cstdint>
@@ -24,6 +25,11 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                  LightBands bands, std::uint32_t begin, std::uint32_t end,
                  std::vector<glm::vec3>& sh, LinkHalfs halfs = {});
+
+/// The same of the caches of some runs, which do not overlap.
+void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                 LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
+                 LinkHalfs halfs = {});
 
 /// The first bands^2 halfs of each link of LinkStorage::Sh, without the others between: memory
 /// brings whole lines. Empty where links are cones.

@@ -66,9 +66,14 @@ struct Relighter::State {
     std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
     std::vector<glm::vec4> radiosity; ///< per node
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
-    std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands
+    std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands; see inner()
     IndirectField field;
-    bool gridLit = false; ///< the field has a grid
+    bool gridLit = false;     ///< the field has a grid
+    bool gridMissing = false; ///< and has it since this call
+
+    CacheFlags read;     ///< by surfels
+    CacheFlags current;  ///< the field has the light of the last pull there
+    bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
 
     std::uint64_t blockers = 0; ///< hash of those that `dimmed` belongs to; 0: none
     BlockerShapes shapes;
@@ -80,13 +85,23 @@ struct Relighter::State {
 
     bool updateDimming(const Scene& scene);
     void chooseEnds();
-    void lightRange(LightBands in, bool grid, std::vector<glm::vec3>& out);
+    void light(LightBands in, const CacheRuns& runs, const CacheRuns& dimmedRuns,
+               std::vector<glm::vec3>& out);
+    void lightLightmap(LightBands in, const CacheFlags& which, std::vector<glm::vec3>& out);
+    void lightGrid();
+    std::vector<glm::vec3>& inner();
+    void keepInner(const CacheFlags& which);
+    void lightRest();
+    void readInner();
+    void lightSeen(const CacheFlags& which, bool newLight);
+    CacheFlags missing(const CacheFlags* seen) const;
 
     void setBands(int count);
+    bool takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats);
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
     double lightSurfels();
-    void writeField();
+    void writeField(const CacheFlags& which, bool grid);
 };
 
 Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
@@ -98,6 +113,7 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     s.beforeSky = linksBeforeSky(s.bake->caches, s.bake->tree);
     for (std::size_t c = 0; c < s.everyLink.size(); ++c)
         s.skyLinks += s.everyLink[c] - s.beforeSky[c];
+    s.read = cachesRead(s.bake->surfels, s.bake->caches);
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
     s.field.lightmapWidth = s.bake->lightmap.width;
@@ -130,6 +146,9 @@ void Relighter::State::setBands(int count) {
     innerBands.chroma = std::min(bounceBands.chroma, innerBands.luma);
     const std::size_t n = std::size_t(bands * bands);
     sh.assign(bake->caches.size() * n, glm::vec3(0));
+    innerSh.clear();
+    current.assign(bake->caches.lightmapCount, 0);
+    unread = false;
     field.bands = std::uint32_t(bands);
     field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
                           glm::vec4(0));
@@ -183,26 +202,95 @@ void Relighter::State::chooseEnds() {
     dimmedEnds = blackSky ? dimmed.beforeSky : allLinks(dimmed.links);
 }
 
-/// Lights the lightmap's caches, or the grid's, valid and invalid ones.
-void Relighter::State::lightRange(LightBands in, bool grid, std::vector<glm::vec3>& out) {
+/// Lights caches, valid and invalid ones. `dimmedRuns`: those among them that are dimmed.
+void Relighter::State::light(LightBands in, const CacheRuns& runs, const CacheRuns& dimmedRuns,
+                             std::vector<glm::vec3>& out) {
     const Caches& caches = bake->caches;
-    const std::uint32_t begin = grid ? caches.lightmapCount : 0,
-                        end = grid ? std::uint32_t(caches.size()) : caches.lightmapCount;
     const auto coefficients = std::size_t(in.luma * in.luma);
-    out.resize(std::max(out.size(), end * coefficients));
-    lightCaches(caches, otherEnds.empty() ? ends : LinkEnds(otherEnds), radiosity, in, begin, end,
-                out, halfs);
-    const auto all = std::uint32_t(dimmed.cache.size());
-    const std::uint32_t first = grid ? dimmed.lightmapCount : 0,
-                        last = grid ? all : dimmed.lightmapCount;
-    if (first < last) {
-        dimmedSh.resize(std::max(dimmedSh.size(), last * coefficients));
-        lightCaches(dimmed.links, dimmedEnds, radiosity, in, first, last, dimmedSh);
-        for (std::size_t k = first; k < last; ++k)
+    if (runs.empty())
+        return;
+    out.resize(std::max(out.size(), runs.back().end * coefficients));
+    lightCaches(caches, otherEnds.empty() ? ends : LinkEnds(otherEnds), radiosity, in, runs, out,
+                halfs);
+    if (!dimmedRuns.empty()) {
+        dimmedSh.resize(std::max(dimmedSh.size(), dimmedRuns.back().end * coefficients));
+        lightCaches(dimmed.links, dimmedEnds, radiosity, in, dimmedRuns, dimmedSh);
+    }
+    for (const CacheRun run : dimmedRuns)
+        for (std::size_t k = run.begin; k < run.end; ++k)
             std::copy_n(dimmedSh.begin() + std::ptrdiff_t(k * coefficients), coefficients,
                         out.begin() + std::ptrdiff_t(dimmed.cache[k] * coefficients));
-    }
-    fillInvalidCaches(caches, in.luma, begin, end, out);
+    for (const CacheRun run : runs)
+        fillInvalidCaches(caches, in.luma, run.begin, run.end, out);
+}
+
+void Relighter::State::lightLightmap(LightBands in, const CacheFlags& which,
+                                     std::vector<glm::vec3>& out) {
+    CacheFlags dimmedFlags(dimmed.lightmapCount);
+    for (std::size_t k = 0; k < dimmedFlags.size(); ++k)
+        dimmedFlags[k] = which[dimmed.cache[k]];
+    light(in, runsOf(which), runsOf(dimmedFlags), out);
+}
+
+void Relighter::State::lightGrid() {
+    light(finalBands, runsOf(bake->caches.lightmapCount, std::uint32_t(bake->caches.size())),
+          runsOf(dimmed.lightmapCount, std::uint32_t(dimmed.cache.size())), sh);
+}
+
+/// Where surfels read, in innerBands: `sh` itself, unless that has more bands or is to lose colour.
+std::vector<glm::vec3>& Relighter::State::inner() {
+    const bool same = bands == innerBands.luma && finalBands.chroma >= bounceBands.chroma;
+    return same ? sh : innerSh;
+}
+
+/// Copies what is in `sh`.
+void Relighter::State::keepInner(const CacheFlags& which) {
+    std::vector<glm::vec3>& out = inner();
+    if (&out == &sh)
+        return;
+    const auto from = std::size_t(bands * bands),
+               to = std::size_t(innerBands.luma * innerBands.luma);
+    out.resize(which.size() * to);
+    for (std::size_t c = 0; c < which.size(); ++c)
+        if (which[c] != 0)
+            std::copy_n(sh.begin() + std::ptrdiff_t(c * from), to,
+                        out.begin() + std::ptrdiff_t(c * to));
+}
+
+/// Lights what surfels read of the last pull and is not there yet.
+void Relighter::State::lightRest() {
+    CacheFlags rest = read;
+    for (std::size_t c = 0; c < rest.size(); ++c)
+        rest[c] &= current[c] == 0;
+    lightLightmap(innerBands, rest, inner());
+    unread = false;
+}
+
+void Relighter::State::readInner() {
+    readCaches(bake->surfels, inner(), innerBands.luma, indirect);
+}
+
+/// Lights what the field is to have, in all bands. `newLight`: surfels have not read that of the
+/// last pull.
+void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
+    lightLightmap(bounceBands, which, sh);
+    for (std::size_t c = 0; c < which.size(); ++c)
+        current[c] |= which[c];
+    unread |= newLight;
+    if (unread)
+        keepInner(which);
+    if (finalBands.chroma < bounceBands.chroma)
+        for (const CacheRun run : runsOf(which))
+            dropChroma(finalBands, run.begin, run.end, sh);
+}
+
+/// What is to be lit for the field to be right in `seen`, or everywhere.
+CacheFlags Relighter::State::missing(const CacheFlags* seen) const {
+    CacheFlags flags = seen != nullptr ? *seen : CacheFlags(current.size(), 1);
+    addFillSources(bake->caches, flags);
+    for (std::size_t c = 0; c < flags.size(); ++c)
+        flags[c] &= current[c] == 0;
+    return flags;
 }
 
 /// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.
@@ -219,87 +307,112 @@ double Relighter::State::lightSurfels() {
     return total > 0 ? change / total : (change > 0 ? 1 : 0);
 }
 
-void Relighter::State::writeField() {
+void Relighter::State::writeField(const CacheFlags& which, bool grid) {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(bands * bands);
+    const auto write = [&](std::size_t c, std::vector<glm::vec4>& out, std::size_t stride) {
+        for (std::size_t i = 0; i < coefficients; ++i)
+            out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
+    };
     const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
-    const std::size_t written = gridLit ? caches.size() : caches.lightmapCount;
+    for (std::size_t c = 0; c < which.size(); ++c)
+        if (which[c] != 0)
+            write(c, field.lightmap, texels);
     field.gridSize = gridLit ? bake->gridSize : glm::uvec3(0);
     const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
     field.grid.resize(cells * coefficients, glm::vec4(0));
     field.gridDepth =
         gridLit ? std::shared_ptr<const std::vector<std::uint16_t>>(bake, &bake->gridDepth)
                 : nullptr;
-    for (std::size_t c = 0; c < written; ++c) {
-        const bool lightmap = c < caches.lightmapCount;
-        std::vector<glm::vec4>& out = lightmap ? field.lightmap : field.grid;
-        const std::size_t stride = lightmap ? texels : cells;
-        for (std::size_t i = 0; i < coefficients; ++i)
-            out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
-    }
+    for (std::size_t c = caches.lightmapCount; grid && c < caches.size(); ++c)
+        write(c, field.grid, cells);
     ++field.version;
 }
 
+/// Takes over what `scene` changes. True if that is anything.
+bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats) {
+    Timer timer;
+    const bool materialsChanged = updateMaterials(scene);
+    const bool skyChanged = updateSky(scene);
+    const bool directChanged = updateSurfelLight(bake->surfels, scene, trace, direct);
+    stats.lightsTraced = direct.lightsTraced;
+    stats.shadowRays = direct.raysTraced;
+    stats.lightsOff = std::uint32_t(scene.lights.size() - direct.lights.size());
+    stats.bandsLit = std::uint32_t(bands);
+    stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
+    stats.directMs = timer.lap();
+    const bool dimmingChanged = updateDimming(scene);
+    stats.cachesDimmed = std::uint32_t(dimmed.cache.size());
+    stats.linksDimmed = dimmed.dimmed;
+    stats.dimMs = dimmingChanged ? timer.lap() : 0;
+    const Caches& caches = bake->caches;
+    const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
+    const bool grid = gridCaches > 0 && needsGrid(scene, bake->lightmap);
+    stats.gridCachesSkipped = grid ? 0 : gridCaches;
+    gridMissing = grid && !gridLit;
+    gridLit = grid;
+    if (materialsChanged || directChanged || gridMissing)
+        convergence.lightChanged();
+    if (skyChanged || dimmingChanged)
+        convergence.skyChanged();
+    ends = blackSky ? beforeSky : everyLink;
+    if (skyChanged || dimmingChanged || !started)
+        chooseEnds();
+    started = true;
+    stats.cachesUnread = std::uint32_t(std::ranges::count(read, 0));
+    stats.skyLinksSkipped = blackSky ? skyLinks : 0;
+    return materialsChanged || skyChanged || directChanged || dimmingChanged || gridMissing;
+}
+
 RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
-                                const Progress& progress) {
+                                const Progress& progress, const CacheFlags* seen) {
     State& s = *m_state;
     RelightStats stats;
-    Timer total, timer;
-    const bool materialsChanged = s.updateMaterials(scene);
-    const bool skyChanged = s.updateSky(scene);
-    const bool directChanged = updateSurfelLight(s.bake->surfels, scene, trace, s.direct);
-    stats.lightsTraced = s.direct.lightsTraced;
-    stats.shadowRays = s.direct.raysTraced;
-    stats.lightsOff = std::uint32_t(scene.lights.size() - s.direct.lights.size());
-    stats.bandsLit = std::uint32_t(s.bands);
-    stats.bandsSkipped = s.bake->settings.bands - stats.bandsLit;
-    stats.directMs = timer.lap();
-    const bool dimmingChanged = s.updateDimming(scene);
-    stats.cachesDimmed = std::uint32_t(s.dimmed.cache.size());
-    stats.linksDimmed = s.dimmed.dimmed;
-    stats.dimMs = dimmingChanged ? timer.lap() : 0;
-    const Caches& caches = s.bake->caches;
-    const bool grid = caches.size() > caches.lightmapCount && needsGrid(scene, s.bake->lightmap);
-    stats.gridCachesSkipped = grid ? 0 : std::uint32_t(caches.size()) - caches.lightmapCount;
-    const bool gridMissing = grid && !s.gridLit;
-    s.gridLit = grid;
-    if (materialsChanged || directChanged || gridMissing)
-        s.convergence.lightChanged();
-    if (skyChanged || dimmingChanged)
-        s.convergence.skyChanged();
-    s.started = true;
-    if (s.convergence.reached()) {
-        stats.converged = stats.skipped = true;
-        stats.totalMs = total.lap();
-        return stats;
+    Timer total;
+    const bool changed = s.takeScene(scene, trace, stats);
+    Timer timer;
+    const bool bouncing = bounces > 0 && !s.convergence.reached();
+    if (bouncing) {
+        if (s.unread && !changed) {
+            s.lightRest();
+            stats.cacheLightMs += timer.lap();
+            s.readInner();
+            stats.surfelReadMs += timer.lap();
+        }
+        s.current.assign(s.current.size(), 0);
     }
-    s.ends = s.blackSky ? s.beforeSky : s.everyLink;
-    s.chooseEnds();
-    stats.skyLinksSkipped = s.blackSky ? s.skyLinks : 0;
-    for (bool last = bounces == 0; !last;) {
+    for (bool last = !bouncing; !last;) {
         s.convergence.addRound(s.lightSurfels());
         ++stats.bounces;
         last = s.convergence.reached() || stats.bounces == bounces || progress.cancelled();
         stats.surfelLightMs += timer.lap();
         pullRadiosity(s.bake->tree, s.radiosity);
         stats.pullMs += timer.lap();
-        // Only the last bounce is seen in more bands than surfels read.
-        const bool whole = last || s.bands <= s.innerBands.luma;
-        const LightBands in = whole ? s.bounceBands : s.innerBands;
-        std::vector<glm::vec3>& sh = whole ? s.sh : s.innerSh;
-        s.lightRange(in, false, sh);
+        if (last)
+            break;
+        s.lightLightmap(s.innerBands, s.read, s.inner());
         stats.cacheLightMs += timer.lap();
-        readCaches(s.bake->surfels, sh, in.luma, s.indirect);
+        s.readInner();
         stats.surfelReadMs += timer.lap();
     }
-    if (s.finalBands.chroma < s.bounceBands.chroma)
-        dropChroma(s.finalBands, 0, caches.lightmapCount, s.sh);
-    if (grid)
-        s.lightRange(s.finalBands, true, s.sh);
-    stats.cacheLightMs += timer.lap();
-    s.writeField();
-    stats.fieldMs = timer.lap();
+    const CacheFlags lit = s.missing(seen);
     stats.converged = s.convergence.reached();
+    stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
+    if (!stats.skipped) {
+        const bool grid = s.gridLit && (bouncing || s.gridMissing);
+        s.lightSeen(lit, bouncing);
+        if (grid)
+            s.lightGrid();
+        if (bouncing && (seen == nullptr || stats.bounces < 2))
+            s.lightRest();
+        stats.cacheLightMs += timer.lap();
+        if (bouncing && !s.unread)
+            s.readInner();
+        stats.surfelReadMs += timer.lap();
+        s.writeField(lit, grid);
+        stats.fieldMs = timer.lap();
+    }
+    stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
     stats.totalMs = total.lap();
     return stats;
 }

@@ -3,6 +3,7 @@
 
 #include "engine/bake/bake.h"
 #include "engine/math/sh.h"
+#include "engine/relight/cache_runs.h"
 #include "engine/relight/indirect_field.h"
 
 #include <array>
@@ -30,8 +31,11 @@ struct RelightStats {
     std::uint32_t bandsLit = 0;          ///< of the caches
     std::uint32_t bandsSkipped = 0;      ///< bands of the bake that no surface's reflection needs
     std::uint32_t gridCachesSkipped = 0; ///< nothing would read them
-    std::uint32_t cachesDimmed = 0;      ///< that dynamic objects take light from
-    std::uint64_t linksDimmed = 0;       ///< of those
+    std::uint32_t cachesUnread =
+        0; ///< of the lightmap: no surfel reads them, no bounce lights them
+    std::uint32_t cachesUnseen = 0; ///< of the lightmap: the field has older light there
+    std::uint32_t cachesDimmed = 0; ///< that dynamic objects take light from
+    std::uint64_t linksDimmed = 0;  ///< of those
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 
@@ -55,9 +59,18 @@ public:
     /// the dynamic objects of `scene`, by at most `bounces` iterations of B = albedo (E_direct +
     /// E_indirect(B)) + pi L_e. Call again to converge further. `trace` answers the shadow rays.
     /// Cancelled calls leave a valid field.
+    ///
+    /// `seen`: lightmap caches where the field is needed, by seenCaches(); null: all. Others keep
+    /// older light. Bounces light what surfels read; the last one what is seen, and what surfels
+    /// read of the rest is put off until the next call, which drops it where the light has changed
+    /// and goes on with it where not. So light that stands still is the same, bit by bit, for every
+    /// view, and in moving light surfels begin with what they read one bounce earlier; in calls of
+    /// one bounce nothing is put off. Where nothing has changed, or without bounces, only what is
+    /// seen and has older light is lit.
     RelightStats relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
-                         const Progress& progress = {});
+                         const Progress& progress = {}, const CacheFlags* seen = nullptr);
 
+    /// Where it holds the light of the last relight(): everything but RelightStats::cachesUnseen.
     const IndirectField& field() const;
     const Bake& bake() const;
 
@@ -65,7 +78,7 @@ public:
     const std::vector<glm::vec4>& radiosity() const;
 
     /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
-    /// field()'s. From band chromaBandsOf(settings) on they are grey.
+    /// field()'s. From band chromaBandsOf(settings) on they are grey. Older where field() is.
     const std::vector<glm::vec3>& cacheSh() const;
 
 private:
