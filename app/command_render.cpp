@@ -11,6 +11,7 @@
 #include "engine/files/image_file.h"
 #include "engine/measure/compare.h"
 #include "engine/relight/relight.h"
+#include "engine/relight/seen_caches.h"
 
 #include <algorithm>
 #include <chrono>
@@ -30,7 +31,7 @@ struct Options {
     OverlayFlags overlay;
     std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
     float exposureEv = 0;
-    bool noDimming = false, json = false;
+    bool noDimming = false, allCaches = false, json = false;
 };
 
 /// What a picture needs of a bake: indirect light, and what is drawn over it. Empty: nothing.
@@ -38,6 +39,7 @@ struct Baked {
     std::shared_ptr<const Bake> bake;
     std::shared_ptr<const TraceScene> trace;
     bool light = false;                   ///< the picture shows bounced light
+    std::optional<CacheFlags> seen;       ///< caches that the picture looks up; none: light all
     std::unique_ptr<Relighter> relighter; ///< made when the CPU has to light the bake
     std::shared_ptr<const OverlayData> overlay;
 };
@@ -89,8 +91,9 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
 CpuLight relight(const Scene& scene, Baked& baked) {
     if (!baked.relighter) // an overlay of light has one already
         baked.relighter = std::make_unique<Relighter>(baked.bake);
-    const RelightStats stats = baked.relighter->relight(
-        scene, *baked.trace, baked.bake->settings.maxBounces, progressOnStderr());
+    const RelightStats stats =
+        baked.relighter->relight(scene, *baked.trace, baked.bake->settings.maxBounces,
+                                 progressOnStderr(), baked.seen ? &*baked.seen : nullptr);
     endProgressLine();
     return {baked.relighter->field(), stats};
 }
@@ -127,6 +130,9 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
             !added)
             return tl::make_unexpected(added.error());
     baked.light = light;
+    if (light && !options.allCaches)
+        baked.seen = seenCaches(cacheFootprints(scene, *baked.bake), camera,
+                                float(options.camera.width) / float(options.camera.height));
     return baked;
 }
 
@@ -198,7 +204,9 @@ void report(const Options& options, const RenderedImage& image, const OverlayDat
             json["relight"] = {{"device", image.relightDevice},
                                {"ms", image.relight.totalMs},
                                {"bounces", image.relight.bounces},
-                               {"converged", image.relight.converged}};
+                               {"converged", image.relight.converged},
+                               {"caches_unseen", image.relight.cachesUnseen},
+                               {"caches_unread", image.relight.cachesUnread}};
         if (overlay)
             json["overlay"] = legendJson(overlay->legend);
         fmt::print("{}\n", json.dump());
@@ -280,6 +288,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
         ->check(CLI::IsMember(strings(kRelightOnNames)));
     command->add_flag("--no-dimming", options->noDimming,
                       "dynamic objects do not keep bounced light off what is behind them");
+    command->add_flag("--all-caches", options->allCaches,
+                      "light the whole lightmap on the CPU, not only what the picture looks up");
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

@@ -235,6 +235,46 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     EXPECT_EQ(limn("render cornell").exit, 2);
 }
 
+TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) {
+    struct View {
+        const char *scene, *lens;
+        bool sees; ///< much less than all
+    };
+    const std::string sponza = LIMN_SOURCE_DIR "/../shared/scenes/sponza-crytek/Sponza.gltf";
+    std::vector<View> views = {
+        {"cornell", "", false},
+        {"cornell", " --eye 0,1,1 --target 0.8,0.4,-0.5 --fov 30", true},
+        {"atrium", "", true},
+        {"atrium", " --eye 0,1.7,0 --target -3,2,1 --fov 60", true},
+    };
+    if (fs::exists(sponza))
+        for (const char* lens :
+             {"", " --eye -10,2,0 --target 10,5,1", " --eye 0,6,4.5 --target -10,6,4"})
+            views.push_back({sponza.c_str(), lens, true});
+    std::string baked;
+    const std::string bake = path("some.limnbake"), few = path("few.exr"), all = path("all.exr");
+    for (const View& view : views) {
+        if (baked != view.scene)
+            json(std::string("bake ") + view.scene + " -o " + bake +
+                 " --surfels 3000 --links 32 --rays 64 --lightmap 3000 --bands 4 --json");
+        baked = view.scene;
+        for (const char* device : {"auto", "cpu"}) {
+            if (baked == sponza && device == std::string("cpu"))
+                continue; // takes long
+            const std::string render = std::string("render ") + view.scene + view.lens +
+                                       " --light 'sun dir=-0.4,-1,-0.3 lux=20' --bake " + bake +
+                                       " --relight cpu --device " + device +
+                                       " --width 320 --height 200 --json -o ";
+            const nlohmann::json with = json(render + few),
+                                 without = json(render + all + " --all-caches");
+            EXPECT_EQ(without["relight"]["caches_unseen"], 0);
+            EXPECT_EQ(with["relight"]["bounces"], without["relight"]["bounces"]);
+            EXPECT_GT(with["relight"]["caches_unseen"], view.sees ? 300 : -1);
+            EXPECT_TRUE(contents(few) == contents(all)) << view.scene << view.lens << device;
+        }
+    }
+}
+
 TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {
     const std::string folder = path("frames");
     const std::string start = "bench frame cornell --surfels 256 --links 16 --rays 32 --lightmap "
