@@ -99,6 +99,7 @@ struct InstanceLookup {
     const Scene& scene;
     const LightmapLayout& layout;
     std::uint32_t index;
+    bool back; ///< of a two-sided instance
 
     const Instance& instance() const { return scene.instances[index]; }
 
@@ -106,23 +107,23 @@ struct InstanceLookup {
         const MeshCharts& charts = layout.meshes[instance().mesh];
         const Mesh& mesh = scene.meshOf(instance());
         const glm::vec2 size(float(layout.width), float(layout.height));
+        const glm::vec2 first(-0.5f, back ? float(layout.instances[index].backRows) - 0.5f : -0.5f);
         Polygon p{.count = 3};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t v = charts.indices[3 * t + k];
-            p.corners[k] = {layout.instances[index].uv[v] * size - 0.5f,
+            p.corners[k] = {layout.instances[index].uv[v] * size + first,
                             glm::vec3(instance().toWorld *
                                       glm::vec4(mesh.positions[charts.sourceVertex[v]], 1))};
         }
         return p;
     }
 
+    /// Of the side in question.
     glm::vec3 normal(std::uint32_t t) const {
         const Instance& i = instance();
-        if (scene.materialOf(i).doubleSided)
-            return glm::vec3(0);
         const glm::vec3 n = i.normalToWorld * triangleNormal(scene.meshOf(i), t);
         const float length = glm::length(n);
-        return length > 0 ? n / length : glm::vec3(0);
+        return length > 0 ? (back ? -n : n) / length : glm::vec3(0);
     }
 };
 
@@ -174,8 +175,7 @@ void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles
     }
 }
 
-std::vector<TexelFootprint> instanceFootprints(const InstanceLookup& in) {
-    std::vector<TexelFootprint> out;
+void addSide(const InstanceLookup& in, std::vector<TexelFootprint>& out) {
     const MeshCharts& charts = in.layout.meshes[in.instance().mesh];
     const std::vector<std::uint32_t> triangles = byChart(charts);
     std::vector<std::int32_t> scratch;
@@ -185,7 +185,6 @@ std::vector<TexelFootprint> instanceFootprints(const InstanceLookup& in) {
             ++end;
         addChart(in, std::span(triangles).subspan(begin, end - begin), scratch, out);
     }
-    return out;
 }
 
 /// Planes through the eye, normals inwards, and the one that the camera looks from.
@@ -238,7 +237,9 @@ CacheFootprints cacheFootprints(const Scene& scene, const Bake& bake) {
     parallelRanges(found.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             if (i < layout.instances.size() && !layout.instances[i].uv.empty())
-                found[i] = instanceFootprints({scene, layout, std::uint32_t(i)});
+                for (const bool back : {false, true})
+                    if (!back || layout.instances[i].backRows > 0)
+                        addSide({scene, layout, std::uint32_t(i), back}, found[i]);
     });
     std::vector<std::uint32_t> cacheOf(std::size_t(layout.width) * layout.height, ~0U);
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)

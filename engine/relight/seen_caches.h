@@ -12,8 +12,8 @@ namespace limn {
 /// A part of a surface that looks a cache up, within one chart.
 struct CacheFootprint {
     Bounds bounds; ///< world
-    /// Unit, world: the fronts of its triangles look along it, up to an angle. 0: it is seen from
-    /// either side.
+    /// Unit, world: the sides in question of its triangles look along it, up to an angle. 0: it may
+    /// be seen from anywhere.
     glm::vec3 normal{0};
     float cosSpread = 1; ///< of that angle
 };

@@ -88,8 +88,9 @@ CacheFlags lookedUp(const Baked& in, const Camera& camera, float aspect, int ray
         const Instance& instance = in.scene.instances[hit.instance];
         if (!hit.frontFace && !in.scene.materialOf(instance).doubleSided)
             continue; // drawn black
-        const Bilinear at = bilinearAt(
-            layout, lightmapUv(layout, hit.instance, instance.mesh, hit.triangle, hit.u, hit.v));
+        const Bilinear at =
+            bilinearAt(layout, lightmapUv(layout, hit.instance, instance.mesh, hit.triangle, hit.u,
+                                          hit.v, !hit.frontFace));
         for (int i = 0; i < 4; ++i)
             if (at.weight[i] > 0 && cacheOf[at.texel[i]] != ~0U)
                 flags[cacheOf[at.texel[i]]] = 1;
