@@ -31,6 +31,8 @@ struct Options {
     OverlayFlags overlay;
     std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
     float exposureEv = 0;
+    std::uint32_t frames = 1;
+    double framesPerSecond = 24;
     bool noDimming = false, allCaches = false, json = false;
 };
 
@@ -144,6 +146,8 @@ Result<void> checkOverlay(const Options& options) {
         return fail("--overlay: is drawn on a tone-mapped picture; -o must be a .png");
     if (options.device == "cpu")
         return fail("--overlay: needs a Vulkan device");
+    if (options.frames > 1)
+        return fail("--overlay: is of one picture; not with --frames");
     return checkOverlayFlags(options.overlay);
 }
 
@@ -154,20 +158,32 @@ Result<void> checkRelight(const Options& options) {
 }
 
 // "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
-Result<RenderedImage> draw(const Options& options, const Scene& scene,
-                           const RenderRequest& request) {
+Result<DrawPicture> chooseDrawing(const Options& options) {
+    const bool cpuWillDo =
+        options.device == "auto" && !options.overlay.wanted() && options.relight != "gpu";
     if (options.device == "cpu")
-        return renderOnCpu(scene, request);
+        return renderOnCpu;
 #ifdef LIMN_HAS_VIEWPORT
-    Result<RenderedImage> image = renderOnGpu(scene, request);
-    if (image || options.device != "auto" || request.overlay || request.relightOn == RelightOn::Gpu)
-        return image;
-    logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
+    Result<DrawPicture> onGpu = drawingOnGpu(options.device == "auto" ? "" : options.device);
+    if (!cpuWillDo)
+        return onGpu;
+    if (!onGpu) {
+        logWarning(fmt::format("drawing on the CPU: {}", onGpu.error().message));
+        return renderOnCpu;
+    }
+    return
+        [gpu = *onGpu](const Scene& scene, const RenderRequest& request) -> Result<RenderedImage> {
+            Result<RenderedImage> image = gpu(scene, request);
+            if (image)
+                return image;
+            logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
+            return renderOnCpu(scene, request);
+        };
 #else
-    if (options.device != "auto" || request.overlay || request.relightOn == RelightOn::Gpu)
+    if (!cpuWillDo)
         return fail("--device: this program was built without Vulkan; there is: cpu");
+    return renderOnCpu;
 #endif
-    return renderOnCpu(scene, request);
 }
 
 RenderRequest requestOf(const Options& options, const Scene& scene, const Camera& camera,
@@ -180,7 +196,6 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     request.tonemap = Tonemap(indexOf(kTonemapNames, options.tonemap));
     request.exposureEv = options.exposureEv;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
-    request.device = options.device == "auto" ? "" : options.device;
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
     request.bake = baked.bake;
@@ -189,48 +204,99 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     return request;
 }
 
-void report(const Options& options, const RenderedImage& image, const OverlayData* overlay,
-            double seconds) {
-    const std::uint64_t invalid = countInvalidPixels(image.linear);
-    if (options.json) {
-        nlohmann::ordered_json json;
-        json["seconds"] = seconds; // without reading the scene
-        json["device"] = image.device;
-        json["view"] = options.view;
-        json["width"] = image.linear.width;
-        json["height"] = image.linear.height;
-        json["invalid_pixels"] = invalid;
-        if (!image.relightDevice.empty())
-            json["relight"] = {{"device", image.relightDevice},
-                               {"ms", image.relight.totalMs},
-                               {"bounces", image.relight.bounces},
-                               {"converged", image.relight.converged},
-                               {"caches_unseen", image.relight.cachesUnseen},
-                               {"caches_unread", image.relight.cachesUnread}};
-        if (overlay)
-            json["overlay"] = legendJson(overlay->legend);
-        fmt::print("{}\n", json.dump());
-        return;
-    }
+nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& image,
+                                  const OverlayData* overlay, double seconds) {
+    nlohmann::ordered_json json;
+    json["seconds"] = seconds; // without reading the scene
+    json["device"] = image.device;
+    json["view"] = options.view;
+    json["width"] = image.linear.width;
+    json["height"] = image.linear.height;
+    json["invalid_pixels"] = countInvalidPixels(image.linear);
+    if (!image.relightDevice.empty())
+        json["relight"] = {{"device", image.relightDevice},
+                           {"ms", image.relight.totalMs},
+                           {"bounces", image.relight.bounces},
+                           {"converged", image.relight.converged},
+                           {"caches_unseen", image.relight.cachesUnseen},
+                           {"caches_unread", image.relight.cachesUnread}};
+    if (overlay)
+        json["overlay"] = legendJson(overlay->legend);
+    return json;
+}
+
+void printReport(const std::string& path, const Options& options, const RenderedImage& image,
+                 const OverlayData* overlay, double seconds) {
     std::string relit;
     if (!image.relightDevice.empty())
         relit =
             fmt::format("relit on {} in {:.1f} ms, ", image.relightDevice, image.relight.totalMs);
-    fmt::print("{}: {}, {} x {} on {}, {}{} invalid pixels, {:.1f} s\n", options.output,
-               options.view, image.linear.width, image.linear.height, image.device, relit, invalid,
-               seconds);
+    fmt::print("{}: {}, {} x {} on {}, {}{} invalid pixels, {:.1f} s\n", path, options.view,
+               image.linear.width, image.linear.height, image.device, relit,
+               countInvalidPixels(image.linear), seconds);
     if (overlay)
         fmt::print("{}", legendText(overlay->legend));
 }
 
+// "film.png" of frame 3 of 100: "film-03.png"; the only frame keeps the name.
+std::string framePath(const Options& options, std::uint32_t frame) {
+    if (options.frames == 1)
+        return options.output;
+    std::filesystem::path path = options.output;
+    const std::size_t digits = std::to_string(options.frames - 1).size();
+    path.replace_filename(
+        fmt::format("{}-{:0{}}{}", path.stem().string(), frame, digits, path.extension().string()));
+    return path.string();
+}
+
+Result<void> writePicture(const std::string& path, const RenderedImage& image) {
+    return path.ends_with(".png") ? writePng(path, image.picture) : writeExr(path, image.linear);
+}
+
+// Each frame is lit from the one before: films change little in between.
+Result<void> renderFrames(const Options& options, const Document& document, Scene& scene,
+                          const Camera& camera) {
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start = Clock::now();
+    Result<Baked> baked = prepareBake(options, scene, camera);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
+    const Result<DrawPicture> draw = chooseDrawing(options);
+    if (!draw)
+        return tl::make_unexpected(draw.error());
+    const RenderRequest request = requestOf(options, scene, camera, *baked);
+    auto frames = nlohmann::ordered_json::array();
+    for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
+        const double time = options.scene.seconds + frame / options.framesPerSecond;
+        showTime(scene, document, time);
+        const Result<RenderedImage> image = (*draw)(scene, request);
+        if (!image)
+            return tl::make_unexpected(image.error());
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const std::string path = framePath(options, frame);
+        if (const Result<void> written = writePicture(path, *image); !written)
+            return written;
+        if (options.json) {
+            frames.push_back(reportJson(options, *image, baked->overlay.get(), seconds));
+            if (options.frames > 1)
+                frames.back()["time"] = time, frames.back()["file"] = path;
+        } else {
+            printReport(path, options, *image, baked->overlay.get(), seconds);
+        }
+        start = Clock::now();
+    }
+    if (options.json)
+        fmt::print(
+            "{}\n",
+            (options.frames > 1 ? nlohmann::ordered_json{{"frames", frames}} : frames[0]).dump());
+    return {};
+}
+
 Exit runRender(const Options& options) {
-    const std::string extension = std::filesystem::path(options.output).extension().string();
-    if (const Result<void> writable = checkOutputFile(options.output, {".exr", ".png"}); !writable)
-        return failed(writable.error().message);
-    if (const Result<void> possible = checkOverlay(options); !possible)
-        return failed(possible.error().message);
-    if (const Result<void> possible = checkRelight(options); !possible)
-        return failed(possible.error().message);
+    for (const Result<void>& possible : {checkOutputFile(options.output, {".exr", ".png"}),
+                                         checkOverlay(options), checkRelight(options)})
+        if (!possible)
+            return failed(possible.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);
     if (!imported)
         return failed(imported.error().message);
@@ -239,32 +305,25 @@ Exit runRender(const Options& options) {
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
         return failed(camera.error().message);
-
-    const auto start = std::chrono::steady_clock::now();
-    Result<Baked> baked = prepareBake(options, scene, *camera);
-    if (!baked)
-        return failed(baked.error().message);
-    const Result<RenderedImage> image =
-        draw(options, scene, requestOf(options, scene, *camera, *baked));
-    if (!image)
-        return failed(image.error().message);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Result<void> written = extension == ".png" ? writePng(options.output, image->picture)
-                                                     : writeExr(options.output, image->linear);
-    if (!written)
-        return failed(written.error().message);
-    report(options, *image, baked->overlay.get(), seconds);
-    return Exit::Done;
+    const Result<void> done = renderFrames(options, imported->document, scene, *camera);
+    return done ? Exit::Done : failed(done.error().message);
 }
 
 } // namespace
 
 void addRenderCommand(CLI::App& app, Run& run) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("render", "Draws one picture, as the viewport shows it");
+    CLI::App* command = app.add_subcommand(
+        "render", "Draws a picture, or frames of a film, as the viewport shows it");
     addSceneOptions(*command, options->scene);
     addTimeOption(*command, options->scene);
+    command
+        ->add_option("--frames", options->frames,
+                     "pictures of films in materials, from --time on; their numbers are put before "
+                     "the extension of the output")
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--fps", options->framesPerSecond, "frames per second of --frames [1/s]")
+        ->check(CLI::Range(0.001, 10000.0));
     addCameraOptions(*command, options->camera);
     addOverlayFlags(*command, options->overlay);
     command->add_option("--bake", options->bake,

@@ -24,45 +24,69 @@ static RelightOn choose(const gpu::Device& device, const Scene& scene,
                                relightTimesKey(p.deviceName, p.driverVersion, *request.bake)));
 }
 
+namespace {
+
+/// One device with what it keeps between pictures.
+struct GpuDrawing {
+    std::unique_ptr<gpu::Device> device;
+    Viewport viewport;
+    std::unique_ptr<ViewportRelighter> relighter; ///< null: bounced light is the CPU's
+    bool chosen = false;                          ///< which of the two
+
+    explicit GpuDrawing(std::unique_ptr<gpu::Device> on)
+        : device(std::move(on)), viewport(*device) {}
+
+    Result<void> chooseRelighter(const Scene& scene, const RenderRequest& request);
+    Result<void> relight(const Scene& scene, const RenderRequest& request, RenderedImage& result);
+    Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request);
+};
+
+Result<void> GpuDrawing::chooseRelighter(const Scene& scene, const RenderRequest& request) {
+    chosen = true;
+    if (choose(*device, scene, request) == RelightOn::Cpu)
+        return {};
+    auto made = ViewportRelighter::create(*device, request.bake);
+    if (made)
+        relighter = std::move(*made);
+    else if (request.relightOn == RelightOn::Gpu)
+        return fail("--relight: " + made.error().message);
+    else
+        logWarning(fmt::format("relighting on the CPU: {}", made.error().message));
+    return {};
+}
+
 // Bounces until nothing changes, as the CPU does.
-static Result<void> relight(gpu::Device& device, Viewport& viewport, const Scene& scene,
-                            const RenderRequest& request, RenderedImage& result) {
+Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& request,
+                                 RenderedImage& result) {
     if (!request.relight)
         return {};
-    const bool onGpu = choose(device, scene, request) == RelightOn::Gpu;
-    auto relighter = onGpu ? ViewportRelighter::create(device, request.bake)
-                           : Result<std::unique_ptr<ViewportRelighter>>();
-    if (!relighter && request.relightOn == RelightOn::Gpu)
-        return fail("--relight: " + relighter.error().message);
-    if (!relighter)
-        logWarning(fmt::format("relighting on the CPU: {}", relighter.error().message));
-    if (!relighter || !*relighter) {
+    if (!chosen)
+        if (const Result<void> done = chooseRelighter(scene, request); !done)
+            return done;
+    if (!relighter) {
         const CpuLight light = request.relight();
         viewport.setIndirect(light.field);
         result.relightDevice = "cpu";
         result.relight = light.stats;
         return {};
     }
-    result.relight = (*relighter)->relight(viewport, scene, request.bake->settings.maxBounces, {});
-    result.relightDevice = device.properties.deviceName;
+    result.relight = relighter->relight(viewport, scene, request.bake->settings.maxBounces, {});
+    result.relightDevice = device->properties.deviceName;
     return {};
 }
 
-Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& request) {
-    const auto device = gpu::createDevice({.name = request.device});
-    if (!device)
-        return fail("--device: " + device.error().message);
-    const std::uint32_t limit = (*device)->properties.limits.maxImageDimension2D;
+Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& request) {
+    const VkPhysicalDeviceProperties& properties = device->properties;
+    const std::uint32_t limit = properties.limits.maxImageDimension2D;
     if (std::max(request.width, request.height) > limit)
         return fail(fmt::format("--width, --height: {} draws at most {} pixels a side",
-                                (*device)->properties.deviceName, limit));
-    Viewport viewport(**device);
+                                properties.deviceName, limit));
     RenderedImage result;
     if (request.bake) // the layout lives as long as the bake
         viewport.setScene(scene, {request.bake, &request.bake->lightmap});
     else
         viewport.setScene(scene, nullptr);
-    if (const auto lit = relight(**device, viewport, scene, request, result); !lit)
+    if (const auto lit = relight(scene, request, result); !lit)
         return tl::make_unexpected(lit.error());
     viewport.setOverlay(request.overlay);
     ViewportOptions options;
@@ -73,11 +97,23 @@ Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& reque
     options.tonemap = request.tonemap;
     options.exposureEv = request.exposureEv;
     viewport.render(options);
-    result.device = (*device)->properties.deviceName;
+    result.device = properties.deviceName;
     result.linear = viewport.readLinear();
     if (request.tonemapped)
         result.picture = viewport.readTonemapped();
     return result;
+}
+
+} // namespace
+
+Result<DrawPicture> drawingOnGpu(const std::string& device) {
+    auto made = gpu::createDevice({.name = device});
+    if (!made)
+        return fail("--device: " + made.error().message);
+    return [drawing = std::make_shared<GpuDrawing>(std::move(*made))](
+               const Scene& scene, const RenderRequest& request) {
+        return drawing->draw(scene, request);
+    };
 }
 
 } // namespace limn

@@ -29,7 +29,6 @@ struct RenderRequest {
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
     bool tonemapped = false;          ///< the picture is wanted, not only the numbers
-    std::string device;               ///< part of the Vulkan device's name; empty: the best
     std::shared_ptr<const Bake> bake; ///< null: nothing is baked
     /// Lights `bake` on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
@@ -45,12 +44,17 @@ struct RenderedImage {
     RelightStats relight;
 };
 
-/// One picture by the Vulkan viewport. Fails when there is no such device, when the bake is too
-/// large to be lit on it, or when this build has no Vulkan.
-Result<RenderedImage> renderOnGpu(const Scene& scene, const RenderRequest& request);
+/// Draws pictures one after the other and keeps what the next one can use.
+using DrawPicture =
+    std::function<Result<RenderedImage>(const Scene& scene, const RenderRequest& request)>;
+
+/// By the Vulkan viewport, on the device in whose name `device` is; empty: the best. Fails when
+/// there is none. Drawing fails where the picture is larger than the device allows, or the bake too
+/// large to be lit on it. Only in builds with Vulkan.
+Result<DrawPicture> drawingOnGpu(const std::string& device);
 
 /// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
-/// `request.device` and `request.relightOn` are not looked at.
+/// `request.relightOn` is not looked at.
 RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
 
 } // namespace limn

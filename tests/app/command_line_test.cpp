@@ -235,6 +235,32 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     EXPECT_EQ(limn("render cornell").exit, 2);
 }
 
+TEST_F(CommandLine, RenderWritesTheFramesOfAFilmEachAsAPictureOfItsTime) {
+    const std::string bake = path("signs.limnbake");
+    ASSERT_EQ(limn("bake signs" + kCoarse + "-o " + bake).exit, 0);
+    const std::string start = "render signs --bake " + bake + " --width 48 --height 48 --json ";
+    for (const std::string relight : {"cpu", "gpu"}) {
+        const std::string where = "--relight " + relight + " ";
+        const nlohmann::json film = json(start + where + "--time 0.25 --frames 11 --fps 4 -o " +
+                                         path("film.exr"))["frames"];
+        ASSERT_EQ(film.size(), 11u);
+        EXPECT_EQ(film[2]["file"], path("film-02.exr"));
+        EXPECT_DOUBLE_EQ(film[2]["time"], 0.75);
+        EXPECT_EQ(film[10]["file"], path("film-10.exr"));
+        json(start + where + "--time 0.75 -o " + path("one.exr"));
+        const auto error = [&](const std::string& file) {
+            return double(
+                json("compare " + path(file) + " " + path("one.exr") + " --json")["nrmse"]);
+        };
+        EXPECT_LT(error("film-02.exr"), 1e-3); // what bounces leave undone
+        EXPECT_GT(error("film-01.exr"), 0.05);
+        EXPECT_GT(error("film-03.exr"), 0.05);
+    }
+    expectRefusal("render signs --frames 2 --overlay surfels -o " + path("film.png"), "--frames");
+    EXPECT_EQ(limn("render signs --frames 0 -o " + path("film.png")).exit, 2);
+    EXPECT_EQ(limn("render signs --frames 2 --fps 0 -o " + path("film.png")).exit, 2);
+}
+
 TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) {
     struct View {
         const char *scene, *lens;
