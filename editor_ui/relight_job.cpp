@@ -68,8 +68,15 @@ struct RelightJob::Worker {
     RelightStatus status;
     std::shared_ptr<const LitBake> lit; ///< null: nobody asks
     bool lighting = true;
+    bool whole = false;            ///< the field has the newest light everywhere
+    bool everWhole = false;        ///< it had some of this bake's
+    std::optional<Viewpoint> view; ///< newest; none: all is looked at
+    CacheFootprints footprints;    ///< of the bake; empty until needed
+    std::optional<Viewpoint> seenFrom;
+    CacheFlags seen; ///< from there
 
-    bool hasWork() const { return lighting && relighter && scene && !status.converged; }
+    bool hasWork() const { return lighting && relighter && scene && !(status.converged && whole); }
+    const CacheFlags* seenNow();
     void setLighting(bool here);
     void takeScene(std::shared_ptr<const Scene> next);
     void takeBake(BakedScene next);
@@ -88,14 +95,16 @@ void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
                           : std::make_shared<const TraceScene>(*scene);
     if (!sameInputs)
         inputHash = bakeInputHash(*scene);
-    status.converged = false;
+    status.converged = whole = false;
     status.bounces = 0;
 }
 
 void RelightJob::Worker::takeBake(BakedScene next) {
     baked = std::move(next);
     relighter = baked.bake ? std::make_unique<Relighter>(baked.bake) : nullptr;
-    status.converged = false;
+    footprints = {};
+    seenFrom.reset();
+    status.converged = whole = everWhole = false;
     status.bounces = 0;
 }
 
@@ -105,13 +114,31 @@ void RelightJob::Worker::setLighting(bool here) {
     lighting = here;
 }
 
+/// Null: all, as at first, so that there is light wherever somebody looks later.
+const CacheFlags* RelightJob::Worker::seenNow() {
+    if (!view || !everWhole)
+        return nullptr;
+    if (footprints.begin.empty())
+        footprints = cacheFootprints(*baked.scene, *baked.bake);
+    if (seenFrom != view)
+        seen = seenCaches(footprints, view->camera, view->aspect);
+    seenFrom = view;
+    return &seen;
+}
+
 void RelightJob::Worker::relight(const Progress& progress) {
+    const bool rest = status.converged; // is left
+    const std::uint32_t bounces = rest ? 0 : kBouncesPerCall;
+    const CacheFlags* wanted = rest ? nullptr : seenNow();
     const bool fresh = inputHash == baked.bake->sceneHash;
-    if (fresh)
-        status.last = relighter->relight(*scene, *trace, kBouncesPerCall, progress);
-    else
-        status.last = relighter->relight(relitScene(*baked.scene, *scene), *baked.trace,
-                                         kBouncesPerCall, progress);
+    const RelightStats stats = fresh ? relighter->relight(*scene, *trace, bounces, progress, wanted)
+                                     : relighter->relight(relitScene(*baked.scene, *scene),
+                                                          *baked.trace, bounces, progress, wanted);
+    whole = stats.cachesUnseen == 0;
+    everWhole |= whole;
+    if (rest) // the panels go on to show what bounces took
+        return;
+    status.last = stats;
     countUpdate(status, scene->bake.maxBounces);
 }
 
@@ -187,6 +214,11 @@ void RelightJob::setLighting(bool here) {
     m_changed.notify_one();
 }
 
+void RelightJob::setView(const Viewpoint& view) {
+    const std::lock_guard lock(m_mutex);
+    m_view = view; // looked at by the next bounces
+}
+
 void RelightJob::keepLit(bool keep) {
     {
         const std::lock_guard lock(m_mutex);
@@ -220,6 +252,7 @@ void RelightJob::run() {
         auto scene = std::exchange(m_nextScene, nullptr);
         auto baked = std::exchange(m_nextBake, {});
         const bool keepLit = m_keepLit;
+        worker.view = keepLit ? std::nullopt : m_view;
         lock.unlock();
         if (scene)
             worker.takeScene(std::move(scene));
@@ -243,8 +276,10 @@ void RelightJob::run() {
         m_result.inputHash = worker.inputHash;
         m_result.status = worker.status;
         m_result.status.running = worker.hasWork() || m_nextScene;
-        m_result.status.converged = worker.status.converged && !m_nextScene;
+        m_result.status.converged = worker.status.converged && worker.whole && !m_nextScene;
+        lock.unlock();
         m_wake();
+        lock.lock();
     }
 }
 

@@ -4,6 +4,7 @@
 #include "editor_ui/bake_job.h"
 #include "engine/overlay/overlay.h"
 #include "engine/relight/relight.h"
+#include "engine/relight/seen_caches.h"
 
 #include <condition_variable>
 
@@ -19,10 +20,19 @@ struct Relit {
     RelightStatus status;
 };
 
+/// From where a picture is seen.
+struct Viewpoint {
+    Camera camera;
+    float aspect = 1; ///< width over height
+    bool operator==(const Viewpoint&) const = default;
+};
+
 /// Keeps the bounced light up to date with the newest scene on a thread of its own: a few bounces
-/// at a time until converged, then it sleeps. Whatever lights, it also builds the TraceScene and
-/// the hash that decides about a new bake, because both take long on large scenes. No call waits
-/// for that work.
+/// at a time until converged, then it sleeps. While light changes it lights what is seen, by the
+/// newest setView(); once converged, the rest: a field that has converged is right everywhere, and
+/// before that what comes into view is right with the next field. Whatever lights, it also builds
+/// the TraceScene and the hash that decides about a new bake, because both take long on large
+/// scenes. No call waits for that work.
 class RelightJob {
 public:
     /// `wake` is called from the thread whenever there is something new in result().
@@ -41,6 +51,9 @@ public:
     /// no field.
     void setLighting(bool here);
 
+    /// From where the field is looked at. Without it, and while keepLit(true), all caches are lit.
+    void setView(const Viewpoint& view);
+
     /// Whether Relit::lit is wanted, for an overlay of light. At first it is not.
     void keepLit(bool keep);
 
@@ -56,6 +69,7 @@ private:
     std::shared_ptr<const Scene> m_nextScene; ///< not yet taken
     std::optional<BakedScene> m_nextBake;     ///< not yet taken
     bool m_lighting = true, m_keepLit = false;
+    std::optional<Viewpoint> m_view;
     bool m_stop = false;
     Relit m_result;
     std::atomic<bool> m_cancel{false};

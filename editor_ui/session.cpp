@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace limn {
@@ -262,6 +263,8 @@ void Session::showStatus() {
     state.trace = m_relit.trace;
     state.relightPlace.dims = dimsLinks(*m_scene);
     m_relightJob.setLighting(!viewportRelights());
+    const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
+    m_relightJob.setView({state.view.camera, size.x / size.y});
     m_relightJob.keepLit(showsLight(state.overlay.options.kind) && !viewportRelights());
     if (!viewportRelights())
         state.relight = m_relit.status;

@@ -149,6 +149,12 @@ static void relightTable(EditorState& state) {
         "The others would be seen in glossy reflections only, and no surface needs them");
     row("Grid skipped", groupedNumber(r.last.gridCachesSkipped),
         "Cells not lit, because no object reads them: none is dynamic or without lightmap");
+    row("Unseen caches", groupedNumber(r.last.cachesUnseen),
+        "Of the lightmap, not lit by the last bounce, because the picture does not show them; lit "
+        "when "
+        "the light stands still");
+    row("Unread caches", groupedNumber(r.last.cachesUnread),
+        "Of the lightmap, not lit by the bounces before the last, because no surfel reads them");
     row("Dimmed caches", groupedNumber(r.last.cachesDimmed),
         "That dynamic objects take bounced light from; 0 where there are none");
     row("Dimmed links", groupedNumber(r.last.linksDimmed), "Of those caches");

@@ -218,6 +218,28 @@ TEST(ViewDependentRelighting, IsTheSameBitByBitWhereItIsSeen) {
             }
 }
 
+TEST(ViewDependentRelighting, LightsWhatInvalidCachesAreFilledFrom) {
+    Scene scene = room();
+    scene.instances[1].toWorld[3].y = -0.5f; // sunk into the floor
+    const Baked in(std::move(scene));
+    const Caches& caches = in.bake->caches;
+    Relighter all(in.bake);
+    all.relight(in.scene, in.trace, 2);
+    std::uint32_t invalid = 0;
+    for (std::uint32_t c = 0; c < caches.lightmapCount && invalid < 5; ++c) {
+        if (caches.fillBegin[c] == caches.fillBegin[c + 1])
+            continue;
+        ++invalid;
+        CacheFlags one(caches.lightmapCount, 0);
+        one[c] = 1;
+        Relighter few(in.bake);
+        few.relight(in.scene, in.trace, 2, {}, &one);
+        EXPECT_EQ(differing(in, all.field(), few.field(), one), 0U);
+        EXPECT_GT(differing(in, all.field(), few.field(), everywhere(in)), 100U);
+    }
+    EXPECT_GT(invalid, 1U);
+}
+
 TEST(ViewDependentRelighting, GoesOnBitByBitWhileTheLightStandsStill) {
     Scene scene = room(LinkStorage::Rtp, 5);
     scene.bake.chromaBands = 2;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/relight_job.h"
+
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+std::shared_ptr<const Scene> room() {
+    SceneBuilder b;
+    b.addMaterial(lambert({0.7f, 0.5f, 0.3f}));
+    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    b.add(box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false));
+    b.scene.lights.resize(1);
+    b.scene.lights[0].position = {2, 2.5f, 2};
+    b.scene.lights[0].strength = 5;
+    b.scene.bake.surfels = 900;
+    b.scene.bake.lightmapCaches = 1500;
+    b.scene.bake.rays = 64;
+    b.scene.bake.links = 32;
+    b.scene.bake.grid = {2, 2, 2};
+    return std::make_shared<const Scene>(b.build());
+}
+
+std::shared_ptr<const Scene> lampAt(const Scene& scene, glm::vec3 position) {
+    Scene moved = scene;
+    moved.lights[0].position = position;
+    return std::make_shared<const Scene>(std::move(moved));
+}
+
+Viewpoint lookingTo(glm::vec3 target) {
+    Viewpoint view;
+    view.camera.eye = {2, 1.5f, 2.5f};
+    view.camera.target = target;
+    return view;
+}
+
+struct RelightJobTest : testing::Test {
+    std::shared_ptr<const Scene> scene = room();
+    std::shared_ptr<const TraceScene> trace = std::make_shared<const TraceScene>(*scene);
+    std::shared_ptr<const Bake> made = std::make_shared<const Bake>(*bake(*trace));
+    CacheFootprints footprints = cacheFootprints(*scene, *made);
+    Viewpoint a = lookingTo({2, 1.5f, 5}), b = lookingTo({2, 1.5f, 0});
+
+    CacheFlags seen(const Viewpoint& view) const {
+        return seenCaches(footprints, view.camera, view.aspect);
+    }
+
+    static bool until(const std::function<bool()>& done) {
+        for (int i = 0; i < 6000; ++i) {
+            if (done())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return false;
+    }
+    static bool rests(const RelightJob& job) {
+        const RelightStatus s = job.result().status;
+        return s.converged && !s.running;
+    }
+
+    /// Relative to the mean, the largest difference of a texel's mean radiance where `which` is.
+    double difference(const IndirectField& x, const IndirectField& y,
+                      const CacheFlags& which) const {
+        double worst = 0, sum = 0;
+        for (std::size_t c = 0; c < which.size(); ++c) {
+            const std::size_t at = made->caches.texel[c];
+            sum += double(y.lightmap[at].x);
+            if (which[c] != 0)
+                worst = std::max(worst, double(std::abs(x.lightmap[at].x - y.lightmap[at].x)));
+        }
+        return worst / (sum / double(which.size()));
+    }
+};
+
+TEST_F(RelightJobTest, LightsWhatIsSeenWhileALightMovesAndAllAtRest) {
+    RelightJob job([] {});
+    job.setView(a);
+    job.setScene(scene);
+    job.setBake({made, scene, trace});
+    ASSERT_TRUE(until([&] { return rests(job); }));
+    const auto moved = lampAt(*scene, {3.2f, 1.8f, 4});
+    job.setScene(moved);
+    ASSERT_TRUE(until([&] { return rests(job) && job.result().hashedScene == moved; }));
+    const Relit relit = job.result();
+    EXPECT_GT(relit.status.last.cachesUnseen, 300U) << "bounces were for what is seen";
+    // Whichever way the camera turns now: a full relight shows no other light.
+    Relighter full(made);
+    full.relight(*scene, *trace, 64);
+    const IndirectField before = full.field();
+    full.relight(*moved, *trace, 64);
+    const CacheFlags all(made->caches.lightmapCount, 1);
+    EXPECT_LT(difference(*relit.field, full.field(), all), 1e-3) << "both converged to 1e-4";
+    EXPECT_GT(difference(before, full.field(), seen(b)), 0.1) << "which the old light is not";
+}
+
+TEST_F(RelightJobTest, WhatComesIntoViewIsRightWithTheNextField) {
+    const auto moved = lampAt(*scene, {3.2f, 1.8f, 4});
+    std::atomic<bool> looks = false, looked = false;
+    std::vector<std::shared_ptr<const IndirectField>> fields; // of the moved lamp, one a call
+    RelightJob* running = nullptr;
+    RelightJob job([&] {
+        if (!looks)
+            return;
+        const Relit relit = running->result();
+        fields.push_back(relit.field);
+        running->setView(b); // the camera turns while the light is not complete; the lamp stands
+        looked = !relit.status.running;
+    });
+    running = &job;
+    job.setView(a);
+    job.setScene(scene);
+    job.setBake({made, scene, trace});
+    ASSERT_TRUE(until([&] { return rests(job); }));
+    looks = true;
+    job.setScene(moved);
+    ASSERT_TRUE(until([&] { return looked.load(); }));
+    ASSERT_GT(fields.size(), 2U);
+    Relighter full(made); // lights all in every call
+    full.relight(*scene, *trace, 64);
+    full.relight(*moved, *trace, kBouncesPerCall);
+    EXPECT_LT(difference(*fields[0], full.field(), seen(a)), 1e-3);
+    EXPECT_GT(difference(*fields[0], full.field(), seen(b)), 0.1) << "nobody looks there";
+    full.relight(*moved, *trace, kBouncesPerCall);
+    EXPECT_LT(difference(*fields[1], full.field(), seen(b)), 1e-3);
+}
+
+TEST_F(RelightJobTest, LightsAllForOverlaysOfLight) {
+    RelightJob job([] {});
+    job.setView(a);
+    job.keepLit(true);
+    job.setScene(scene);
+    job.setBake({made, scene, trace});
+    ASSERT_TRUE(until([&] { return rests(job); }));
+    job.setScene(lampAt(*scene, {3.2f, 1.8f, 4}));
+    ASSERT_TRUE(until([&] { return rests(job); }));
+    EXPECT_GT(job.result().status.calls, 2U);
+    EXPECT_EQ(job.result().status.last.cachesUnseen, 0U);
+}
+
+} // namespace
+} // namespace limn
