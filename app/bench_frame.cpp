@@ -4,6 +4,7 @@
 
 #include "engine/files/relight_choice.h"
 #include "engine/gpu/device.h"
+#include "engine/relight/seen_caches.h"
 #include "engine/render/viewport_relighter.h"
 
 #include <chrono>
@@ -20,6 +21,8 @@ struct FrameBench {
     std::string output, device, view = "lit";
     std::vector<std::uint32_t> lights = {0};      ///< points in the scene; 0: its own lights
     std::vector<std::string> relightOn = {"gpu"}; ///< "cpu", "gpu"
+    std::vector<std::string> caches = {"seen"};   ///< "all", "seen"
+    std::uint32_t bounces = 1;                    ///< a frame
     int runs = 15;
     bool json = false;
 };
@@ -33,6 +36,7 @@ struct FrameTimes {
     double geometry = 0, direct = 0, tonemap = 0;
     double perLight = 0; ///< shadow maps and lights on surfels over the lights
     double total = 0;    ///< of the clock on the wall
+    std::uint32_t cachesUnseen = 0;
 };
 
 struct Pass {
@@ -55,15 +59,17 @@ struct FrameScene {
     const TraceScene& trace;
     std::unique_ptr<Relighter> cpu;
     std::unique_ptr<ViewportRelighter> gpu; ///< null: `cpu` is not
+    std::optional<CacheFlags> seen;         ///< caches to light; none: all
 
-    FrameTimes draw(const Scene& lit);
+    FrameTimes draw(const Scene& lit, std::uint32_t bounces);
 };
 
-/// With one bounce.
-FrameTimes FrameScene::draw(const Scene& lit) {
+FrameTimes FrameScene::draw(const Scene& lit, std::uint32_t bounces) {
     const auto start = std::chrono::steady_clock::now();
     viewport.setLighting(lit);
-    const RelightStats light = gpu ? gpu->relight(viewport, lit, 1) : cpu->relight(lit, trace, 1);
+    const CacheFlags* wanted = seen ? &*seen : nullptr;
+    const RelightStats light =
+        gpu ? gpu->relight(viewport, lit, bounces) : cpu->relight(lit, trace, bounces, {}, wanted);
     if (cpu)
         viewport.setIndirect(cpu->field());
     viewport.render(options);
@@ -85,6 +91,7 @@ FrameTimes FrameScene::draw(const Scene& lit) {
     if (!lit.lights.empty())
         t.perLight = (t.shadowMaps + t.lightsOnSurfels) / double(lit.lights.size());
     t.total = total.count();
+    t.cachesUnseen = light.cachesUnseen;
     return t;
 }
 
@@ -100,6 +107,9 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
     row.update(settingsOf(baked));
     row.update({{"lights", scene.lights.size()},
                 {"lights_without_shadow", stats.lightsWithoutShadow},
+                {"bounces", o.bounces},
+                {"caches_lit", frame.seen ? "seen" : "all"},
+                {"caches_unseen", frames.back().cachesUnseen},
                 {"frames", frames.size()},
                 {"bytes", stats.gpuBytes}});
     for (const Pass& pass : kPasses) {
@@ -112,18 +122,21 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
 }
 
 void printHead() {
-    fmt::print("{:<14} {:<7} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} "
+    fmt::print("{:<14} {:<7} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7} {:>7} {:>7} {:>7} "
+               "{:>7} {:>7} "
                "{:>7} {:>7} {:>7} {:>8} {:>8} {:>8}\n",
-               "scene", "relight", "lights", "surfels", "links", "bands", "kind", "shadows",
-               "direct", "surfels", "pull", "caches", "field", "geom", "shade", "tone", "/light",
-               "all [ms]", "p95");
+               "scene", "relight", "lit", "unseen", "lights", "surfels", "links", "bands", "kind",
+               "shadows", "direct", "surfels", "pull", "caches", "field", "geom", "shade", "tone",
+               "/light", "all [ms]", "p95");
 }
 
 void printRow(const Json& r) {
     const auto ms = [&](const std::string& key) { return r[key + "_median_ms"].get<double>(); };
-    fmt::print("{:<14.14} {:<7} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} "
+    fmt::print("{:<14.14} {:<7} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7.2f} {:>7.2f} "
+               "{:>7.2f} {:>7.2f} "
                "{:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>8.3f} {:>8.2f} {:>8.2f}\n",
                r["name"].get<std::string>(), r["relight"].get<std::string>(),
+               r["caches_lit"].get<std::string>(), r["caches_unseen"].get<std::uint32_t>(),
                r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
                r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
                r["storage"].get<std::string>(), ms("shadow_maps"), ms("lights_on_surfels"),
@@ -134,7 +147,8 @@ void printRow(const Json& r) {
 }
 
 Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Device& device,
-                           std::uint32_t lights, const std::string& relightOn) {
+                           std::uint32_t lights, const std::string& relightOn,
+                           const std::string& caches) {
     Scene lit = baked.scene;
     if (lights > 0)
         lit.lights = pointsOver(lit, baked.bake->surfels, lights);
@@ -154,12 +168,15 @@ Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Dev
     } else {
         frame.cpu = std::make_unique<Relighter>(baked.bake);
     }
+    if (caches == "seen")
+        frame.seen = seenCaches(cacheFootprints(lit, *baked.bake), *camera,
+                                float(o.camera.width) / float(o.camera.height));
     frame.viewport.setScene(lit, {baked.bake, &baked.bake->lightmap});
     std::vector<FrameTimes> frames;
     const std::vector<Light> standing = lit.lights;
     for (int k = 0; k <= o.runs; ++k) {
         lit.lights = movedLights(standing, k);
-        const FrameTimes times = frame.draw(lit);
+        const FrameTimes times = frame.draw(lit, o.bounces);
         if (k > 0) // the first lights materials and makes pipelines too
             frames.push_back(times);
     }
@@ -175,14 +192,15 @@ Exit runFrameBench(const FrameBench& o) {
         printHead();
     const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
         for (const std::uint32_t lights : o.lights)
-            for (const std::string& on : o.relightOn) {
-                Result<Json> row = measureFrames(o, baked, **device, lights, on);
-                if (!row)
-                    return tl::make_unexpected(row.error());
-                rows.push_back(std::move(*row));
-                if (!o.json)
-                    printRow(rows.back());
-            }
+            for (const std::string& on : o.relightOn)
+                for (const std::string& caches : o.caches) {
+                    Result<Json> row = measureFrames(o, baked, **device, lights, on, caches);
+                    if (!row)
+                        return tl::make_unexpected(row.error());
+                    rows.push_back(std::move(*row));
+                    if (!o.json)
+                        printRow(rows.back());
+                }
         return {};
     });
     if (!measured)
@@ -195,8 +213,8 @@ Exit runFrameBench(const FrameBench& o) {
 void addFrameBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<FrameBench>();
     o->bakes.storages = {"rtp"};
-    CLI::App* command = bench.add_subcommand(
-        "frame", "Time of each pass of the viewport while all lights move, one bounce a frame");
+    CLI::App* command =
+        bench.add_subcommand("frame", "Time of each pass of the viewport while all lights move");
     addBenchBakes(*command, o->bakes);
     addCameraOptions(*command, o->camera);
     command->add_option("-o,--output", o->output, "folder of frame.csv and frame.json")->required();
@@ -206,6 +224,10 @@ void addFrameBench(CLI::App& bench, Run& run) {
     addList(*command, "--relight", o->relightOn,
             "a list: where bounced light is worked out, gpu or cpu",
             CLI::IsMember(std::vector<std::string>{"gpu", "cpu"}));
+    addList(*command, "--caches", o->caches,
+            "a list: light those caches that the picture looks up (seen), or all",
+            CLI::IsMember(std::vector<std::string>{"all", "seen"}));
+    command->add_option("--bounces", o->bounces, "of a frame")->check(CLI::Range(1, 64));
     command->add_option("--device", o->device, "part of a Vulkan device's name");
     command->add_option("--runs", o->runs, "frames, of which the median is printed")
         ->check(CLI::Range(9, 100000));
