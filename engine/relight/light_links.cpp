@@ -2,16 +2,19 @@
 // Compiled once for each kind of vector unit; the best one is chosen when the program runs.
 #include "engine/relight/light_links.h"
 
+#include "engine/math/packing.h"
 #include "engine/math/sh_basis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/relight/light_links.cpp"
 // Besides plain code, AVX2 and AVX-512 are enough.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -24,161 +27,203 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using V = hn::Vec<Floats>;
 
-/// Links whose light and basis wait side by side in the nearest cache, before they are summed.
-constexpr std::size_t kBlock = 128;
-constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(float);
+/// Of lambdas whose variables are registers.
+#define LIMN_UNROLLED __attribute__((always_inline))
 
-/// The light that comes over a block's links: red, green, blue, or luma and two chrominances.
-struct BlockLight {
-    alignas(HWY_MAX_BYTES) float colour[3][kBlock];
-};
+/// 32 vector registers instead of 16.
+constexpr bool kManyRegisters = HWY_TARGET == HWY_AVX3;
 
-HWY_INLINE void toLuma(Floats d, V& r, V& g, V& b) {
-    const V sides = hn::Mul(hn::Add(r, b), hn::Set(d, 0.25f)),
-            middle = hn::Mul(g, hn::Set(d, 0.5f));
-    const V co = hn::Mul(hn::Sub(r, b), hn::Set(d, 0.5f));
-    r = hn::Add(middle, sides);
-    g = co;
-    b = hn::Sub(middle, sides);
-}
+template <int I>
+using Number = std::integral_constant<int, I>;
 
-/// `count` is a multiple of the lanes.
-template <bool Luma>
-HWY_INLINE void readLight(const Link* links, std::size_t count, const glm::vec4* radiosity,
-                          BlockLight& out) {
-    const Floats d;
-    alignas(HWY_MAX_BYTES) float rgbw[4 * kBlock];
-    for (std::size_t k = 0; k < count; ++k)
-        std::memcpy(rgbw + 4 * k, &radiosity[links[k].node], sizeof(glm::vec4));
-    for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
-        V r, g, b, unused;
-        hn::LoadInterleaved4(d, rgbw + 4 * k, r, g, b, unused);
-        if (Luma)
-            toLuma(d, r, g, b);
-        hn::Store(r, d, out.colour[0] + k);
-        hn::Store(g, d, out.colour[1] + k);
-        hn::Store(b, d, out.colour[2] + k);
+/// Calls f(Number<Begin>()) … f(Number<End - 1>()): loops over registers, which have no addresses.
+template <int Begin, int End, class F>
+HWY_INLINE void unrolled(const F& f) {
+    if constexpr (Begin < End) {
+        f(Number<Begin>());
+        unrolled<Begin + 1, End>(f);
     }
 }
 
-/// Factors of the bands for cones of u = 1 - cos(half-angle), times `transport`: as coneFactors.
+#if HWY_TARGET != HWY_SCALAR
+
+/// Every fourth link's light, in one block of four lanes each.
+template <class D>
+HWY_INLINE hn::Vec<D> blocksOf(D d, const Link* links, const glm::vec4* radiosity) {
+    if constexpr (hn::MaxLanes(D()) == 4) {
+        return hn::LoadU(d, &radiosity[links->node].x);
+    } else {
+        const hn::Half<D> half;
+        return hn::Combine(d, blocksOf(half, links + hn::MaxLanes(half), radiosity),
+                           blocksOf(half, links, radiosity));
+    }
+}
+
+/// The sum of the blocks of four lanes.
+template <class D>
+HWY_INLINE hn::Vec<hn::Full128<float>> sumBlocks(D, hn::Vec<D> v) {
+    if constexpr (hn::MaxLanes(D()) == 4) {
+        return v;
+    } else {
+        const hn::Half<D> half;
+        return sumBlocks(half, hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+    }
+}
+
+#endif
+
+/// Red, green and blue of the nodes of as many links as there are lanes.
+HWY_INLINE void gatherLight(Floats d, const Link* links, const glm::vec4* radiosity, V& r, V& g,
+                            V& b) {
+#if HWY_TARGET == HWY_SCALAR
+    const glm::vec4& from = radiosity[links->node];
+    r = hn::Set(d, from.x), g = hn::Set(d, from.y), b = hn::Set(d, from.z);
+#else
+    // Block k of v[j] is the light of link 4 k + j; each four by four is then turned.
+    V v[4];
+    for (std::size_t j = 0; j < 4; ++j)
+        v[j] = blocksOf(d, links + j, radiosity);
+    const hn::Repartition<double, Floats> pairs;
+    const auto low = [&](V a, V c)
+                         HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveLower(d, a, c)); };
+    const auto high = [&](V a, V c)
+                          HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveUpper(d, a, c)); };
+    const auto rg01 = low(v[0], v[1]), rg23 = low(v[2], v[3]);
+    r = hn::BitCast(d, hn::InterleaveLower(pairs, rg01, rg23));
+    g = hn::BitCast(d, hn::InterleaveUpper(pairs, rg01, rg23));
+    b = hn::BitCast(d, hn::InterleaveLower(pairs, high(v[0], v[1]), high(v[2], v[3])));
+#endif
+}
+
+/// Writes the sums of the lanes of four vectors.
+HWY_INLINE void sumLanes(V a, V b, V c, V e, float* out) {
+#if HWY_TARGET == HWY_SCALAR
+    out[0] = hn::GetLane(a), out[1] = hn::GetLane(b);
+    out[2] = hn::GetLane(c), out[3] = hn::GetLane(e);
+#else
+    const Floats d;
+    const hn::Repartition<double, Floats> pairs;
+    const auto ab = hn::BitCast(
+                   pairs, hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b))),
+               ce = hn::BitCast(
+                   pairs, hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e)));
+    const V all = hn::Add(hn::BitCast(d, hn::InterleaveLower(pairs, ab, ce)),
+                          hn::BitCast(d, hn::InterleaveUpper(pairs, ab, ce)));
+    hn::StoreU(sumBlocks(d, all), hn::Full128<float>(), out);
+#endif
+}
+
+/// (l-1-m)(l-1+m) / ((2l-1)(2l-3)): q_l^m = x q_{l-1}^m - beta q_{l-2}^m, q_m^m = 1, are the
+/// associated Legendre polynomials without (1-x^2)^{m/2} and with leading coefficients of 1.
+constexpr float monicBeta(int l, int m) {
+    return float(double((l - 1 - m) * (l - 1 + m)) / double((2 * l - 1) * (2 * l - 3)));
+}
+
+/// What those leave out of Y_lm and of a cone's factor of band l: at l(l+1)+m.
+constexpr auto monicScales() {
+    std::array<float, kMaxCoefficients> scale{};
+    double odd = 1, factorial = 1; // (2l-1)!!, l!
+    for (int l = 0; l < kMaxBands; ++l) {
+        if (l > 0)
+            odd *= 2 * l - 1, factorial *= l;
+        const double cone = l > 0 ? odd / (factorial * (l + 1)) : 1;
+        double below = factorial; // (l-m)!
+        for (int m = 0; m <= l; ++m) {
+            if (m > 0)
+                below /= l - m + 1;
+            const double k = double(sh_detail::kNormalisation[std::size_t(l * (l + 1) / 2 + m)]);
+            scale[std::size_t(l * (l + 1) + m)] = scale[std::size_t(l * (l + 1) - m)] =
+                float(k * cone * odd / below);
+        }
+    }
+    return scale;
+}
+constexpr auto kMonicScale = monicScales();
+
+/// Factors of the bands for cones of u = 1 - cos(half-angle), times `transport`: as coneFactors,
+/// up to constants.
 template <int Bands>
 HWY_INLINE void coneBands(Floats d, V u, V transport, V* factor) {
-    const V x = hn::Sub(hn::Set(d, 1.f), u), rest = hn::Mul(hn::Sub(hn::Set(d, 2.f), u), transport);
+    const V x = hn::Sub(hn::Set(d, 1.f), u);
     factor[0] = transport;
-    V d2 = hn::Zero(d), d1 = hn::Zero(d);
-    for (int l = 1; l < Bands; ++l) {
-        V p = hn::Set(d, 1.f);
-        if (l > 1)
-            p = hn::Sub(hn::Mul(hn::Mul(hn::Set(d, float(2 * l - 1) / float(l - 1)), x), d1),
-                        hn::Mul(hn::Set(d, float(l) / float(l - 1)), d2));
-        factor[l] = hn::Mul(hn::Mul(rest, p), hn::Set(d, 1.f / float(l * (l + 1))));
-        d2 = d1;
-        d1 = p;
-    }
+    factor[1] = hn::NegMulAdd(u, transport, hn::Add(transport, transport));
+    if constexpr (Bands > 2)
+        factor[2] = hn::Mul(x, factor[1]);
+    unrolled<3, Bands>([&](auto l) LIMN_UNROLLED {
+        factor[l] =
+            hn::NegMulAdd(hn::Set(d, monicBeta(l, 1)), factor[l - 2], hn::Mul(x, factor[l - 1]));
+    });
 }
 
-/// Spherical harmonics of unit directions, each band times its factor: as shBasisFixed. Coefficient
-/// i goes to out[i * kBlock].
-template <int Bands>
-HWY_INLINE void storeBasis(Floats d, V x, V y, V z, const V* factor, float* out) {
-    V c = hn::Set(d, 1.f), s = hn::Zero(d);
-    float qmm = 1;
-    for (int m = 0; m < Bands; ++m) {
-        V q2 = hn::Zero(d), q1 = hn::Zero(d);
-        for (int l = m; l < Bands; ++l) {
-            V q = hn::Set(d, qmm);
-            if (l > m)
-                q = hn::Sub(hn::Mul(hn::Mul(hn::Set(d, float(2 * l - 1) / float(l - m)), z), q1),
-                            hn::Mul(hn::Set(d, float(l + m - 1) / float(l - m)), q2));
-            const float k = sh_detail::kNormalisation[std::size_t(l * (l + 1) / 2 + m)];
-            const V kq = hn::Mul(hn::Mul(hn::Set(d, k), q), factor[l]);
-            hn::Store(hn::Mul(kq, c), d, out + std::size_t(l * (l + 1) + m) * kBlock);
-            if (m > 0)
-                hn::Store(hn::Mul(kq, s), d, out + std::size_t(l * (l + 1) - m) * kBlock);
-            q2 = q1;
-            q1 = q;
+/// Calls add(Number<i>(), value) for the spherical harmonics of unit directions, each band times
+/// its factor: as shBasisFixed, up to constants.
+template <int Bands, class Add>
+HWY_INLINE void basisOf(Floats d, V x, V y, V z, const V* factor, const Add& add) {
+    V c = x, s = y;
+    unrolled<0, Bands>([&](auto m) LIMN_UNROLLED {
+        V q2 = hn::Set(d, 1.f), q1 = z;
+        unrolled<m, Bands>([&](auto l) LIMN_UNROLLED {
+            V q = factor[l];
+            if constexpr (l > m + 1) {
+                const V next = hn::NegMulAdd(hn::Set(d, monicBeta(l, m)), q2, hn::Mul(z, q1));
+                q2 = q1;
+                q1 = next;
+            }
+            if constexpr (l > m)
+                q = hn::Mul(q, q1);
+            if constexpr (m == 0) {
+                add(Number<l*(l + 1)>(), q);
+            } else {
+                add(Number<l*(l + 1) + m>(), hn::Mul(q, c));
+                add(Number<l*(l + 1) - m>(), hn::Mul(q, s));
+            }
+        });
+        if constexpr (m > 0) {
+            const V cNext = hn::NegMulAdd(s, y, hn::Mul(c, x));
+            s = hn::MulAdd(s, x, hn::Mul(c, y));
+            c = cNext;
         }
-        const V cNext = hn::Sub(hn::Mul(c, x), hn::Mul(s, y));
-        s = hn::Add(hn::Mul(s, x), hn::Mul(c, y));
-        c = cNext;
-        qmm *= float(2 * m + 1);
-    }
+    });
 }
 
-/// 16-bit snorm of the lower or upper half of each lane.
-HWY_INLINE V snorm(Floats d, hn::Vec<hn::RebindToSigned<Floats>> shifted) {
-    return hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(shifted)), hn::Set(d, 1 / 32767.f));
+/// 1 / sqrt(v) within some roundings.
+HWY_INLINE V inverseRoot(Floats d, V v) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    const V near = hn::ApproximateReciprocalSqrt(v); // 12 or 14 bits
+    return hn::Mul(hn::Mul(near, hn::Set(d, 0.5f)),
+                   hn::NegMulAdd(hn::Mul(v, near), near, hn::Set(d, 3.f)));
+#else
+    return hn::Div(hn::Set(d, 1.f), hn::Sqrt(v));
+#endif
 }
 
-template <int Bands>
-HWY_INLINE void expandCones(const Link* links, std::size_t count, float* basis) {
-    const Floats d;
+/// Calls add(i, value) for the coefficients of as many links as there are lanes.
+template <int Bands, class Add>
+HWY_INLINE void expandCones(Floats d, const Link* links, const Add& add) {
     const hn::RebindToUnsigned<Floats> du;
     const hn::RebindToSigned<Floats> di;
-    const hn::Rebind<hwy::float16_t, Floats> dh;
-    const hn::Rebind<std::uint16_t, Floats> dh16;
-    for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
-        hn::Vec<decltype(du)> node, oct, cone;
-        hn::LoadInterleaved3(du, reinterpret_cast<const std::uint32_t*>(links + k), node, oct,
-                             cone);
-        V x = snorm(d, hn::BitCast(di, hn::ShiftLeft<16>(oct))), y = snorm(d, hn::BitCast(di, oct));
-        const V z = hn::Sub(hn::Sub(hn::Set(d, 1.f), hn::Abs(x)), hn::Abs(y));
-        const V fold = hn::Max(hn::Neg(z), hn::Zero(d));
-        x = hn::Sub(x, hn::CopySignToAbs(fold, x));
-        y = hn::Sub(y, hn::CopySignToAbs(fold, y));
-        const V square = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-        const V inverse = hn::Div(hn::Set(d, 1.f), hn::Sqrt(square));
-        const V u = hn::PromoteTo(
-            d, hn::BitCast(dh, hn::TruncateTo(dh16, hn::And(cone, hn::Set(du, 0xffffU)))));
-        const V transport =
-            hn::PromoteTo(d, hn::BitCast(dh, hn::TruncateTo(dh16, hn::ShiftRight<16>(cone))));
-        V factor[Bands];
-        coneBands<Bands>(d, u, transport, factor);
-        storeBasis<Bands>(d, hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse), factor,
-                          basis + k);
-    }
-}
-
-/// sums[(coefficient * 3 + colour) * kMostLanes …] += basis * light over the block, lane by lane.
-template <int Coefficients, int Colours>
-HWY_INLINE void addBlock(const float* basis, const BlockLight& light, std::size_t count,
-                         float* sums) {
-    const Floats d;
-    V sum[Coefficients][Colours];
-    for (int i = 0; i < Coefficients; ++i)
-        for (int k = 0; k < Colours; ++k)
-            sum[i][k] = hn::Load(d, sums + std::size_t(i * 3 + k) * kMostLanes);
-    for (std::size_t n = 0; n < count; n += hn::Lanes(d)) {
-        V colour[Colours];
-        for (int k = 0; k < Colours; ++k)
-            colour[k] = hn::Load(d, light.colour[k] + n);
-        for (int i = 0; i < Coefficients; ++i) {
-            const V b = hn::Load(d, basis + std::size_t(i) * kBlock + n);
-            for (int k = 0; k < Colours; ++k)
-                sum[i][k] = hn::MulAdd(b, colour[k], sum[i][k]);
-        }
-    }
-    for (int i = 0; i < Coefficients; ++i)
-        for (int k = 0; k < Colours; ++k)
-            hn::Store(sum[i][k], d, sums + std::size_t(i * 3 + k) * kMostLanes);
-}
-
-/// Of `coefficients` in a row, with as many sums at once as there are registers for.
-template <int Colours>
-HWY_INLINE void addBlocks(int coefficients, const float* basis, const BlockLight& light,
-                          std::size_t count, float* sums) {
-    constexpr int kAtOnce = 12 / Colours;
-    for (int i = 0; i < coefficients / kAtOnce; ++i) {
-        addBlock<kAtOnce, Colours>(basis, light, count, sums);
-        basis += kAtOnce * kBlock;
-        sums += kAtOnce * 3 * kMostLanes;
-    }
-    for (int i = 0; i < coefficients % kAtOnce; ++i) {
-        addBlock<1, Colours>(basis, light, count, sums);
-        basis += kBlock;
-        sums += 3 * kMostLanes;
-    }
+    hn::Vec<decltype(du)> node, oct, cone;
+    hn::LoadInterleaved3(du, reinterpret_cast<const std::uint32_t*>(links), node, oct, cone);
+    V x = hn::ConvertTo(d, hn::ShiftRight<16>(hn::BitCast(di, hn::ShiftLeft<16>(oct)))),
+      y = hn::ConvertTo(d, hn::ShiftRight<16>(hn::BitCast(di, oct)));
+    const V z = hn::Sub(hn::Sub(hn::Set(d, 32767.f), hn::Abs(x)), hn::Abs(y));
+    const V fold = hn::Max(hn::Neg(z), hn::Zero(d));
+    x = hn::Sub(x, hn::CopySignToAbs(fold, x));
+    y = hn::Sub(y, hn::CopySignToAbs(fold, y));
+    const V inverse = inverseRoot(d, hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+#if HWY_TARGET == HWY_SCALAR
+    const V u = hn::Set(d, halfToFloat(links->u)),
+            transport = hn::Set(d, halfToFloat(links->transport));
+#else
+    const hn::Repartition<hwy::float16_t, Floats> dh;
+    const auto halfs = hn::BitCast(dh, cone);
+    const V low = hn::PromoteTo(d, hn::LowerHalf(halfs)),
+            high = hn::PromoteTo(d, hn::UpperHalf(hn::Half<decltype(dh)>(), halfs));
+    const V u = hn::ConcatEven(d, high, low), transport = hn::ConcatOdd(d, high, low);
+#endif
+    V factor[Bands];
+    coneBands<Bands>(d, u, transport, factor);
+    basisOf<Bands>(d, hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse), factor, add);
 }
 
 /// Scales and writes a cache's sums; with Luma those are luma and, below `chroma`, chrominance.
@@ -200,41 +245,171 @@ float scaleOf(const Caches& caches, std::uint32_t c) {
     return std::ldexp(1.f, -caches.linkExponent[c]);
 }
 
-template <int Bands, bool Luma>
+/// So many links before it is used, light is fetched from where many nodes are kept.
+constexpr std::size_t kAhead = 32;
+
+/// The light of as many links as there are lanes: red, green, blue, and luma if any is asked for.
+/// Lanes of `count` and more are black.
+template <bool Grey>
+HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const glm::vec4* radiosity,
+                        V* light) {
+    gatherLight(d, links, radiosity, light[0], light[1], light[2]);
+    if (count < hn::Lanes(d)) {
+        const auto own = hn::FirstN(d, count);
+        for (int k = 0; k < 3; ++k)
+            light[k] = hn::IfThenElseZero(own, light[k]);
+    }
+    if (Grey)
+        light[3] = hn::MulAdd(hn::Add(light[0], light[2]), hn::Set(d, 0.25f),
+                              hn::Mul(light[1], hn::Set(d, 0.5f)));
+}
+
+/// The sums of one cache, 3 colours of Chroma^2 coefficients, then luma of the others, all in
+/// registers.
+template <int Bands, int Chroma>
+HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                         float* total) {
+    constexpr int kColoured = Chroma * Chroma, kSums = 2 * kColoured + Bands * Bands;
+    const Floats d;
+    constexpr int kPadded = (kSums + 3) / 4 * 4;
+    V sum[kPadded];
+    unrolled<0, kPadded>([&](auto i) LIMN_UNROLLED { sum[i] = hn::Zero(d); });
+    for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
+        V light[4];
+        lightOf<(Chroma < Bands)>(d, links + k, count - k, radiosity, light);
+        expandCones<Bands>(d, links + k, [&](auto i, V basis) LIMN_UNROLLED {
+            if constexpr (i < kColoured)
+                unrolled<0, 3>([&](auto j) LIMN_UNROLLED {
+                    sum[3 * i + j] = hn::MulAdd(basis, light[j], sum[3 * i + j]);
+                });
+            else
+                sum[2 * kColoured + i] = hn::MulAdd(basis, light[3], sum[2 * kColoured + i]);
+        });
+    }
+    unrolled<0, kPadded / 4>([&](auto i) LIMN_UNROLLED {
+        sumLanes(sum[4 * i], sum[4 * i + 1], sum[4 * i + 2], sum[4 * i + 3], total + 4 * i);
+    });
+}
+
+/// sums[i * Colours + k] += basis i * light k, lane by lane, over `vectors`, each of which has
+/// `stride` floats of basis and `lights` of light.
+template <int Coefficients, int Colours>
+HWY_INLINE void addBlock(const float* basis, std::size_t stride, const float* light,
+                         std::size_t lights, std::size_t vectors, float* sums) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    V sum[Coefficients * Colours];
+    unrolled<0, Coefficients * Colours>(
+        [&](auto i) LIMN_UNROLLED { sum[i] = hn::Load(d, sums + i * lanes); });
+    for (std::size_t n = 0; n < vectors; ++n, basis += stride, light += lights) {
+        V colour[Colours];
+        unrolled<0, Colours>([&](auto k)
+                                 LIMN_UNROLLED { colour[k] = hn::Load(d, light + k * lanes); });
+        unrolled<0, Coefficients>([&](auto i) LIMN_UNROLLED {
+            const V b = hn::Load(d, basis + i * lanes);
+            unrolled<0, Colours>([&](auto k) LIMN_UNROLLED {
+                sum[i * Colours + k] = hn::MulAdd(b, colour[k], sum[i * Colours + k]);
+            });
+        });
+    }
+    unrolled<0, Coefficients * Colours>(
+        [&](auto i) LIMN_UNROLLED { hn::Store(sum[i], d, sums + i * lanes); });
+}
+
+/// Of `coefficients` in a row, with as many sums at once as there are registers for.
+template <int Colours>
+HWY_INLINE void addBlocks(int coefficients, const float* basis, std::size_t stride,
+                          const float* light, std::size_t lights, std::size_t vectors,
+                          float* sums) {
+    constexpr int kAtOnce = (kManyRegisters ? 24 : 12) / Colours;
+    const std::size_t lanes = hn::Lanes(Floats());
+    for (; coefficients >= kAtOnce; coefficients -= kAtOnce) {
+        addBlock<kAtOnce, Colours>(basis, stride, light, lights, vectors, sums);
+        basis += kAtOnce * lanes;
+        sums += kAtOnce * Colours * lanes;
+    }
+    for (; coefficients > 0; --coefficients) {
+        addBlock<1, Colours>(basis, stride, light, lights, vectors, sums);
+        basis += lanes;
+        sums += Colours * lanes;
+    }
+}
+
+/// As sumCones for more sums than there are registers: basis and light of a block of links wait
+/// in the nearest cache.
+template <int Bands>
+HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                                 int coloured, float* total) {
+    constexpr int kCount = Bands * Bands;
+    constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+    constexpr std::size_t kBlock = 4096 / kCount / 16 * 16; // links, of a basis of 16 KiB
+    alignas(HWY_MAX_BYTES) float basis[kCount * kBlock], light[4 * kBlock],
+        sums[(kCount * 3 + 3) * kLanes];
+    const Floats d;
+    const int all = 2 * coloured + kCount;
+    std::fill_n(sums, std::size_t(all + 3) * kLanes, 0.f);
+    for (std::size_t k = 0; k < count; k += kBlock) {
+        const std::size_t end = std::min(k + kBlock, count);
+        std::size_t vectors = 0;
+        for (std::size_t n = k; n < end; n += kLanes, ++vectors) {
+            for (std::size_t j = n + kAhead; j < n + kAhead + kLanes; ++j)
+                hwy::Prefetch(&radiosity[links[j].node]);
+            V colour[4];
+            lightOf<true>(d, links + n, end - n, radiosity, colour);
+            unrolled<0, 4>([&](auto j) LIMN_UNROLLED {
+                hn::Store(colour[j], d, light + (vectors * 4 + j) * kLanes);
+            });
+            expandCones<Bands>(d, links + n, [&](auto i, V value) LIMN_UNROLLED {
+                hn::Store(value, d, basis + (vectors * kCount + i) * kLanes);
+            });
+        }
+        addBlocks<3>(coloured, basis, kCount * kLanes, light, 4 * kLanes, vectors, sums);
+        addBlocks<1>(kCount - coloured, basis + std::size_t(coloured) * kLanes, kCount * kLanes,
+                     light + 3 * kLanes, 4 * kLanes, vectors,
+                     sums + std::size_t(3 * coloured) * kLanes);
+    }
+    const auto sum = [&](int i)
+                         LIMN_UNROLLED { return hn::Load(d, sums + std::size_t(i) * kLanes); };
+    for (int i = 0; i < all; i += 4)
+        sumLanes(sum(i), sum(i + 1), sum(i + 2), sum(i + 3), total + i);
+}
+
+template <int Bands>
+HWY_INLINE void sumCache(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                         int chroma, float* total) {
+    if constexpr (Bands == 2 || (Bands == 3 && kManyRegisters))
+        unrolled<1, Bands + 1>([&](auto k) LIMN_UNROLLED {
+            if (k == chroma)
+                sumCones<Bands, k>(links, count, radiosity, total);
+        });
+    else
+        sumBlocksOfCones<Bands>(links, count, radiosity, chroma * chroma, total);
+}
+
+template <int Bands>
 void lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
                 std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     constexpr int kCount = Bands * Bands;
-    const Floats d;
-    const std::size_t lanes = hn::Lanes(d);
-    alignas(HWY_MAX_BYTES) float basis[kCount * kBlock];
-    alignas(HWY_MAX_BYTES) float sums[kCount * 3 * kMostLanes];
-    BlockLight light;
-    Link padded[kBlock];
+    const int coloured = chroma * chroma;
+    const std::size_t lanes = hn::Lanes(Floats());
+    std::vector<Link> padded;
+    float total[3 * kCount + 3] = {};
     for (std::uint32_t c = begin; c < end; ++c) {
-        std::fill(std::begin(sums), std::end(sums), 0.f);
-        for (std::size_t k = caches.linkBegin[c]; k < ends[c]; k += kBlock) {
-            const Link* links = caches.links.data() + k;
-            const std::size_t own = std::min(kBlock, ends[c] - k);
-            const std::size_t count = (own + lanes - 1) / lanes * lanes;
-            if (count != own) { // links of no transport fill the last vector
-                std::memcpy(padded, links, own * sizeof(Link));
-                std::fill(padded + own, padded + count, Link{});
-                links = padded;
-            }
-            readLight<Luma>(links, count, radiosity, light);
-            expandCones<Bands>(links, count, basis);
-            const int coloured = Luma ? chroma : kCount;
-            addBlocks<3>(coloured, basis, light, count, sums);
-            if (Luma)
-                addBlocks<1>(kCount - coloured, basis + std::size_t(coloured) * kBlock, light,
-                             count, sums + std::size_t(coloured) * 3 * kMostLanes);
+        const std::size_t first = caches.linkBegin[c], count = ends[c] - first;
+        const Link* links = caches.links.data() + first;
+        if (first + count + kAhead + lanes > caches.links.size()) { // the array's end
+            padded.assign(links, links + count);
+            padded.resize(count + kAhead + lanes);
+            links = padded.data();
         }
-        float total[kCount * 3];
-        for (int i = 0; i < kCount * 3; ++i)
-            total[i] =
-                hn::GetLane(hn::SumOfLanes(d, hn::Load(d, sums + std::size_t(i) * kMostLanes)));
-        writeRgb<Luma>(total, total + 1, total + 2, 3, kCount, chroma, scaleOf(caches, c),
-                       sh + std::size_t(c) * kCount);
+        sumCache<Bands>(links, count, radiosity, chroma, total);
+        const float scale = scaleOf(caches, c);
+        glm::vec3* out = sh + std::size_t(c) * kCount;
+        for (int i = 0; i < coloured; ++i)
+            out[i] = glm::vec3(total[3 * i], total[3 * i + 1], total[3 * i + 2]) *
+                     (kMonicScale[std::size_t(i)] * scale);
+        for (int i = coloured; i < kCount; ++i)
+            out[i] = glm::vec3(total[2 * coloured + i] * (kMonicScale[std::size_t(i)] * scale));
     }
 }
 
@@ -322,10 +497,8 @@ void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
                 LinkHalfs halfs, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     if (!caches.shNode.empty())
         lightHarmonicsFrom<Bands, Bands>(caches, ends, radiosity, chroma, halfs, begin, end, sh);
-    else if (chroma < Bands)
-        lightCones<Bands, true>(caches, ends, radiosity, chroma * chroma, begin, end, sh);
     else
-        lightCones<Bands, false>(caches, ends, radiosity, Bands * Bands, begin, end, sh);
+        lightCones<Bands>(caches, ends, radiosity, chroma, begin, end, sh);
 }
 
 void lightLinks(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, LightBands bands,
