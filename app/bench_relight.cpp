@@ -35,6 +35,7 @@ struct Step {
     double RelightStats::*ms;
 };
 constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
+                           {"dimming", &RelightStats::dimMs},
                            {"surfel_light", &RelightStats::surfelLightMs},
                            {"pull", &RelightStats::pullMs},
                            {"cache_light", &RelightStats::cacheLightMs},
@@ -67,7 +68,7 @@ struct FieldDifference {
     double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
 };
 
-/// With every light moved each run. What is to be compared takes turns.
+/// With every light and dynamic object moved each run. What is to be compared takes turns.
 Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& scene,
                                            const BenchBake& baked) {
     const Result<Camera> camera = chooseCamera(scene, o.camera);
@@ -88,10 +89,12 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
     Scene lit = scene;
     for (int k = 0; k <= o.runs; ++k) {
         lit.lights = movedLights(scene.lights, k);
+        moveObjects(lit, scene, k);
+        const TraceScene trace(lit, baked.trace);
         for (std::size_t m = 0; m < all.size(); ++m) {
             const bool every = k == 0 || all[m].caches == "all"; // the first lights materials too
             const RelightStats stats =
-                relighters[m]->relight(lit, baked.trace, o.bounces, {}, every ? nullptr : &seen);
+                relighters[m]->relight(lit, trace, o.bounces, {}, every ? nullptr : &seen);
             if (k > 0)
                 all[m].runs.push_back(stats);
         }
@@ -125,7 +128,9 @@ Json describe(const RelightBench& o, const BenchBake& baked, const Measured& mea
                 {"bytes", bytes},
                 {"bytes_per_second", bytesPerSecond},
                 {"floor_ms", 1000 * double(bytes) / bytesPerSecond},
-                {"shadow_rays", runs.back().shadowRays}});
+                {"shadow_rays", runs.back().shadowRays},
+                {"caches_dimmed", runs.back().cachesDimmed},
+                {"links_dimmed", runs.back().linksDimmed}});
     for (const Step& step : kSteps) {
         std::vector<double> ms;
         for (const RelightStats& r : runs)
@@ -135,21 +140,57 @@ Json describe(const RelightBench& o, const BenchBake& baked, const Measured& mea
     return row;
 }
 
-void printRow(const Json& r) {
-    const auto ms = [&](const char* key) { return r[key].get<double>(); };
-    fmt::print(
-        "{:<14.14} {:<8.8} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8.2f} {:>7.2f} "
-        "{:>7.2f} "
-        "{:>7.2f} {:>7.2f} "
-        "{:>7.2f} {:>7.2f} {:>7.2f} {:>8.2f} {:>8.2f}\n",
-        r["name"].get<std::string>(), r["device"].get<std::string>(),
-        r["caches_lit"].get<std::string>(), r["caches_unseen"].get<std::uint32_t>(),
-        r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
-        r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
-        r["chroma_bands"].get<std::uint32_t>(), r["storage"].get<std::string>(),
-        double(r["bytes"].get<std::uint64_t>()) / (1 << 20), ms("floor_ms"), ms("direct_median_ms"),
-        ms("surfel_light_median_ms"), ms("pull_median_ms"), ms("cache_light_median_ms"),
-        ms("surfel_read_median_ms"), ms("field_median_ms"), ms("median_ms"), ms("p95_ms"));
+struct Column {
+    const char* title;
+    int width;
+    const char* key; ///< of a row
+};
+
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"device", -8, "device"},
+                               {"lit", -4, "caches_lit"},
+                               {"unseen", 6, "caches_unseen"},
+                               {"lights", 6, "lights"},
+                               {"surfels", 7, "surfels"},
+                               {"links", 5, "links"},
+                               {"bands", 5, "bands"},
+                               {"chroma", 6, "chroma_bands"},
+                               {"kind", -4, "storage"},
+                               {"MiB", 8, "bytes"},
+                               {"floor", 7, "floor_ms"},
+                               {"direct", 7, "direct_median_ms"},
+                               {"dimming", 7, "dimming_median_ms"},
+                               {"surfels", 7, "surfel_light_median_ms"},
+                               {"pull", 7, "pull_median_ms"},
+                               {"caches", 7, "cache_light_median_ms"},
+                               {"read", 7, "surfel_read_median_ms"},
+                               {"field", 7, "field_median_ms"},
+                               {"all [ms]", 8, "median_ms"},
+                               {"p95", 8, "p95_ms"}};
+
+/// Of a negative width: flush left, and cut off there.
+std::string padded(const std::string& text, int width) {
+    return width < 0 ? fmt::format("{0:<{1}.{1}} ", text, -width)
+                     : fmt::format("{:>{}} ", text, width);
+}
+
+void printTitles() {
+    for (const Column& c : kColumns)
+        fmt::print("{}", padded(c.title, c.width));
+    fmt::print("\n");
+}
+
+void printRow(const Json& row) {
+    for (const Column& c : kColumns) {
+        const Json& v = row[c.key];
+        const bool bytes = std::string_view(c.key) == "bytes";
+        fmt::print("{}", padded(v.is_string() ? v.get<std::string>()
+                                : bytes       ? fmt::format("{:.2f}", v.get<double>() / (1 << 20))
+                                : v.is_number_float() ? fmt::format("{:.2f}", v.get<double>())
+                                                      : v.dump(),
+                                c.width));
+    }
+    fmt::print("\n");
     std::fflush(stdout);
 }
 
@@ -191,13 +232,7 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
 
 Exit runRelightBench(const RelightBench& o) {
     if (!o.json)
-        fmt::print("{:<14} {:<8} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:>6} {:<4} {:>8} {:>7} {:>7} "
-                   "{:>7} {:>7} "
-                   "{:>7} {:>7} "
-                   "{:>7} {:>8} {:>8}\n",
-                   "scene", "device", "lit", "unseen", "lights", "surfels", "links", "bands",
-                   "chroma", "kind", "MiB", "floor", "direct", "surfels", "pull", "caches", "read",
-                   "field", "all [ms]", "p95");
+        printTitles();
     Json rows = Json::array();
     const Result<void> measured =
         forEachBake(o.bakes, [&](const BenchBake& baked) { return measureBake(o, baked, rows); });
@@ -210,9 +245,10 @@ Exit runRelightBench(const RelightBench& o) {
 
 void addRelightBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<RelightBench>();
-    CLI::App* command =
-        bench.add_subcommand("relight", "Time of each step of relighting while all lights move");
+    CLI::App* command = bench.add_subcommand(
+        "relight", "Time of each step of relighting while all lights and dynamic objects move");
     addBenchBakes(*command, o->bakes);
+    addDynamicOption(*command, o->bakes.common);
     command->add_option("-o,--output", o->output, "folder of relight.csv and relight.json")
         ->required();
     addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",

@@ -21,6 +21,10 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("scene", options.scene, ".gltf, .glb or .limn file, or the name of a project")
         ->required();
     addLightOptions(command, options);
+    addDynamicOption(command, options);
+}
+
+void addDynamicOption(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--dynamic", options.dynamics,
                     "NAME or NAME@x,y,z: the object of that name moves freely, here by x,y,z [m]: "

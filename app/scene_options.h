@@ -28,6 +28,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 /// The flags without the scene.
 void addLightOptions(CLI::App& command, SceneOptions& options);
 
+void addDynamicOption(CLI::App& command, SceneOptions& options);
+
 void addTimeOption(CLI::App& command, SceneOptions& options);
 
 /// Imports, adds the lights and the sky, logs the repairs.
