@@ -79,16 +79,9 @@ struct Relighter::State {
     BlockerShapes shapes;
     std::vector<SenderPlace> places; ///< empty until needed
     DimmedLinks dimmed;
-    std::vector<std::uint32_t> dimmedEnds; ///< of its links
-    std::vector<std::uint32_t> otherEnds;  ///< of the bake's; dimmed caches read none of these
-    std::vector<glm::vec3> dimmedSh;       ///< as sh, per dimmed cache
 
     bool updateDimming(const Scene& scene);
-    void chooseEnds();
-    void light(LightBands in, const CacheRuns& runs, const CacheRuns& dimmedRuns,
-               std::vector<glm::vec3>& out);
-    void lightLightmap(LightBands in, const CacheFlags& which, std::vector<glm::vec3>& out);
-    void lightGrid();
+    void light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out);
     std::vector<glm::vec3>& inner();
     void keepInner(const CacheFlags& which);
     void lightRest();
@@ -149,6 +142,8 @@ void Relighter::State::setBands(int count) {
     innerSh.clear();
     current.assign(bake->caches.lightmapCount, 0);
     unread = false;
+    dimmed = {}; // has links in as many bands
+    blockers = 0;
     field.bands = std::uint32_t(bands);
     field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
                           glm::vec4(0));
@@ -187,54 +182,22 @@ bool Relighter::State::updateDimming(const Scene& scene) {
     blockers = now;
     if (places.empty() && now != 0)
         places = senderPlaces(bake->surfels, bake->tree);
-    dimmed =
-        dimLinks(*bake, places, now != 0 ? sceneBlockers(scene, shapes) : std::vector<Blocker>());
+    dimLinks({*bake, places, now != 0 ? sceneBlockers(scene, shapes) : std::vector<Blocker>()},
+             halfs, dimmed);
     return true;
 }
 
-void Relighter::State::chooseEnds() {
-    otherEnds.clear();
-    if (dimmed.cache.empty())
-        return;
-    otherEnds = blackSky ? beforeSky : everyLink;
-    for (const std::uint32_t c : dimmed.cache)
-        otherEnds[c] = bake->caches.linkBegin[c];
-    dimmedEnds = blackSky ? dimmed.beforeSky : allLinks(dimmed.links);
-}
-
-/// Lights caches, valid and invalid ones. `dimmedRuns`: those among them that are dimmed.
-void Relighter::State::light(LightBands in, const CacheRuns& runs, const CacheRuns& dimmedRuns,
-                             std::vector<glm::vec3>& out) {
+/// Lights caches, valid and invalid ones.
+void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out) {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(in.luma * in.luma);
     if (runs.empty())
         return;
     out.resize(std::max(out.size(), runs.back().end * coefficients));
-    lightCaches(caches, otherEnds.empty() ? ends : LinkEnds(otherEnds), radiosity, in, runs, out,
-                halfs);
-    if (!dimmedRuns.empty()) {
-        dimmedSh.resize(std::max(dimmedSh.size(), dimmedRuns.back().end * coefficients));
-        lightCaches(dimmed.links, dimmedEnds, radiosity, in, dimmedRuns, dimmedSh);
-    }
-    for (const CacheRun run : dimmedRuns)
-        for (std::size_t k = run.begin; k < run.end; ++k)
-            std::copy_n(dimmedSh.begin() + std::ptrdiff_t(k * coefficients), coefficients,
-                        out.begin() + std::ptrdiff_t(dimmed.cache[k] * coefficients));
+    lightCaches(dimmed.cones.links.empty() ? caches : dimmed.cones, ends, radiosity, in, runs, out,
+                dimmed.halfs.empty() ? halfs : dimmed.halfs);
     for (const CacheRun run : runs)
         fillInvalidCaches(caches, in.luma, run.begin, run.end, out);
-}
-
-void Relighter::State::lightLightmap(LightBands in, const CacheFlags& which,
-                                     std::vector<glm::vec3>& out) {
-    CacheFlags dimmedFlags(dimmed.lightmapCount);
-    for (std::size_t k = 0; k < dimmedFlags.size(); ++k)
-        dimmedFlags[k] = which[dimmed.cache[k]];
-    light(in, runsOf(which), runsOf(dimmedFlags), out);
-}
-
-void Relighter::State::lightGrid() {
-    light(finalBands, runsOf(bake->caches.lightmapCount, std::uint32_t(bake->caches.size())),
-          runsOf(dimmed.lightmapCount, std::uint32_t(dimmed.cache.size())), sh);
 }
 
 /// Where surfels read, in innerBands: `sh` itself, unless that has more bands or is to lose colour.
@@ -262,7 +225,7 @@ void Relighter::State::lightRest() {
     CacheFlags rest = read;
     for (std::size_t c = 0; c < rest.size(); ++c)
         rest[c] &= current[c] == 0;
-    lightLightmap(innerBands, rest, inner());
+    light(innerBands, runsOf(rest), inner());
     unread = false;
 }
 
@@ -273,7 +236,7 @@ void Relighter::State::readInner() {
 /// Lights what the field is to have, in all bands. `newLight`: surfels have not read that of the
 /// last pull.
 void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
-    lightLightmap(bounceBands, which, sh);
+    light(bounceBands, runsOf(which), sh);
     for (std::size_t c = 0; c < which.size(); ++c)
         current[c] |= which[c];
     unread |= newLight;
@@ -342,8 +305,8 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
     stats.directMs = timer.lap();
     const bool dimmingChanged = updateDimming(scene);
-    stats.cachesDimmed = std::uint32_t(dimmed.cache.size());
-    stats.linksDimmed = dimmed.dimmed;
+    stats.cachesDimmed = dimmed.caches;
+    stats.linksDimmed = dimmed.links;
     stats.dimMs = dimmingChanged ? timer.lap() : 0;
     const Caches& caches = bake->caches;
     const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
@@ -356,8 +319,6 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     if (skyChanged || dimmingChanged)
         convergence.skyChanged();
     ends = blackSky ? beforeSky : everyLink;
-    if (skyChanged || dimmingChanged || !started)
-        chooseEnds();
     started = true;
     stats.cachesUnread = std::uint32_t(std::ranges::count(read, 0));
     stats.skyLinksSkipped = blackSky ? skyLinks : 0;
@@ -402,7 +363,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         const bool grid = s.gridLit && (bouncing || s.gridMissing);
         s.lightSeen(lit, bouncing);
         if (grid)
-            s.lightGrid();
+            s.light(s.finalBands, runsOf(caches.lightmapCount, std::uint32_t(caches.size())), s.sh);
         if (bouncing && (seen == nullptr || stats.bounces < 2))
             s.lightRest();
         stats.cacheLightMs += timer.lap();
