@@ -199,16 +199,23 @@ struct Waiting {
 /// What is known of some links when they are looked at.
 struct Links {
     M valid;
-    U link, cache;
+    U link;
     Cones cones;
-    V3 unit;   ///< the cone's axis
-    V3 origin; ///< of the cache, in the blocker's axes from its origin
-    V3 way;    ///< from the cache to the sender's centre
+    V3 unit; ///< the cone's axis
+    V3 from; ///< from the blocker's origin to the cache
+    V3 way;  ///< from the cache to the sender's centre
     V distance, radius;
 };
 
 struct Range {
     V first, last; ///< [m]
+};
+
+/// Of a blocker, in world axes from its origin: dot(normal, p) <= offset within.
+struct Side {
+    glm::vec3 normal; ///< of this length
+    float length, offset;
+    bool there;
 };
 
 /// Looks for one blocker.
@@ -220,48 +227,51 @@ struct Finder {
     std::uint16_t* hidden;
     const Spread &few, &many;
     const BlockerShape& shape = *blocker.shape;
+    std::size_t count = 0; ///< of sides
+    Side sides[BlockerShape::kMostSides];
+    Sight sight; ///< of the cache at hand
     Waiting seen, ofFew, ofMany;
 
-    void lookAt(std::uint32_t cache, const Sight& sight) {
-        const Floats d;
-        const Uints du;
-        const std::uint32_t end = scene.bake.caches.linkBegin[cache + 1];
-        const V3 direction = set(sight.direction);
-        const V cosine = set(sight.cosine), sine = set(sight.sine);
-        for (std::uint32_t k = scene.bake.caches.linkBegin[cache]; k < end;
-             k += std::uint32_t(hn::Lanes(du))) {
-            const Cones c = cones.from(k);
-            const V cos = set(1) - c.u, sin = hn::Sqrt(c.u * (set(2) - c.u));
-            const M round = hn::Le(cos, hn::Neg(cosine)), // together they go all the way round
-                meets = hn::Ge(dot(c.direction, direction), (cos * cosine - sin * sine) * c.length);
-            const M found = hn::And(hn::Or(round, meets), hn::FirstN(d, end - k));
-            if (hn::AllFalse(d, found))
-                continue;
-            seen.add(hn::Iota(du, k), hn::Set(du, cache), found);
-            if (seen.full())
-                sift();
+    Finder(const LinksAndBlockers& links, const Blocker& b, std::size_t coefficients,
+           std::uint32_t first, std::uint16_t* out, const Spread& spreadOfFew,
+           const Spread& spreadOfMany)
+        : scene(links), blocker(b), cones{links.bake.caches, coefficients}, firstLink(first),
+          hidden(out), few(spreadOfFew), many(spreadOfMany) {
+        for (const BlockerShape::Side& side : shape.sides) {
+            const glm::vec3 normal = side.normal * blocker.toObject;
+            sides[count++] = {normal, glm::length(normal), side.offset, side.there};
         }
     }
 
+    /// Keeps those of `valid` cones that meet the sphere about the blocker.
+    HWY_INLINE void keep(const Cones& c, V cos, V sin, U links, std::uint32_t cache, M valid) {
+        const Floats d;
+        const V cosine = set(sight.cosine), sine = set(sight.sine);
+        const M round = hn::Le(cos, hn::Neg(cosine)), // together they go all the way round
+            meets = hn::Ge(dot(c.direction, set(sight.direction)),
+                           (cos * cosine - sin * sine) * c.length);
+        const M found = hn::And(hn::Or(round, meets), valid);
+        if (hn::AllFalse(d, found))
+            return;
+        seen.add(links, hn::Set(Uints(), cache), found);
+        if (seen.full())
+            sift(cache);
+    }
+
     void finish() {
-        sift();
         sample(ofFew, few);
         sample(ofMany, many);
     }
 
-    HWY_INLINE Links look(const Waiting& waiting, std::size_t k) const {
-        const Floats d;
-        const Uints du;
+    HWY_INLINE Links look(U links, M valid, V3 x) const {
         Links l;
-        l.valid = hn::FirstN(d, waiting.count - k);
-        const auto known = hn::RebindMask(du, l.valid);
-        l.link = hn::IfThenElseZero(known, hn::LoadU(du, waiting.link + k));
-        l.cache = hn::IfThenElseZero(known, hn::LoadU(du, waiting.cache + k));
-        l.cones = cones.at(l.link);
-        const V3 x = gather3(&scene.bake.caches.position[0].x, l.cache, 3, 0);
-        l.unit = {l.cones.direction.x / l.cones.length, l.cones.direction.y / l.cones.length,
-                  l.cones.direction.z / l.cones.length};
-        l.origin = turn(blocker.toObject, x - set(blocker.origin));
+        l.valid = valid;
+        l.link = links;
+        l.cones = cones.at(links);
+        const V perLength = set(1) / l.cones.length;
+        l.unit = {l.cones.direction.x * perLength, l.cones.direction.y * perLength,
+                  l.cones.direction.z * perLength};
+        l.from = x - set(blocker.origin);
         l.way = gather3(&scene.places[0].centre.x, l.cones.node, kPlaceFloats, 0) - x;
         l.distance = hn::Sqrt(dot(l.way, l.way));
         l.radius = gather(&scene.places[0].centre.x, l.cones.node, kPlaceFloats, 3);
@@ -270,19 +280,25 @@ struct Finder {
 
     /// What the whole cones of `seen` tell: no direction is blocked, or all are; or it is not
     /// known. A direction is no further from the axis than their chord, 2 sin(half-angle / 2).
-    void sift() {
+    void sift(std::uint32_t cache) {
         const Floats d;
+        const Uints du;
+        const glm::vec3 x = scene.bake.caches.position[cache];
+        float height[BlockerShape::kMostSides];
+        for (std::size_t i = 0; i < count; ++i)
+            height[i] = sides[i].offset - glm::dot(sides[i].normal, x - blocker.origin);
         for (std::size_t k = 0; k < seen.count; k += hn::Lanes(d)) {
-            const Links l = look(seen, k);
+            const M valid = hn::FirstN(d, seen.count - k);
+            const U links =
+                hn::IfThenElseZero(hn::RebindMask(du, valid), hn::LoadU(du, seen.link + k));
+            const Links l = look(links, valid, set(x));
             const V chord = hn::Sqrt(l.cones.u + l.cones.u) + set(4e-6f); // of float rounding
-            const V3 axis = turn(blocker.toObject, l.unit);
             Range outer{hn::Zero(d), set(1e30f)}, inner = outer;
-            for (const BlockerShape::Side& side : shape.sides) {
-                const V height = set(side.offset) - dot(set(side.normal), l.origin),
-                        component = dot(set(side.normal), axis);
-                const V spread = chord * set(glm::length(side.normal * blocker.toObject));
-                bound(component - spread, height, outer);
-                bound(component + spread, height, inner);
+            for (std::size_t i = 0; i < count; ++i) {
+                const V component = dot(set(sides[i].normal), l.unit),
+                        spread = chord * set(sides[i].length);
+                bound(component - spread, set(height[i]), outer);
+                bound(component + spread, set(height[i]), inner);
             }
             const M maybe = hn::And(hn::Le(outer.first, outer.last),
                                     hn::Lt(outer.first, l.distance + l.radius));
@@ -290,10 +306,10 @@ struct Finder {
             hideAll(l, hn::And(surely, l.valid));
             const M open = hn::And(hn::AndNot(surely, maybe), l.valid),
                     isFew = hn::Lt(l.cones.u, set(kNarrow));
-            ofFew.add(l.link, l.cache, hn::And(open, isFew));
+            ofFew.add(l.link, hn::Set(du, cache), hn::And(open, isFew));
             if (ofFew.full())
                 sample(ofFew, few);
-            ofMany.add(l.link, l.cache, hn::AndNot(isFew, open));
+            ofMany.add(l.link, hn::Set(du, cache), hn::AndNot(isFew, open));
             if (ofMany.full())
                 sample(ofMany, many);
         }
@@ -346,12 +362,15 @@ struct Finder {
         const Floats d;
         const Uints du;
         for (std::size_t k = 0; k < waiting.count; k += hn::Lanes(d)) {
-            const Links l = look(waiting, k);
-            const U bits = blockedDirections(l, spread);
+            const M valid = hn::FirstN(d, waiting.count - k);
+            const auto known = hn::RebindMask(du, valid);
+            const U link = hn::IfThenElseZero(known, hn::LoadU(du, waiting.link + k)),
+                    cache = hn::IfThenElseZero(known, hn::LoadU(du, waiting.cache + k));
+            const Links l =
+                look(link, valid, gather3(&scene.bake.caches.position[0].x, cache, 3, 0));
             HWY_ALIGN std::uint32_t blocked[kMostLanes];
-            hn::Store(bits, du, blocked);
-            const std::size_t count = std::min(hn::Lanes(d), waiting.count - k);
-            for (std::size_t i = 0; i < count; ++i)
+            hn::Store(blockedDirections(l, spread), du, blocked);
+            for (std::size_t i = 0; i < std::min(hn::Lanes(d), waiting.count - k); ++i)
                 hidden[waiting.link[k + i] - firstLink] |= std::uint16_t(blocked[i]);
         }
         waiting.count = 0;
@@ -367,7 +386,7 @@ struct Finder {
         const V3 normal = gather3(&scene.places[0].centre.x, l.cones.node, kPlaceFloats, 4);
         const V toPlane = dot(normal, l.way);
         const M planar = hn::Gt(dot(normal, normal), hn::Zero(d));
-        const Sides sides = sidesFrom(l);
+        const Heights heights = heightsOf(l);
         U bits = hn::Zero(Uints());
         for (std::uint32_t k = 0; k < spread.count; ++k) {
             const V z = one - l.cones.u * set(spread.stratum[k]); // equal solid angles
@@ -381,42 +400,41 @@ struct Finder {
                 hn::IfThenElse(hn::Gt(hn::Abs(along), set(0.02f)), toPlane / along, l.distance);
             from = hn::Min(hn::Max(from, l.distance - l.radius), l.distance + l.radius);
             from = hn::IfThenElse(planar, from, l.distance + l.radius) * set(0.999f);
-            const M hit = blocks(l, sides, way, from);
+            const M hit = blocks(l, heights, way, from);
             bits = hn::Or(
                 bits, hn::IfThenElseZero(hn::RebindMask(Uints(), hit), hn::Set(Uints(), 1U << k)));
         }
         return bits;
     }
 
-    /// Distances of the cache from the sides, behind them.
-    struct Sides {
-        V height[BlockerShape::kMostSides];
-        M within; ///< all of them
+    /// Of the sides above caches.
+    struct Heights {
+        V of[BlockerShape::kMostSides];
+        M within; ///< the cache is below all of them
     };
-    Sides sidesFrom(const Links& l) const {
-        Sides s;
+    Heights heightsOf(const Links& l) const {
+        Heights h;
         V least = set(0);
-        for (std::size_t i = 0; i < shape.sides.size(); ++i) {
-            s.height[i] = set(shape.sides[i].offset) - dot(set(shape.sides[i].normal), l.origin);
-            least = hn::Min(least, s.height[i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            h.of[i] = set(sides[i].offset) - dot(set(sides[i].normal), l.from);
+            least = hn::Min(least, h.of[i]);
         }
-        s.within = hn::Ge(least, set(0));
-        return s;
+        h.within = hn::Ge(least, set(0));
+        return h;
     }
 
     /// Whether it begins before `tMost` along a unit way from the cache. From within a closed solid
     /// all is blocked, so a surface that a box stands on gets no light there.
-    HWY_INLINE M blocks(const Links& l, const Sides& from, V3 way, V tMost) const {
+    HWY_INLINE M blocks(const Links& l, const Heights& heights, V3 way, V tMost) const {
         const Floats d;
-        const V3 v = turn(blocker.toObject, way);
         Range through{set(-1e30f), set(1e30f)};
         M enters = hn::FirstN(d, 0), leaves = enters; // through a side that is there
-        for (std::size_t i = 0; i < shape.sides.size(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             const Range before = through;
-            bound(dot(set(shape.sides[i].normal), v), from.height[i], through);
+            bound(dot(set(sides[i].normal), way), heights.of[i], through);
             if (shape.closed || shape.triangles)
                 continue;
-            const M there = hn::FirstN(d, shape.sides[i].there ? hn::Lanes(d) : 0),
+            const M there = hn::FirstN(d, sides[i].there ? hn::Lanes(d) : 0),
                     first = hn::Gt(through.first, before.first),
                     last = hn::Lt(through.last, before.last);
             enters = hn::Or(hn::AndNot(first, enters), hn::And(first, there));
@@ -428,7 +446,8 @@ struct Finder {
         if (shape.closed || hn::AllFalse(d, hit))
             return hit;
         if (shape.triangles)
-            return meetsTriangles(l.origin, v, tMost, hit, from.within);
+            return meetsTriangles(turn(blocker.toObject, l.from), turn(blocker.toObject, way),
+                                  tMost, hit, heights.within);
         enters = hn::And(enters, hn::Gt(through.first, zero));
         leaves = hn::And(leaves, hn::Lt(through.last, tMost));
         return hn::And(hit, hn::Or(enters, leaves));
@@ -473,6 +492,22 @@ struct Finder {
     static constexpr std::uint32_t kPlaceFloats = sizeof(SenderPlace) / sizeof(float);
 };
 
+void lookFrom(const Caches& caches, std::uint32_t cache, const ConeReader& cones,
+              const std::vector<Finder*>& finders) {
+    const Floats d;
+    const Uints du;
+    const std::uint32_t end = caches.linkBegin[cache + 1];
+    for (std::uint32_t k = caches.linkBegin[cache]; k < end; k += std::uint32_t(hn::Lanes(du))) {
+        const Cones c = cones.from(k);
+        const V cos = set(1) - c.u, sin = hn::Sqrt(c.u * (set(2) - c.u));
+        const M valid = hn::FirstN(d, end - k);
+        for (Finder* f : finders)
+            f->keep(c, cos, sin, hn::Iota(du, k), cache, valid);
+    }
+    for (Finder* f : finders)
+        f->sift(cache);
+}
+
 } // namespace
 
 void findHiddenLinks(const LinksAndBlockers& scene, std::uint32_t begin, std::uint32_t end,
@@ -485,14 +520,21 @@ void findHiddenLinks(const LinksAndBlockers& scene, std::uint32_t begin, std::ui
         bake.caches.shNode.empty() ? 0 : std::size_t(bake.settings.bands) * bake.settings.bands;
     const std::uint32_t firstLink = bake.caches.linkBegin[begin];
     std::fill(hidden, hidden + (bake.caches.linkBegin[end] - firstLink), std::uint16_t(0));
-    for (const Blocker& blocker : scene.blockers) {
-        Finder finder{scene, blocker, {bake.caches, coefficients}, firstLink, hidden, few, many};
-        Sight sight;
-        for (std::uint32_t c = begin; c < end; ++c)
-            if (sees(bake, c, blocker, cell, sight))
-                finder.lookAt(c, sight);
-        finder.finish();
+    std::vector<Finder> finders;
+    finders.reserve(scene.blockers.size());
+    for (const Blocker& b : scene.blockers)
+        finders.emplace_back(scene, b, coefficients, firstLink, hidden, few, many);
+    std::vector<Finder*> looking;
+    for (std::uint32_t c = begin; c < end; ++c) {
+        looking.clear();
+        for (Finder& f : finders)
+            if (sees(bake, c, f.blocker, cell, f.sight))
+                looking.push_back(&f);
+        if (!looking.empty())
+            lookFrom(bake.caches, c, {bake.caches, coefficients}, looking);
     }
+    for (Finder& f : finders)
+        f.finish();
 }
 
 } // namespace HWY_NAMESPACE
