@@ -71,7 +71,9 @@ struct Relighter::State {
     bool gridLit = false;     ///< the field has a grid
     bool gridMissing = false; ///< and has it since this call
 
+    CacheRuns gridRuns;  ///< the grid's caches
     CacheFlags read;     ///< by surfels
+    CacheRuns readRuns;  ///< the same
     CacheFlags current;  ///< the field has the light of the last pull there
     bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
 
@@ -107,6 +109,8 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     for (std::size_t c = 0; c < s.everyLink.size(); ++c)
         s.skyLinks += s.everyLink[c] - s.beforeSky[c];
     s.read = cachesRead(s.bake->surfels, s.bake->caches);
+    s.readRuns = runsOf(s.read);
+    s.gridRuns = runsOf(s.bake->caches.lightmapCount, std::uint32_t(s.bake->caches.size()));
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
     s.field.lightmapWidth = s.bake->lightmap.width;
@@ -351,7 +355,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         stats.pullMs += timer.lap();
         if (last)
             break;
-        s.lightLightmap(s.innerBands, s.read, s.inner());
+        s.light(s.innerBands, s.readRuns, s.inner());
         stats.cacheLightMs += timer.lap();
         s.readInner();
         stats.surfelReadMs += timer.lap();
@@ -363,7 +367,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         const bool grid = s.gridLit && (bouncing || s.gridMissing);
         s.lightSeen(lit, bouncing);
         if (grid)
-            s.light(s.finalBands, runsOf(caches.lightmapCount, std::uint32_t(caches.size())), s.sh);
+            s.light(s.finalBands, s.gridRuns, s.sh);
         if (bouncing && (seen == nullptr || stats.bounces < 2))
             s.lightRest();
         stats.cacheLightMs += timer.lap();
