@@ -3,7 +3,6 @@
 
 #include "engine/bake/cluster_tree.h"
 #include "engine/core/parallel.h"
-#include "engine/math/ycocg.h"
 
 #include <algorithm>
 
@@ -70,25 +69,30 @@ void dropChroma(LightBands bands, std::uint32_t begin, std::uint32_t end,
                 std::vector<glm::vec3>& sh) {
     const auto coefficients = std::size_t(bands.luma * bands.luma),
                kept = std::size_t(bands.chroma * bands.chroma);
-    for (std::size_t c = begin; c < end; ++c)
-        for (std::size_t i = kept; i < coefficients; ++i)
-            sh[c * coefficients + i] = glm::vec3(toYCoCg(sh[c * coefficients + i]).y);
+    parallelRanges(end - begin, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t c = begin + first; c < begin + last; ++c)
+            for (std::size_t i = kept; i < coefficients; ++i)
+                sh[c * coefficients + i] = glm::vec3(toYCoCg(sh[c * coefficients + i]).y);
+    });
 }
 
 void fillInvalidCaches(const Caches& caches, int bands, std::uint32_t begin, std::uint32_t end,
                        std::vector<glm::vec3>& sh) {
     const auto coefficients = std::size_t(bands * bands);
-    for (std::size_t c = begin; c < end; ++c) {
-        if (caches.fillBegin[c] == caches.fillBegin[c + 1])
-            continue;
-        glm::vec3* out = sh.data() + c * coefficients;
-        std::fill(out, out + coefficients, glm::vec3(0));
-        for (std::uint32_t k = caches.fillBegin[c]; k < caches.fillBegin[c + 1]; ++k) {
-            const glm::vec3* source = sh.data() + std::size_t(caches.fillSource[k]) * coefficients;
-            for (std::size_t i = 0; i < coefficients; ++i)
-                out[i] += source[i] * caches.fillWeight[k];
+    parallelRanges(end - begin, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t c = begin + first; c < begin + last; ++c) {
+            if (caches.fillBegin[c] == caches.fillBegin[c + 1])
+                continue;
+            glm::vec3* out = sh.data() + c * coefficients;
+            std::fill(out, out + coefficients, glm::vec3(0));
+            for (std::uint32_t k = caches.fillBegin[c]; k < caches.fillBegin[c + 1]; ++k) {
+                const glm::vec3* source =
+                    sh.data() + std::size_t(caches.fillSource[k]) * coefficients;
+                for (std::size_t i = 0; i < coefficients; ++i)
+                    out[i] += source[i] * caches.fillWeight[k];
+            }
         }
-    }
+    });
 }
 
 } // namespace limn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/bake.h"
+#include "engine/math/ycocg.h"
 #include "engine/relight/cache_runs.h"
 #include "engine/relight/light_links.h"
 
@@ -10,9 +11,13 @@
 
 namespace limn {
 
+/// Radiosity [W m^-2] as it is kept per node: RGB, and its luma, which grey bands take.
+inline glm::vec4 withLuma(glm::vec3 rgb) {
+    return {rgb, toYCoCg(rgb).y};
+}
+
 /// Radiosity of the inner nodes from their children's: the weighted mean, in one sweep.
-/// `radiosity` has one entry per node, leaves filled in: RGB in xyz [W m^-2], w = 0, so that a
-/// vector register takes one at a time.
+/// `radiosity` has one entry per node, leaves filled in by withLuma.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
 /// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links before

@@ -4,6 +4,7 @@
 
 #include "engine/math/packing.h"
 #include "engine/math/sh_basis.h"
+#include "engine/math/ycocg.h"
 
 #include <algorithm>
 #include <array>
@@ -72,26 +73,27 @@ HWY_INLINE hn::Vec<hn::Full128<float>> sumBlocks(D, hn::Vec<D> v) {
 
 #endif
 
-/// Red, green and blue of the nodes of as many links as there are lanes.
-HWY_INLINE void gatherLight(Floats d, const Link* links, const glm::vec4* radiosity, V& r, V& g,
-                            V& b) {
+/// Red, green, blue and luma of the nodes of as many links as there are lanes.
+HWY_INLINE void gatherLight(Floats d, const Link* links, const glm::vec4* radiosity, V* light) {
 #if HWY_TARGET == HWY_SCALAR
-    const glm::vec4& from = radiosity[links->node];
-    r = hn::Set(d, from.x), g = hn::Set(d, from.y), b = hn::Set(d, from.z);
+    for (int k = 0; k < 4; ++k)
+        light[k] = hn::Set(d, radiosity[links->node][k]);
 #else
     // Block k of v[j] is the light of link 4 k + j; each four by four is then turned.
     V v[4];
     for (std::size_t j = 0; j < 4; ++j)
         v[j] = blocksOf(d, links + j, radiosity);
     const hn::Repartition<double, Floats> pairs;
-    const auto low = [&](V a, V c)
-                         HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveLower(d, a, c)); };
-    const auto high = [&](V a, V c)
-                          HWY_ATTR { return hn::BitCast(pairs, hn::InterleaveUpper(d, a, c)); };
-    const auto rg01 = low(v[0], v[1]), rg23 = low(v[2], v[3]);
-    r = hn::BitCast(d, hn::InterleaveLower(pairs, rg01, rg23));
-    g = hn::BitCast(d, hn::InterleaveUpper(pairs, rg01, rg23));
-    b = hn::BitCast(d, hn::InterleaveLower(pairs, high(v[0], v[1]), high(v[2], v[3])));
+    for (int k = 0; k < 2; ++k) {
+        const V a = k == 0 ? hn::InterleaveLower(d, v[0], v[1])
+                           : hn::InterleaveUpper(d, v[0], v[1]),
+                b = k == 0 ? hn::InterleaveLower(d, v[2], v[3])
+                           : hn::InterleaveUpper(d, v[2], v[3]);
+        light[2 * k] = hn::BitCast(
+            d, hn::InterleaveLower(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
+        light[2 * k + 1] = hn::BitCast(
+            d, hn::InterleaveUpper(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
+    }
 #endif
 }
 
@@ -226,21 +228,6 @@ HWY_INLINE void expandCones(Floats d, const Link* links, const Add& add) {
     basisOf<Bands>(d, hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse), factor, add);
 }
 
-/// Scales and writes a cache's sums; with Luma those are luma and, below `chroma`, chrominance.
-template <bool Luma>
-HWY_INLINE void writeRgb(const float* r, const float* g, const float* b, std::size_t stride,
-                         int count, int chroma, float scale, glm::vec3* out) {
-    for (int i = 0; i < count; ++i) {
-        const std::size_t at = std::size_t(i) * stride;
-        if (!Luma) {
-            out[i] = glm::vec3(r[at], g[at], b[at]) * scale;
-            continue;
-        }
-        const float luma = r[at], co = i < chroma ? g[at] : 0, cg = i < chroma ? b[at] : 0;
-        out[i] = glm::vec3(luma + co - cg, luma + cg, luma - co - cg) * scale;
-    }
-}
-
 float scaleOf(const Caches& caches, std::uint32_t c) {
     return std::ldexp(1.f, -caches.linkExponent[c]);
 }
@@ -248,20 +235,15 @@ float scaleOf(const Caches& caches, std::uint32_t c) {
 /// So many links before it is used, light is fetched from where many nodes are kept.
 constexpr std::size_t kAhead = 32;
 
-/// The light of as many links as there are lanes: red, green, blue, and luma if any is asked for.
-/// Lanes of `count` and more are black.
-template <bool Grey>
+/// As gatherLight; lanes of `count` and more are black.
 HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const glm::vec4* radiosity,
                         V* light) {
-    gatherLight(d, links, radiosity, light[0], light[1], light[2]);
+    gatherLight(d, links, radiosity, light);
     if (count < hn::Lanes(d)) {
         const auto own = hn::FirstN(d, count);
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < 4; ++k)
             light[k] = hn::IfThenElseZero(own, light[k]);
     }
-    if (Grey)
-        light[3] = hn::MulAdd(hn::Add(light[0], light[2]), hn::Set(d, 0.25f),
-                              hn::Mul(light[1], hn::Set(d, 0.5f)));
 }
 
 /// The sums of one cache, 3 colours of Chroma^2 coefficients, then luma of the others, all in
@@ -276,7 +258,7 @@ HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* 
     unrolled<0, kPadded>([&](auto i) LIMN_UNROLLED { sum[i] = hn::Zero(d); });
     for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
         V light[4];
-        lightOf<(Chroma < Bands)>(d, links + k, count - k, radiosity, light);
+        lightOf(d, links + k, count - k, radiosity, light);
         expandCones<Bands>(d, links + k, [&](auto i, V basis) LIMN_UNROLLED {
             if constexpr (i < kColoured)
                 unrolled<0, 3>([&](auto j) LIMN_UNROLLED {
@@ -355,7 +337,7 @@ HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm
             for (std::size_t j = n + kAhead; j < n + kAhead + kLanes; ++j)
                 hwy::Prefetch(&radiosity[links[j].node]);
             V colour[4];
-            lightOf<true>(d, links + n, end - n, radiosity, colour);
+            lightOf(d, links + n, end - n, radiosity, colour);
             unrolled<0, 4>([&](auto j) LIMN_UNROLLED {
                 hn::Store(colour[j], d, light + (vectors * 4 + j) * kLanes);
             });
@@ -413,38 +395,38 @@ void lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
     }
 }
 
-/// Adds the links [begin, end) of one cache; `halfs` are theirs, `stored` for each, of which the
-/// first Bands^2 are read, with a vector's worth more behind.
-template <int Bands, int Chroma>
+/// Vectors that the coefficients of so many bands fill.
+constexpr int vectorsOf(int bands) {
+    constexpr int kLanes = int(hn::MaxLanes(Floats()));
+    return (bands * bands + kLanes - 1) / kLanes;
+}
+
+/// Adds the links of one cache; `halfs` are theirs, `stored` for each, of which the first Bands^2
+/// are read, with a vector's worth more behind. The sums are red of all coefficients, or luma where
+/// there is no colour, and green and blue of the first `Coloured` vectors of them.
+template <int Bands, int Coloured>
 HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* halfs,
                              std::size_t stored, std::size_t links, const glm::vec4* radiosity,
                              float* sums) {
-    constexpr int kCount = Bands * Bands;
     const Floats d;
     const hn::Rebind<hwy::float16_t, Floats> dh;
     const hn::Rebind<std::uint16_t, Floats> dh16;
     constexpr int kLanes = int(hn::MaxLanes(Floats()));
-    constexpr int kVectors = (kCount + kLanes - 1) / kLanes;
-    constexpr int kChroma = (Chroma * Chroma + kLanes - 1) / kLanes;
-    constexpr bool kLuma = Chroma < Bands;
-    V r[kVectors], g[kChroma], b[kChroma];
+    constexpr int kVectors = vectorsOf(Bands);
+    V r[kVectors], g[Coloured], b[Coloured];
     for (V& v : r)
         v = hn::Zero(d);
-    for (int i = 0; i < kChroma; ++i)
+    for (int i = 0; i < Coloured; ++i)
         g[i] = b[i] = hn::Zero(d);
     for (std::size_t k = 0; k < links; ++k) {
-        const glm::vec4 from = radiosity[nodes[k]];
-        float c[3] = {from.x, from.y, from.z};
-        if (kLuma) {
-            const float sides = (from.x + from.z) * 0.25f, middle = from.y * 0.5f;
-            c[0] = middle + sides, c[1] = (from.x - from.z) * 0.5f, c[2] = middle - sides;
-        }
-        const V red = hn::Set(d, c[0]), green = hn::Set(d, c[1]), blue = hn::Set(d, c[2]);
+        const glm::vec4& from = radiosity[nodes[k]];
+        const V red = hn::Set(d, from.x), green = hn::Set(d, from.y), blue = hn::Set(d, from.z),
+                luma = hn::Set(d, from.w);
         for (int i = 0; i < kVectors; ++i) {
             const V basis =
                 hn::PromoteTo(d, hn::BitCast(dh, hn::LoadU(dh16, halfs + k * stored + i * kLanes)));
-            r[i] = hn::MulAdd(basis, red, r[i]);
-            if (i < kChroma) {
+            r[i] = hn::MulAdd(basis, i < Coloured ? red : luma, r[i]);
+            if (i < Coloured) {
                 g[i] = hn::MulAdd(basis, green, g[i]);
                 b[i] = hn::MulAdd(basis, blue, b[i]);
             }
@@ -452,19 +434,26 @@ HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* ha
     }
     for (int i = 0; i < kVectors; ++i)
         hn::Store(r[i], d, sums + i * kLanes);
-    for (int i = 0; i < kChroma; ++i) {
+    for (int i = 0; i < Coloured; ++i) {
         hn::Store(g[i], d, sums + (kVectors + i) * kLanes);
         hn::Store(b[i], d, sums + (2 * kVectors + i) * kLanes);
     }
 }
 
-template <int Bands, int Chroma>
-void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, LinkHalfs all,
-                    std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+template <int Bands, int Coloured>
+void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
+                    LinkHalfs all, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+    // With fewer of chrominance in the same number of vectors, colour costs nothing until the end.
+    if constexpr (Coloured > 1)
+        if (vectorsOf(chroma) < Coloured)
+            return lightHarmonics<Bands, Coloured - 1>(caches, ends, radiosity, chroma, all, begin,
+                                                       end, sh);
     constexpr std::size_t kCount = Bands * Bands;
     constexpr std::size_t kLanes = hn::MaxLanes(Floats());
-    constexpr std::size_t kSums = (kCount + kLanes - 1) / kLanes * kLanes;
+    constexpr std::size_t kSums = vectorsOf(Bands) * kLanes, kColoured = Coloured * kLanes;
+    const auto kept = std::size_t(chroma * chroma);
     alignas(HWY_MAX_BYTES) float sums[3 * kSums] = {};
+    const float *const r = sums, *const g = sums + kSums, *const b = sums + 2 * kSums;
     const std::size_t stored = all.size() / caches.shNode.size();
     std::vector<std::uint16_t> padded;
     for (std::uint32_t c = begin; c < end; ++c) {
@@ -475,28 +464,26 @@ void lightHarmonics(const Caches& caches, LinkEnds ends, const glm::vec4* radios
             padded.resize(padded.size() + kLanes, 0);
             halfs = padded.data();
         }
-        addHarmonics<Bands, Chroma>(caches.shNode.data() + first, halfs, stored, last - first,
-                                    radiosity, sums);
-        writeRgb<(Chroma < Bands)>(sums, sums + kSums, sums + 2 * kSums, 1, int(kCount),
-                                   Chroma * Chroma, scaleOf(caches, c), sh + c * kCount);
+        addHarmonics<Bands, Coloured>(caches.shNode.data() + first, halfs, stored, last - first,
+                                      radiosity, sums);
+        const float scale = scaleOf(caches, c);
+        glm::vec3* out = sh + c * kCount;
+        std::size_t i = 0;
+        for (; i < kept; ++i)
+            out[i] = glm::vec3(r[i], g[i], b[i]) * scale;
+        for (; i < std::min(kColoured, kCount); ++i)
+            out[i] = glm::vec3(toYCoCg({r[i], g[i], b[i]}).y * scale);
+        for (; i < kCount; ++i)
+            out[i] = glm::vec3(r[i] * scale);
     }
-}
-
-template <int Bands, int Chroma>
-void lightHarmonicsFrom(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
-                        LinkHalfs halfs, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    if constexpr (Chroma > 1)
-        if (chroma < Chroma)
-            return lightHarmonicsFrom<Bands, Chroma - 1>(caches, ends, radiosity, chroma, halfs,
-                                                         begin, end, sh);
-    lightHarmonics<Bands, Chroma>(caches, ends, radiosity, halfs, begin, end, sh);
 }
 
 template <int Bands>
 void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
                 LinkHalfs halfs, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     if (!caches.shNode.empty())
-        lightHarmonicsFrom<Bands, Bands>(caches, ends, radiosity, chroma, halfs, begin, end, sh);
+        lightHarmonics<Bands, vectorsOf(Bands)>(caches, ends, radiosity, chroma, halfs, begin, end,
+                                                sh);
     else
         lightCones<Bands>(caches, ends, radiosity, chroma, begin, end, sh);
 }

@@ -24,7 +24,7 @@ using LinkEnds = std::span<const std::uint32_t>;
 /// of Caches::shCoefficients.
 using LinkHalfs = std::span<const std::uint16_t>;
 
-/// The sums of lightCaches for the caches [begin, end), on one thread, by the widest vectors that
+/// The sums of lightCaches, of radiosity as withLuma keeps it, for the caches [begin, end), on one thread, by the widest vectors that
 /// this machine has: cones (LinkStorage::Rtp) one link per lane, harmonics one coefficient per
 /// lane. The order of a cache's sums depends on the machine's vectors, so results of two kinds of
 /// machine agree to rounding only.

@@ -64,7 +64,7 @@ struct Relighter::State {
     bool blackSky = true;
     SurfelLight direct;
     std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
-    std::vector<glm::vec4> radiosity; ///< per node
+    std::vector<glm::vec4> radiosity; ///< per node, as withLuma
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
     std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands; see inner()
     IndirectField field;
@@ -174,7 +174,7 @@ bool Relighter::State::updateSky(const Scene& scene) {
     const ClusterTree& tree = bake->tree;
     const std::vector<glm::vec3> cells = skyRadiosity(tree, sky);
     for (std::size_t c = 0; c < cells.size(); ++c)
-        radiosity[tree.surfels + c] = glm::vec4(cells[c], 0);
+        radiosity[tree.surfels + c] = withLuma(cells[c]);
     blackSky = std::ranges::all_of(cells, [](glm::vec3 c) { return c == glm::vec3(0); });
     return true;
 }
@@ -269,7 +269,7 @@ double Relighter::State::lightSurfels() {
         const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
         change += double(d.x + d.y + d.z) * s.area[i];
         total += double(b.x + b.y + b.z) * s.area[i];
-        radiosity[i] = glm::vec4(b, 0);
+        radiosity[i] = withLuma(b);
     }
     return total > 0 ? change / total : (change > 0 ? 1 : 0);
 }

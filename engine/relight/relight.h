@@ -74,7 +74,7 @@ public:
     const IndirectField& field() const;
     const Bake& bake() const;
 
-    /// Radiosity of the tree's nodes, RGB in xyz [W m^-2], w = 0; valid after relight().
+    /// Radiosity of the tree's nodes, as withLuma [W m^-2]; valid after relight().
     const std::vector<glm::vec4>& radiosity() const;
 
     /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as

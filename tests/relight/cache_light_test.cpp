@@ -46,12 +46,12 @@ std::vector<glm::vec4> randomRadiosity(const ClusterTree& tree, bool grey) {
     std::exponential_distribution<float> strength;
     std::vector<glm::vec4> radiosity(tree.size());
     for (std::uint32_t s = 0; s < tree.leaves(); ++s)
-        radiosity[s] = grey ? glm::vec4(glm::vec3(strength(rng)), 0)
-                            : glm::vec4(strength(rng), strength(rng), strength(rng), 0);
+        radiosity[s] = withLuma(grey ? glm::vec3(strength(rng))
+                                     : glm::vec3(strength(rng), strength(rng), strength(rng)));
     pullRadiosity(tree, radiosity);
     if (grey) // exactly, whatever the pull rounds
         for (glm::vec4& b : radiosity)
-            b = glm::vec4(glm::vec3(b.x), 0);
+            b = withLuma(glm::vec3(b.x));
     return radiosity;
 }
 
