@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/parallel.h"
 
+#include "engine/core/flush_denormals.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -16,7 +18,10 @@ void parallelRanges(std::size_t count, std::size_t grain,
     if (count == 0)
         return;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
-                      [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+                      [&](const tbb::blocked_range<std::size_t>& r) {
+                          const FlushDenormals flush;
+                          body(r.begin(), r.end());
+                      });
 }
 
 bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progress,
@@ -30,6 +35,7 @@ bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progre
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, blocks, 1),
         [&](const tbb::blocked_range<std::size_t>& r) {
+            const FlushDenormals flush;
             for (std::size_t block = r.begin(); block != r.end(); ++block) {
                 if (progress.cancelled()) {
                     stopped = true;

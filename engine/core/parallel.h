@@ -10,7 +10,7 @@ namespace limn {
 
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), on oneTBB's threads.
 /// `grain` is the smallest range worth a task. Bodies write only to their own range, so results do
-/// not depend on the number of threads.
+/// not depend on the number of threads. They run under FlushDenormals, on the calling thread too.
 void parallelRanges(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t begin, std::size_t end)>& body);
 

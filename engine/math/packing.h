@@ -14,12 +14,14 @@ namespace limn {
 /// IEEE 754 binary16, rounded to nearest even; overflow gives infinity, below 2^-25 zero.
 std::uint16_t floatToHalf(float value);
 
-/// Exact, including denormals; infinity and NaN are not decoded (no writer here stores them).
+/// Exact, including denormal halfs, also under FlushDenormals; infinity and NaN are not decoded (no
+/// writer here stores them).
 inline float halfToFloat(std::uint16_t h) {
-    // Exponent and mantissa moved into a float are 2^112 too small; denormals come out right as
-    // well.
-    const std::uint32_t bits = (h & 0x7fffU) << 13 | (h & 0x8000U) << 16;
-    return std::bit_cast<float>(bits) * 0x1p112f;
+    const std::uint32_t magnitude = h & 0x7fffU;
+    const float value = magnitude < 0x400U // a multiple of 2^-24
+                            ? float(int(magnitude)) * 0x1p-24f
+                            : std::bit_cast<float>((magnitude << 13) + (112U << 23));
+    return (h & 0x8000U) != 0 ? -value : value;
 }
 
 /// A colour >= 0 in 32 bits: mantissas of 9 bits each in r, g, b from the lowest bit on, and 5 bits

@@ -24,10 +24,10 @@ using LinkEnds = std::span<const std::uint32_t>;
 /// of Caches::shCoefficients.
 using LinkHalfs = std::span<const std::uint16_t>;
 
-/// The sums of lightCaches, of radiosity as withLuma keeps it, for the caches [begin, end), on one thread, by the widest vectors that
-/// this machine has: cones (LinkStorage::Rtp) one link per lane, harmonics one coefficient per
-/// lane. The order of a cache's sums depends on the machine's vectors, so results of two kinds of
-/// machine agree to rounding only.
+/// The sums of lightCaches, of radiosity as withLuma keeps it, for the caches [begin, end), on one
+/// thread, by the widest vectors that this machine has: cones (LinkStorage::Rtp) one link per lane,
+/// harmonics one coefficient per lane. The order of a cache's sums depends on the machine's
+/// vectors, so results of two kinds of machine agree to rounding only.
 void lightLinks(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                 LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
                 glm::vec3* sh);

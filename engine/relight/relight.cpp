@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/relight.h"
 
-#include "engine/core/parallel.h"
+#include "engine/core/flush_denormals.h"
 #include "engine/relight/bouncing.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/dimming.h"
@@ -331,6 +331,7 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
 
 RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
                                 const Progress& progress, const CacheFlags* seen) {
+    const FlushDenormals flush;
     State& s = *m_state;
     RelightStats stats;
     Timer total;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/parallel.h"
 
+#include "engine/core/flush_denormals.h"
 #include "engine/core/hash.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace limn {
@@ -31,6 +34,44 @@ TEST(ParallelRanges, VisitEveryItemOnce) {
             EXPECT_EQ(withProgress, std::vector<int>(count, 1));
         }
 }
+
+#if defined(__SSE2__)
+
+/// Whether arithmetic makes denormals, and whether it takes them.
+bool makesDenormals() {
+    volatile float least = 0x1p-126f, half = 0.5f;
+    return std::bit_cast<std::uint32_t>(least * half) != 0; // compared as floats they may be 0
+}
+bool takesDenormals() {
+    volatile float denormal = 0x1p-130f, much = 0x1p100f;
+    return denormal * much != 0;
+}
+
+TEST(FlushDenormals, AreZeroForAsLongAsItLives) {
+    EXPECT_TRUE(makesDenormals() && takesDenormals());
+    {
+        const FlushDenormals outer;
+        {
+            const FlushDenormals inner;
+            EXPECT_FALSE(makesDenormals() || takesDenormals());
+        }
+        EXPECT_FALSE(makesDenormals() || takesDenormals());
+    }
+    EXPECT_TRUE(makesDenormals() && takesDenormals());
+}
+
+TEST(ParallelRanges, FlushDenormalsOnEveryThreadAndOnlyWithin) {
+    std::atomic<int> wrong = 0;
+    const auto check = [&](std::size_t, std::size_t) {
+        wrong += makesDenormals() || takesDenormals();
+    };
+    parallelRanges(1000, 1, check);
+    EXPECT_TRUE(parallelRanges(1000, 1, Progress{}, "test", check));
+    EXPECT_EQ(wrong, 0);
+    EXPECT_TRUE(makesDenormals() && takesDenormals());
+}
+
+#endif
 
 TEST(ParallelRanges, StopSoonAfterTheyAreCancelled) {
     std::atomic<bool> cancel = false;

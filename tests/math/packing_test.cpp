@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/packing.h"
 
+#include "engine/core/flush_denormals.h"
+
 #include "engine/math/sampling.h"
 
 #include <gtest/gtest.h>
@@ -15,6 +17,19 @@ TEST(Half, EveryFiniteHalfSurvivesARoundTrip) {
         if ((h & 0x7c00U) == 0x7c00U)
             continue;
         EXPECT_EQ(floatToHalf(halfToFloat(std::uint16_t(h))), h);
+    }
+}
+
+TEST(Half, IsTheSameWhereDenormalFloatsAreFlushed) {
+    for (std::uint32_t h = 0; h < 0x10000; ++h) {
+        const std::uint32_t exponent = h >> 10 & 31U, mantissa = h & 0x3ffU;
+        if (exponent == 31)
+            continue;
+        const float is = exponent == 0 ? std::ldexp(float(mantissa), -24)
+                                       : std::ldexp(float(1024 + mantissa), int(exponent) - 25);
+        const FlushDenormals flush;
+        ASSERT_EQ(halfToFloat(std::uint16_t(h)), h < 0x8000U ? is : -is) << h;
+        ASSERT_EQ(floatToHalf(is), h & 0x7fffU);
     }
 }
 

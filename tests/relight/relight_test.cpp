@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace limn {
@@ -349,6 +350,50 @@ TEST(Relight, NoLightIsBlackAndExtremeLightsStayFinite) {
         }
     }
 }
+
+#if defined(__SSE2__)
+
+std::size_t denormals(const Relighter& relighter) {
+    std::size_t count = 0;
+    const auto look = [&](float v) { count += std::fpclassify(v) == FP_SUBNORMAL; };
+    for (const std::vector<glm::vec4>* all :
+         {&relighter.radiosity(), &relighter.field().lightmap, &relighter.field().grid})
+        for (const glm::vec4 v : *all)
+            look(v.x), look(v.y), look(v.z), look(v.w);
+    for (const glm::vec3 v : relighter.cacheSh())
+        look(v.x), look(v.y), look(v.z);
+    return count;
+}
+
+TEST(Relight, NoLightIsTooWeakForNormalNumbers) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
+        Scene scene = lampRoom();
+        scene.bake.storage = storage;
+        Lit lit = light(scene);
+        for (const float strength : {1e-35f, 1e-37f, 3e-38f, 1e-39f}) {
+            lit.scene.lights[0].strength = strength;
+            for (int bounce = 0; bounce < 10; ++bounce) {
+                lit.relighter->relight(lit.scene, *lit.trace, 1);
+                EXPECT_EQ(denormals(*lit.relighter), 0U) << strength << " after " << bounce;
+            }
+        }
+        // After the lamp, its light dies away, bounce by bounce.
+        lit.scene = scene;
+        lit.relighter->relight(lit.scene, *lit.trace, 400);
+        lit.scene.lights.clear();
+        bool weak = false;
+        for (int bounce = 0; bounce < 400; ++bounce) {
+            lit.relighter->relight(lit.scene, *lit.trace, 1);
+            ASSERT_EQ(denormals(*lit.relighter), 0U) << "after " << bounce;
+            const float most = lit.relighter->radiosity()[0].x;
+            weak = weak || (most > 0 && most < 1e-30f);
+        }
+        EXPECT_TRUE(weak);
+        EXPECT_EQ(lit.relighter->radiosity()[0], glm::vec4(0));
+    }
+}
+
+#endif
 
 TEST(Relight, SceneScaleChangesNothing) {
     double mean[3] = {};
