@@ -333,6 +333,24 @@ TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {
     EXPECT_EQ(limn(start + " --runs 8").exit, 2);
 }
 
+TEST_F(CommandLine, BenchRelightMovesDynamicObjectsAndTimesTheirDimming) {
+    const std::string folder = path("dimming");
+    const std::string start = "bench relight cornell --surfels 256 --links 16 --rays 32 --lightmap "
+                              "200 --storage rtp --runs 9 --json -o " +
+                              folder;
+    const nlohmann::json moving = json(start + " --dynamic 'Short block@0,0.6,0'")["rows"][0];
+    EXPECT_GT(moving["dimming_median_ms"], 0);
+    EXPECT_GE(moving["dimming_p95_ms"], moving["dimming_median_ms"]);
+    EXPECT_LT(moving["dimming_median_ms"], moving["p95_ms"]) << "it is a part of all";
+    EXPECT_GT(moving["caches_dimmed"], 0);
+    EXPECT_GT(moving["links_dimmed"], moving["caches_dimmed"]);
+    EXPECT_NE(contents(folder + "/relight.csv").find("dimming_median_ms"), std::string::npos);
+    const nlohmann::json still = json(start)["rows"][0];
+    EXPECT_EQ(still["dimming_median_ms"], 0);
+    EXPECT_EQ(still["links_dimmed"], 0);
+    EXPECT_EQ(limn(start + " --dynamic Nothing").exit, 1);
+}
+
 TEST_F(CommandLine, BenchStressFindsNothingWrongButWhatIs) {
     const std::string start = "bench stress cornell --surfels 256 --links 16 --rays 32 --lightmap "
                               "200 --width 32 --height 24 --json -o " +
