@@ -339,8 +339,9 @@ TEST(HiddenLinks, AreThoseOfWhichRaysFindTheObjectInTheWay) {
           std::pair("pair", pair()),
           std::pair("sheet", quad({-0.5f, 0, -0.5f}, {1, 0, 0}, {0, 0, 1}))})
         for (const auto& [at, storage] :
-             {std::pair(moved({2, 1, 2.5f}), LinkStorage::Rtp), std::pair(turned, LinkStorage::Rtp),
-              std::pair(turned, LinkStorage::Sh)}) {
+             {std::pair(moved({2, 1, 2.5f}), LinkStorage::Rtp),
+              std::pair(moved({2, 0.3f, 2.5f}), LinkStorage::Rtp),
+              std::pair(turned, LinkStorage::Rtp), std::pair(turned, LinkStorage::Sh)}) {
             const Differences d = compareWithRays(room(mesh, at, storage));
             std::printf("%s, storage %d: %llu of %llu directions blocked, %llu differ\n", name,
                         int(storage), static_cast<unsigned long long>(d.blocked),
