@@ -68,8 +68,8 @@ FrameTimes FrameScene::draw(const Scene& lit, std::uint32_t bounces) {
     const auto start = std::chrono::steady_clock::now();
     viewport.setLighting(lit);
     const CacheFlags* wanted = seen ? &*seen : nullptr;
-    const RelightStats light =
-        gpu ? gpu->relight(viewport, lit, bounces) : cpu->relight(lit, trace, bounces, {}, wanted);
+    const RelightStats light = gpu ? gpu->relight(viewport, lit, bounces, {}, wanted)
+                                   : cpu->relight(lit, trace, bounces, {}, wanted);
     if (cpu)
         viewport.setIndirect(cpu->field());
     viewport.render(options);

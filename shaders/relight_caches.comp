@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SH of incident radiance of the caches [range.begin, range.end), one group each: its links lie across the lanes.
+// SH of incident radiance of the caches order[range.begin, range.end), one group each: its links lie across the lanes.
 // From kChromaBands on the light is grey, and only its luma is summed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,6 +13,7 @@ layout(constant_id = 4) const int kStoredBands = 3; // of links that hold harmon
 layout(std430, binding = RELIGHT_RADIOSITY) readonly buffer Radiosity { vec4 radiosity[]; };
 layout(std430, binding = RELIGHT_CACHES) readonly buffer Caches { GpuCache caches[]; };
 layout(std430, binding = RELIGHT_LINKS) readonly buffer Links { uint links[]; };
+layout(std430, binding = RELIGHT_ORDER) readonly buffer Order { uint order[]; };
 layout(std430, binding = RELIGHT_SH) writeonly buffer Sh { vec4 sh[]; };
 
 const bool kAllColoured = kChromaBands == kBands;
@@ -113,9 +114,10 @@ void addLanes(float sums[kSums]) {
 }
 
 void main() {
-    const uint c = range.begin + groupIndex();
-    if (c >= range.end)
+    const uint k = range.begin + groupIndex();
+    if (k >= range.end)
         return;
+    const uint c = order[k];
     const GpuCache cache = caches[c];
     float sums[kSums];
     sumLinks(cache, sums);

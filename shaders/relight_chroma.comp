@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes the bands of the caches [range.begin, range.end) from kChromaBands on grey, one coefficient per invocation.
+// Makes the bands of the caches order[range.begin, range.end) from kChromaBands on grey, one coefficient per invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -7,12 +7,15 @@
 
 layout(constant_id = 2) const int kChromaBands = 3;
 
+layout(std430, binding = RELIGHT_ORDER) readonly buffer Order { uint order[]; };
 layout(std430, binding = RELIGHT_SH) buffer Sh { vec4 sh[]; };
 
 void main() {
-    const uint item = range.begin * kCoefficients + groupIndex() * kLanes + gl_LocalInvocationIndex;
-    if (item >= range.end * kCoefficients || item % kCoefficients < kChromaBands * kChromaBands)
+    const uint item = groupIndex() * kLanes + gl_LocalInvocationIndex;
+    const uint k = range.begin + item / kCoefficients, i = item % kCoefficients;
+    if (k >= range.end || i < kChromaBands * kChromaBands)
         return;
-    const vec3 c = sh[item].rgb;
-    sh[item] = vec4(vec3(c.g * 0.5 + (c.r + c.b) * 0.25), 0);
+    const uint at = order[k] * kCoefficients + i;
+    const vec3 c = sh[at].rgb;
+    sh[at] = vec4(vec3(c.g * 0.5 + (c.r + c.b) * 0.25), 0);
 }

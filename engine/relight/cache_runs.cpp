@@ -2,6 +2,7 @@
 #include "engine/relight/cache_runs.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace limn {
 
@@ -32,6 +33,18 @@ CacheFlags cachesRead(const Surfels& surfels, const Caches& caches) {
                 read[surfels.cache[i][k]] = 1;
     addFillSources(caches, read);
     return read;
+}
+
+CacheFlags cachesMissing(const Caches& caches, const CacheFlags& current, const CacheFlags* seen) {
+    CacheFlags flags = seen != nullptr ? *seen : CacheFlags(current.size(), 1);
+    addFillSources(caches, flags);
+    return without(std::move(flags), current);
+}
+
+CacheFlags without(CacheFlags flags, const CacheFlags& other) {
+    for (std::size_t c = 0; c < flags.size(); ++c)
+        flags[c] &= other[c] == 0;
+    return flags;
 }
 
 void addFillSources(const Caches& caches, CacheFlags& flags) {

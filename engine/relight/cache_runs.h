@@ -30,6 +30,13 @@ CacheRuns runsOf(const CacheFlags& flags);
 /// The lightmap caches that some surfel reads with a weight above 0. Bounces need no others.
 CacheFlags cachesRead(const Surfels& surfels, const Caches& caches);
 
+/// Those of `seen`, or all where it is null, with what fills invalid ones among them, that
+/// `current` has not.
+CacheFlags cachesMissing(const Caches& caches, const CacheFlags& current, const CacheFlags* seen);
+
+/// Those of `flags` that `other` has not.
+CacheFlags without(CacheFlags flags, const CacheFlags& other);
+
 /// Adds to `flags` the valid caches that stand in for invalid ones among them.
 void addFillSources(const Caches& caches, CacheFlags& flags);
 

@@ -89,7 +89,6 @@ struct Relighter::State {
     void lightRest();
     void readInner();
     void lightSeen(const CacheFlags& which, bool newLight);
-    CacheFlags missing(const CacheFlags* seen) const;
 
     void setBands(int count);
     bool takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats);
@@ -226,10 +225,7 @@ void Relighter::State::keepInner(const CacheFlags& which) {
 
 /// Lights what surfels read of the last pull and is not there yet.
 void Relighter::State::lightRest() {
-    CacheFlags rest = read;
-    for (std::size_t c = 0; c < rest.size(); ++c)
-        rest[c] &= current[c] == 0;
-    light(innerBands, runsOf(rest), inner());
+    light(innerBands, runsOf(without(read, current)), inner());
     unread = false;
 }
 
@@ -249,15 +245,6 @@ void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
     if (finalBands.chroma < bounceBands.chroma)
         for (const CacheRun run : runsOf(which))
             dropChroma(finalBands, run.begin, run.end, sh);
-}
-
-/// What is to be lit for the field to be right in `seen`, or everywhere.
-CacheFlags Relighter::State::missing(const CacheFlags* seen) const {
-    CacheFlags flags = seen != nullptr ? *seen : CacheFlags(current.size(), 1);
-    addFillSources(bake->caches, flags);
-    for (std::size_t c = 0; c < flags.size(); ++c)
-        flags[c] &= current[c] == 0;
-    return flags;
 }
 
 /// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.
@@ -361,7 +348,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         s.readInner();
         stats.surfelReadMs += timer.lap();
     }
-    const CacheFlags lit = s.missing(seen);
+    const CacheFlags lit = cachesMissing(s.bake->caches, s.current, seen);
     stats.converged = s.convergence.reached();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {

@@ -7,6 +7,7 @@
 #include "engine/relight_gpu/relight_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <optional>
@@ -51,12 +52,23 @@ struct GpuRelighter::State {
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
     std::uint64_t fieldVersion = 0;
 
+    /// Lists of the lightmap's caches: those that surfels read, those to write into the field, and
+    /// those that are lit besides.
+    enum List { kRead, kLit, kRest };
+    std::array<std::vector<std::uint32_t>, RelightBuffers::kCacheLists> lists; ///< as sent
+    CacheFlags read;
+    CacheFlags current;  ///< the field has the light of the last pull there
+    bool unread = false; ///< surfels have not read that light yet
+
+    CacheList list(List which, const CacheFlags& flags);
+    void lightRest();
     bool setBands(std::uint32_t bands);
     std::vector<shared::GpuCache> cachesUnder(bool blackSky);
-    bool upload(const SurfelInputs& inputs, GpuRelightStats& stats);
+    bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
-    double bounce(GpuRelightStats& stats);
-    void writeField(GpuRelightStats& stats);
+    double bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
+    void writeField(const CacheFlags& lit, const CacheFlags& unlit, bool grid,
+                    GpuRelightStats& stats);
     std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
 };
 
@@ -81,6 +93,7 @@ Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
     if (!buffers)
         return tl::make_unexpected(buffers.error());
     auto state = std::make_unique<State>(device, std::move(bake), std::move(*buffers));
+    state->read = cachesRead(state->bake->surfels, state->bake->caches);
     state->setBands(0);
     state->direct.buffer = &state->buffers.direct;
     state->albedo.buffer = &state->buffers.albedo;
@@ -102,6 +115,8 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
     if (steps && buffers.field->bands == bands)
         return false;
     makeRelitField(device, *bake, bands, buffers);
+    current.assign(bake->caches.lightmapCount, 0);
+    unread = false;
     steps.emplace(device, *bake, buffers, bounceBands(bake->settings, int(bands)),
                   finalBands(bake->settings, int(bands)));
     return true;
@@ -120,7 +135,8 @@ std::vector<shared::GpuCache> GpuRelighter::State::cachesUnder(bool blackSky) {
 }
 
 /// True if lights or materials had changed.
-bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats) {
+bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats,
+                                 bool& skyChanged) {
     const auto start = Clock::now();
     VkCommandBuffer cmd = VK_NULL_HANDLE;
     const auto send = [&](const gpu::Buffer& to, std::size_t first, const auto& v) {
@@ -154,6 +170,7 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         if (black != (skyLinksSkipped > 0))
             send(buffers.caches, 0, cachesUnder(black));
         convergence.skyChanged();
+        skyChanged = true;
     }
     if (cmd)
         device.submit(cmd);
@@ -176,8 +193,39 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
     return true;
 }
 
+/// The caches of `flags` on the GPU.
+CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
+    const std::uint32_t lightmap = bake->caches.lightmapCount;
+    const auto begin =
+        std::uint32_t(bake->caches.size()) - lightmap + std::uint32_t(which) * lightmap;
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t c = 0; c < lightmap; ++c)
+        if (flags[c] != 0)
+            order.push_back(c);
+    const CacheList result{begin, begin + std::uint32_t(order.size())};
+    if (order == lists[which] || order.empty())
+        return result;
+    const VkCommandBuffer cmd = device.begin("list of caches");
+    gpu::updateBuffer(device, cmd, buffers.order, begin * sizeof order[0],
+                      std::as_bytes(std::span(order)));
+    device.submit(cmd);
+    lists[which] = std::move(order);
+    return result;
+}
+
+/// What was put off.
+void GpuRelighter::State::lightRest() {
+    const CacheList rest = list(kRest, without(read, current));
+    device.immediate("rest of the last bounce", [&](VkCommandBuffer cmd) {
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);
+        steps->recordLightmapCaches(cmd, rest);
+        steps->recordIndirect(cmd);
+    });
+    unread = false;
+}
+
 /// One iteration. Returns the change of the surfels' total radiosity over that total.
-double GpuRelighter::State::bounce(GpuRelightStats& stats) {
+double GpuRelighter::State::bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats) {
     device.immediate("bounce", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
         times.begin(cmd);
@@ -185,9 +233,10 @@ double GpuRelighter::State::bounce(GpuRelightStats& stats) {
         times.mark(cmd);
         steps->recordPull(cmd);
         times.mark(cmd);
-        steps->recordLightmapCaches(cmd);
+        steps->recordLightmapCaches(cmd, caches);
         times.mark(cmd);
-        steps->recordIndirect(cmd);
+        if (surfelsRead)
+            steps->recordIndirect(cmd);
         times.mark(cmd);
         gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
     });
@@ -205,11 +254,17 @@ double GpuRelighter::State::bounce(GpuRelightStats& stats) {
     return total > 0 ? change / total : (change > 0 ? 1 : 0);
 }
 
-void GpuRelighter::State::writeField(GpuRelightStats& stats) {
+/// Writes the caches `lit`, of which `unlit` have yet to be lit, and the grid.
+void GpuRelighter::State::writeField(const CacheFlags& lit, const CacheFlags& unlit, bool grid,
+                                     GpuRelightStats& stats) {
+    const CacheList toWrite = list(kLit, lit), toLight = list(kRest, unlit);
     device.immediate("field", [&](VkCommandBuffer cmd) {
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after lists were sent
         times.begin(cmd);
-        steps->recordFinalCaches(cmd);
-        steps->recordField(cmd);
+        if (toLight.end > toLight.begin)
+            steps->recordLightmapCaches(cmd, toLight);
+        steps->recordFinalCaches(cmd, toWrite, grid);
+        steps->recordField(cmd, toWrite, grid);
         times.mark(cmd);
     });
     stats.fieldMs = times.steps()[0];
@@ -217,27 +272,46 @@ void GpuRelighter::State::writeField(GpuRelightStats& stats) {
 }
 
 GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t bounces,
-                                      const Progress& progress) {
+                                      const Progress& progress, const CacheFlags* seen) {
     State& s = *m_state;
     GpuRelightStats stats;
     const auto start = Clock::now();
-    bool changed = s.setBands(inputs.bands);
+    const Caches& caches = s.bake->caches;
+    bool changed = s.setBands(inputs.bands), skyChanged = false;
     const std::uint64_t dispatchesBefore = s.steps->dispatches;
-    changed |= s.upload(inputs, stats);
+    changed |= s.upload(inputs, stats, skyChanged);
     if (inputs.lights)
         changed |= s.lightSurfels(*inputs.lights, stats);
     s.started = true;
     if (changed)
         s.convergence.lightChanged();
-    stats.skipped = s.convergence.reached();
-    for (std::uint32_t k = 0; k < bounces && !s.convergence.reached(); ++k) {
-        s.convergence.addRound(s.bounce(stats));
+    const bool bouncing = bounces > 0 && !s.convergence.reached();
+    if (bouncing) {
+        if (s.unread && !changed && !skyChanged)
+            s.lightRest();
+        s.current.assign(s.current.size(), 0);
+    }
+    const CacheFlags lit = cachesMissing(caches, s.current, seen);
+    CacheFlags unlit = lit;
+    const bool mayPutOff = seen != nullptr && bounces > 1 && !s.steps->dropsChroma();
+    for (std::uint32_t k = 0; bouncing && k < bounces && !s.convergence.reached(); ++k) {
+        s.unread = mayPutOff && k + 1 == bounces;
+        const CacheFlags& now = s.unread ? lit : s.read;
+        s.convergence.addRound(
+            s.bounce(s.list(s.unread ? State::kLit : State::kRead, now), !s.unread, stats));
+        unlit = without(lit, now);
         if (progress.cancelled())
             break;
     }
-    if (!stats.skipped)
-        s.writeField(stats);
     stats.converged = s.convergence.reached();
+    stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
+    if (!stats.skipped) {
+        s.writeField(lit, unlit, bouncing, stats);
+        for (std::size_t c = 0; c < lit.size(); ++c)
+            s.current[c] |= lit[c];
+    }
+    stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
+    stats.cachesUnread = std::uint32_t(std::ranges::count(s.read, 0));
     stats.skyLinksSkipped = stats.skipped ? 0 : s.skyLinksSkipped;
     stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
     stats.totalMs = msSince(start);

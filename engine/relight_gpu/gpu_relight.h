@@ -4,6 +4,7 @@
 #include "engine/bake/bake.h"
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
+#include "engine/relight/cache_runs.h"
 #include "engine/relight/indirect_field.h"
 #include "engine/relight_gpu/gpu_field.h"
 #include "engine/relight_gpu/shadowed_lights.h"
@@ -38,8 +39,9 @@ struct GpuRelightStats {
     std::uint32_t bounces = 0;    ///< iterations run by this call
     std::uint32_t dispatches = 0; ///< 0 when skipped
     std::uint64_t bytesUploaded = 0;
-    std::uint64_t skyLinksSkipped = 0; ///< as RelightStats::skyLinksSkipped
-    bool converged = false;            ///< as RelightStats::converged
+    std::uint64_t skyLinksSkipped = 0;                ///< as RelightStats::skyLinksSkipped
+    std::uint32_t cachesUnread = 0, cachesUnseen = 0; ///< as RelightStats'
+    bool converged = false;                           ///< as RelightStats::converged
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 
@@ -57,9 +59,10 @@ public:
 
     /// Brings the field up to date by at most `bounces` iterations of B = albedo (E_direct +
     /// E_indirect(B)) + pi L_e. Call again to converge further. Uploads the inputs that differ from
-    /// those of the last call. Waits for the GPU. Cancelled calls leave a valid field.
+    /// those of the last call. Waits for the GPU. Cancelled calls leave a valid field. `seen`: as
+    /// Relighter::relight(); nothing is put off where chrominance has fewer bands.
     GpuRelightStats relight(const SurfelInputs& inputs, std::uint32_t bounces,
-                            const Progress& progress = {});
+                            const Progress& progress = {}, const CacheFlags* seen = nullptr);
 
     const std::shared_ptr<const Bake>& bake() const;
 

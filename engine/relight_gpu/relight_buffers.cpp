@@ -142,8 +142,9 @@ static void clear(gpu::Device& device, const gpu::Image& lightmap) {
 }
 
 std::vector<const gpu::Buffer*> RelightBuffers::inBindingOrder() const {
-    return {&surfels, &direct, &albedo, &emitted, &indirect, &radiosity,   &change,     &innerNodes,
-            &levels,  &caches, &links,  &sh,      &fills,    &fillSources, &field->grid};
+    return {&surfels, &direct,      &albedo,      &emitted, &indirect, &radiosity,
+            &change,  &innerNodes,  &levels,      &caches,  &links,    &sh,
+            &fills,   &fillSources, &field->grid, &order};
 }
 
 Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
@@ -169,6 +170,11 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
         out.sh = make.empty(bake.caches.size() * coefficients, color, "cache harmonics");
         out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec2), "change",
                                 gpu::MemoryKind::Readback);
+        std::vector<std::uint32_t> order;
+        for (std::uint32_t c = bake.caches.lightmapCount; c < bake.caches.size(); ++c)
+            order.push_back(c);
+        order.resize(order.size() + RelightBuffers::kCacheLists * bake.caches.lightmapCount);
+        out.order = make.filled(order, "lists of caches");
         if (!bake.gridDepth.empty())
             out.gridDepth =
                 std::make_shared<const gpu::Buffer>(make.filled(bake.gridDepth, "grid depths"));

@@ -19,13 +19,16 @@ namespace limn {
 struct RelightBuffers {
     gpu::Buffer surfels, innerNodes, levels, caches, links, fills, fillSources; ///< of the bake
     gpu::Buffer direct, albedo, emitted;                                        ///< what comes in
-    gpu::Buffer indirect, radiosity, sh;          ///< what is worked out; 0 at first
-    gpu::Buffer change;                           ///< mapped
+    gpu::Buffer indirect, radiosity, sh; ///< what is worked out; 0 at first
+    gpu::Buffer change;                  ///< mapped
+    gpu::Buffer order; ///< the grid's caches, then room for kCacheLists lists of the lightmap's
     std::shared_ptr<const gpu::Buffer> gridDepth; ///< of the field
     std::shared_ptr<GpuField> field;              ///< what comes out; of makeRelitField()
 
     std::vector<std::uint32_t> levelBegin;          ///< as TreeLevels::begin
     std::uint32_t fillCount = 0, lightmapFills = 0; ///< invalid caches; those of the lightmap first
+
+    static constexpr std::size_t kCacheLists = 3;
 
     /// In the order of their bindings. The lightmap's comes last and is not among them.
     std::vector<const gpu::Buffer*> inBindingOrder() const;

@@ -141,17 +141,20 @@ void RelightSteps::recordPull(VkCommandBuffer cmd) {
     }
 }
 
-void RelightSteps::lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, std::uint32_t begin,
-                               std::uint32_t end) {
-    dispatch(cmd, step, {begin, end}, end - begin);
+CacheList RelightSteps::gridList() const {
+    return {0, std::uint32_t(m_bake.caches.size()) - m_bake.caches.lightmapCount};
+}
+
+void RelightSteps::lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, CacheList list) {
+    dispatch(cmd, step, {list.begin, list.end}, list.end - list.begin);
 }
 
 void RelightSteps::fill(VkCommandBuffer cmd, std::uint32_t begin, std::uint32_t end) {
     dispatch(cmd, m_fill, {begin, end}, groupsOf(std::size_t(end - begin) * m_coefficients));
 }
 
-void RelightSteps::recordLightmapCaches(VkCommandBuffer cmd) {
-    lightCaches(cmd, m_bounceCaches, 0, m_bake.caches.lightmapCount);
+void RelightSteps::recordLightmapCaches(VkCommandBuffer cmd, CacheList list) {
+    lightCaches(cmd, m_bounceCaches, list);
     fill(cmd, 0, m_buffers.lightmapFills);
 }
 
@@ -160,23 +163,31 @@ void RelightSteps::recordIndirect(VkCommandBuffer cmd) {
     dispatch(cmd, m_indirect, {0, count}, groupsOf(count));
 }
 
-void RelightSteps::recordFinalCaches(VkCommandBuffer cmd) {
-    const std::uint32_t lightmap = m_bake.caches.lightmapCount;
+void RelightSteps::recordFinalCaches(VkCommandBuffer cmd, CacheList list, bool grid) {
     if (m_dropsChroma)
-        dispatch(cmd, m_chroma, {0, lightmap}, groupsOf(std::size_t(lightmap) * m_coefficients));
-    lightCaches(cmd, m_finalCaches, lightmap, std::uint32_t(m_bake.caches.size()));
+        dispatch(cmd, m_chroma, {list.begin, list.end},
+                 groupsOf(std::size_t(list.end - list.begin) * m_coefficients));
+    if (!grid)
+        return;
+    lightCaches(cmd, m_finalCaches, gridList());
     fill(cmd, m_buffers.lightmapFills, m_buffers.fillCount);
 }
 
-void RelightSteps::recordField(VkCommandBuffer cmd) {
+void RelightSteps::writeField(VkCommandBuffer cmd, CacheList list) {
+    const glm::uvec3 grid = m_bake.gridSize;
+    dispatch(cmd, m_field,
+             {list.begin, list.end, m_bake.caches.lightmapCount, grid.x * grid.y * grid.z},
+             groupsOf(std::size_t(list.end - list.begin) * m_coefficients));
+}
+
+void RelightSteps::recordField(VkCommandBuffer cmd, CacheList list, bool grid) {
     const VkImage lightmap = m_buffers.field->lightmap.handle;
     gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kFragmentRead, kStep);
     // Frames that were submitted before may still read the grid.
     gpu::memoryBarrier(cmd, gpu::kAllReads, kStep);
-    const auto caches = std::uint32_t(m_bake.caches.size());
-    const glm::uvec3 grid = m_bake.gridSize;
-    dispatch(cmd, m_field, {0, caches, m_bake.caches.lightmapCount, grid.x * grid.y * grid.z},
-             groupsOf(std::size_t(caches) * m_coefficients));
+    writeField(cmd, list);
+    if (grid)
+        writeField(cmd, gridList());
     gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, kStep, gpu::kFragmentRead);
     gpu::memoryBarrier(cmd, kStep, gpu::kAllReads);
 }

@@ -12,6 +12,11 @@
 
 namespace limn {
 
+/// A part of RelightBuffers::order.
+struct CacheList {
+    std::uint32_t begin = 0, end = 0;
+};
+
 /// The steps of relighting as compute shaders over one set of buffers. Each function records one
 /// step and a barrier that makes what it wrote visible to the next.
 class RelightSteps {
@@ -30,15 +35,16 @@ public:
     /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total).
     void recordSurfels(VkCommandBuffer cmd);
     void recordPull(VkCommandBuffer cmd);
-    /// The lightmap's caches, invalid ones too, in the bands of bounces.
-    void recordLightmapCaches(VkCommandBuffer cmd);
+    /// Those of a list of the lightmap's caches, in the bands of bounces, then all invalid ones.
+    void recordLightmapCaches(VkCommandBuffer cmd, CacheList list);
     /// E_indirect of the surfels from their caches.
     void recordIndirect(VkCommandBuffer cmd);
-    /// The final bands: lightmap caches lose the chrominance that only bounces need, grid caches
-    /// are lit.
-    void recordFinalCaches(VkCommandBuffer cmd);
+    /// The final bands: the list's caches lose the chrominance that only bounces need, those of the
+    /// grid are lit where `grid` says so.
+    void recordFinalCaches(VkCommandBuffer cmd, CacheList list, bool grid);
     /// Lightmap and grid, ready for fragment shaders.
-    void recordField(VkCommandBuffer cmd);
+    void recordField(VkCommandBuffer cmd, CacheList list, bool grid);
+    bool dropsChroma() const { return m_dropsChroma; }
 
     std::uint64_t dispatches = 0; ///< recorded so far
 
@@ -48,8 +54,9 @@ private:
     void createSets();
     void dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
                   const shared::GpuRelightRange& range, std::size_t groups);
-    void lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, std::uint32_t begin,
-                     std::uint32_t end);
+    CacheList gridList() const;
+    void lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, CacheList list);
+    void writeField(VkCommandBuffer cmd, CacheList list);
     void fill(VkCommandBuffer cmd, std::uint32_t begin, std::uint32_t end);
 
     gpu::Device& m_device;

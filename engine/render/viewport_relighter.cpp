@@ -17,7 +17,8 @@ ViewportRelighter::create(gpu::Device& device, std::shared_ptr<const Bake> bake)
 }
 
 RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
-                                        std::uint32_t bounces, const Progress& progress) {
+                                        std::uint32_t bounces, const Progress& progress,
+                                        const CacheFlags* seen) {
     const auto start = std::chrono::steady_clock::now();
     const Bake& bake = *m_gpu->bake();
     if (m_albedo.size() != bake.surfels.size() || m_materials != scene.materials) {
@@ -34,7 +35,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .sky = sky,
                                               .lights = &lights,
                                               .bands = bands},
-                                             bounces, progress);
+                                             bounces, progress, seen);
     viewport.setIndirect(m_gpu->field());
     const ViewportStats& drawn = viewport.stats();
     RelightStats stats;
@@ -49,6 +50,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.converged = g.converged;
     stats.skipped = g.skipped;
     stats.skyLinksSkipped = g.skyLinksSkipped;
+    stats.cachesUnread = g.cachesUnread;
+    stats.cachesUnseen = g.cachesUnseen;
     stats.lightsTraced = drawn.relightShadowMaps;
     stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count;
     const std::chrono::duration<double, std::milli> total =

@@ -27,7 +27,7 @@ public:
     /// Steps are in the GPU's time, totalMs is from call to return. lightsTraced counts shadow maps
     /// drawn, and no ray is traced.
     RelightStats relight(Viewport& viewport, const Scene& scene, std::uint32_t bounces,
-                         const Progress& progress = {});
+                         const Progress& progress = {}, const CacheFlags* seen = nullptr);
 
     const GpuRelighter& gpu() const { return *m_gpu; }
 

@@ -30,8 +30,9 @@ using uint = std::uint32_t;
 #define RELIGHT_FILLS 12u        // GpuFill per invalid cache
 #define RELIGHT_FILL_SOURCES 13u // uvec2: cache, bits of its weight
 #define RELIGHT_GRID 14u         // as IndirectField::grid
-#define RELIGHT_LIGHTMAP 15u     // the storage image, one layer per coefficient
-#define RELIGHT_BINDINGS 16u
+#define RELIGHT_ORDER 15u        // caches to light and to write, in lists
+#define RELIGHT_LIGHTMAP 16u     // the storage image, one layer per coefficient
+#define RELIGHT_BINDINGS 17u
 
 #define RELIGHT_STORAGE_RTP 0u // as limn::LinkStorage
 #define RELIGHT_STORAGE_SH 1u
