@@ -199,6 +199,7 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
     request.bake = baked.bake;
+    request.seen = baked.seen ? &*baked.seen : nullptr;
     request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));
     request.overlay = baked.overlay;
     return request;
@@ -348,7 +349,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command->add_flag("--no-dimming", options->noDimming,
                       "dynamic objects do not keep bounced light off what is behind them");
     command->add_flag("--all-caches", options->allCaches,
-                      "light the whole lightmap on the CPU, not only what the picture looks up");
+                      "light the whole lightmap, not only what the picture looks up");
     command->add_flag("--json", options->json, "one JSON object on stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

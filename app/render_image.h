@@ -32,6 +32,7 @@ struct RenderRequest {
     std::shared_ptr<const Bake> bake; ///< null: nothing is baked
     /// Lights `bake` on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
+    const CacheFlags* seen = nullptr;     ///< caches that the picture looks up; null: light all
     RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the device that draws lights `bake` instead
     std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
 };

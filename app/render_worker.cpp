@@ -29,6 +29,8 @@ void RenderWorker::takeBake(const PictureRequest& request) {
         return;
     m_relighter = nullptr;
     m_litOf = nullptr;
+    m_seen = {};
+    m_whole = m_everWhole = false;
     relight = {};
     refusal.clear();
     times.reset();
@@ -56,7 +58,7 @@ void RenderWorker::makeRelighter(const PictureRequest& request) {
         m_relighter = std::move(*made);
     else
         refusal = made.error().message;
-    relight.converged = false;
+    relight.converged = m_whole = m_everWhole = false;
     relight.bounces = 0;
 }
 
@@ -82,17 +84,37 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
             sameBakeInputs(*request.lit.scene, *request.scene)
                 ? request.scene
                 : std::make_shared<const Scene>(relitScene(*request.lit.scene, *request.scene));
-        relight.converged = false;
+        relight.converged = m_whole = false;
         relight.bounces = 0;
     }
     const auto start = Clock::now();
+    const CacheFlags* seen = seenBy(request);
+    const auto light = [&](std::uint32_t bounces, const CacheFlags* wanted) {
+        const RelightStats stats = m_relighter->relight(viewport, *m_litScene, bounces, {}, wanted);
+        m_whole = stats.cachesUnseen == 0;
+        m_everWhole |= m_whole;
+        return stats;
+    };
+    const bool newLight = !relight.converged;
     while (!relight.converged) {
-        relight.last = m_relighter->relight(viewport, *m_litScene, kBouncesPerCall);
+        relight.last = light(kBouncesPerCall, seen);
         countUpdate(relight, request.scene->bake.maxBounces);
         if (hurry || msSince(start) >= m_pictureMs)
             break;
     }
+    // What has come into view, and where there is time for it the rest.
+    if (relight.converged && !m_whole && !(newLight && hurry))
+        light(0, hurry ? seen : nullptr);
     m_ownField = true;
+}
+
+/// Null: all, as at first, so that there is light wherever somebody looks later.
+const CacheFlags* RenderWorker::seenBy(const PictureRequest& request) {
+    if (!m_everWhole || showsLight(request.overlay.kind))
+        return nullptr;
+    const ViewportOptions& o = request.options;
+    return &seenFrom(m_seen, *request.lit.scene, *request.lit.bake,
+                     {o.camera, float(o.width) / float(o.height)});
 }
 
 void RenderWorker::takeField(const PictureRequest& request) {

@@ -3,6 +3,7 @@
 
 #include "app/render_job.h"
 #include "engine/gpu/device.h"
+#include "engine/relight/seen_caches.h"
 #include "engine/render/viewport_relighter.h"
 
 namespace limn {
@@ -16,8 +17,11 @@ public:
     /// `hurry`: another picture is wanted, so that bounces can wait.
     Image draw(PictureRequest request, const std::atomic<bool>& hurry);
 
-    /// Light is still bouncing: the picture shown is to be drawn again.
-    bool bouncing() const { return shown.relight && m_relighter && !relight.converged; }
+    /// Light is still bouncing, or not lit where the picture does not show it: the picture shown is
+    /// to be drawn again.
+    bool bouncing() const {
+        return shown.relight && m_relighter && !(relight.converged && m_whole);
+    }
 
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
@@ -34,6 +38,7 @@ private:
     void measure(const PictureRequest& request);
     void takeField(const PictureRequest& request);
     void bounce(const PictureRequest& request, const std::atomic<bool>& hurry);
+    const CacheFlags* seenBy(const PictureRequest& request);
     void makeOverlay(const PictureRequest& request);
 
     std::unique_ptr<ViewportRelighter> m_relighter; ///< of shown.lit, while it is needed
@@ -41,6 +46,9 @@ private:
     std::shared_ptr<const Scene> m_litOf;           ///< that `m_litScene` was made of
     std::shared_ptr<const Scene> m_litScene;        ///< as the bake can be lit with
     std::string m_timesKey;                         ///< of shown.lit
+    SeenFrom m_seen;                                ///< of shown.lit
+    bool m_whole = false;                           ///< the field has the newest light everywhere
+    bool m_everWhole = false;                       ///< it had some of shown.lit's
     double m_pictureMs = 0;                         ///< what the last picture took, without bounces
 };
 

@@ -71,9 +71,7 @@ struct RelightJob::Worker {
     bool whole = false;            ///< the field has the newest light everywhere
     bool everWhole = false;        ///< it had some of this bake's
     std::optional<Viewpoint> view; ///< newest; none: all is looked at
-    CacheFootprints footprints;    ///< of the bake; empty until needed
-    std::optional<Viewpoint> seenFrom;
-    CacheFlags seen; ///< from there
+    SeenFrom seen;                 ///< of the bake
 
     bool hasWork() const { return lighting && relighter && scene && !(status.converged && whole); }
     const CacheFlags* seenNow();
@@ -102,8 +100,7 @@ void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
 void RelightJob::Worker::takeBake(BakedScene next) {
     baked = std::move(next);
     relighter = baked.bake ? std::make_unique<Relighter>(baked.bake) : nullptr;
-    footprints = {};
-    seenFrom.reset();
+    seen = {};
     status.converged = whole = everWhole = false;
     status.bounces = 0;
 }
@@ -116,14 +113,7 @@ void RelightJob::Worker::setLighting(bool here) {
 
 /// Null: all, as at first, so that there is light wherever somebody looks later.
 const CacheFlags* RelightJob::Worker::seenNow() {
-    if (!view || !everWhole)
-        return nullptr;
-    if (footprints.begin.empty())
-        footprints = cacheFootprints(*baked.scene, *baked.bake);
-    if (seenFrom != view)
-        seen = seenCaches(footprints, view->camera, view->aspect);
-    seenFrom = view;
-    return &seen;
+    return view && everWhole ? &seenFrom(seen, *baked.scene, *baked.bake, *view) : nullptr;
 }
 
 void RelightJob::Worker::relight(const Progress& progress) {

@@ -20,13 +20,6 @@ struct Relit {
     RelightStatus status;
 };
 
-/// From where a picture is seen.
-struct Viewpoint {
-    Camera camera;
-    float aspect = 1; ///< width over height
-    bool operator==(const Viewpoint&) const = default;
-};
-
 /// Keeps the bounced light up to date with the newest scene on a thread of its own: a few bounces
 /// at a time until converged, then it sleeps. While light changes it lights what is seen, by the
 /// newest setView(); once converged, the rest: a field that has converged is right everywhere, and

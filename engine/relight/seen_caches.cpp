@@ -276,4 +276,14 @@ CacheFlags seenCaches(const CacheFootprints& in, const Camera& camera, float asp
     return seen;
 }
 
+const CacheFlags& seenFrom(SeenFrom& from, const Scene& scene, const Bake& bake,
+                           const Viewpoint& view) {
+    if (from.footprints.begin.empty())
+        from.footprints = cacheFootprints(scene, bake);
+    if (from.view != view)
+        from.seen = seenCaches(from.footprints, view.camera, view.aspect);
+    from.view = view;
+    return from.seen;
+}
+
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/scene/camera.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace limn {
@@ -32,5 +33,23 @@ CacheFootprints cacheFootprints(const Scene& scene, const Bake& bake);
 /// those with a footprint that meets the field of view, widened by 2 %, and does not turn its back
 /// on the eye; and those without any. `aspect`: width over height.
 CacheFlags seenCaches(const CacheFootprints& footprints, const Camera& camera, float aspect);
+
+/// From where a picture is seen.
+struct Viewpoint {
+    Camera camera;
+    float aspect = 1; ///< width over height
+    bool operator==(const Viewpoint&) const = default;
+};
+
+/// What is seen of one bake from the newest viewpoint.
+struct SeenFrom {
+    CacheFootprints footprints; ///< empty until needed
+    std::optional<Viewpoint> view;
+    CacheFlags seen; ///< from there
+};
+
+/// Brings `from` up to date and returns its caches. `scene` and `bake` are always the same.
+const CacheFlags& seenFrom(SeenFrom& from, const Scene& scene, const Bake& bake,
+                           const Viewpoint& view);
 
 } // namespace limn

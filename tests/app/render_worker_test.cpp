@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Pictures that light their bake themselves, one request after the other, without the thread.
+#include "app/render_worker.h"
+
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+std::shared_ptr<const Scene> room() {
+    SceneBuilder b;
+    b.addMaterial(lambert({0.7f, 0.5f, 0.3f}));
+    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    b.add(box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false));
+    b.scene.lights.resize(1);
+    b.scene.lights[0].position = {2, 2.5f, 2};
+    b.scene.lights[0].strength = 5;
+    b.scene.bake.surfels = 500;
+    b.scene.bake.lightmapCaches = 800;
+    b.scene.bake.rays = 64;
+    b.scene.bake.links = 32;
+    b.scene.bake.grid = {2, 2, 2};
+    return std::make_shared<const Scene>(b.build());
+}
+
+struct RenderWorkerTest : testing::Test {
+    std::shared_ptr<const Scene> first = room(), moved = lampMoved();
+    std::shared_ptr<const TraceScene> trace = std::make_shared<const TraceScene>(*first);
+    std::shared_ptr<const Bake> made = std::make_shared<const Bake>(*bake(*trace));
+
+    std::shared_ptr<const Scene> lampMoved() const {
+        Scene scene = *first;
+        scene.lights[0].position = {3.2f, 1.8f, 4};
+        return std::make_shared<const Scene>(std::move(scene));
+    }
+
+    /// Of bounced light alone, to +z or to -z.
+    PictureRequest looking(float z, std::shared_ptr<const Scene> scene) const {
+        PictureRequest request;
+        request.scene = std::move(scene);
+        request.layout = {made, &made->lightmap};
+        request.options.view = View::Irradiance;
+        request.options.camera.eye = {2, 1.5f, 2.5f};
+        request.options.camera.target = {2, 1.5f, 2.5f + z};
+        request.options.width = request.options.height = 64;
+        request.lit = {made, first, trace};
+        request.relight = true;
+        return request;
+    }
+};
+
+/// Draws until the light rests.
+Image drawn(RenderWorker& worker, const PictureRequest& request) {
+    const std::atomic<bool> hurry = false;
+    Image image = worker.draw(request, hurry);
+    while (worker.bouncing())
+        image = worker.draw(request, hurry);
+    return image;
+}
+
+TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {
+    const std::atomic<bool> hurry = true; // a few bounces a picture
+    RenderWorker turned(false), still(false);
+    drawn(turned, looking(1, first));
+    const Image before = drawn(still, looking(-1, first));
+    EXPECT_EQ(turned.relight.bounces, still.relight.bounces);
+    // The lamp moves while one looks forward and the other back; then both look back.
+    turned.draw(looking(1, moved), hurry);
+    still.draw(looking(-1, moved), hurry);
+    EXPECT_GT(turned.relight.last.cachesUnseen, made->caches.lightmapCount / 4);
+    EXPECT_TRUE(turned.bouncing());
+    const Image a = turned.draw(looking(-1, moved), hurry),
+                b = still.draw(looking(-1, moved), hurry);
+    EXPECT_EQ(turned.relight.bounces, still.relight.bounces);
+    EXPECT_EQ(a.rgba, b.rgba);
+    EXPECT_NE(a.rgba, before.rgba) << "the old light";
+}
+
+TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
+    const std::atomic<bool> hurry = true;
+    RenderWorker turned(false), still(false);
+    drawn(turned, looking(1, first));
+    drawn(turned, looking(1, moved));
+    EXPECT_GT(turned.relight.last.cachesUnseen, 0U) << "the bounces were for what is seen";
+    const std::uint64_t calls = turned.relight.calls;
+    const Image a = turned.draw(looking(-1, moved), hurry);
+    EXPECT_EQ(turned.relight.calls, calls) << "nothing is left to do";
+    EXPECT_FALSE(turned.bouncing());
+    drawn(still, looking(-1, first));
+    EXPECT_EQ(a.rgba, drawn(still, looking(-1, moved)).rgba);
+}
+
+} // namespace
+} // namespace limn
