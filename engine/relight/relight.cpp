@@ -217,10 +217,12 @@ void Relighter::State::keepInner(const CacheFlags& which) {
     const auto from = std::size_t(bands * bands),
                to = std::size_t(innerBands.luma * innerBands.luma);
     out.resize(which.size() * to);
-    for (std::size_t c = 0; c < which.size(); ++c)
-        if (which[c] != 0)
-            std::copy_n(sh.begin() + std::ptrdiff_t(c * from), to,
-                        out.begin() + std::ptrdiff_t(c * to));
+    parallelRanges(which.size(), 512, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            if (which[c] != 0)
+                std::copy_n(sh.begin() + std::ptrdiff_t(c * from), to,
+                            out.begin() + std::ptrdiff_t(c * to));
+    });
 }
 
 /// Lights what surfels read of the last pull and is not there yet.
