@@ -68,6 +68,8 @@ struct FieldDifference {
     double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
 };
 
+constexpr std::uint32_t kToRest = 64; ///< bounces
+
 /// With every light and dynamic object moved each run. What is to be compared takes turns.
 Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& scene,
                                            const BenchBake& baked) {
@@ -92,13 +94,14 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
         moveObjects(lit, scene, k);
         const TraceScene trace(lit, baked.trace);
         for (std::size_t m = 0; m < all.size(); ++m) {
-            const bool every = k == 0 || all[m].caches == "all"; // the first lights materials too
-            const RelightStats stats =
-                relighters[m]->relight(lit, trace, o.bounces, {}, every ? nullptr : &seen);
+            const bool first = k == 0; // it lights materials too, until the light rests
+            const bool every = first || all[m].caches == "all";
+            const RelightStats stats = relighters[m]->relight(
+                lit, trace, first ? kToRest : o.bounces, {}, every ? nullptr : &seen);
             if (k > 0)
                 all[m].runs.push_back(stats);
         }
-        for (std::size_t m = 0; whole < all.size() && m < all.size(); ++m)
+        for (std::size_t m = 0; k > 0 && whole < all.size() && m < all.size(); ++m)
             differences[m].add(baked.bake->caches, seen, relighters[m]->field(),
                                relighters[whole]->field());
     }

@@ -70,7 +70,8 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
         result.relight = light.stats;
         return {};
     }
-    result.relight = relighter->relight(viewport, scene, request.bake->settings.maxBounces, {}, request.seen);
+    result.relight =
+        relighter->relight(viewport, scene, request.bake->settings.maxBounces, {}, request.seen);
     result.relightDevice = device->properties.deviceName;
     return {};
 }

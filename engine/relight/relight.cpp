@@ -2,6 +2,7 @@
 #include "engine/relight/relight.h"
 
 #include "engine/core/flush_denormals.h"
+#include "engine/core/parallel.h"
 #include "engine/relight/bouncing.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/dimming.h"
