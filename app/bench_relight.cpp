@@ -94,10 +94,12 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
         moveObjects(lit, scene, k);
         const TraceScene trace(lit, baked.trace);
         for (std::size_t m = 0; m < all.size(); ++m) {
-            const bool first = k == 0; // it lights materials too, until the light rests
+            // The first lights materials too, until the light rests; without lights it would stay
+            // so.
+            const bool first = k == 0, toRest = first && !lit.lights.empty();
             const bool every = first || all[m].caches == "all";
             const RelightStats stats = relighters[m]->relight(
-                lit, trace, first ? kToRest : o.bounces, {}, every ? nullptr : &seen);
+                lit, trace, toRest ? kToRest : o.bounces, {}, every ? nullptr : &seen);
             if (k > 0)
                 all[m].runs.push_back(stats);
         }
