@@ -12,6 +12,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace limn {
 
@@ -157,9 +158,11 @@ void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles
         const Polygon whole = in.triangle(t);
         const glm::vec3 normal = in.normal(t);
         const TexelBox b = texelsOf(whole, size);
+        // Lookups of a triangle under a texel's size: to cut it would hardly make it smaller.
+        const bool small = glm::all(glm::lessThanEqual(b.upper - b.lower, glm::ivec2(2)));
         for (glm::ivec2 texel = b.lower; texel.y <= b.upper.y; ++texel.y)
             for (texel.x = b.lower.x; texel.x <= b.upper.x; ++texel.x) {
-                const Polygon part = cutToReach(whole, texel, size);
+                const Polygon part = small ? whole : cutToReach(whole, texel, size);
                 if (part.count == 0)
                     continue;
                 const glm::ivec2 local = texel - box.lower;
