@@ -32,12 +32,12 @@ std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTre
     return ends;
 }
 
-void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                 LightBands bands, std::uint32_t begin, std::uint32_t end,
-                 std::vector<glm::vec3>& sh, LinkHalfs halfs) {
-    parallelRanges(end - begin, 64, [&](std::size_t first, std::size_t last) {
-        lightLinks(caches, ends, radiosity, bands, halfs, begin + std::uint32_t(first),
-                   begin + std::uint32_t(last), sh.data());
+template <class Body>
+static void forEachCache(const CacheRuns& runs, const Body& body) {
+    parallelRanges(runs.size(), 4, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k)
+            for (std::size_t c = runs[k].begin; c < runs[k].end; ++c)
+                body(c);
     });
 }
 
@@ -65,32 +65,27 @@ std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands) {
     return halfs;
 }
 
-void dropChroma(LightBands bands, std::uint32_t begin, std::uint32_t end,
-                std::vector<glm::vec3>& sh) {
+void dropChroma(LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh) {
     const auto coefficients = std::size_t(bands.luma * bands.luma),
                kept = std::size_t(bands.chroma * bands.chroma);
-    parallelRanges(end - begin, 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t c = begin + first; c < begin + last; ++c)
-            for (std::size_t i = kept; i < coefficients; ++i)
-                sh[c * coefficients + i] = glm::vec3(toYCoCg(sh[c * coefficients + i]).y);
+    forEachCache(runs, [&](std::size_t c) {
+        for (std::size_t i = kept; i < coefficients; ++i)
+            sh[c * coefficients + i] = glm::vec3(toYCoCg(sh[c * coefficients + i]).y);
     });
 }
 
-void fillInvalidCaches(const Caches& caches, int bands, std::uint32_t begin, std::uint32_t end,
+void fillInvalidCaches(const Caches& caches, int bands, const CacheRuns& runs,
                        std::vector<glm::vec3>& sh) {
     const auto coefficients = std::size_t(bands * bands);
-    parallelRanges(end - begin, 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t c = begin + first; c < begin + last; ++c) {
-            if (caches.fillBegin[c] == caches.fillBegin[c + 1])
-                continue;
-            glm::vec3* out = sh.data() + c * coefficients;
-            std::fill(out, out + coefficients, glm::vec3(0));
-            for (std::uint32_t k = caches.fillBegin[c]; k < caches.fillBegin[c + 1]; ++k) {
-                const glm::vec3* source =
-                    sh.data() + std::size_t(caches.fillSource[k]) * coefficients;
-                for (std::size_t i = 0; i < coefficients; ++i)
-                    out[i] += source[i] * caches.fillWeight[k];
-            }
+    forEachCache(runs, [&](std::size_t c) {
+        if (caches.fillBegin[c] == caches.fillBegin[c + 1])
+            return;
+        glm::vec3* out = sh.data() + c * coefficients;
+        std::fill(out, out + coefficients, glm::vec3(0));
+        for (std::uint32_t k = caches.fillBegin[c]; k < caches.fillBegin[c + 1]; ++k) {
+            const glm::vec3* source = sh.data() + std::size_t(caches.fillSource[k]) * coefficients;
+            for (std::size_t i = 0; i < coefficients; ++i)
+                out[i] += source[i] * caches.fillWeight[k];
         }
     });
 }

@@ -20,18 +20,12 @@ inline glm::vec4 withLuma(glm::vec3 rgb) {
 /// `radiosity` has one entry per node, leaves filled in by withLuma.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
-/// SH of incident radiance of the caches [begin, end): sh[c * bands^2 + i] = sum over links before
-/// ends[c] of
-/// B transport g_l(u) Y_i(direction), bands = bands.luma, with links of either storage. From band
-/// bands.chroma on the light is grey: its luma alone, half of which is green. Invalid caches in the
-/// range are left 0.
+/// SH of incident radiance of the caches of some runs, which do not overlap: sh[c * bands^2 + i] =
+/// sum over links before ends[c] of B transport g_l(u) Y_i(direction), bands = bands.luma, with
+/// links of either storage. From band bands.chroma on the light is grey: its luma alone, half of
+/// which is green. Invalid caches among them are left 0.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016
-void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                 LightBands bands, std::uint32_t begin, std::uint32_t end,
-                 std::vector<glm::vec3>& sh, LinkHalfs halfs = {});
-
-/// The same of the caches of some runs, which do not overlap.
 void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                  LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
                  LinkHalfs halfs = {});
@@ -45,12 +39,11 @@ std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands);
 std::vector<std::uint32_t> allLinks(const Caches& caches);
 std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTree& tree);
 
-/// Makes the bands of the caches [begin, end) from bands.chroma on grey.
-void dropChroma(LightBands bands, std::uint32_t begin, std::uint32_t end,
-                std::vector<glm::vec3>& sh);
+/// Makes the bands from bands.chroma on grey.
+void dropChroma(LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh);
 
-/// Fills the invalid caches of [begin, end) from the valid ones that stand in for them.
-void fillInvalidCaches(const Caches& caches, int bands, std::uint32_t begin, std::uint32_t end,
+/// Fills the invalid caches of the runs from the valid ones that stand in for them.
+void fillInvalidCaches(const Caches& caches, int bands, const CacheRuns& runs,
                        std::vector<glm::vec3>& sh);
 
 } // namespace limn

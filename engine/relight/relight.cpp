@@ -200,8 +200,7 @@ void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<g
     out.resize(std::max(out.size(), runs.back().end * coefficients));
     lightCaches(dimmed.cones.links.empty() ? caches : dimmed.cones, ends, radiosity, in, runs, out,
                 dimmed.halfs.empty() ? halfs : dimmed.halfs);
-    for (const CacheRun run : runs)
-        fillInvalidCaches(caches, in.luma, run.begin, run.end, out);
+    fillInvalidCaches(caches, in.luma, runs, out);
 }
 
 /// Where surfels read, in innerBands: `sh` itself, unless that has more bands or is to lose colour.
@@ -239,15 +238,15 @@ void Relighter::State::readInner() {
 /// Lights what the field is to have, in all bands. `newLight`: surfels have not read that of the
 /// last pull.
 void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
-    light(bounceBands, runsOf(which), sh);
+    const CacheRuns runs = runsOf(which);
+    light(bounceBands, runs, sh);
     for (std::size_t c = 0; c < which.size(); ++c)
         current[c] |= which[c];
     unread |= newLight;
     if (unread)
         keepInner(which);
     if (finalBands.chroma < bounceBands.chroma)
-        for (const CacheRun run : runsOf(which))
-            dropChroma(finalBands, run.begin, run.end, sh);
+        dropChroma(finalBands, runs, sh);
 }
 
 /// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.

@@ -59,8 +59,8 @@ std::vector<glm::vec3> lit(const Bake& baked, const std::vector<glm::vec4>& radi
                            LightBands bands) {
     const auto all = std::uint32_t(baked.caches.size());
     std::vector<glm::vec3> sh(all * std::size_t(bands.luma * bands.luma));
-    lightCaches(baked.caches, allLinks(baked.caches), radiosity, bands, 0, all, sh);
-    fillInvalidCaches(baked.caches, bands.luma, 0, all, sh);
+    lightCaches(baked.caches, allLinks(baked.caches), radiosity, bands, runsOf(0, all), sh);
+    fillInvalidCaches(baked.caches, bands.luma, runsOf(0, all), sh);
     return sh;
 }
 
@@ -188,7 +188,7 @@ TEST(LightCaches, ABlackSkyNeedsNoneOfItsLinks) {
         const auto all = std::uint32_t(baked.caches.size());
         const auto litBy = [&](const std::vector<std::uint32_t>& ends) {
             std::vector<glm::vec3> sh(all * 9U);
-            lightCaches(baked.caches, ends, radiosity, {3, 3}, 0, all, sh);
+            lightCaches(baked.caches, ends, radiosity, {3, 3}, runsOf(0, all), sh);
             return sh;
         };
         std::uint64_t skipped = 0;
