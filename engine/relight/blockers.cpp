@@ -14,6 +14,18 @@ namespace limn {
 
 namespace {
 
+/// Of a matrix that only turns and scales, with room for rounding; else 0.
+float uniformScale(const glm::mat3& m) {
+    const glm::mat3 products = glm::transpose(m) * m;
+    const float square = std::max({products[0][0], products[1][1], products[2][2]});
+    const glm::mat3 rest = products - glm::mat3(square);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            if (!(std::abs(rest[i][k]) <= 1e-4f * square))
+                return 0;
+    return 1.001f * std::sqrt(square);
+}
+
 /// False where it cannot block.
 bool place(const Instance& instance, Blocker& b) {
     const glm::mat3 linear(instance.toWorld);
@@ -32,6 +44,8 @@ bool place(const Instance& instance, Blocker& b) {
         const glm::vec3 side(k & 1U, k >> 1, 1);
         b.radius = std::max(b.radius, glm::length(linear * ((side - 0.5f) * box.size())));
     }
+    if (const float scale = uniformScale(linear); b.shape->outerBall > 0 && scale > 0)
+        b.radius = std::min(b.radius, b.shape->outerBall * scale);
     return b.radius > 0 && std::isfinite(b.radius) && std::isfinite(glm::length(b.centre)) &&
            std::abs(glm::determinant(linear)) > 0 && std::isfinite(glm::determinant(b.toObject));
 }

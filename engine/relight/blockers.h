@@ -18,7 +18,7 @@ struct Blocker {
     std::shared_ptr<const BlockerShape> shape;
     glm::mat3 toObject{1}; ///< of directions, from the world
     glm::vec3 origin{0};   ///< world, of the object's space
-    glm::vec3 centre{0};   ///< world, of a sphere about the box
+    glm::vec3 centre{0};   ///< world, of a sphere about the mesh
     float radius = 0;      ///< [m]
     Bounds bounds;         ///< world, about the box
 };

@@ -396,6 +396,19 @@ TEST(BlockerShape, IsTheSidesOfAConvexMeshAndTrianglesOfOthers) {
     }
 }
 
+TEST(SceneBlockers, HaveTheSphereAboutTheMeshUnlessItIsSquashed) {
+    BlockerShapes shapes;
+    const Mesh ball = sphere(0.6f, 3, false);
+    const glm::mat4 turned =
+        glm::rotate(moved({1, 1, 1}), 0.7f, glm::normalize(glm::vec3(1, 2, 3)));
+    const auto radius = [&](const glm::mat4& at) {
+        return sceneBlockers(room(ball, at), shapes)[0].radius;
+    };
+    EXPECT_NEAR(radius(turned), 0.6f, 2e-3f);
+    EXPECT_NEAR(radius(glm::scale(turned, glm::vec3(0.5f))), 0.3f, 1e-3f);
+    EXPECT_GE(radius(glm::scale(turned, glm::vec3(1, 1.2f, 1))), 0.72f);
+}
+
 TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
     const Mesh block = box(glm::vec3(0), glm::vec3(1), false);
     Scene scene = room(block, moved({1, 1, 1}));
