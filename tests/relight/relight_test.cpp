@@ -38,6 +38,12 @@ Lit light(Scene scene, std::uint32_t rounds = 400, LitBands bands = LitBands::Al
     return lit;
 }
 
+glm::vec3 irradianceAt(const Lit& lit, std::uint32_t instance, std::uint32_t triangle, float u,
+                       float v, glm::vec3 position, glm::vec3 normal, bool back = false) {
+    return sampleIrradiance({lit.relighter->field(), lit.relighter->bake().lightmap, lit.scene,
+                             instance, triangle, u, v, position, normal, back});
+}
+
 Scene furnace(float albedo, float emission, std::uint32_t bands) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(albedo), glm::vec3(emission)));
@@ -104,9 +110,7 @@ TEST(Sky, ATwoSidedPlateIsLitByItAboveAndDarkBelow) {
     const Bake& bake = lit.relighter->bake();
     EXPECT_GT(bake.lightmap.instances[0].backRows, 0U);
     const auto irradiance = [&](glm::vec3 n, bool back) {
-        return sampleIrradiance({lit.relighter->field(), bake.lightmap, lit.scene, 0, 0, 0.3f, 0.3f,
-                                 glm::vec3(0), n, back})
-            .x;
+        return irradianceAt(lit, 0, 0, 0.3f, 0.3f, glm::vec3(0), n, back).x;
     };
     // Radiance 3 sin(elevation) over the upper half: E = 3 * 2 pi / 3.
     EXPECT_NEAR(irradiance({0, 1, 0}, false), 2 * kPi, 0.01 * 2 * kPi);
@@ -126,15 +130,7 @@ TEST(Sky, UnoccludedGroundGetsPiTimesItsRadiance) {
     scene.bake.surfels = 200;
     scene.bake.rays = 256;
     const Lit lit = light(scene);
-    const glm::vec3 e = sampleIrradiance({lit.relighter->field(),
-                                          lit.relighter->bake().lightmap,
-                                          lit.scene,
-                                          0,
-                                          0,
-                                          0.3f,
-                                          0.3f,
-                                          {0, 0, 0},
-                                          {0, 1, 0}});
+    const glm::vec3 e = irradianceAt(lit, 0, 0, 0.3f, 0.3f, {0, 0, 0}, {0, 1, 0});
     EXPECT_NEAR(e.x, kPi, 0.01 * kPi);
     EXPECT_NEAR(e.y, 2 * kPi, 0.02 * kPi);
     EXPECT_NEAR(e.z, 3 * kPi, 0.03 * kPi);
@@ -175,16 +171,7 @@ TEST(Sky, AConstantPanoramaIsAConstantColourAndATurnIsSeenAtOnce) {
         }
         // At z = 0: in the first triangle for x > 0, in the second for x < 0.
         const glm::vec2 uv = x > 0 ? glm::vec2(x / 10, 0.5f) : glm::vec2((x + 5) / 10, -x / 10);
-        return sampleIrradiance({lit.relighter->field(),
-                                 lit.relighter->bake().lightmap,
-                                 lit.scene,
-                                 0,
-                                 x > 0 ? 0U : 1U,
-                                 uv.x,
-                                 uv.y,
-                                 {x, 0, 0},
-                                 {0, 1, 0}})
-            .x;
+        return irradianceAt(lit, 0, x > 0 ? 0U : 1U, uv.x, uv.y, {x, 0, 0}, {0, 1, 0}).x;
     };
     const float pi = glm::pi<float>();
     // From 2 m behind the wall's middle, 68 of 90 degrees to either side are hidden.
@@ -232,15 +219,7 @@ TEST(ParallelPlates, TheMiddleSeesTheClosedFormFactor) {
         scene.bake.rays = 4096;
         scene.bake.links = 4000;
         const Lit lit = light(scene);
-        const glm::vec3 e = sampleIrradiance({lit.relighter->field(),
-                                              lit.relighter->bake().lightmap,
-                                              lit.scene,
-                                              1,
-                                              0,
-                                              0.f,
-                                              0.5f,
-                                              {0, h, 0},
-                                              {0, -1, 0}});
+        const glm::vec3 e = irradianceAt(lit, 1, 0, 0.f, 0.5f, {0, h, 0}, {0, -1, 0});
         // Three bands of the clamped cosine: error below 2 % of the largest irradiance for small
         // senders; rays: 1 %.
         EXPECT_NEAR(e.x, kPi * factorToSquare(h), 0.03 * kPi * factorToSquare(h) + 0.01)
@@ -472,15 +451,7 @@ TEST(Bake, CachesInsideASolidAreInvalidAndFilledFromOutside) {
     scene = b.build();
     const Lit lit = light(scene);
     EXPECT_GT(lit.relighter->bake().counts.invalidCaches, 0U);
-    const glm::vec3 hidden = sampleIrradiance({lit.relighter->field(),
-                                               lit.relighter->bake().lightmap,
-                                               lit.scene,
-                                               0,
-                                               4,
-                                               0.3f,
-                                               0.3f,
-                                               {2, 0, 2},
-                                               {0, 1, 0}});
+    const glm::vec3 hidden = irradianceAt(lit, 0, 4, 0.3f, 0.3f, {2, 0, 2}, {0, 1, 0});
     EXPECT_GT(hidden.x, 0);
 }
 
