@@ -97,7 +97,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
     };
     const bool newLight = !relight.converged;
     while (!relight.converged) {
-        relight.last = light(kBouncesPerCall, seen);
+        relight.last = light(bouncesPerCall(request.scene->bake.maxBounces), seen);
         countUpdate(relight, request.scene->bake.maxBounces);
         if (hurry || msSince(start) >= m_pictureMs)
             break;

@@ -193,8 +193,11 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
     lightmapRows(edit, s);
     gridRow(edit, s);
     ImGui::Separator();
-    countRow(edit, "Most bounces", "Relighting stops earlier once the light no longer changes",
-             s.maxBounces, 1, 256, "Bounces");
+    countRow(
+        edit, "Most bounces",
+        "Relighting stops earlier once the light no longer changes. 1: light that is reflected "
+        "once; up to 8 begin anew with every change",
+        s.maxBounces, 1, 256, "Bounces");
     fieldLabel("Dimming",
                "Dynamic objects keep bounced light off what is behind them. Needs no bake");
     ImGui::Checkbox("##dimming", &s.dimming);

@@ -2,6 +2,7 @@
 #include "editor_ui/relight_job.h"
 
 #include "editor_ui/background_priority.h"
+#include "engine/relight/bouncing.h"
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,7 @@ Scene relitScene(const Scene& baked, const Scene& now) {
     Scene scene = baked;
     scene.lights = now.lights;
     scene.sky = now.sky;
+    scene.bake.maxBounces = now.bake.maxBounces;
     if (scene.materials.size() == now.materials.size())
         scene.materials = now.materials;
     return scene;
@@ -118,7 +120,7 @@ const CacheFlags* RelightJob::Worker::seenNow() {
 
 void RelightJob::Worker::relight(const Progress& progress) {
     const bool rest = status.converged; // is left
-    const std::uint32_t bounces = rest ? 0 : kBouncesPerCall;
+    const std::uint32_t bounces = rest ? 0 : bouncesPerCall(scene->bake.maxBounces);
     const CacheFlags* wanted = rest ? nullptr : seenNow();
     const bool fresh = inputHash == baked.bake->sceneHash;
     const RelightStats stats = fresh ? relighter->relight(*scene, *trace, bounces, progress, wanted)
@@ -150,6 +152,10 @@ std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
     if (relighter && lighting)
         *copy = {relighter->radiosity(), relighter->cacheSh(), int(relighter->field().bands)};
     return copy;
+}
+
+std::uint32_t bouncesPerCall(std::uint32_t maxBounces) {
+    return maxBounces <= kFewBounces ? maxBounces : 2;
 }
 
 void countUpdate(RelightStatus& status, std::uint32_t maxBounces) {

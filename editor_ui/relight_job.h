@@ -69,8 +69,8 @@ private:
     std::thread m_thread; ///< last: starts when everything else is there
 };
 
-/// Bounces between two looks at what the user did meanwhile.
-inline constexpr std::uint32_t kBouncesPerCall = 2;
+/// Bounces between two looks at what the user did meanwhile: 2, or a few that are all.
+std::uint32_t bouncesPerCall(std::uint32_t maxBounces);
 
 /// Counts status.last in. At `maxBounces` it has converged.
 void countUpdate(RelightStatus& status, std::uint32_t maxBounces);

@@ -56,6 +56,7 @@ struct Relighter::State {
     std::uint64_t skyLinks = 0;                      ///< between the two
     LinkEnds ends;                                   ///< the ones in use
     bool started = false;
+    std::uint32_t maxBounces = 0; ///< of the last call's scene
     Convergence convergence;
 
     std::vector<Material> materials; ///< that albedo and emitted belong to
@@ -311,11 +312,21 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
         convergence.lightChanged();
     if (skyChanged || dimmingChanged)
         convergence.skyChanged();
+    const bool limitChanged = maxBounces != scene.bake.maxBounces;
+    maxBounces = scene.bake.maxBounces;
+    if (limitChanged)
+        convergence.lightChanged();
+    const bool changed = materialsChanged || skyChanged || directChanged || dimmingChanged ||
+                         gridMissing || limitChanged;
+    if (changed && maxBounces <= kFewBounces) {
+        std::ranges::fill(indirect, glm::vec3(0));
+        unread = false;
+    }
     ends = blackSky ? beforeSky : everyLink;
     started = true;
     stats.cachesUnread = std::uint32_t(std::ranges::count(read, 0));
     stats.skyLinksSkipped = blackSky ? skyLinks : 0;
-    return materialsChanged || skyChanged || directChanged || dimmingChanged || gridMissing;
+    return changed;
 }
 
 RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,

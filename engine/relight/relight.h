@@ -57,8 +57,9 @@ public:
 
     /// Brings the field up to date with the lights, materials, sky and, with scene.bake.dimming,
     /// the dynamic objects of `scene`, by at most `bounces` iterations of B = albedo (E_direct +
-    /// E_indirect(B)) + pi L_e. Call again to converge further. `trace` answers the shadow rays.
-    /// Cancelled calls leave a valid field.
+    /// E_indirect(B)) + pi L_e. Call again to converge further. Where scene.bake.maxBounces is
+    /// kFewBounces or less, a change begins anew without bounced light. `trace` answers the shadow
+    /// rays. Cancelled calls leave a valid field.
     ///
     /// `seen`: lightmap caches where the field is needed, by seenCaches(); null: all. Others keep
     /// older light. Bounces light what surfels read; the last one what is seen, and what surfels

@@ -45,6 +45,7 @@ struct GpuRelighter::State {
     gpu::Timestamps times;
 
     bool started = false;
+    std::uint32_t maxBounces = ~0U; ///< of the last inputs
     Convergence convergence;
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;                 ///< as sent
@@ -282,7 +283,13 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     changed |= s.upload(inputs, stats, skyChanged);
     if (inputs.lights)
         changed |= s.lightSurfels(*inputs.lights, stats);
+    changed |= s.started && s.maxBounces != inputs.maxBounces;
+    s.maxBounces = inputs.maxBounces;
     s.started = true;
+    if ((changed || skyChanged) && s.maxBounces <= kFewBounces) {
+        clearBuffers(s.device, {s.buffers.indirect.handle});
+        s.unread = false;
+    }
     if (changed)
         s.convergence.lightChanged();
     const bool bouncing = bounces > 0 && !s.convergence.reached();

@@ -27,6 +27,8 @@ struct SurfelInputs {
     const ShadowedLights* lights = nullptr;
     /// That the caches are lit in: [2, the bake's], by receiverBands(); 0: all of the bake's.
     std::uint32_t bands = 0;
+    /// As BakeSettings::maxBounces: up to kFewBounces they begin anew with every changed input.
+    std::uint32_t maxBounces = ~0U;
 };
 
 /// Milliseconds and counters of one GpuRelighter::relight() call. Steps are in the GPU's time.

@@ -120,7 +120,7 @@ static void uploadFills(StorageMaker& make, const Caches& caches, RelightBuffers
     out.fillSources = make.filled(sources, "sources of invalid caches");
 }
 
-static void clear(gpu::Device& device, std::initializer_list<VkBuffer> buffers) {
+void clearBuffers(gpu::Device& device, std::initializer_list<VkBuffer> buffers) {
     const VkCommandBuffer cmd = device.begin("clear light");
     for (const VkBuffer b : buffers)
         vkCmdFillBuffer(cmd, b, 0, VK_WHOLE_SIZE, 0);
@@ -183,7 +183,7 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
     if (!error.empty())
         return fail(error);
     out.levelBegin = levels.begin;
-    clear(device, {out.indirect.handle, out.radiosity.handle});
+    clearBuffers(device, {out.indirect.handle, out.radiosity.handle});
     return out;
 }
 
@@ -204,7 +204,7 @@ void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
                                              sizeof(glm::vec4), "grid cells");
     field->gridDepth = buffers.gridDepth;
     buffers.field = std::move(field);
-    clear(device, {buffers.sh.handle, buffers.field->grid.handle});
+    clearBuffers(device, {buffers.sh.handle, buffers.field->grid.handle});
     clear(device, buffers.field->lightmap);
 }
 

@@ -9,6 +9,7 @@
 #include "shaders/shared/gpu_relight.h"
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -41,6 +42,9 @@ std::vector<shared::GpuCache> packCaches(const Caches& caches, LinkEnds ends);
 /// would be larger than what the device can bind, naming both sizes.
 Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
                                             std::uint32_t lanes);
+
+/// Fills buffers with 0. What was submitted before must not use them any more.
+void clearBuffers(gpu::Device& device, std::initializer_list<VkBuffer> buffers);
 
 /// A black field of so many bands, no more than the bake's, and black harmonics.
 void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,

@@ -34,7 +34,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .emitted = m_emitted,
                                               .sky = sky,
                                               .lights = &lights,
-                                              .bands = bands},
+                                              .bands = bands,
+                                              .maxBounces = scene.bake.maxBounces},
                                              bounces, progress, seen);
     viewport.setIndirect(m_gpu->field());
     const ViewportStats& drawn = viewport.stats();

@@ -127,11 +127,29 @@ TEST_F(RelightJobTest, WhatComesIntoViewIsRightWithTheNextField) {
     ASSERT_GT(fields.size(), 2U);
     Relighter full(made); // lights all in every call
     full.relight(*scene, *trace, 64);
-    full.relight(*moved, *trace, kBouncesPerCall);
+    full.relight(*moved, *trace, bouncesPerCall(64));
     EXPECT_LT(difference(*fields[0], full.field(), seen(a)), 1e-3);
     EXPECT_GT(difference(*fields[0], full.field(), seen(b)), 0.1) << "nobody looks there";
-    full.relight(*moved, *trace, kBouncesPerCall);
+    full.relight(*moved, *trace, bouncesPerCall(64));
     EXPECT_LT(difference(*fields[1], full.field(), seen(b)), 1e-3);
+}
+
+TEST_F(RelightJobTest, TakesNoMoreBouncesThanTheDocumentAsksFor) {
+    for (const std::uint32_t bounces : {1U, 3U}) {
+        Scene few = *scene;
+        few.bake.maxBounces = bounces;
+        const auto shown = std::make_shared<const Scene>(few), moved = lampAt(few, {3, 2, 4});
+        RelightJob job([] {});
+        job.setScene(shown);
+        job.setBake({made, scene, trace});
+        ASSERT_TRUE(until([&] { return rests(job); }));
+        job.setScene(moved);
+        ASSERT_TRUE(until([&] { return rests(job) && job.result().hashedScene == moved; }));
+        EXPECT_EQ(job.result().status.bounces, bounces);
+        Relighter fresh(made);
+        fresh.relight(*moved, *trace, bounces);
+        EXPECT_EQ(job.result().field->lightmap, fresh.field().lightmap);
+    }
 }
 
 TEST_F(RelightJobTest, LightsAllForOverlaysOfLight) {

@@ -107,6 +107,20 @@ TEST_F(RelightViewport, FollowsLightsMaterialsAndSky) {
     EXPECT_LT(differenceFromCpu(), kRounding);
 }
 
+TEST_F(RelightViewport, FewBouncesLeaveNothingOfTheLightThatWas) {
+    relight();
+    for (const std::uint32_t bounces : {1U, 3U}) {
+        scene.bake.maxBounces = bounces; // a change of its own
+        scene.lights[0].position.x = bounces == 1 ? 1 : 3;
+        relight(bounces);
+        EXPECT_LT(differenceFromCpu(), kRounding);
+        const std::vector<glm::vec3> before = relighter->gpu().readRadiosity();
+        relighter = create();
+        relighter->relight(*viewport, scene, bounces);
+        EXPECT_EQ(relighter->gpu().readRadiosity(), before);
+    }
+}
+
 TEST_F(RelightViewport, DoesNothingWhenNothingChangedAndBouncesHaveConverged) {
     EXPECT_FALSE(relight(1).converged);
     EXPECT_FALSE(relight(1).skipped);
