@@ -130,11 +130,12 @@ HWY_INLINE Cones unpack(U node, U oct, U cone) {
     const V z = set(32767) - hn::Abs(x) - hn::Abs(y), fold = hn::Max(hn::Neg(z), hn::Zero(d));
     x = x - hn::CopySignToAbs(fold, x);
     y = y - hn::CopySignToAbs(fold, y);
-    // As halfToFloat; there is no sign.
-    const U half = hn::ShiftLeft<13>(hn::And(cone, hn::Set(Uints(), 0x7fffU)));
+    const hn::Rebind<hwy::float16_t, Floats> dh;
+    const hn::Rebind<std::uint16_t, Floats> dh16;
+    const V u = hn::PromoteTo( // of denormal halfs, too
+        d, hn::BitCast(dh, hn::TruncateTo(dh16, hn::And(cone, hn::Set(Uints(), 0xffffU)))));
     const V3 direction{x, y, z};
-    return {direction, hn::Sqrt(dot(direction, direction)), hn::BitCast(d, half) * set(0x1p112f),
-            node};
+    return {direction, hn::Sqrt(dot(direction, direction)), u, node};
 }
 
 struct ConeReader {

@@ -189,13 +189,17 @@ struct Dimmed {
     DimmedLinks links;
 };
 
-Dimmed dimmed(const Scene& scene) {
-    Dimmed d{.bake = baked(scene)};
+Dimmed dimmed(const Scene& scene, std::shared_ptr<const Bake> bake) {
+    Dimmed d{.bake = std::move(bake)};
     d.places = senderPlaces(d.bake->surfels, d.bake->tree);
     BlockerShapes shapes;
     d.blockers = sceneBlockers(scene, shapes);
     dimLinks({*d.bake, d.places, d.blockers}, {}, d.links);
     return d;
+}
+
+Dimmed dimmed(const Scene& scene) {
+    return dimmed(scene, baked(scene));
 }
 
 TEST(Dimming, LowersTheTransportsOfHiddenLinksAndNoOthers) {
@@ -251,8 +255,7 @@ struct Differences {
 };
 
 /// Asks a ray of every direction of every link, whatever is in its way.
-Differences compareWithRays(const Scene& scene) {
-    const Dimmed d = dimmed(scene);
+Differences compareWithRays(const Scene& scene, const Dimmed& d) {
     const TraceScene trace(scene);
     const Caches& c = d.bake->caches;
     const Blocker& blocker = d.blockers[0];
@@ -342,7 +345,8 @@ TEST(HiddenLinks, AreThoseOfWhichRaysFindTheObjectInTheWay) {
              {std::pair(moved({2, 1, 2.5f}), LinkStorage::Rtp),
               std::pair(moved({2, 0.3f, 2.5f}), LinkStorage::Rtp),
               std::pair(turned, LinkStorage::Rtp), std::pair(turned, LinkStorage::Sh)}) {
-            const Differences d = compareWithRays(room(mesh, at, storage));
+            const Scene scene = room(mesh, at, storage);
+            const Differences d = compareWithRays(scene, dimmed(scene));
             std::printf("%s, storage %d: %llu of %llu directions blocked, %llu differ\n", name,
                         int(storage), static_cast<unsigned long long>(d.blocked),
                         static_cast<unsigned long long>(d.directions),
@@ -350,6 +354,17 @@ TEST(HiddenLinks, AreThoseOfWhichRaysFindTheObjectInTheWay) {
             EXPECT_GT(d.blocked, d.directions / 1000) << name;
             EXPECT_LE(d.other, d.blocked / 10000) << name;
         }
+}
+
+TEST(HiddenLinks, AreFoundThroughConesTooNarrowForNormalHalfs) {
+    const Scene scene = room(sphere(0.6f, 3, false), moved({2, 1, 2.5f}));
+    Bake bake = *baked(scene);
+    for (Link& link : bake.caches.links)
+        link.u = 0x3ff; // 6.1e-5, the largest denormal: a half-angle of 0.6 degrees
+    const Differences d =
+        compareWithRays(scene, dimmed(scene, std::make_shared<const Bake>(std::move(bake))));
+    EXPECT_GT(d.blocked, d.directions / 1000);
+    EXPECT_LE(d.other, d.blocked / 10000);
 }
 
 std::size_t sidesThere(const BlockerShape& shape) {
