@@ -149,19 +149,19 @@ static void relightTable(EditorState& state) {
         "The others would be seen in glossy reflections only, and no surface needs them");
     row("Grid skipped", groupedNumber(r.last.gridCachesSkipped),
         "Cells not lit, because no object reads them: none is dynamic or without lightmap");
-    row("Unseen caches", groupedNumber(r.last.cachesUnseen),
-        "Of the lightmap, not lit by the last bounce, because the picture does not show them; lit "
-        "when "
-        "the light stands still");
-    row("Unread caches", groupedNumber(r.last.cachesUnread),
-        "Of the lightmap, not lit by the bounces before the last, because no surfel reads them");
-    row("Dimmed caches", groupedNumber(r.last.cachesDimmed),
-        "That dynamic objects take bounced light from; 0 where there are none");
+    row("Unseen", groupedNumber(r.last.cachesUnseen),
+        "Caches of the lightmap that the last bounce did not light, because the picture does not "
+        "show them; they are lit when the light stands still");
+    row("Unread", groupedNumber(r.last.cachesUnread),
+        "Caches of the lightmap that the bounces before the last did not light, because no surfel "
+        "reads them");
+    row("Dimmed", groupedNumber(r.last.cachesDimmed),
+        "Caches that dynamic objects take bounced light from; 0 where there are none");
     row("Dimmed links", groupedNumber(r.last.linksDimmed), "Of those caches");
     row("Dimming", ms(r.last.dimMs),
         "Finding what dynamic objects hide, by the last call; 0 while they stand still");
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
-    row("Bake since edit",
+    row("Since edit",
         state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",
         "Bake seconds since a light, a material or the sky was last edited: 0, editing light "
         "never bakes");
@@ -207,7 +207,7 @@ static void byteTable(const EditorState& state) {
     row("Links", byteText(b.links), "");
     row("Caches", byteText(b.caches), "");
     row("Bake, total", byteText(b.total()), "");
-    row("Graphics device", byteText(state.frame.gpuBytes), "Buffers and images of the viewport");
+    row("Graphics", byteText(state.frame.gpuBytes), "Buffers and images of the viewport");
     ImGui::EndTable();
 }
 
