@@ -26,8 +26,6 @@ struct DimmedLinks {
     std::vector<std::uint32_t> linksOf; ///< per cache: how many are dimmed
     std::uint32_t caches = 0;           ///< with links that are
     std::uint64_t links = 0;            ///< that are
-
-    bool any() const { return links > 0; }
 };
 
 /// Brings `dimmed` up to date with the blockers, from wherever they were. Empty to begin with, and

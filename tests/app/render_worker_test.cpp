@@ -2,33 +2,15 @@
 // Pictures that light their bake themselves, one request after the other, without the thread.
 #include "app/render_worker.h"
 
-#include "tests/trace/simple_scene.h"
+#include "tests/relight/lit_room.h"
 
 #include <gtest/gtest.h>
 
 namespace limn {
 namespace {
 
-using namespace simple;
-
-std::shared_ptr<const Scene> room() {
-    SceneBuilder b;
-    b.addMaterial(lambert({0.7f, 0.5f, 0.3f}));
-    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
-    b.add(box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false));
-    b.scene.lights.resize(1);
-    b.scene.lights[0].position = {2, 2.5f, 2};
-    b.scene.lights[0].strength = 5;
-    b.scene.bake.surfels = 500;
-    b.scene.bake.lightmapCaches = 800;
-    b.scene.bake.rays = 64;
-    b.scene.bake.links = 32;
-    b.scene.bake.grid = {2, 2, 2};
-    return std::make_shared<const Scene>(b.build());
-}
-
 struct RenderWorkerTest : testing::Test {
-    std::shared_ptr<const Scene> first = room(), moved = lampMoved();
+    std::shared_ptr<const Scene> first = litRoom(500, 800), moved = lampMoved();
     std::shared_ptr<const TraceScene> trace = std::make_shared<const TraceScene>(*first);
     std::shared_ptr<const Bake> made = std::make_shared<const Bake>(*bake(*trace));
 

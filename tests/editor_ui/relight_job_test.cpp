@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/relight_job.h"
 
-#include "tests/trace/simple_scene.h"
+#include "tests/relight/lit_room.h"
 
 #include <gtest/gtest.h>
 
@@ -12,24 +12,6 @@
 
 namespace limn {
 namespace {
-
-using namespace simple;
-
-std::shared_ptr<const Scene> room() {
-    SceneBuilder b;
-    b.addMaterial(lambert({0.7f, 0.5f, 0.3f}));
-    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
-    b.add(box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false));
-    b.scene.lights.resize(1);
-    b.scene.lights[0].position = {2, 2.5f, 2};
-    b.scene.lights[0].strength = 5;
-    b.scene.bake.surfels = 900;
-    b.scene.bake.lightmapCaches = 1500;
-    b.scene.bake.rays = 64;
-    b.scene.bake.links = 32;
-    b.scene.bake.grid = {2, 2, 2};
-    return std::make_shared<const Scene>(b.build());
-}
 
 std::shared_ptr<const Scene> lampAt(const Scene& scene, glm::vec3 position) {
     Scene moved = scene;
@@ -45,7 +27,7 @@ Viewpoint lookingTo(glm::vec3 target) {
 }
 
 struct RelightJobTest : testing::Test {
-    std::shared_ptr<const Scene> scene = room();
+    std::shared_ptr<const Scene> scene = litRoom(900, 1500);
     std::shared_ptr<const TraceScene> trace = std::make_shared<const TraceScene>(*scene);
     std::shared_ptr<const Bake> made = std::make_shared<const Bake>(*bake(*trace));
     CacheFootprints footprints = cacheFootprints(*scene, *made);

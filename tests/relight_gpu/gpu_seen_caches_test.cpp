@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/seen_caches.h"
+#include "tests/relight/differing_caches.h"
 #include "tests/relight_gpu/relit_scene.h"
 
 namespace limn {
 namespace {
 
 class GpuSeenCaches : public DeviceTest {};
-
-/// Caches of `which` whose texels differ, bit by bit.
-std::size_t differing(const Bake& bake, const IndirectField& a, const IndirectField& b,
-                      const CacheFlags& which) {
-    EXPECT_EQ(a.lightmap.size(), b.lightmap.size());
-    const std::size_t texels = std::size_t(a.lightmapWidth) * a.lightmapHeight;
-    std::size_t count = 0;
-    for (std::size_t c = 0; c < which.size(); ++c)
-        for (std::size_t i = 0; which[c] != 0 && i < a.coefficients(); ++i) {
-            const std::size_t at = i * texels + bake.caches.texel[c];
-            if (a.lightmap[at] == b.lightmap[at])
-                continue;
-            ++count;
-            break;
-        }
-    return count;
-}
 
 struct Views {
     CacheFlags a, b, all;
