@@ -4,6 +4,7 @@
 #include "app/command.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,16 @@ void addStressBench(CLI::App& bench, Run& run);
 /// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made
 /// where it is missing, and on stdout where `json` is asked for.
 Exit writeRows(const Json& rows, const std::string& folder, const std::string& name, bool json);
+
+/// Of a table that people read.
+struct Column {
+    const char* title;
+    int width;       ///< negative: flush left, and cut off there
+    const char* key; ///< of a row; "bytes" are shown in MiB
+    int decimals = 2;
+};
+void printTitles(std::span<const Column> columns);
+void printRow(std::span<const Column> columns, const Json& row);
 
 /// Precondition: the name is one of `names`.
 template <class Enum, class Names>

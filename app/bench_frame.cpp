@@ -121,30 +121,27 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
     return row;
 }
 
-void printHead() {
-    fmt::print("{:<14} {:<7} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7} {:>7} {:>7} {:>7} "
-               "{:>7} {:>7} "
-               "{:>7} {:>7} {:>7} {:>8} {:>8} {:>8}\n",
-               "scene", "relight", "lit", "unseen", "lights", "surfels", "links", "bands", "kind",
-               "shadows", "direct", "surfels", "pull", "caches", "field", "geom", "shade", "tone",
-               "/light", "all [ms]", "p95");
-}
-
-void printRow(const Json& r) {
-    const auto ms = [&](const std::string& key) { return r[key + "_median_ms"].get<double>(); };
-    fmt::print("{:<14.14} {:<7} {:<4} {:>6} {:>6} {:>7} {:>5} {:>5} {:<4} {:>7.2f} {:>7.2f} "
-               "{:>7.2f} {:>7.2f} "
-               "{:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>8.3f} {:>8.2f} {:>8.2f}\n",
-               r["name"].get<std::string>(), r["relight"].get<std::string>(),
-               r["caches_lit"].get<std::string>(), r["caches_unseen"].get<std::uint32_t>(),
-               r["lights"].get<std::size_t>(), r["surfels"].get<std::uint32_t>(),
-               r["links"].get<std::uint32_t>(), r["bands"].get<std::uint32_t>(),
-               r["storage"].get<std::string>(), ms("shadow_maps"), ms("lights_on_surfels"),
-               ms("surfels"), ms("pull"), ms("caches"), ms("field"), ms("geometry"), ms("direct"),
-               ms("tonemap"), ms("per_light"), r["median_ms"].get<double>(),
-               r["p95_ms"].get<double>());
-    std::fflush(stdout);
-}
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"relight", -7, "relight"},
+                               {"lit", -4, "caches_lit"},
+                               {"unseen", 6, "caches_unseen"},
+                               {"lights", 6, "lights"},
+                               {"surfels", 7, "surfels"},
+                               {"links", 5, "links"},
+                               {"bands", 5, "bands"},
+                               {"kind", -4, "storage"},
+                               {"shadows", 7, "shadow_maps_median_ms"},
+                               {"direct", 7, "lights_on_surfels_median_ms"},
+                               {"surfels", 7, "surfels_median_ms"},
+                               {"pull", 7, "pull_median_ms"},
+                               {"caches", 7, "caches_median_ms"},
+                               {"field", 7, "field_median_ms"},
+                               {"geom", 7, "geometry_median_ms"},
+                               {"shade", 7, "direct_median_ms"},
+                               {"tone", 7, "tonemap_median_ms"},
+                               {"/light", 8, "per_light_median_ms", 3},
+                               {"all [ms]", 8, "median_ms"},
+                               {"p95", 8, "p95_ms"}};
 
 Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Device& device,
                            std::uint32_t lights, const std::string& relightOn,
@@ -189,7 +186,7 @@ Exit runFrameBench(const FrameBench& o) {
         return failed("--device: " + device.error().message);
     Json rows = Json::array();
     if (!o.json)
-        printHead();
+        printTitles(kColumns);
     const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
         for (const std::uint32_t lights : o.lights)
             for (const std::string& on : o.relightOn)
@@ -199,7 +196,7 @@ Exit runFrameBench(const FrameBench& o) {
                         return tl::make_unexpected(row.error());
                     rows.push_back(std::move(*row));
                     if (!o.json)
-                        printRow(rows.back());
+                        printRow(kColumns, rows.back());
                 }
         return {};
     });

@@ -145,12 +145,6 @@ Json describe(const RelightBench& o, const BenchBake& baked, const Measured& mea
     return row;
 }
 
-struct Column {
-    const char* title;
-    int width;
-    const char* key; ///< of a row
-};
-
 constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"device", -8, "device"},
                                {"lit", -4, "caches_lit"},
@@ -172,32 +166,6 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"field", 7, "field_median_ms"},
                                {"all [ms]", 8, "median_ms"},
                                {"p95", 8, "p95_ms"}};
-
-/// Of a negative width: flush left, and cut off there.
-std::string padded(const std::string& text, int width) {
-    return width < 0 ? fmt::format("{0:<{1}.{1}} ", text, -width)
-                     : fmt::format("{:>{}} ", text, width);
-}
-
-void printTitles() {
-    for (const Column& c : kColumns)
-        fmt::print("{}", padded(c.title, c.width));
-    fmt::print("\n");
-}
-
-void printRow(const Json& row) {
-    for (const Column& c : kColumns) {
-        const Json& v = row[c.key];
-        const bool bytes = std::string_view(c.key) == "bytes";
-        fmt::print("{}", padded(v.is_string() ? v.get<std::string>()
-                                : bytes       ? fmt::format("{:.2f}", v.get<double>() / (1 << 20))
-                                : v.is_number_float() ? fmt::format("{:.2f}", v.get<double>())
-                                                      : v.dump(),
-                                c.width));
-    }
-    fmt::print("\n");
-    std::fflush(stdout);
-}
 
 Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBench& o,
                                      const Scene& scene, const BenchBake& baked) {
@@ -228,7 +196,7 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
             for (const Measured& m : *measured) {
                 rows.push_back(describe(o, baked, m, lit, bandwidth));
                 if (!o.json)
-                    printRow(rows.back());
+                    printRow(kColumns, rows.back());
             }
         }
     }
@@ -237,7 +205,7 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
 
 Exit runRelightBench(const RelightBench& o) {
     if (!o.json)
-        printTitles();
+        printTitles(kColumns);
     Json rows = Json::array();
     const Result<void> measured =
         forEachBake(o.bakes, [&](const BenchBake& baked) { return measureBake(o, baked, rows); });

@@ -30,6 +30,33 @@ std::string csvOf(const Json& rows) {
 
 } // namespace
 
+static std::string padded(const std::string& text, int width) {
+    return width < 0 ? fmt::format("{0:<{1}.{1}}", text, -width)
+                     : fmt::format("{:>{}}", text, width);
+}
+
+static std::string shown(const Json& value, const Column& column) {
+    if (value.is_string())
+        return value.get<std::string>();
+    const bool bytes = std::string_view(column.key) == "bytes";
+    if (bytes || value.is_number_float())
+        return fmt::format("{:.{}f}", value.get<double>() / (bytes ? 1 << 20 : 1), column.decimals);
+    return value.dump();
+}
+
+void printTitles(std::span<const Column> columns) {
+    for (const Column& c : columns)
+        fmt::print("{} ", padded(c.title, c.width));
+    fmt::print("\n");
+}
+
+void printRow(std::span<const Column> columns, const Json& row) {
+    for (const Column& c : columns)
+        fmt::print("{} ", padded(shown(row[c.key], c), c.width));
+    fmt::print("\n");
+    std::fflush(stdout);
+}
+
 Exit writeRows(const Json& rows, const std::string& folder, const std::string& name, bool json) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
