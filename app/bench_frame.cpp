@@ -106,7 +106,7 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
                 {"height", frame.options.height}};
     row.update(settingsOf(baked));
     row.update({{"lights", scene.lights.size()},
-                {"lights_without_shadow", stats.lightsWithoutShadow},
+                {"lights_left_out", stats.lightsLeftOut},
                 {"bounces", o.bounces},
                 {"caches_lit", frame.seen ? "seen" : "all"},
                 {"caches_unseen", frames.back().cachesUnseen},

@@ -35,7 +35,7 @@ struct StressBench {
 constexpr double kWarmUp = 0.2;
 constexpr std::uint64_t kWarmFrames = 100;
 
-constexpr std::uint32_t kMostShadowLayers = render::ShadowMaps::kMaxLayers;
+constexpr std::uint32_t kMostShadowLayers = render::ShadowTiles::kMaxLayers;
 
 constexpr std::uint32_t kFramesPerRelighter = 300, kFramesPerFieldLook = 10;
 

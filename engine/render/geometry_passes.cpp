@@ -116,13 +116,14 @@ gpu::Pipeline GeometryPasses::createDepth(std::uint32_t features) {
 }
 
 void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
-                               const MaterialSet& materials, const glm::mat4& toClip,
+                               const MaterialSet& materials, const DepthView& view,
                                std::uint32_t slot) {
     constexpr std::uint32_t kUsed = FEATURE_ALPHA_MASK | FEATURE_BASE_COLOR_TEXTURE;
     VkPipeline bound = VK_NULL_HANDLE;
     for (const GpuInstance& instance : scene.instances) {
         const GpuMesh& mesh = scene.meshes[instance.mesh];
-        if (mesh.indexCount == 0 || !mayBeVisible(instance.bounds, toClip))
+        if (mesh.indexCount == 0 || distanceTo(instance.bounds, view.eye) > view.reach ||
+            !mayBeVisible(instance.bounds, view.toClip))
             continue;
         const std::uint32_t all = materials.features[instance.material];
         const std::uint32_t features = all & FEATURE_ALPHA_MASK ? all & kUsed : 0;
@@ -134,7 +135,7 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
         bound = pipeline.handle;
         if (features)
             materials.bind(cmd, m_layout.handle, instance.material, slot);
-        drawInstance(cmd, m_layout.handle, mesh, instance, toClip, 0, features ? 2 : 1);
+        drawInstance(cmd, m_layout.handle, mesh, instance, view.toClip, 0, features ? 2 : 1);
     }
 }
 

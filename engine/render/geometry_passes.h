@@ -32,6 +32,13 @@ struct GeometryView {
     std::uint32_t slot = 0;
 };
 
+/// What is inside `toClip` and no further than `reach` from `eye` [m].
+struct DepthView {
+    glm::mat4 toClip{1};
+    glm::vec3 eye{0};
+    float reach = 0;
+};
+
 /// Pipelines that draw a RenderScene: depth only (shadow maps) and shaded. Variants are made when
 /// first needed, so that a surface pays only for the textures and the kind of indirect light it
 /// has.
@@ -42,9 +49,9 @@ public:
 
     VkPipelineLayout layout() const { return m_layout.handle; }
 
-    /// Everything inside `toClip`, no culling of faces, into a bound depth attachment.
+    /// Everything that `view` shows, no culling of faces, into a bound depth attachment.
     void drawDepth(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
-                   const glm::mat4& toClip, std::uint32_t slot);
+                   const DepthView& view, std::uint32_t slot);
 
     /// Shaded but for direct light, into bound colour and depth attachments, nearest instances
     /// first. Set 0 is bound. Views that show direct light have a second colour attachment: the

@@ -50,10 +50,11 @@ void writeLightTable(gpu::Device& device, LightTable& table, const std::vector<L
     assert(slots.size() == lights.size());
     std::vector<GpuLight> rows;
     for (std::size_t i = 0; i < lights.size(); ++i)
-        rows.push_back(gpuLight(lights[i], slots[i]));
+        if (slots[i].count > 0)
+            rows.push_back(gpuLight(lights[i], slots[i]));
     write(device, table.lights, rows, "lights");
     write(device, table.shadowViews, views, "shadow views");
-    table.count = std::uint32_t(lights.size());
+    table.count = std::uint32_t(rows.size());
 }
 
 } // namespace limn::render

@@ -16,8 +16,8 @@ struct LightTable {
     std::uint32_t count = 0; ///< lights
 };
 
-/// `slots`: one per light, as ShadowMaps::assign() gave them out; `views`: ShadowMaps::views().
-/// Nothing that reads the table may be in flight.
+/// `slots`: one per light, as ShadowMaps::assign() gave them out, without which a light is left
+/// out; `views`: ShadowMaps::views(). Nothing that reads the table may be in flight.
 void writeLightTable(gpu::Device& device, LightTable& table, const std::vector<Light>& lights,
                      const std::vector<ShadowSlot>& slots,
                      const std::vector<shared::GpuShadowView>& views);

@@ -4,14 +4,14 @@
 #include "engine/gpu/barrier.h"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
+#include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace limn::render {
 
 constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
-constexpr std::uint32_t kTilesPerLayer = 4;
 
 ShadowMaps::ShadowMaps(gpu::Device& device)
     : m_device(device),
@@ -19,6 +19,7 @@ ShadowMaps::ShadowMaps(gpu::Device& device)
                                             .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                             .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                             .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})) {
+    m_tiles.reset(0);
     // Descriptors need an image even where nothing casts a shadow.
     m_atlas = gpu::Image(device, {.format = kShadowFormat,
                                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
@@ -28,8 +29,8 @@ ShadowMaps::ShadowMaps(gpu::Device& device)
 
 void ShadowMaps::growAtlas(std::uint32_t layers) {
     m_atlas = {}; // frees before it allocates
-    m_atlas = gpu::Image(m_device, {.width = kLayerSize,
-                                    .height = kLayerSize,
+    m_atlas = gpu::Image(m_device, {.width = ShadowTiles::kLayerSize,
+                                    .height = ShadowTiles::kLayerSize,
                                     .layers = layers,
                                     .format = kShadowFormat,
                                     .usage = VK_IMAGE_USAGE_SAMPLED_BIT |
@@ -38,135 +39,177 @@ void ShadowMaps::growAtlas(std::uint32_t layers) {
                                     .layerViews = true,
                                     .name = "shadow atlas"});
     m_atlasFresh = true;
-    for (Group& g : m_groups)
+    for (auto& [key, g] : m_groups)
         g.drawn = false;
 }
 
-ShadowMaps::Group* ShadowMaps::find(const ShadowKey& key) {
-    for (Group& g : m_groups)
-        if (g.key == key && !g.used)
-            return &g;
-    return nullptr;
+static bool isLarge(const ShadowKey& key) {
+    return key.kind == LightKind::Directional;
 }
 
-// First fit: whole layers for directional lights, runs of quarters for the others.
-bool ShadowMaps::place(Group& group) {
-    std::vector<bool> taken(kMaxLayers * kTilesPerLayer, false);
-    for (const Group& g : m_groups)
-        if (&g != &group)
-            std::fill_n(taken.begin() + g.firstTile, g.tiles, true);
-    const bool directional = group.key.kind == LightKind::Directional;
-    group.tiles = directional ? kTilesPerLayer : std::uint32_t(group.views.size());
-    const std::uint32_t step = directional ? kTilesPerLayer : 1;
-    for (std::uint32_t first = 0; first + group.tiles <= taken.size(); first += step) {
-        if (std::find(taken.begin() + first, taken.begin() + first + group.tiles, true) !=
-            taken.begin() + first + group.tiles)
-            continue;
-        group.firstTile = first;
-        return true;
+static std::uint32_t smallTiles(const ShadowKey& key) {
+    return isLarge(key) ? ShadowTiles::kLargeTile : shadowViewCount(key);
+}
+
+static float reachOf(const Light& light) {
+    const bool windowed = light.kind == LightKind::Point || light.kind == LightKind::Spot;
+    return windowed && light.range > 0 ? light.range : std::numeric_limits<float>::infinity();
+}
+
+// Lights that are the same but for what they send share their maps.
+ShadowMaps::Groups ShadowMaps::wantedGroups(const std::vector<Light>& lights) {
+    Groups wanted;
+    std::uint64_t tiles = 0;
+    leftOut = 0;
+    for (const Light& light : lights) {
+        const ShadowKey key = shadowKey(light);
+        auto found = wanted.find(key);
+        if (found == wanted.end()) {
+            if (tiles + smallTiles(key) > ShadowTiles::room(ShadowTiles::kMaxLevel)) {
+                ++leftOut;
+                continue;
+            }
+            tiles += smallTiles(key);
+            found = wanted.emplace(key, Group{}).first;
+        }
+        found->second.reach = std::max(found->second.reach, reachOf(light));
     }
-    group.tiles = 0;
-    return false;
+    const std::uint32_t level = *ShadowTiles::levelFor(tiles);
+    if (level != m_tiles.level()) {
+        m_groups.clear();
+        m_tiles.reset(level);
+    }
+    return wanted;
 }
 
-void ShadowMaps::build(Group& group, const Bounds& bounds) const {
-    const bool whole = group.key.kind == LightKind::Directional;
-    const std::uint32_t size = whole ? kLayerSize : kLayerSize / 2;
-    group.views = shadowViews(group.key, bounds, size);
-    for (std::uint32_t i = 0; i < group.views.size(); ++i) {
-        const std::uint32_t tile = group.firstTile + i, quarter = tile % kTilesPerLayer;
-        ShadowView& v = group.views[i];
-        v.tile.offset = {std::int32_t(whole ? 0 : (quarter & 1) * size),
-                         std::int32_t(whole ? 0 : (quarter >> 1) * size)};
-        v.tile.extent = {size, size};
-        const glm::vec2 offset =
-            glm::vec2(float(v.tile.offset.x), float(v.tile.offset.y)) / float(kLayerSize);
-        const float scale = 0.5f * float(size) / float(kLayerSize);
+bool ShadowMaps::place(const ShadowKey& key, Group& group, const Bounds& bounds) {
+    const bool large = isLarge(key);
+    const std::uint32_t size = ShadowTiles::smallSize(m_tiles.level()) * (large ? 2 : 1);
+    group.views = shadowViews(key, bounds, size);
+    group.places.clear();
+    group.drawn = false;
+    for (ShadowView& v : group.views) {
+        const auto at = m_tiles.take(large);
+        if (!at)
+            return false;
+        group.places.push_back(*at);
+        v.tile = m_tiles.tile(*at, large);
+        const float whole = float(ShadowTiles::kLayerSize);
+        const glm::vec2 offset = glm::vec2(float(v.tile.x), float(v.tile.y)) / whole;
+        const float scale = 0.5f * float(v.tile.size) / whole;
         const glm::mat4 toTile = glm::translate(glm::mat4(1), glm::vec3(offset + scale, 0)) *
                                  glm::scale(glm::mat4(1), glm::vec3(scale, scale, 1));
         v.gpu.toAtlas = toTile * v.toClip;
-        v.gpu.layer = tile / kTilesPerLayer;
+        v.gpu.layer = v.tile.layer;
+    }
+    return true;
+}
+
+// Groups without a place get one; if that fails, because small tiles lie where a large one must,
+// all are placed anew, large ones first.
+void ShadowMaps::placeAll(const Bounds& bounds) {
+    static_assert(LightKind::Directional == LightKind(0), "first in the order of keys");
+    for (auto& [key, group] : m_groups) {
+        if (!group.views.empty() || place(key, group, bounds))
+            continue;
+        m_tiles.reset(m_tiles.level());
+        for (auto& [k, g] : m_groups)
+            place(k, g, bounds);
+        return;
     }
 }
 
 std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, const Bounds& bounds,
                                            std::uint64_t sceneVersion) {
-    if (sceneVersion != m_sceneVersion)
+    if (sceneVersion != m_sceneVersion) {
         m_groups.clear();
+        m_tiles.reset(m_tiles.level());
+    }
     m_sceneVersion = sceneVersion;
-    for (Group& g : m_groups)
-        g.used = false;
-    std::vector<bool> known(lights.size(), false);
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        if (Group* g = find(shadowKey(lights[i])))
-            g->used = known[i] = true;
-    std::erase_if(m_groups, [](const Group& g) { return !g.used; });
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (known[i])
+    Groups wanted = wantedGroups(lights);
+    for (auto& [key, group] : m_groups) {
+        const auto found = wanted.find(key);
+        if (found != wanted.end()) {
+            const float reach = found->second.reach;
+            found->second = std::move(group);
+            if (!found->second.drawn || reach > found->second.reach) {
+                found->second.drawn = false;
+                found->second.reach = reach;
+            }
             continue;
-        Group& g = m_groups.emplace_back();
-        g.key = shadowKey(lights[i]);
-        g.views = shadowViews(g.key, bounds, kLayerSize); // their number decides the place
-        if (place(g))
-            build(g, bounds);
-        else
-            m_groups.pop_back();
+        }
+        for (const std::uint32_t at : group.places)
+            m_tiles.free(at, isLarge(key));
     }
-    std::uint32_t layers = 0;
-    for (Group& g : m_groups) {
-        g.used = false;
-        layers = std::max(layers, (g.firstTile + g.tiles + kTilesPerLayer - 1) / kTilesPerLayer);
-    }
-    if (layers > 0 && (layers > m_atlas.layers || m_atlas.width != kLayerSize))
-        growAtlas(layers);
+    m_groups = std::move(wanted);
+    placeAll(bounds);
 
-    std::vector<ShadowSlot> slots(lights.size());
-    m_order.clear();
-    unshadowed = 0;
-    std::uint32_t first = 0;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        Group* g = find(shadowKey(lights[i]));
-        unshadowed += g == nullptr;
-        if (!g)
-            continue;
-        g->used = true;
-        m_order.push_back(std::uint32_t(g - m_groups.data()));
-        slots[i] = {std::uint32_t(g->views.size()), first};
-        first += slots[i].count;
+    std::uint32_t layers = 0, first = 0;
+    std::map<ShadowKey, ShadowSlot, ShadowKeyOrder> slotOf;
+    for (const auto& [key, group] : m_groups) {
+        slotOf[key] = {std::uint32_t(group.views.size()), first};
+        first += std::uint32_t(group.views.size());
+        for (const ShadowView& v : group.views)
+            layers = std::max(layers, v.tile.layer + 1);
     }
+    if (layers > 0 && (layers > m_atlas.layers || m_atlas.width != ShadowTiles::kLayerSize))
+        growAtlas(layers);
+    std::vector<ShadowSlot> slots(lights.size());
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (const auto found = slotOf.find(shadowKey(lights[i])); found != slotOf.end())
+            slots[i] = found->second;
     return slots;
 }
 
 std::vector<shared::GpuShadowView> ShadowMaps::views() const {
     std::vector<shared::GpuShadowView> out;
-    for (std::uint32_t i : m_order)
-        for (const ShadowView& v : m_groups[i].views)
+    for (const auto& [key, group] : m_groups)
+        for (const ShadowView& v : group.views)
             out.push_back(v.gpu);
     return out;
 }
 
-static void beginTile(VkCommandBuffer cmd, VkImageView layer, const VkRect2D& tile) {
+static VkRect2D areaOf(const ShadowTile& tile) {
+    return {{std::int32_t(tile.x), std::int32_t(tile.y)}, {tile.size, tile.size}};
+}
+
+// Clears the tiles of `stale`, all of them in `layer`, and what is in nobody's use.
+void ShadowMaps::beginLayer(VkCommandBuffer cmd, std::uint32_t layer,
+                            const std::vector<const ShadowView*>& stale) {
+    std::size_t used = 0;
+    for (const auto& [key, group] : m_groups)
+        for (const ShadowView& v : group.views)
+            used += v.tile.layer == layer;
+    const bool whole = used == stale.size();
     VkRenderingAttachmentInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    depth.imageView = layer;
+    depth.imageView = m_atlas.layerViews[layer];
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // clears the tile only
+    depth.loadOp = whole ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     depth.clearValue.depthStencil.depth = 0;
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    info.renderArea = tile;
+    info.renderArea = {{0, 0}, {ShadowTiles::kLayerSize, ShadowTiles::kLayerSize}};
     info.layerCount = 1;
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(cmd, &info);
-    const VkViewport viewport{float(tile.offset.x),
-                              float(tile.offset.y),
-                              float(tile.extent.width),
-                              float(tile.extent.height),
-                              0,
-                              1};
+    if (whole)
+        return;
+    std::vector<VkClearRect> rects;
+    for (const ShadowView* v : stale)
+        rects.push_back({.rect = areaOf(v->tile), .baseArrayLayer = 0, .layerCount = 1});
+    VkClearAttachment clear{};
+    clear.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
+    vkCmdClearAttachments(cmd, 1, &clear, std::uint32_t(rects.size()), rects.data());
+}
+
+static void setTile(VkCommandBuffer cmd, const ShadowTile& tile) {
+    const VkViewport viewport{
+        float(tile.x), float(tile.y), float(tile.size), float(tile.size), 0, 1};
+    const VkRect2D area = areaOf(tile);
     vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &tile);
+    vkCmdSetScissor(cmd, 0, 1, &area);
 }
 
 void ShadowMaps::prepare(VkCommandBuffer cmd) {
@@ -177,26 +220,37 @@ void ShadowMaps::prepare(VkCommandBuffer cmd) {
 }
 
 std::uint32_t ShadowMaps::record(VkCommandBuffer cmd, const DrawCasters& draw) {
-    const bool any = std::any_of(m_order.begin(), m_order.end(),
-                                 [&](std::uint32_t i) { return !m_groups[i].drawn; });
-    if (!any) {
+    std::uint32_t drawn = 0;
+    struct Stale {
+        std::vector<const ShadowView*> views;
+        std::vector<const Groups::value_type*> owners;
+    };
+    std::map<std::uint32_t, Stale> layers;
+    for (auto& entry : m_groups) {
+        auto& [key, g] = entry;
+        if (g.drawn)
+            continue;
+        g.drawn = true;
+        ++drawn;
+        for (const ShadowView& v : g.views) {
+            layers[v.tile.layer].views.push_back(&v);
+            layers[v.tile.layer].owners.push_back(&entry);
+        }
+    }
+    if (drawn == 0) {
         prepare(cmd);
         return 0;
     }
     const gpu::Access before = m_atlasFresh ? gpu::kUndefined : gpu::kFragmentRead;
     gpu::imageBarrier(cmd, m_atlas.handle, VK_IMAGE_ASPECT_DEPTH_BIT, before, gpu::kDepthWrite);
-    std::uint32_t drawn = 0;
-    for (std::uint32_t i : m_order) {
-        Group& g = m_groups[i];
-        if (g.drawn)
-            continue;
-        for (const ShadowView& v : g.views) {
-            beginTile(cmd, m_atlas.layerViews[v.gpu.layer], v.tile);
-            draw(cmd, v);
-            vkCmdEndRendering(cmd);
+    for (const auto& [layer, stale] : layers) {
+        beginLayer(cmd, layer, stale.views);
+        for (std::size_t i = 0; i < stale.views.size(); ++i) {
+            setTile(cmd, stale.views[i]->tile);
+            draw(cmd, *stale.views[i], stale.owners[i]->first.position,
+                 stale.owners[i]->second.reach);
         }
-        g.drawn = true;
-        ++drawn;
+        vkCmdEndRendering(cmd);
     }
     gpu::imageBarrier(cmd, m_atlas.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
                       gpu::kFragmentRead);

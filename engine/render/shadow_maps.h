@@ -5,10 +5,11 @@
 #include "engine/gpu/image.h"
 #include "engine/render/material_set.h"
 #include "engine/render/render_scene.h"
+#include "engine/render/shadow_tiles.h"
 #include "shaders/shared/gpu_light.h"
 
-#include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace limn::render {
@@ -24,9 +25,15 @@ struct ShadowKey {
 };
 ShadowKey shadowKey(const Light& light);
 
+/// Any strict order.
+struct ShadowKeyOrder {
+    bool operator()(const ShadowKey& a, const ShadowKey& b) const;
+};
+
 /// Where a light's shadow views are in the table that ShadowMaps::views() gives out.
 struct ShadowSlot {
-    std::uint32_t count = 0; ///< SHADOW_NONE, SHADOW_SINGLE, SHADOW_CUBE or SHADOW_RECTANGLE
+    std::uint32_t count =
+        0; ///< SHADOW_SINGLE, SHADOW_CUBE or SHADOW_RECTANGLE; 0: none, the light is left out
     std::uint32_t first = 0;
 };
 
@@ -34,20 +41,20 @@ struct ShadowSlot {
 struct ShadowView {
     glm::mat4 toClip{1}; ///< depth 1 near, 0 far
     shared::GpuShadowView gpu{};
-    VkRect2D tile{};
+    ShadowTile tile{};
 };
 
-/// Draws everything that casts shadows inside `view` into the bound depth attachment.
-using DrawCasters = std::function<void(VkCommandBuffer, const ShadowView& view)>;
+/// Draws everything that casts shadows inside `view` into the bound depth attachment, no further
+/// than `reach` from the light [m].
+using DrawCasters =
+    std::function<void(VkCommandBuffer, const ShadowView& view, glm::vec3 light, float reach)>;
 
 /// Shadow maps of all lights in one layered depth atlas. A directional light fills a layer, a spot
-/// a quarter, a point light six quarters, a rectangle 24. A map is drawn when its light moved or
-/// the scene changed, not when only its colour did.
+/// a quarter, a point light six quarters, a rectangle 24. Where that is more than all layers, maps
+/// are half as wide and high, or a quarter, … A map is drawn when its light moved, reaches further
+/// or the scene changed, not when only its colour did.
 class ShadowMaps {
 public:
-    static constexpr std::uint32_t kLayerSize = 2048; ///< texels; a quarter is half as wide
-    static constexpr std::uint32_t kMaxLayers = 32; ///< 512 MiB; then further lights cast no shadow
-
     /// Receivers are moved off their surface by so many shadow texels, along the normal and towards
     /// the light: for rounding, and for the facets next to the one that is lit.
     static constexpr float kNormalBias = 0.2f, kLightBias = 0.5f;
@@ -55,7 +62,7 @@ public:
     explicit ShadowMaps(gpu::Device& device);
 
     /// Finds or makes a place for each of `lights`; all of them shine. `bounds` holds every caster.
-    /// Slots of lights that found no room have count 0.
+    /// Slots of lights that found no room, the last, have count 0.
     std::vector<ShadowSlot> assign(const std::vector<Light>& lights, const Bounds& bounds,
                                    std::uint64_t sceneVersion);
 
@@ -68,29 +75,35 @@ public:
     std::vector<shared::GpuShadowView> views() const; ///< of the last assign()
     VkImageView atlasView() const { return m_atlas.view; }
     VkSampler sampler() const { return m_sampler.handle; }
-    std::uint32_t unshadowed = 0; ///< lights of the last assign() without room
+    std::uint32_t leftOut = 0; ///< lights of the last assign() without room
 
 private:
     struct Group {
-        ShadowKey key;
         std::vector<ShadowView> views;
-        std::uint32_t firstTile = 0, tiles = 0; ///< quarters; a directional light: 4 of one layer
-        bool drawn = false, used = false;
+        std::vector<std::uint32_t> places; ///< of the views among m_tiles
+        float reach = 0;                   ///< of the light [m]
+        bool drawn = false;
     };
+    using Groups = std::map<ShadowKey, Group, ShadowKeyOrder>;
 
-    Group* find(const ShadowKey& key);
-    bool place(Group& group);
-    void build(Group& group, const Bounds& bounds) const;
+    Groups wantedGroups(const std::vector<Light>& lights);
+    bool place(const ShadowKey& key, Group& group, const Bounds& bounds);
+    void placeAll(const Bounds& bounds);
     void growAtlas(std::uint32_t layers);
+    void beginLayer(VkCommandBuffer cmd, std::uint32_t layer,
+                    const std::vector<const ShadowView*>& stale);
 
     gpu::Device& m_device;
     gpu::Image m_atlas;
     gpu::Sampler m_sampler;
-    std::vector<Group> m_groups;
-    std::vector<std::uint32_t> m_order; ///< groups in the order of the last assign()
+    ShadowTiles m_tiles;
+    Groups m_groups; ///< of the last assign()
     std::uint64_t m_sceneVersion = ~0ull;
     bool m_atlasFresh = true; ///< its contents and layout are undefined
 };
+
+/// How many views shadowViews() gives.
+std::uint32_t shadowViewCount(const ShadowKey& key);
 
 /// The views a light needs: one; six for point lights and for spots too wide for one projection;
 /// six from the middle of each quarter of a rectangle.

@@ -4,7 +4,9 @@
 #include "engine/scene/rectangle_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -91,6 +93,23 @@ ShadowKey shadowKey(const Light& light) {
     return key;
 }
 
+bool ShadowKeyOrder::operator()(const ShadowKey& a, const ShadowKey& b) const {
+    const auto numbers = [](const ShadowKey& k) {
+        return std::array{float(k.kind),  k.position.x,  k.position.y,  k.position.z,
+                          k.direction.x,  k.direction.y, k.direction.z, k.outerAngle,
+                          k.halfWidth.x,  k.halfWidth.y, k.halfWidth.z, k.halfHeight.x,
+                          k.halfHeight.y, k.halfHeight.z};
+    };
+    return numbers(a) < numbers(b);
+}
+
+std::uint32_t shadowViewCount(const ShadowKey& key) {
+    const bool narrow = key.kind == LightKind::Spot && key.outerAngle <= kWidestSpot;
+    return key.kind == LightKind::Directional || narrow ? SHADOW_SINGLE
+           : key.kind == LightKind::Rectangle           ? SHADOW_RECTANGLE
+                                                        : SHADOW_CUBE;
+}
+
 // In the order of cubeFace() in direct.frag.
 static void addCube(glm::vec3 eye, const Bounds& bounds, std::uint32_t mapSize,
                     std::vector<ShadowView>& views) {
@@ -103,7 +122,7 @@ std::vector<ShadowView> shadowViews(const ShadowKey& key, const Bounds& bounds,
                                     std::uint32_t mapSize) {
     if (key.kind == LightKind::Directional)
         return {directionalView(key, bounds, mapSize)};
-    if (key.kind == LightKind::Spot && key.outerAngle <= kWidestSpot)
+    if (shadowViewCount(key) == SHADOW_SINGLE)
         return {perspectiveView(key.position, key.direction, std::tan(key.outerAngle), bounds,
                                 mapSize)};
     std::vector<ShadowView> views;

@@ -136,7 +136,7 @@ struct Viewport::Impl {
     gpu::Timestamps relightTimes; ///< of the shadow maps for them
     std::uint64_t relightSubmission = 0;
     std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
-    bool warnedUnshadowed = false;
+    bool warnedLeftOut = false;
     Targets targets;
     std::array<FrameSlot, kFrameSlots> slots;
     std::uint64_t frames = 0;
@@ -193,11 +193,10 @@ std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
         return std::vector<ShadowSlot>(lights.size());
     std::vector<ShadowSlot> result =
         shadows.assign(lights, scene.bounds, scene.version + maskVersion);
-    if (shadows.unshadowed > 0 && !warnedUnshadowed)
-        logWarning(
-            fmt::format("{} lights cast no shadow in the viewport: room for {} shadow maps only",
-                        shadows.unshadowed, ShadowMaps::kMaxLayers * 4));
-    warnedUnshadowed = shadows.unshadowed > 0;
+    if (shadows.leftOut > 0 && !warnedLeftOut)
+        logWarning(fmt::format("{} lights are dark in the viewport: room for {} shadow maps only",
+                               shadows.leftOut, ShadowTiles::room(ShadowTiles::kMaxLevel)));
+    warnedLeftOut = shadows.leftOut > 0;
     return result;
 }
 
@@ -240,8 +239,8 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
                                    bool needed) {
     slot.shadowMapsDrawn = 0;
-    const auto draw = [&](VkCommandBuffer c, const ShadowView& view) {
-        geometry.drawDepth(c, scene, materials, view.toClip, slotIndex);
+    const auto draw = [&](VkCommandBuffer c, const ShadowView& view, glm::vec3 light, float reach) {
+        geometry.drawDepth(c, scene, materials, {view.toClip, light, reach}, slotIndex);
     };
     if (needed)
         slot.shadowMapsDrawn = shadows.record(cmd, draw);
@@ -570,7 +569,7 @@ const ViewportStats& Viewport::stats() const {
         v.readTimes(v.slots[(v.frames - 1) % kFrameSlots]);
     if (v.relightSubmission > 0 && v.device.completed() >= v.relightSubmission)
         v.stats.relightShadowMs = v.relightTimes.steps()[0];
-    v.stats.lightsWithoutShadow = v.shadows.unshadowed;
+    v.stats.lightsLeftOut = v.shadows.leftOut;
     v.device.collect();
     v.stats.gpuBytes = v.device.memory.bytesInUse;
     return v.stats;

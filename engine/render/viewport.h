@@ -41,7 +41,7 @@ struct ViewportStats {
     std::uint32_t shadowMapsDrawn = 0;                  ///< 0 when no light or object changed
     double relightShadowMs = 0;          ///< shadow maps of the last shadowedLights() that is done
     std::uint32_t relightShadowMaps = 0; ///< drawn by the last shadowedLights()
-    std::uint32_t lightsWithoutShadow = 0; ///< for lack of room
+    std::uint32_t lightsLeftOut = 0;     ///< dark, for lack of room for their shadow maps
     std::uint64_t gpuBytes = 0;
 };
 

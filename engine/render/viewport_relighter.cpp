@@ -54,7 +54,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.cachesUnread = g.cachesUnread;
     stats.cachesUnseen = g.cachesUnseen;
     stats.lightsTraced = drawn.relightShadowMaps;
-    stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count;
+    stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count - drawn.lightsLeftOut;
     const std::chrono::duration<double, std::milli> total =
         std::chrono::steady_clock::now() - start;
     stats.totalMs = total.count();

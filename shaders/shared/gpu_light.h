@@ -20,8 +20,7 @@ using uint = std::uint32_t;
 #define LIGHT_SPOT 2u
 #define LIGHT_RECTANGLE 3u
 
-#define SHADOW_NONE 0u // views of a light's shadow
-#define SHADOW_SINGLE 1u
+#define SHADOW_SINGLE 1u // views of a light's shadow
 #define SHADOW_CUBE 6u
 #define SHADOW_RECTANGLE 24u // a cube for each quarter of a rectangle
 

@@ -78,7 +78,7 @@ vec2 quarterVisibility(uint firstView, Rectangle r, PackedSurface s, float heigh
 // Share of the rectangle's light that arrives. `noise` in [0, 1) is another at each receiver. Loops, because software rasterisers skip nothing else.
 float rectangleVisibility(GpuLight light, Rectangle whole, PackedSurface s, float noise, bool lit) {
     const float height = dot(s.position - whole.centre, whole.normal);
-    const int quarters = light.shadowViews != SHADOW_NONE && lit ? 4 : 0;
+    const int quarters = lit ? 4 : 0;
     vec2 sum = vec2(0);
     for (int k = 0; k < quarters; ++k)
         sum += quarterVisibility(light.firstView + uint(k) * SHADOW_CUBE, quarter(whole, k), s,

@@ -32,7 +32,7 @@ vec2 planeGradient(GpuShadowView view, vec3 n, vec4 q, float width) {
 // middle, so that flat surfaces need no bias, however steep. A loop, because software rasterisers skip nothing else.
 float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias, bool lit) {
     float sum = 1.0;
-    const int count = light.shadowViews != SHADOW_NONE && lit ? 1 : 0;
+    const int count = lit ? 1 : 0;
     for (int once = 0; once < count; ++once) {
         const uint face = light.shadowViews == SHADOW_CUBE ? cubeFace(-toLight) : 0u;
         const GpuShadowView view = shadowViews[light.firstView + face];
