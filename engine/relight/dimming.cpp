@@ -20,13 +20,62 @@ namespace limn {
 namespace {
 
 constexpr float kPlanar = 0.99f; // length of the mean normal
-constexpr std::size_t kCachesAtOnce = 64;
-constexpr std::size_t kLinksAtOnce = 32; // compared
+constexpr std::size_t kCachesAtOnce = 64, kLinksAtOnce = 4096;
+constexpr std::size_t kCompared = 32; // links
+
+/// Takes over what is hidden of a cache's links now; adds those that are hidden otherwise to
+/// `changed`.
+void takeHidden(const Caches& caches, std::uint32_t cache, const std::uint16_t* now,
+                HiddenLinks& out, std::vector<std::uint32_t>& changed) {
+    const std::size_t begin = caches.linkBegin[cache], end = caches.linkBegin[cache + 1];
+    for (std::size_t k = begin; k < end; k += kCompared) {
+        const std::size_t last = std::min(k + kCompared, end);
+        std::uint16_t* before = out.directions.data() + k;
+        const std::uint16_t* after = now + (k - begin);
+        if (std::memcmp(before, after, (last - k) * sizeof *after) == 0)
+            continue;
+        for (std::size_t i = 0; i < last - k; ++i) {
+            if (before[i] == after[i])
+                continue;
+            out.linksOf[cache] += after[i] != 0 ? 1U : 0U;
+            out.linksOf[cache] -= before[i] != 0 ? 1U : 0U;
+            before[i] = after[i];
+            changed.push_back(std::uint32_t(k + i));
+        }
+    }
+}
+
+void updateHidden(const LinksAndBlockers& scene, HiddenLinks& hidden) {
+    const Caches& caches = scene.bake.caches;
+    hidden.directions.resize(caches.linkCount());
+    hidden.linksOf.resize(caches.size());
+    std::vector<std::vector<std::uint32_t>> changed((caches.size() + kCachesAtOnce - 1) /
+                                                    kCachesAtOnce);
+    parallelRanges(changed.size(), 1, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint16_t> now;
+        for (std::size_t part = begin; part < end; ++part) {
+            const auto first = std::uint32_t(part * kCachesAtOnce),
+                       last = std::uint32_t(std::min((part + 1) * kCachesAtOnce, caches.size()));
+            const std::uint32_t firstLink = caches.linkBegin[first];
+            now.assign(caches.linkBegin[last] - firstLink, 0);
+            findHiddenLinks(scene, first, last, now.data());
+            for (std::uint32_t c = first; c < last; ++c)
+                takeHidden(caches, c, now.data() + (caches.linkBegin[c] - firstLink), hidden,
+                           changed[part]);
+        }
+    });
+    hidden.changed.clear();
+    for (const std::vector<std::uint32_t>& part : changed)
+        hidden.changed.insert(hidden.changed.end(), part.begin(), part.end());
+    hidden.caches = 0;
+    hidden.links = 0;
+    for (const std::uint32_t links : hidden.linksOf) {
+        hidden.caches += links > 0 ? 1 : 0;
+        hidden.links += links;
+    }
+}
 
 void copyLinks(const Caches& from, LinkHalfs halfs, DimmedLinks& to) {
-    to = {};
-    to.hidden.resize(from.linkCount());
-    to.linksOf.resize(from.size());
     if (!from.shNode.empty()) {
         to.halfs.assign(halfs.begin(), halfs.end());
         return;
@@ -37,50 +86,22 @@ void copyLinks(const Caches& from, LinkHalfs halfs, DimmedLinks& to) {
     to.cones.links = from.links;
 }
 
-std::uint16_t dim(std::uint16_t half, float share) {
-    return share < 1 ? floatToHalf(halfToFloat(half) * share) : half;
-}
-
 struct Writer {
     const Bake& bake;
+    const HiddenLinks& hidden;
     LinkHalfs halfs; ///< undimmed
     DimmedLinks& out;
 
     void write(std::size_t k) {
         const Caches& from = bake.caches;
-        const bool cones = from.shNode.empty();
-        const float u =
-            cones ? halfToFloat(from.links[k].u)
-                  : coneOfHarmonics(from, k, from.shCoefficients.size() / from.shNode.size()).u;
-        const float share = 1 - float(std::popcount(out.hidden[k])) / float(directionsOf(u));
-        if (cones) {
-            out.cones.links[k].transport = dim(from.links[k].transport, share);
+        const float share = openShare(bake, hidden, k);
+        if (from.shNode.empty()) {
+            out.cones.links[k].transport = dimmedHalf(from.links[k].transport, share);
             return;
         }
         const std::size_t stored = halfs.size() / from.shNode.size();
         for (std::size_t i = k * stored; i < (k + 1) * stored; ++i)
-            out.halfs[i] = dim(halfs[i], share);
-    }
-
-    /// Takes over what is hidden of a cache's links now.
-    void update(std::uint32_t cache, const std::uint16_t* hidden) {
-        const std::size_t begin = bake.caches.linkBegin[cache],
-                          end = bake.caches.linkBegin[cache + 1];
-        for (std::size_t k = begin; k < end; k += kLinksAtOnce) {
-            const std::size_t last = std::min(k + kLinksAtOnce, end);
-            std::uint16_t* before = out.hidden.data() + k;
-            const std::uint16_t* now = hidden + (k - begin);
-            if (std::memcmp(before, now, (last - k) * sizeof *now) == 0)
-                continue;
-            for (std::size_t i = 0; i < last - k; ++i) {
-                if (before[i] == now[i])
-                    continue;
-                out.linksOf[cache] += now[i] != 0 ? 1U : 0U;
-                out.linksOf[cache] -= before[i] != 0 ? 1U : 0U;
-                before[i] = now[i];
-                write(k + i);
-            }
-        }
+            out.halfs[i] = dimmedHalf(halfs[i], share);
     }
 };
 
@@ -119,30 +140,56 @@ std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree&
     return places;
 }
 
-void dimLinks(const LinksAndBlockers& scene, LinkHalfs halfs, DimmedLinks& dimmed) {
-    const Caches& caches = scene.bake.caches;
-    if (scene.blockers.empty()) {
+bool updateDimming(const Bake& bake, const Scene& scene, Dimming& dimming) {
+    const std::uint64_t now = dimsLinks(scene) ? hashBlockers(scene) : 0;
+    if (now == dimming.blockers)
+        return false;
+    dimming.blockers = now;
+    if (dimming.places.empty())
+        dimming.places = senderPlaces(bake.surfels, bake.tree);
+    updateHidden({bake, dimming.places,
+                  now != 0 ? sceneBlockers(scene, dimming.shapes) : std::vector<Blocker>()},
+                 dimming.hidden);
+    return true;
+}
+
+float openShare(const Bake& bake, const HiddenLinks& hidden, std::size_t k) {
+    const Caches& c = bake.caches;
+    const float u = c.shNode.empty()
+                        ? halfToFloat(c.links[k].u)
+                        : coneOfHarmonics(c, k, c.shCoefficients.size() / c.shNode.size()).u;
+    return 1 - float(std::popcount(hidden.directions[k])) / float(directionsOf(u));
+}
+
+std::uint16_t dimmedHalf(std::uint16_t half, float share) {
+    return share < 1 ? floatToHalf(halfToFloat(half) * share) : half;
+}
+
+void dimLinks(const Bake& bake, const Dimming& dimming, LinkHalfs halfs, DimmedLinks& dimmed) {
+    if (dimming.blockers == 0) {
         dimmed = {};
         return;
     }
     if (halfs.empty())
-        halfs = caches.shCoefficients;
-    if (dimmed.hidden.empty())
-        copyLinks(caches, halfs, dimmed);
-    Writer writer{scene.bake, halfs, dimmed};
-    parallelRanges(caches.size(), kCachesAtOnce, [&](std::size_t begin, std::size_t end) {
-        const std::uint32_t first = caches.linkBegin[begin];
-        std::vector<std::uint16_t> hidden(caches.linkBegin[end] - first);
-        findHiddenLinks(scene, std::uint32_t(begin), std::uint32_t(end), hidden.data());
-        for (std::size_t c = begin; c < end; ++c)
-            writer.update(std::uint32_t(c), hidden.data() + (caches.linkBegin[c] - first));
-    });
-    dimmed.caches = 0;
-    dimmed.links = 0;
-    for (const std::uint32_t links : dimmed.linksOf) {
-        dimmed.caches += links > 0 ? 1 : 0;
-        dimmed.links += links;
-    }
+        halfs = bake.caches.shCoefficients;
+    const HiddenLinks& hidden = dimming.hidden;
+    const bool fresh = dimmed.cones.links.empty() && dimmed.halfs.empty();
+    if (fresh)
+        copyLinks(bake.caches, halfs, dimmed);
+    Writer writer{bake, hidden, halfs, dimmed};
+    if (fresh)
+        parallelRanges(hidden.directions.size(), kLinksAtOnce,
+                       [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t k = begin; k < end; ++k)
+                               if (hidden.directions[k] != 0)
+                                   writer.write(k);
+                       });
+    else
+        parallelRanges(hidden.changed.size(), kLinksAtOnce,
+                       [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i)
+                               writer.write(hidden.changed[i]);
+                       });
 }
 
 } // namespace limn

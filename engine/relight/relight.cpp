@@ -79,12 +79,9 @@ struct Relighter::State {
     CacheFlags current;  ///< the field has the light of the last pull there
     bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
 
-    std::uint64_t blockers = 0; ///< hash of those that `dimmed` belongs to; 0: none
-    BlockerShapes shapes;
-    std::vector<SenderPlace> places; ///< empty until needed
-    DimmedLinks dimmed;
+    Dimming dimming;
+    DimmedLinks dimmed; ///< by it
 
-    bool updateDimming(const Scene& scene);
     void light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out);
     std::vector<glm::vec3>& inner();
     void keepInner(const CacheFlags& which);
@@ -148,7 +145,8 @@ void Relighter::State::setBands(int count) {
     current.assign(bake->caches.lightmapCount, 0);
     unread = false;
     dimmed = {}; // has links in as many bands
-    blockers = 0;
+    dimming.hidden = {};
+    dimming.blockers = 0;
     field.bands = std::uint32_t(bands);
     field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
                           glm::vec4(0));
@@ -177,18 +175,6 @@ bool Relighter::State::updateSky(const Scene& scene) {
     for (std::size_t c = 0; c < cells.size(); ++c)
         radiosity[tree.surfels + c] = withLuma(cells[c]);
     blackSky = std::ranges::all_of(cells, [](glm::vec3 c) { return c == glm::vec3(0); });
-    return true;
-}
-
-bool Relighter::State::updateDimming(const Scene& scene) {
-    const std::uint64_t now = dimsLinks(scene) ? hashBlockers(scene) : 0;
-    if (now == blockers)
-        return false;
-    blockers = now;
-    if (places.empty() && now != 0)
-        places = senderPlaces(bake->surfels, bake->tree);
-    dimLinks({*bake, places, now != 0 ? sceneBlockers(scene, shapes) : std::vector<Blocker>()},
-             halfs, dimmed);
     return true;
 }
 
@@ -298,10 +284,13 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     stats.bandsLit = std::uint32_t(bands);
     stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
     stats.directMs = timer.lap();
-    const bool dimmingChanged = updateDimming(scene);
-    stats.cachesDimmed = dimmed.caches;
-    stats.linksDimmed = dimmed.links;
-    stats.dimMs = dimmingChanged ? timer.lap() : 0;
+    const bool moved = updateDimming(*bake, scene, dimming);
+    if (moved)
+        dimLinks(*bake, dimming, halfs, dimmed);
+    stats.cachesDimmed = dimming.hidden.caches;
+    stats.linksDimmed = dimming.hidden.links;
+    stats.dimMs = moved ? timer.lap() : 0;
+    const bool dimmingChanged = moved && !dimming.hidden.changed.empty();
     const Caches& caches = bake->caches;
     const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
     const bool grid = gridCaches > 0 && needsGrid(scene, bake->lightmap);

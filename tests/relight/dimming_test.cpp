@@ -184,17 +184,16 @@ TEST(Dimming, ACacheWithinAnObjectSeesNothingAndNoLightIsNegative) {
 
 struct Dimmed {
     std::shared_ptr<const Bake> bake;
-    std::vector<SenderPlace> places;
     std::vector<Blocker> blockers;
+    Dimming dimming;
     DimmedLinks links;
 };
 
 Dimmed dimmed(const Scene& scene, std::shared_ptr<const Bake> bake) {
     Dimmed d{.bake = std::move(bake)};
-    d.places = senderPlaces(d.bake->surfels, d.bake->tree);
-    BlockerShapes shapes;
-    d.blockers = sceneBlockers(scene, shapes);
-    dimLinks({*d.bake, d.places, d.blockers}, {}, d.links);
+    updateDimming(*d.bake, scene, d.dimming);
+    d.blockers = sceneBlockers(scene, d.dimming.shapes);
+    dimLinks(*d.bake, d.dimming, {}, d.links);
     return d;
 }
 
@@ -209,7 +208,7 @@ TEST(Dimming, LowersTheTransportsOfHiddenLinksAndNoOthers) {
     ASSERT_EQ(now.size(), before.size());
     std::uint64_t lower = 0, gone = 0;
     for (std::size_t k = 0; k < now.size(); ++k) {
-        const int hidden = std::popcount(d.links.hidden[k]);
+        const int hidden = std::popcount(d.dimming.hidden.directions[k]);
         const auto all = int(directionsOf(halfToFloat(before[k].u)));
         ASSERT_LE(hidden, all);
         EXPECT_NEAR(halfToFloat(now[k].transport),
@@ -221,11 +220,11 @@ TEST(Dimming, LowersTheTransportsOfHiddenLinksAndNoOthers) {
         same.transport = before[k].transport;
         ASSERT_EQ(same, before[k]);
     }
-    EXPECT_EQ(lower, d.links.links);
+    EXPECT_EQ(lower, d.dimming.hidden.links);
     EXPECT_GT(gone, 0U);
     EXPECT_LT(gone, lower);
-    EXPECT_GT(d.links.caches, 0U);
-    EXPECT_LT(d.links.caches, d.bake->caches.size());
+    EXPECT_GT(d.dimming.hidden.caches, 0U);
+    EXPECT_LT(d.dimming.hidden.caches, d.bake->caches.size());
 }
 
 TEST(Dimming, OfFewerBandsThanLinksHaveIsTheSame) {
@@ -279,7 +278,7 @@ Differences compareWithRays(const Scene& scene, const Dimmed& d) {
                 cone = coneOfHarmonics(c, k, coefficients);
             const DirectionSet set(directionsOf(cone.u), false, 0);
             const glm::mat3 toWorld = basisAround(glm::normalize(cone.direction));
-            const SenderPlace& place = d.places[cone.node];
+            const SenderPlace& place = d.dimming.places[cone.node];
             const float distance = glm::distance(place.centre, x);
             for (std::uint32_t n = 0; n < set.count; ++n) {
                 glm::vec3 w = set[n];
@@ -298,7 +297,7 @@ Differences compareWithRays(const Scene& scene, const Dimmed& d) {
                                                                        TraceMask::Dynamic));
                 ++result.directions;
                 result.blocked += hit ? 1 : 0;
-                result.other += hit != ((d.links.hidden[k] >> n & 1U) != 0) ? 1 : 0;
+                result.other += hit != ((d.dimming.hidden.directions[k] >> n & 1U) != 0) ? 1 : 0;
             }
         }
     }
