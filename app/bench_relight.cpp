@@ -68,6 +68,14 @@ struct FieldDifference {
     double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
 };
 
+/// With every light and dynamic object moved.
+Scene sceneAt(const Scene& scene, int k) {
+    Scene moved = scene;
+    moved.lights = movedLights(scene.lights, k);
+    moveObjects(moved, scene, k);
+    return moved;
+}
+
 constexpr std::uint32_t kToRest = 64; ///< bounces
 
 /// With every light and dynamic object moved each run. What is to be compared takes turns.
@@ -88,10 +96,8 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
         all.push_back({"cpu", caches, {}, {}});
         relighters.push_back(std::make_unique<Relighter>(baked.bake, o.lit));
     }
-    Scene lit = scene;
     for (int k = 0; k <= o.runs; ++k) {
-        lit.lights = movedLights(scene.lights, k);
-        moveObjects(lit, scene, k);
+        const Scene lit = sceneAt(scene, k);
         const TraceScene trace(lit, baked.trace);
         for (std::size_t m = 0; m < all.size(); ++m) {
             // The first lights materials too, until the light rests; without lights it would stay
@@ -173,8 +179,8 @@ Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBen
         return relightOnCpu(o, scene, baked);
 #ifdef LIMN_HAS_VIEWPORT
     Result<GpuRuns> gpu =
-        relightOnGpu(device == "gpu" ? "" : device, scene, baked.trace, baked.bake, o.lit,
-                     o.bounces, o.runs, [&](int k) { return movedLights(scene.lights, k); });
+        relightOnGpu(device == "gpu" ? "" : device, baked.trace, baked.bake, o.lit, o.bounces,
+                     o.runs, [&](int k) { return sceneAt(scene, k); });
     if (!gpu)
         return tl::make_unexpected(gpu.error());
     return std::vector<Measured>{{gpu->device, "all", std::move(gpu->runs), {}}};

@@ -11,10 +11,10 @@
 
 namespace limn {
 
-Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, const TraceScene& trace,
+Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                              const std::shared_ptr<const Bake>& bake, LitBands wanted,
                              std::uint32_t bounces, int runs,
-                             const std::function<std::vector<Light>(int k)>& lightsOf) {
+                             const std::function<Scene(int k)>& sceneAt) {
     const auto made = gpu::createDevice({.name = device});
     if (!made)
         return tl::make_unexpected(made.error());
@@ -22,7 +22,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
     if (!relighter)
         return tl::make_unexpected(relighter.error());
     GpuRuns result{(*made)->properties.deviceName, {}};
-    Scene lit = scene;
+    const Scene scene = sceneAt(0);
     const std::vector<glm::vec3> sky = skyRadiosity(bake->tree, scene.sky);
     const auto most = int(bake->settings.bands);
     const auto bands = std::uint32_t(wanted == LitBands::All ? most : receiverBands(scene, most));
@@ -30,21 +30,30 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, cons
     std::vector<glm::vec3> albedo, emitted;
     surfelMaterials(bake->surfels, scene, albedo, emitted);
     for (int k = 0; k <= runs; ++k) {
-        lit.lights = lightsOf(k);
+        const Scene lit = sceneAt(k);
+        const TraceScene moved(lit, trace);
         const auto start = std::chrono::steady_clock::now();
-        updateSurfelLight(bake->surfels, lit, trace, light);
+        updateSurfelLight(bake->surfels, lit, moved, light);
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
-        const GpuRelightStats g =
-            (*relighter)
-                ->relight({light.irradiance, albedo, emitted, sky, nullptr, bands}, bounces);
+        const GpuRelightStats g = (*relighter)
+                                      ->relight({.direct = light.irradiance,
+                                                 .albedo = albedo,
+                                                 .emitted = emitted,
+                                                 .sky = sky,
+                                                 .bands = bands,
+                                                 .dimming = &lit},
+                                                bounces);
         RelightStats r;
         r.directMs = traced.count() + g.uploadMs;
+        r.dimMs = g.dimMs;
         r.surfelLightMs = g.surfelLightMs;
         r.pullMs = g.pullMs;
         r.cacheLightMs = g.cacheLightMs;
         r.fieldMs = g.fieldMs;
         r.totalMs = traced.count() + g.totalMs;
+        r.cachesDimmed = g.cachesDimmed;
+        r.linksDimmed = g.linksDimmed;
         r.bandsLit = bands;
         r.bandsSkipped = bake->settings.bands - bands;
         r.shadowRays = light.raysTraced;

@@ -20,12 +20,13 @@ struct GpuRuns {
     std::vector<RelightStats> runs;
 };
 
-/// Relights `wanted` bands `runs` times, the k-th time under lightsOf(k).
+/// Relights `wanted` bands `runs` times, the k-th time as sceneAt(k), whose lights and dynamic
+/// objects may lie elsewhere than in the scene of `trace`.
 /// `device`: part of the Vulkan device's name; empty: the best. Fails when there is none, or when
 /// the bake is too large for it.
-Result<GpuRuns> relightOnGpu(const std::string& device, const Scene& scene, const TraceScene& trace,
+Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                              const std::shared_ptr<const Bake>& bake, LitBands wanted,
                              std::uint32_t bounces, int runs,
-                             const std::function<std::vector<Light>(int k)>& lightsOf);
+                             const std::function<Scene(int k)>& sceneAt);
 
 } // namespace limn

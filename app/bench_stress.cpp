@@ -57,6 +57,7 @@ std::uint64_t countInvalid(const std::vector<glm::vec4>& values) {
 struct StressResult {
     std::array<std::uint64_t, kShakeNames.size()> shakes{};
     std::uint64_t frames = 0, fieldLooks = 0, invalidPixels = 0, invalidField = 0;
+    std::uint64_t linksDimmed = 0; ///< of all frames
     std::uint64_t residentStart = 0, residentWarm = 0, residentEnd = 0;
     std::uint64_t gpuBytesWarm = 0, gpuBytesEnd = 0;
     std::vector<double> frameMs;
@@ -115,7 +116,8 @@ Result<void> StressedViewport::draw(RandomScene& random, StressResult& result) {
         ++result.shakes[std::size_t(random.shake())];
     const auto start = Clock::now();
     m_viewport.setScene(random.scene, {m_bake, &m_bake->lightmap});
-    m_relighter->relight(m_viewport, random.scene, 1 + random.below(3));
+    result.linksDimmed +=
+        m_relighter->relight(m_viewport, random.scene, 1 + random.below(3)).linksDimmed;
     m_options.view = View(random.below(std::uint32_t(kViewNames.size())));
     m_viewport.render(m_options);
     result.invalidPixels += countInvalidPixels(m_viewport.readLinear());
@@ -166,6 +168,7 @@ Json describe(const StressBench& o, const BenchBake& baked, const gpu::Device& d
     row.update(settingsOf(baked));
     row.update({{"frames", r.frames},
                 {"field_looks", r.fieldLooks},
+                {"links_dimmed", r.linksDimmed},
                 {"messages", messages},
                 {"invalid_pixels", r.invalidPixels},
                 {"invalid_field", r.invalidField},

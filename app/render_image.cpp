@@ -3,7 +3,6 @@
 
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
-#include "engine/relight/dimming.h"
 #include "engine/render/viewport_relighter.h"
 
 #include <algorithm>
@@ -13,10 +12,7 @@
 namespace limn {
 
 // Nothing is measured for one picture: that would take longer than to relight it on either.
-static RelightOn choose(const gpu::Device& device, const Scene& scene,
-                        const RenderRequest& request) {
-    if (request.relightOn == RelightOn::Auto && dimsLinks(scene))
-        return RelightOn::Cpu; // only it does that
+static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
     const VkPhysicalDeviceProperties& p = device.properties;
     return chooseRelight(
         request.relightOn, true,
@@ -36,14 +32,14 @@ struct GpuDrawing {
     explicit GpuDrawing(std::unique_ptr<gpu::Device> on)
         : device(std::move(on)), viewport(*device) {}
 
-    Result<void> chooseRelighter(const Scene& scene, const RenderRequest& request);
+    Result<void> chooseRelighter(const RenderRequest& request);
     Result<void> relight(const Scene& scene, const RenderRequest& request, RenderedImage& result);
     Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request);
 };
 
-Result<void> GpuDrawing::chooseRelighter(const Scene& scene, const RenderRequest& request) {
+Result<void> GpuDrawing::chooseRelighter(const RenderRequest& request) {
     chosen = true;
-    if (choose(*device, scene, request) == RelightOn::Cpu)
+    if (choose(*device, request) == RelightOn::Cpu)
         return {};
     auto made = ViewportRelighter::create(*device, request.bake);
     if (made)
@@ -61,7 +57,7 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
     if (!request.relight)
         return {};
     if (!chosen)
-        if (const Result<void> done = chooseRelighter(scene, request); !done)
+        if (const Result<void> done = chooseRelighter(request); !done)
             return done;
     if (!relighter) {
         const CpuLight light = request.relight();

@@ -4,7 +4,6 @@
 #include "editor_ui/document_edit.h"
 #include "editor_ui/overlay_panel.h"
 #include "editor_ui/recent_files.h"
-#include "engine/relight/dimming.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -261,7 +260,6 @@ static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, cons
 void Session::showStatus() {
     m_relit = m_relightJob.result();
     state.trace = m_relit.trace;
-    state.relightPlace.dims = dimsLinks(*m_scene);
     m_relightJob.setLighting(!viewportRelights());
     const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
     m_relightJob.setView({state.view.camera, size.x / size.y});

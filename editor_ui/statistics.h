@@ -61,13 +61,9 @@ struct RelightPlace {
     bool gpuCan = false;               ///< there is a device that draws, and it can light the bake
     std::string refusal;               ///< why it cannot; empty: it can, or there is none
     std::optional<RelightTimes> times; ///< of bakes like this one; not known until measured
-    bool dims = false;                 ///< dynamic objects dim links, as only the CPU does
 
     /// Never Auto.
-    RelightOn used() const {
-        return wanted == RelightOn::Auto && dims ? RelightOn::Cpu
-                                                 : chooseRelight(wanted, gpuCan, times);
-    }
+    RelightOn used() const { return chooseRelight(wanted, gpuCan, times); }
 };
 
 /// What the panels show of the window and its viewport.

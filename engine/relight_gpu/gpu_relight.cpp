@@ -4,6 +4,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
 #include "engine/relight/bouncing.h"
+#include "engine/relight_gpu/gpu_dimming.h"
 #include "engine/relight_gpu/relight_steps.h"
 
 #include <algorithm>
@@ -36,13 +37,15 @@ struct Sent {
 
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
-        : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMostSteps) {}
+        : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMostSteps),
+          dimming(d, *bake, buffers.links) {}
 
     gpu::Device& device;
     std::shared_ptr<const Bake> bake;
     RelightBuffers buffers;
     std::optional<RelightSteps> steps; ///< in the field's bands
     gpu::Timestamps times;
+    GpuDimming dimming;
 
     bool started = false;
     std::uint32_t maxBounces = ~0U; ///< of the last inputs
@@ -67,6 +70,7 @@ struct GpuRelighter::State {
     std::vector<shared::GpuCache> cachesUnder(bool blackSky);
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
+    bool dim(const Scene* scene, GpuRelightStats& stats);
     double bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
     void writeField(const CacheFlags& lit, const CacheFlags& unlit, bool grid,
                     GpuRelightStats& stats);
@@ -194,6 +198,20 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
     return true;
 }
 
+/// True if links are dimmed otherwise than before.
+bool GpuRelighter::State::dim(const Scene* scene, GpuRelightStats& stats) {
+    const auto start = Clock::now();
+    const std::optional<std::uint64_t> sent = dimming.update(scene);
+    stats.cachesDimmed = dimming.hidden().caches;
+    stats.linksDimmed = dimming.hidden().links;
+    stats.bytesUploaded += sent.value_or(0);
+    stats.dimMs = sent ? msSince(start) : 0;
+    if (sent.value_or(0) == 0)
+        return false;
+    convergence.skyChanged();
+    return true;
+}
+
 /// The caches of `flags` on the GPU.
 CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
     const std::uint32_t lightmap = bake->caches.lightmapCount;
@@ -283,10 +301,12 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     changed |= s.upload(inputs, stats, skyChanged);
     if (inputs.lights)
         changed |= s.lightSurfels(*inputs.lights, stats);
+    const bool dimmed = s.dim(inputs.dimming, stats);
     changed |= s.started && s.maxBounces != inputs.maxBounces;
     s.maxBounces = inputs.maxBounces;
     s.started = true;
-    if ((changed || skyChanged) && s.maxBounces <= kFewBounces) {
+    const bool anew = changed || skyChanged || dimmed;
+    if (anew && s.maxBounces <= kFewBounces) {
         clearBuffers(s.device, {s.buffers.indirect.handle});
         s.unread = false;
     }
@@ -294,7 +314,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
         s.convergence.lightChanged();
     const bool bouncing = bounces > 0 && !s.convergence.reached();
     if (bouncing) {
-        if (s.unread && !changed && !skyChanged)
+        if (s.unread && !anew)
             s.lightRest();
         s.current.assign(s.current.size(), 0);
     }

@@ -29,12 +29,15 @@ struct SurfelInputs {
     std::uint32_t bands = 0;
     /// As BakeSettings::maxBounces: up to kFewBounces they begin anew with every changed input.
     std::uint32_t maxBounces = ~0U;
+    /// Whose dynamic objects dim links, where dimsLinks(): as for Relighter. Null: none do.
+    const Scene* dimming = nullptr;
 };
 
 /// Milliseconds and counters of one GpuRelighter::relight() call. Steps are in the GPU's time.
 struct GpuRelightStats {
     double uploadMs = 0; ///< of what had changed
     double directMs = 0; ///< lights onto the surfels
+    double dimMs = 0;    ///< as RelightStats::dimMs: found on the CPU, and sent
     double surfelLightMs = 0, pullMs = 0, cacheLightMs = 0;
     double fieldMs = 0;           ///< last bands of caches, lightmap and grid
     double totalMs = 0;           ///< from call to return
@@ -43,6 +46,8 @@ struct GpuRelightStats {
     std::uint64_t bytesUploaded = 0;
     std::uint64_t skyLinksSkipped = 0;                ///< as RelightStats::skyLinksSkipped
     std::uint32_t cachesUnread = 0, cachesUnseen = 0; ///< as RelightStats'
+    std::uint32_t cachesDimmed = 0;                   ///< as RelightStats::cachesDimmed
+    std::uint64_t linksDimmed = 0;                    ///< as RelightStats::linksDimmed
     bool converged = false;                           ///< as RelightStats::converged
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };

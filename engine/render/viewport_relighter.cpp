@@ -35,12 +35,14 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .sky = sky,
                                               .lights = &lights,
                                               .bands = bands,
-                                              .maxBounces = scene.bake.maxBounces},
+                                              .maxBounces = scene.bake.maxBounces,
+                                              .dimming = &scene},
                                              bounces, progress, seen);
     viewport.setIndirect(m_gpu->field());
     const ViewportStats& drawn = viewport.stats();
     RelightStats stats;
     stats.directMs = g.uploadMs + drawn.relightShadowMs + g.directMs;
+    stats.dimMs = g.dimMs;
     stats.surfelLightMs = g.surfelLightMs;
     stats.pullMs = g.pullMs;
     stats.cacheLightMs = g.cacheLightMs;
@@ -51,6 +53,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.converged = g.converged;
     stats.skipped = g.skipped;
     stats.skyLinksSkipped = g.skyLinksSkipped;
+    stats.cachesDimmed = g.cachesDimmed;
+    stats.linksDimmed = g.linksDimmed;
     stats.cachesUnread = g.cachesUnread;
     stats.cachesUnseen = g.cachesUnseen;
     stats.lightsTraced = drawn.relightShadowMaps;

@@ -342,6 +342,11 @@ TEST_F(CommandLine, BenchRelightMovesDynamicObjectsAndTimesTheirDimming) {
     EXPECT_EQ(still["dimming_median_ms"], 0);
     EXPECT_EQ(still["links_dimmed"], 0);
     EXPECT_EQ(limn(start + " --dynamic Nothing").exit, 1);
+    const nlohmann::json both =
+        json(start + " --dynamic 'Short block@0,0.6,0' --device cpu,gpu")["rows"];
+    EXPECT_EQ(both[1]["links_dimmed"], both[0]["links_dimmed"]);
+    EXPECT_EQ(both[1]["caches_dimmed"], both[0]["caches_dimmed"]);
+    EXPECT_GT(both[1]["dimming_median_ms"], 0);
 }
 
 TEST_F(CommandLine, BenchStressFindsNothingWrongButWhatIs) {
@@ -360,6 +365,7 @@ TEST_F(CommandLine, BenchStressFindsNothingWrongButWhatIs) {
         EXPECT_EQ(row[count], 0);
     EXPECT_GT(row["frames"], 5);
     EXPECT_GT(row["field_looks"], 0);
+    EXPECT_GT(row["links_dimmed"], 0);
     std::uint64_t shakes = 0;
     for (const char* shake : {"move_light", "change_light", "switch_light", "add_light",
                               "remove_light", "change_material", "change_sky", "move_object"})
@@ -410,6 +416,15 @@ TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndDimsTheLightWhereverItIs) {
     expectRefusal(start + "-o " + b, "another scene"); // the block is static here
     expectRefusal(start + "--dynamic Ball -o " + b, "Ball");
     expectRefusal(start + "--dynamic 'Short block@1,2' -o " + b, "x,y,z");
+    const std::string onDevice = "render cornell --bake " + bake +
+                                 " --view irradiance --width 48 --height 32 "
+                                 "--dynamic 'Short block@0.3,0.7,0.3' -o ";
+    ASSERT_EQ(limn(onDevice + a + " --relight cpu").exit, 0);
+    ASSERT_EQ(limn(onDevice + b + " --relight gpu").exit, 0);
+    // The room's light is an emitter: nothing but rounding can differ.
+    EXPECT_LT(json("compare " + b + " " + a + " --json")["nrmse"], 1e-5);
+    ASSERT_EQ(limn(onDevice + b + " --relight gpu --no-dimming").exit, 0);
+    EXPECT_GT(json("compare " + b + " " + a + " --json")["nrmse"], 0.05);
 }
 
 TEST_F(CommandLine, RenderDrawsAnOverlayAndSaysWhatItsColoursMean) {

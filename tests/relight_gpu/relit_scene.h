@@ -18,7 +18,12 @@ namespace limn {
 struct SurfelValues {
     std::vector<glm::vec3> direct, albedo, emitted, sky;
 
-    SurfelInputs inputs() const { return {direct, albedo, emitted, sky}; }
+    /// `dimming`: as SurfelInputs::dimming.
+    SurfelInputs inputs(const Scene* dimming = nullptr) const {
+        SurfelInputs in{direct, albedo, emitted, sky};
+        in.dimming = dimming;
+        return in;
+    }
 };
 
 /// What a Relighter's nodes send, without the spare fourth number.
@@ -37,9 +42,9 @@ inline SurfelValues surfelValues(const Bake& bake, const Scene& scene, const Tra
 }
 
 /// A court under a coloured sky: walls of three colours, one of which glows, a lamp, and a block
-/// that hides caches below and inside it. A dynamic ball reads the grid; it dims nothing, as the
-/// GPU does not know how.
-inline Scene court() {
+/// that hides caches below and inside it. A dynamic object, a small ball, reads the grid; it
+/// dims nothing.
+inline Scene court(const Mesh& object = simple::sphere(0.1f, 0, false, 0)) {
     using namespace simple;
     SceneBuilder b;
     b.addMaterial(lambert({0.8f, 0.7f, 0.5f}));
@@ -50,7 +55,7 @@ inline Scene court() {
     b.add(quad({4, 0, 0}, {0, 0, 5}, {0, 3, 0}, 2));  // looks along -x
     b.add(quad({0, 0, 0}, {4, 0, 0}, {0, 3, 0}, 0));  // looks along +z
     b.add(box({1, 0, 1.5f}, {2.5f, 1.5f, 3.5f}, false, 2));
-    b.add(sphere(0.1f, 0, false, 0), glm::mat4(1), true).toWorld[3] = {3.5f, 1, 1, 1};
+    b.add(object, glm::mat4(1), true).toWorld[3] = {3.5f, 1, 1, 1};
     Scene scene = b.build();
     scene.bake.dimming = false;
     Light lamp;
