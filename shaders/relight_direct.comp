@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Irradiance of every surfel from all lights, with the shadow maps that the viewport draws.
+// Irradiance of every surfel from all lights, with the shadow maps that the viewport draws. What a light brings for each
+// unit of its colour and strength is kept where there is a place for it, and worked out for fresh lights only.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_light.h"
@@ -14,19 +15,35 @@ layout(std430, binding = RELIGHT_DIRECT) writeonly buffer Direct { vec4 direct[]
 layout(set = 1, binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
 layout(set = 1, binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
 layout(set = 1, binding = 2) uniform sampler2DArray shadowAtlas;
+layout(set = 1, binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * surfels + surfel
+layout(set = 1, binding = 4, std430) readonly buffer Places { uint places[]; }; // then the fresh lights
 
 #include "shaders/shared/shadowed_light.glsl"
 #include "shaders/shared/rectangle_shadow.glsl"
 
 // Surfel `i` is on a surface without detail.
-vec3 rectangleIrradianceOf(GpuLight light, GpuSurfel s, uint i) {
+float rectangleIrradianceOf(GpuLight light, GpuSurfel s, uint i) {
     PackedSurface at;
     at.position = s.position;
     at.geometricNormal = at.detailNormal = s.normal;
     const Rectangle r = rectangleOf(light);
     const float E = rectangleIrradiance(r, s.position, s.normal);
     const float noise = fract(float(i & 0xffffu) * 0.61803399); // even among neighbours
-    return light.strength * (E > 0.0 ? E * rectangleVisibility(light, r, at, noise, true) : 0.0);
+    return E > 0.0 ? E * rectangleVisibility(light, r, at, noise, true) : 0.0;
+}
+
+// Irradiance of a light of strength 1.
+float unitIrradiance(uint k, GpuSurfel s, uint i) {
+    GpuLight light = lights[k];
+    light.strength = vec3(1);
+    if (light.kind == LIGHT_RECTANGLE)
+        return rectangleIrradianceOf(light, s, i);
+    vec3 toLight;
+    const float irradiance = lightIrradiance(light, s.position, toLight).x;
+    const float NoL = max(dot(s.normal, toLight), 0.0);
+    const bool lit = NoL > 0.0 && irradiance > 0.0;
+    const vec2 bias = vec2(range.normalBias, range.lightBias);
+    return lit ? irradiance * NoL * visibility(light, s.position, s.normal, toLight, bias, lit) : 0.0;
 }
 
 void main() {
@@ -34,20 +51,19 @@ void main() {
     if (i >= range.end)
         return;
     const GpuSurfel s = surfels[i];
-    vec3 E = vec3(0);
-    for (uint k = 0; k < range.lights; ++k) {
-        const GpuLight light = lights[k];
-        if (light.kind == LIGHT_RECTANGLE) {
-            E += rectangleIrradianceOf(light, s, i);
-            continue;
-        }
-        vec3 toLight;
-        const vec3 irradiance = lightIrradiance(light, s.position, toLight);
-        const float NoL = max(dot(s.normal, toLight), 0.0);
-        const bool lit = NoL > 0.0 && irradiance.x + irradiance.y + irradiance.z > 0.0;
-        if (lit)
-            E += irradiance * NoL *
-                 visibility(light, s.position, s.normal, toLight, vec2(range.normalBias, range.lightBias), lit);
+    vec3 E = vec3(0); // of lights without place first: its sum depends on no light's past
+    const uint fresh = range.freshLights, worked = fresh + range.lights - range.keptLights;
+    for (uint n = 0; n < worked; ++n) {
+        const bool keep = n < fresh;
+        const uint k = range.keptLights + n - (keep ? 0 : fresh);
+        const uint light = keep ? places[k] : k;
+        const float e = unitIrradiance(light, s, i);
+        if (keep)
+            unit[places[light] * range.end + i] = e;
+        else
+            E += lights[light].strength * e;
     }
+    for (uint k = 0; k < range.keptLights; ++k)
+        E += lights[k].strength * unit[places[k] * range.end + i];
     direct[i] = vec4(E, 0);
 }

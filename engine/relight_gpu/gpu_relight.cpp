@@ -38,13 +38,14 @@ struct Sent {
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
         : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMostSteps),
-          dimming(d, *bake, buffers.links) {}
+          keptLights(d, bake->surfels.size()), dimming(d, *bake, buffers.links) {}
 
     gpu::Device& device;
     std::shared_ptr<const Bake> bake;
     RelightBuffers buffers;
     std::optional<RelightSteps> steps; ///< in the field's bands
     gpu::Timestamps times;
+    KeptLights keptLights;
     GpuDimming dimming;
 
     bool started = false;
@@ -189,9 +190,11 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
         return false;
     lightsVersion = lights.version;
     direct.values.clear(); // what was sent is overwritten
+    keptLights.assign(lights);
+    stats.lightsTraced = keptLights.fresh + lights.count - keptLights.kept;
     device.immediate("light surfels", [&](VkCommandBuffer cmd) {
         times.begin(cmd);
-        steps->recordDirect(cmd, lights);
+        steps->recordDirect(cmd, lights, keptLights);
         times.mark(cmd);
     });
     stats.directMs = times.steps()[0];

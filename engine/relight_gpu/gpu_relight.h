@@ -44,6 +44,8 @@ struct GpuRelightStats {
     std::uint32_t bounces = 0;    ///< iterations run by this call
     std::uint32_t dispatches = 0; ///< 0 when skipped
     std::uint64_t bytesUploaded = 0;
+    /// Lights that were worked out: they or an object moved, or there is no room to keep them.
+    std::uint32_t lightsTraced = 0;
     std::uint64_t skyLinksSkipped = 0;                ///< as RelightStats::skyLinksSkipped
     std::uint32_t cachesUnread = 0, cachesUnseen = 0; ///< as RelightStats'
     std::uint32_t cachesDimmed = 0;                   ///< as RelightStats::cachesDimmed

@@ -28,7 +28,8 @@ constexpr std::uint32_t kPullLanes = 256, kSmallLevel = 1024;
 
 constexpr gpu::Access kStep = gpu::kComputeWrite;
 constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr std::array kLightTypes = {kBuffer, kBuffer, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+constexpr std::array kLightTypes = {kBuffer, kBuffer, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                    kBuffer, kBuffer};
 
 /// As many lanes per cache as the device runs in step, within what its shared memory allows.
 std::uint32_t cacheLanes(const gpu::Device& device) {
@@ -106,10 +107,13 @@ void RelightSteps::dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
     ++dispatches;
 }
 
-void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights) {
+void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights,
+                                const KeptLights& kept) {
     gpu::writeBuffer(m_device, m_sets[1], 0, kBuffer, lights.lights);
     gpu::writeBuffer(m_device, m_sets[1], 1, kBuffer, lights.shadowViews);
     gpu::writeTexture(m_device, m_sets[1], 2, lights.atlas, lights.sampler);
+    gpu::writeBuffer(m_device, m_sets[1], 3, kBuffer, kept.unit.handle);
+    gpu::writeBuffer(m_device, m_sets[1], 4, kBuffer, kept.places.handle);
     gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kAllReads); // after the shadow maps were drawn
     const auto count = std::uint32_t(m_bake.surfels.size());
     dispatch(cmd, m_direct,
@@ -117,7 +121,9 @@ void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& light
               .end = count,
               .lights = lights.count,
               .normalBias = lights.normalBias,
-              .lightBias = lights.lightBias},
+              .lightBias = lights.lightBias,
+              .keptLights = kept.kept,
+              .freshLights = kept.fresh},
              groupsOf(count));
 }
 

@@ -4,6 +4,7 @@
 #include "engine/gpu/descriptors.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/relight/cache_light.h"
+#include "engine/relight_gpu/kept_lights.h"
 #include "engine/relight_gpu/relight_buffers.h"
 #include "engine/relight_gpu/shadowed_lights.h"
 #include "shaders/shared/gpu_relight.h"
@@ -23,15 +24,16 @@ class RelightSteps {
 public:
     /// Invocations of a group where each has a thing of its own.
     static constexpr std::uint32_t kItemLanes = 64;
-    /// Bound at once: those of gpu_relight.h, the lights and their shadow views.
-    static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP + 2;
+    /// Bound at once: those of gpu_relight.h, the lights, their shadow views and KeptLights'.
+    static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP + 4;
 
     /// Both outlive this. The caches are lit in `bounce` bands and, at last, in `final` bands.
     RelightSteps(gpu::Device& device, const Bake& bake, const RelightBuffers& buffers,
                  LightBands bounce, LightBands final);
 
-    /// E_direct from lights with shadow maps. No earlier recording of it may still run.
-    void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights);
+    /// E_direct from lights with shadow maps, to which `kept` is assigned. No earlier recording of
+    /// it may still run.
+    void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights, const KeptLights& kept);
     /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total).
     void recordSurfels(VkCommandBuffer cmd);
     void recordPull(VkCommandBuffer cmd);

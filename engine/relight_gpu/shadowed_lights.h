@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include <vulkan/vulkan.h>
 
@@ -16,6 +17,10 @@ struct ShadowedLights {
     VkSampler sampler = VK_NULL_HANDLE;    ///< nearest
     std::uint32_t count = 0;               ///< lights
     float normalBias = 0, lightBias = 0;   ///< receivers are moved so far [shadow texels]
+    /// Of each light a hash of all but its colour and strength that its light depends on, as long
+    /// as `casters` is the same.
+    std::span<const std::uint64_t> shapes;
+    std::uint64_t casters = 0; ///< another one whenever what casts shadows has changed
     std::uint64_t version = 0; ///< grows with every change of the lights or of what casts shadows
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/light_table.h"
 
+#include "engine/core/hash.h"
 #include "engine/scene/rectangle_light.h"
 
 #include <algorithm>
@@ -31,6 +32,15 @@ static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
     return g;
 }
 
+/// Wherever its views are in the table.
+static std::uint64_t shapeOf(GpuLight light, const shared::GpuShadowView* views) {
+    const std::uint64_t shadow =
+        hashBytes(views, light.shadowViews * sizeof(shared::GpuShadowView));
+    light.strength = glm::vec3(1);
+    light.firstView = 0;
+    return hashBytes(&light, sizeof light, shadow);
+}
+
 template <class T>
 static void write(gpu::Device& device, gpu::Buffer& buffer, const std::vector<T>& values,
                   const char* name) {
@@ -52,6 +62,9 @@ void writeLightTable(gpu::Device& device, LightTable& table, const std::vector<L
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (slots[i].count > 0)
             rows.push_back(gpuLight(lights[i], slots[i]));
+    table.shapes.clear();
+    for (const GpuLight& row : rows)
+        table.shapes.push_back(shapeOf(row, views.data() + row.firstView));
     write(device, table.lights, rows, "lights");
     write(device, table.shadowViews, views, "shadow views");
     table.count = std::uint32_t(rows.size());

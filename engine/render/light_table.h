@@ -11,9 +11,10 @@ namespace limn::render {
 /// The lights that shine and their shadow views, as shaders read them. Mapped buffers that only
 /// grow; a replaced one is retired.
 struct LightTable {
-    gpu::Buffer lights;      ///< shared::GpuLight each
-    gpu::Buffer shadowViews; ///< shared::GpuShadowView each
-    std::uint32_t count = 0; ///< lights
+    gpu::Buffer lights;                ///< shared::GpuLight each
+    gpu::Buffer shadowViews;           ///< shared::GpuShadowView each
+    std::uint32_t count = 0;           ///< lights
+    std::vector<std::uint64_t> shapes; ///< as ShadowedLights::shapes
 };
 
 /// `slots`: one per light, as ShadowMaps::assign() gave them out, without which a light is left

@@ -531,6 +531,8 @@ ShadowedLights Viewport::shadowedLights() {
             .count = v.relightTable.count,
             .normalBias = ShadowMaps::kNormalBias,
             .lightBias = ShadowMaps::kLightBias,
+            .shapes = v.relightTable.shapes,
+            .casters = v.relightScene,
             .version = v.relightVersion};
 }
 

@@ -57,7 +57,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.linksDimmed = g.linksDimmed;
     stats.cachesUnread = g.cachesUnread;
     stats.cachesUnseen = g.cachesUnseen;
-    stats.lightsTraced = drawn.relightShadowMaps;
+    stats.lightsTraced = g.lightsTraced;
     stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count - drawn.lightsLeftOut;
     const std::chrono::duration<double, std::milli> total =
         std::chrono::steady_clock::now() - start;

@@ -24,8 +24,7 @@ public:
     /// and with the materials and the sky of `scene`, whose instances are those of the bake; as
     /// Relighter::relight(). Call after setScene() and setLighting(). Waits for the GPU.
     /// directMs: shadow maps and lights onto the surfels. surfelReadMs is part of surfelLightMs.
-    /// Steps are in the GPU's time, totalMs is from call to return. lightsTraced counts shadow maps
-    /// drawn, and no ray is traced.
+    /// Steps are in the GPU's time, totalMs is from call to return. No ray is traced.
     RelightStats relight(Viewport& viewport, const Scene& scene, std::uint32_t bounces,
                          const Progress& progress = {}, const CacheFlags* seen = nullptr);
 

@@ -61,7 +61,8 @@ struct GpuRelightRange {
     uint begin, end;
     uint lightmapCaches; // field: caches below this are texels, the others cells
     uint gridCells;
-    uint lights; float normalBias, lightBias; uint pad; // direct: as ShadowedLights
+    uint lights; float normalBias, lightBias; // direct: as ShadowedLights
+    uint keptLights, freshLights; uint pad[3];  // direct: as KeptLights
 };
 // clang-format on
 
@@ -70,7 +71,7 @@ static_assert(sizeof(GpuSurfel) == 64);
 static_assert(sizeof(GpuInnerNode) == 16);
 static_assert(sizeof(GpuCache) == 16);
 static_assert(sizeof(GpuFill) == 16);
-static_assert(sizeof(GpuRelightRange) == 32);
+static_assert(sizeof(GpuRelightRange) == 48);
 } // namespace limn::shared
 #endif
 

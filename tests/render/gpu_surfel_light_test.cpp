@@ -3,6 +3,8 @@
 #include "tests/relight_gpu/relit_scene.h"
 #include "tests/render/viewport_fixture.h"
 
+#include <utility>
+
 namespace limn {
 namespace {
 
@@ -25,6 +27,7 @@ protected:
         lights = viewport->shadowedLights();
         SurfelInputs inputs = half.inputs();
         inputs.lights = &lights;
+        inputs.maxBounces = 1; // from no bounced light at all
         stats = relighter->relight(inputs, 1);
         std::vector<glm::vec3> E = relighter->readRadiosity();
         E.resize(made->surfels.size());
@@ -173,6 +176,70 @@ TEST_F(ViewportSurfelLight, LightsAddUpAndAreWorkedOutOnlyWhenTheyChange) {
     lights = viewport->shadowedLights();
     EXPECT_FALSE(relighter->relight(inputs, 200).skipped);
     EXPECT_LT(relighter->readRadiosity()[0].x, 1e-3f * before);
+}
+
+/// All kinds.
+Scene manyLights() {
+    Scene scene = court();
+    scene.lights.clear();
+    for (const LightKind kind :
+         {LightKind::Directional, LightKind::Point, LightKind::Spot, LightKind::Rectangle})
+        scene.lights.push_back(lightOf(kind));
+    return scene;
+}
+
+TEST_F(ViewportSurfelLight, OnlyLightsThatMoveOrChangeTheirShapeAreWorkedOutAnew) {
+    prepare(manyLights());
+    std::vector<glm::vec3> before;
+    const auto expect = [&](std::uint32_t traced, std::uint32_t maps, const char* what) {
+        const std::vector<glm::vec3> E = irradiance();
+        EXPECT_FALSE(E == before) << what;
+        EXPECT_EQ(stats.lightsTraced, traced) << what;
+        EXPECT_EQ(viewport->stats().relightShadowMaps, maps) << what;
+        std::unique_ptr<GpuRelighter> kept = std::exchange(relighter, gpuRelighter(*device, made));
+        EXPECT_TRUE(irradiance() == E) << what << ": as if nothing had been kept";
+        relighter = std::move(kept);
+        before = E;
+    };
+    expect(4, 4, "at first");
+    for (Light& l : scene.lights)
+        l.color = {0.2f, 1, 0.7f};
+    scene.lights[2].strength *= 3;
+    expect(0, 0, "colour and strength");
+    scene.lights[1].position.x -= 0.5f;
+    expect(1, 1, "one moved");
+    scene.lights[1].range = 4;
+    expect(1, 0, "range, which moves no shadow");
+    scene.lights[0].enabled = false;
+    expect(0, 0, "one off");
+    std::swap(scene.lights[1], scene.lights[3]);
+    scene.lights[2].strength = 1;
+    expect(0, 0, "another order");
+    scene.lights[0].enabled = true;
+    expect(1, 1, "on again");
+    scene.instances[4].toWorld[3].x += 0.3f;
+    expect(4, 4, "an object moved");
+}
+
+TEST_F(ViewportSurfelLight, LightsBeyondTheRoomForThemAreWorkedOutEachTime) {
+    prepare(manyLights());
+    const std::vector<glm::vec3> all = irradiance();
+    relighter = gpuRelighter(*device, made);
+    device->properties.limits.maxStorageBufferRange =
+        std::uint32_t(2 * made->surfels.size() * sizeof(float));
+    const std::vector<glm::vec3> few = irradiance();
+    EXPECT_EQ(stats.lightsTraced, 4U);
+    float largest = 0;
+    for (const glm::vec3 e : all)
+        largest = std::max(largest, e.x);
+    for (std::size_t i = 0; i < all.size(); ++i) // four terms in another order
+        ASSERT_NEAR(few[i].x, all[i].x, 0x1p-22f * largest);
+    for (const float strength : {2.f, 8.f}) { // 8: as it was
+        for (Light& l : scene.lights)
+            l.strength = strength;
+        EXPECT_EQ(irradiance() == few, strength == 8);
+        EXPECT_EQ(stats.lightsTraced, 2U);
+    }
 }
 
 TEST_F(ViewportSurfelLight, GivesWayToNumbersAndComesBack) {
