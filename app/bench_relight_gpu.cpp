@@ -42,6 +42,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                                                  .emitted = emitted,
                                                  .sky = sky,
                                                  .bands = bands,
+                                                 .grid = needsGrid(lit, bake->lightmap),
                                                  .dimming = &lit},
                                                 bounces);
         RelightStats r;
@@ -54,6 +55,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
         r.totalMs = traced.count() + g.totalMs;
         r.cachesDimmed = g.cachesDimmed;
         r.linksDimmed = g.linksDimmed;
+        r.gridCachesSkipped = g.gridCachesSkipped;
         r.bandsLit = bands;
         r.bandsSkipped = bake->settings.bands - bands;
         r.shadowRays = light.raysTraced;

@@ -62,9 +62,12 @@ struct GpuRelighter::State {
     enum List { kRead, kLit, kRest };
     std::array<std::vector<std::uint32_t>, RelightBuffers::kCacheLists> lists; ///< as sent
     CacheFlags read;
-    CacheFlags current;  ///< the field has the light of the last pull there
-    bool unread = false; ///< surfels have not read that light yet
+    CacheFlags current;       ///< the field has the light of the last pull there
+    bool unread = false;      ///< surfels have not read that light yet
+    bool gridLit = false;     ///< the field has a grid
+    bool gridMissing = false; ///< and has it since this call
 
+    bool takeInputs(const SurfelInputs& inputs, bool newBands, GpuRelightStats& stats);
     CacheList list(List which, const CacheFlags& flags);
     void lightRest();
     bool setBands(std::uint32_t bands);
@@ -122,7 +125,7 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
         return false;
     makeRelitField(device, *bake, bands, buffers);
     current.assign(bake->caches.lightmapCount, 0);
-    unread = false;
+    unread = gridLit = false;
     steps.emplace(device, *bake, buffers, bounceBands(bake->settings, int(bands)),
                   finalBands(bake->settings, int(bands)));
     return true;
@@ -293,31 +296,45 @@ void GpuRelighter::State::writeField(const CacheFlags& lit, const CacheFlags& un
     ++fieldVersion;
 }
 
+/// Takes over what the inputs change. True if that is anything.
+bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
+                                     GpuRelightStats& stats) {
+    bool skyChanged = false;
+    bool surfelsChanged = upload(inputs, stats, skyChanged) || newBands;
+    if (inputs.lights)
+        surfelsChanged |= lightSurfels(*inputs.lights, stats);
+    const bool dimmingChanged = dim(inputs.dimming, stats);
+    const auto gridCaches = std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
+    const bool grid = inputs.grid && gridCaches > 0;
+    stats.gridCachesSkipped = grid ? 0 : gridCaches;
+    gridMissing = grid && !gridLit;
+    gridLit = grid;
+    const bool limitChanged = started && maxBounces != inputs.maxBounces;
+    maxBounces = inputs.maxBounces;
+    started = true;
+    if (surfelsChanged || gridMissing || limitChanged)
+        convergence.lightChanged();
+    const bool changed =
+        surfelsChanged || skyChanged || dimmingChanged || gridMissing || limitChanged;
+    if (changed && maxBounces <= kFewBounces) {
+        clearBuffers(device, {buffers.indirect.handle});
+        unread = false;
+    }
+    return changed;
+}
+
 GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t bounces,
                                       const Progress& progress, const CacheFlags* seen) {
     State& s = *m_state;
     GpuRelightStats stats;
     const auto start = Clock::now();
     const Caches& caches = s.bake->caches;
-    bool changed = s.setBands(inputs.bands), skyChanged = false;
+    const bool newBands = s.setBands(inputs.bands);
     const std::uint64_t dispatchesBefore = s.steps->dispatches;
-    changed |= s.upload(inputs, stats, skyChanged);
-    if (inputs.lights)
-        changed |= s.lightSurfels(*inputs.lights, stats);
-    const bool dimmed = s.dim(inputs.dimming, stats);
-    changed |= s.started && s.maxBounces != inputs.maxBounces;
-    s.maxBounces = inputs.maxBounces;
-    s.started = true;
-    const bool anew = changed || skyChanged || dimmed;
-    if (anew && s.maxBounces <= kFewBounces) {
-        clearBuffers(s.device, {s.buffers.indirect.handle});
-        s.unread = false;
-    }
-    if (changed)
-        s.convergence.lightChanged();
+    const bool changed = s.takeInputs(inputs, newBands, stats);
     const bool bouncing = bounces > 0 && !s.convergence.reached();
     if (bouncing) {
-        if (s.unread && !anew)
+        if (s.unread && !changed)
             s.lightRest();
         s.current.assign(s.current.size(), 0);
     }
@@ -336,7 +353,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     stats.converged = s.convergence.reached();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {
-        s.writeField(lit, unlit, bouncing, stats);
+        s.writeField(lit, unlit, s.gridLit && (bouncing || s.gridMissing), stats);
         for (std::size_t c = 0; c < lit.size(); ++c)
             s.current[c] |= lit[c];
     }
@@ -382,7 +399,7 @@ IndirectField GpuRelighter::readField() const {
     out.bands = s.buffers.field->bands;
     out.lightmapWidth = s.bake->lightmap.width;
     out.lightmapHeight = s.bake->lightmap.height;
-    out.gridSize = s.bake->gridSize;
+    out.gridSize = s.gridLit ? s.bake->gridSize : glm::uvec3(0);
     out.gridBounds = s.bake->gridBounds;
     out.version = s.fieldVersion;
     out.lightmap.resize(std::size_t(out.lightmapWidth) * out.lightmapHeight * out.coefficients());
@@ -391,7 +408,7 @@ IndirectField GpuRelighter::readField() const {
                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, out.lightmapWidth,
                        out.lightmapHeight, std::as_writable_bytes(std::span(out.lightmap)),
                        out.coefficients());
-    if (!s.bake->gridDepth.empty())
+    if (s.gridLit && !s.bake->gridDepth.empty())
         out.gridDepth = {s.bake, &s.bake->gridDepth};
     out.grid.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z *
                     out.coefficients());

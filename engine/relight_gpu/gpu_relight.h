@@ -29,6 +29,7 @@ struct SurfelInputs {
     std::uint32_t bands = 0;
     /// As BakeSettings::maxBounces: up to kFewBounces they begin anew with every changed input.
     std::uint32_t maxBounces = ~0U;
+    bool grid = true; ///< the grid is read, as by needsGrid(); else its caches keep older light
     /// Whose dynamic objects dim links, where dimsLinks(): as for Relighter. Null: none do.
     const Scene* dimming = nullptr;
 };
@@ -48,6 +49,7 @@ struct GpuRelightStats {
     std::uint32_t lightsTraced = 0;
     std::uint64_t skyLinksSkipped = 0;                ///< as RelightStats::skyLinksSkipped
     std::uint32_t cachesUnread = 0, cachesUnseen = 0; ///< as RelightStats'
+    std::uint32_t gridCachesSkipped = 0;              ///< as RelightStats::gridCachesSkipped
     std::uint32_t cachesDimmed = 0;                   ///< as RelightStats::cachesDimmed
     std::uint64_t linksDimmed = 0;                    ///< as RelightStats::linksDimmed
     bool converged = false;                           ///< as RelightStats::converged

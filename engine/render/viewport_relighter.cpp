@@ -36,6 +36,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .lights = &lights,
                                               .bands = bands,
                                               .maxBounces = scene.bake.maxBounces,
+                                              .grid = needsGrid(scene, bake.lightmap),
                                               .dimming = &scene},
                                              bounces, progress, seen);
     viewport.setIndirect(m_gpu->field());
@@ -55,6 +56,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.skyLinksSkipped = g.skyLinksSkipped;
     stats.cachesDimmed = g.cachesDimmed;
     stats.linksDimmed = g.linksDimmed;
+    stats.gridCachesSkipped = g.gridCachesSkipped;
     stats.cachesUnread = g.cachesUnread;
     stats.cachesUnseen = g.cachesUnseen;
     stats.lightsTraced = g.lightsTraced;

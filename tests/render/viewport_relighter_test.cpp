@@ -176,6 +176,28 @@ TEST_F(RelightViewport, LightsThatReachNothingCostNothing) {
     EXPECT_GT(near.lightsTraced, 0U);
 }
 
+TEST_F(RelightViewport, OnlyBandsAndCachesThatSomethingReadsAreLit) {
+    Scene wide = corner();
+    wide.bake.bands = 6;
+    prepare(wide);
+    const auto gridCaches = std::uint32_t(made->caches.size()) - made->caches.lightmapCount;
+    RelightStats stats = relight();
+    EXPECT_EQ(stats.bandsLit, 3U);
+    EXPECT_EQ(stats.bandsSkipped, 3U);
+    EXPECT_EQ(relighter->gpu().readCacheSh().size(), made->caches.size() * 9);
+    EXPECT_EQ(stats.gridCachesSkipped, gridCaches);
+    EXPECT_EQ(stats.gridCachesSkipped, cpu->relight(scene, *trace, 0).gridCachesSkipped);
+    scene.materials[0].metallic = 1;
+    scene.materials[0].roughness = 0;
+    stats = relight();
+    EXPECT_EQ(stats.bandsLit, 6U);
+    EXPECT_EQ(stats.bandsSkipped, 0U);
+    EXPECT_EQ(relighter->gpu().readCacheSh().size(), made->caches.size() * 36);
+    const Mesh ball = simple::sphere(0.1f, 0, false);
+    prepare(corner(&ball));
+    EXPECT_EQ(relight().gridCachesSkipped, 0U);
+}
+
 TEST_F(RelightViewport, TheViewportShowsItsField) {
     relight();
     viewport->render(options);
