@@ -140,9 +140,8 @@ static void relightTable(EditorState& state) {
     row("Shadow rays", groupedNumber(r.last.shadowRays),
         "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps");
     row("Lights moved", groupedNumber(r.last.lightsTraced),
-        "Whose light on the surfaces the last call worked out anew: they or an object moved; 0 "
-        "where "
-        "only colour or strength changed");
+        "Worked out anew by the last call, because they or an object moved; 0 where only their "
+        "colour or strength changed");
     row("Lights off", groupedNumber(r.last.lightsOff),
         "Off, black or out of reach of every surface: they cost nothing");
     row("Sky links", groupedNumber(r.last.skyLinksSkipped),

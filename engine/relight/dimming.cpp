@@ -57,7 +57,7 @@ void updateHidden(const LinksAndBlockers& scene, HiddenLinks& hidden) {
             const auto first = std::uint32_t(part * kCachesAtOnce),
                        last = std::uint32_t(std::min((part + 1) * kCachesAtOnce, caches.size()));
             const std::uint32_t firstLink = caches.linkBegin[first];
-            now.assign(caches.linkBegin[last] - firstLink, 0);
+            now.resize(caches.linkBegin[last] - firstLink);
             findHiddenLinks(scene, first, last, now.data());
             for (std::uint32_t c = first; c < last; ++c)
                 takeHidden(caches, c, now.data() + (caches.linkBegin[c] - firstLink), hidden,

@@ -4,10 +4,10 @@
 #include "engine/relight/hidden_links.h"
 
 #include "engine/math/sampling.h"
-#include "engine/relight/link_cone.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -122,6 +122,17 @@ struct Cones {
     U node;
 };
 
+/// Of denormal halfs, too.
+HWY_INLINE V lowHalf(U word) {
+    const hn::Rebind<hwy::float16_t, Floats> dh;
+    const hn::Rebind<std::uint16_t, Floats> dh16;
+    return hn::PromoteTo(
+        Floats(), hn::BitCast(dh, hn::TruncateTo(dh16, hn::And(word, hn::Set(Uints(), 0xffffU)))));
+}
+HWY_INLINE V highHalf(U word) {
+    return lowHalf(hn::ShiftRight<16>(word));
+}
+
 HWY_INLINE Cones unpack(U node, U oct, U cone) {
     const Floats d;
     const Ints di;
@@ -130,31 +141,44 @@ HWY_INLINE Cones unpack(U node, U oct, U cone) {
     const V z = set(32767) - hn::Abs(x) - hn::Abs(y), fold = hn::Max(hn::Neg(z), hn::Zero(d));
     x = x - hn::CopySignToAbs(fold, x);
     y = y - hn::CopySignToAbs(fold, y);
-    const hn::Rebind<hwy::float16_t, Floats> dh;
-    const hn::Rebind<std::uint16_t, Floats> dh16;
-    const V u = hn::PromoteTo( // of denormal halfs, too
-        d, hn::BitCast(dh, hn::TruncateTo(dh16, hn::And(cone, hn::Set(Uints(), 0xffffU)))));
     const V3 direction{x, y, z};
-    return {direction, hn::Sqrt(dot(direction, direction)), u, node};
+    return {direction, hn::Sqrt(dot(direction, direction)), lowHalf(cone), node};
+}
+
+/// As coneOfHarmonics(), of the first four harmonics.
+HWY_INLINE Cones coneOf(U node, U first, U second) {
+    const Floats d;
+    const V zeroth = lowHalf(first), zero = hn::Zero(d);
+    const V3 along{highHalf(second), highHalf(first), lowHalf(second)};
+    const V length = hn::Sqrt(dot(along, along));
+    const M some = hn::And(hn::Gt(length, zero), hn::Gt(zeroth, zero));
+    const V u = set(2) * (set(1) - length / (set(std::numbers::sqrt3_v<float>) * zeroth));
+    return {{hn::IfThenElseZero(some, along.x), hn::IfThenElseZero(some, along.y),
+             hn::IfThenElse(some, along.z, set(1))},
+            hn::IfThenElse(some, length, set(1)),
+            hn::IfThenElse(some, hn::Min(hn::Max(u, zero), set(2)), set(2)),
+            node};
 }
 
 struct ConeReader {
     const Caches& caches;
     std::size_t coefficients; ///< of a link; 0: cones
+    std::uint32_t first;      ///< no link before this one is asked for
 
-    Cones harmonicsAt(U links) const {
-        HWY_ALIGN std::uint32_t k[kMostLanes], node[kMostLanes];
-        HWY_ALIGN float x[kMostLanes], y[kMostLanes], z[kMostLanes], u[kMostLanes];
-        hn::Store(links, Uints(), k);
-        for (std::size_t i = 0; i < hn::Lanes(Floats()); ++i) {
-            const LinkCone c = coneOfHarmonics(caches, k[i], coefficients);
-            x[i] = c.direction.x, y[i] = c.direction.y, z[i] = c.direction.z;
-            u[i] = c.u, node[i] = c.node;
-        }
-        const Floats d;
-        const V3 direction{hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
-        return {direction, hn::Sqrt(dot(direction, direction)), hn::Load(d, u),
-                hn::Load(Uints(), node)};
+    /// Links before the first count as that one.
+    HWY_INLINE Cones harmonicsAt(U links) const {
+        const Uints d;
+        const Ints di;
+        const U known = hn::Max(links, hn::Set(d, first));
+        const std::uint16_t* halfs = caches.shCoefficients.data() + first * coefficients;
+        const auto pairs = [&](std::size_t at) { // two bytes are all that they are aligned to
+            const U bytes = (known - hn::Set(d, first)) *
+                            hn::Set(d, std::uint32_t(coefficients * sizeof *halfs));
+            return hn::GatherOffset(d, reinterpret_cast<const std::uint32_t*>(halfs + at),
+                                    hn::BitCast(di, bytes));
+        };
+        return coneOf(hn::GatherIndex(d, caches.shNode.data(), hn::BitCast(di, known)), pairs(0),
+                      pairs(2));
     }
 
     HWY_INLINE Cones at(U links) const {
@@ -236,7 +260,7 @@ struct Finder {
     Finder(const LinksAndBlockers& links, const Blocker& b, std::size_t coefficients,
            std::uint32_t first, std::uint16_t* out, const Spread& spreadOfFew,
            const Spread& spreadOfMany)
-        : scene(links), blocker(b), cones{links.bake.caches, coefficients}, firstLink(first),
+        : scene(links), blocker(b), cones{links.bake.caches, coefficients, first}, firstLink(first),
           hidden(out), few(spreadOfFew), many(spreadOfMany) {
         for (const BlockerShape::Side& side : shape.sides) {
             const glm::vec3 normal = side.normal * blocker.toObject;
@@ -532,7 +556,7 @@ void findHiddenLinks(const LinksAndBlockers& scene, std::uint32_t begin, std::ui
             if (sees(bake, c, f.blocker, cell, f.sight))
                 looking.push_back(&f);
         if (!looking.empty())
-            lookFrom(bake.caches, c, {bake.caches, coefficients}, looking);
+            lookFrom(bake.caches, c, {bake.caches, coefficients, firstLink}, looking);
     }
     for (Finder& f : finders)
         f.finish();
