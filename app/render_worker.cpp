@@ -81,7 +81,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
     if (m_litOf != request.scene) {
         m_litOf = request.scene;
         m_litScene =
-            sameBakeInputs(*request.lit.scene, *request.scene)
+            sameStaticGeometry(*request.lit.scene, *request.scene)
                 ? request.scene
                 : std::make_shared<const Scene>(relitScene(*request.lit.scene, *request.scene));
         relight.converged = m_whole = false;

@@ -38,7 +38,7 @@ bool sameGeometry(const Scene& a, const Scene& b) {
            std::ranges::equal(a.materials, b.materials, sameSurface);
 }
 
-static bool sameStaticGeometry(const Scene& a, const Scene& b) {
+bool sameStaticGeometry(const Scene& a, const Scene& b) {
     return a.assets == b.assets &&
            std::ranges::equal(a.instances, b.instances, sameBakedInstance) &&
            std::ranges::equal(a.materials, b.materials, sameSurface);
@@ -53,6 +53,7 @@ Scene relitScene(const Scene& baked, const Scene& now) {
     scene.lights = now.lights;
     scene.sky = now.sky;
     scene.bake.maxBounces = now.bake.maxBounces;
+    scene.bake.dimming = now.bake.dimming;
     if (scene.materials.size() == now.materials.size())
         scene.materials = now.materials;
     return scene;

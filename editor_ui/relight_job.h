@@ -78,11 +78,12 @@ void countUpdate(RelightStatus& status, std::uint32_t maxBounces);
 /// True if a bake of `a` serves `b` as well, as far as can be told without hashing the meshes.
 bool sameBakeInputs(const Scene& a, const Scene& b);
 
-/// True if rays meet the same surfaces.
+/// True if rays meet the same surfaces; sameStaticGeometry(): those of dynamic objects aside.
 bool sameGeometry(const Scene& a, const Scene& b);
+bool sameStaticGeometry(const Scene& a, const Scene& b);
 
-/// `baked` with the lights, materials and sky of `now`: what a bake older than the document can
-/// still be lit with.
+/// `baked` with the lights, materials, sky, bounces and dimming of `now`: what a bake older than
+/// the document can still be lit with.
 Scene relitScene(const Scene& baked, const Scene& now);
 
 } // namespace limn

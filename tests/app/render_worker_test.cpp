@@ -77,5 +77,48 @@ TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
     EXPECT_EQ(a.rgba, drawn(still, looking(-1, moved)).rgba);
 }
 
+/// The room with a dynamic block at `x`.
+std::shared_ptr<const Scene> withBlock(float x, bool dimming = true) {
+    using namespace simple;
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(1)));
+    b.addMaterial(lambert(glm::vec3(0)));
+    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    Mesh block = box(glm::vec3(-0.4f), glm::vec3(0.4f), false);
+    block.material = 1;
+    b.add(block, glm::mat4(1), true).toWorld[3] = {x, 0.7f, 1.5f, 1};
+    Scene scene = b.build();
+    scene.bake = litRoom(500, 800)->bake;
+    scene.bake.dimming = dimming;
+    return std::make_shared<const Scene>(std::move(scene));
+}
+
+TEST_F(RenderWorkerTest, AMovedObjectTakesItsDimmingAlong) {
+    first = withBlock(1);
+    trace = std::make_shared<const TraceScene>(*first);
+    made = std::make_shared<const Bake>(*bake(*trace));
+    RenderWorker worker(false);
+    const Image before = drawn(worker, looking(-1, first));
+    const std::uint64_t dimmed = worker.relight.last.linksDimmed;
+    EXPECT_GT(dimmed, 100U);
+    const auto there = withBlock(3);
+    const Image after = drawn(worker, looking(-1, there));
+    EXPECT_NE(after.rgba, before.rgba);
+    EXPECT_GT(worker.relight.last.linksDimmed, 100U);
+    RenderWorker other(false);
+    drawn(other, looking(-1, there));
+    EXPECT_EQ(worker.relight.last.linksDimmed, other.relight.last.linksDimmed);
+    Scene unbaked = *there;
+    unbaked.bake.links = 64;
+    drawn(worker, looking(-1, std::make_shared<const Scene>(unbaked)));
+    EXPECT_EQ(worker.relight.last.linksDimmed, other.relight.last.linksDimmed)
+        << "until there is another bake";
+    const Image off = drawn(worker, looking(-1, withBlock(3, false)));
+    EXPECT_EQ(worker.relight.last.linksDimmed, 0U);
+    EXPECT_NE(off.rgba, after.rgba);
+    drawn(worker, looking(-1, first));
+    EXPECT_EQ(worker.relight.last.linksDimmed, dimmed);
+}
+
 } // namespace
 } // namespace limn
