@@ -139,8 +139,8 @@ static void relightTable(EditorState& state) {
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
     row("Shadow rays", groupedNumber(r.last.shadowRays),
         "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps");
-    row("Lights moved", groupedNumber(r.last.lightsTraced),
-        "Worked out anew by the last call, because they or an object moved; 0 where only their "
+    row("Lit anew", groupedNumber(r.last.lightsTraced),
+        "Lights that the last call worked out, because they or an object moved; 0 where only their "
         "colour or strength changed");
     row("Lights off", groupedNumber(r.last.lightsOff),
         "Off, black or out of reach of every surface: they cost nothing");
@@ -160,7 +160,7 @@ static void relightTable(EditorState& state) {
         "reads them");
     row("Dimmed", groupedNumber(r.last.cachesDimmed),
         "Caches that dynamic objects take bounced light from; 0 where there are none");
-    row("Dimmed links", groupedNumber(r.last.linksDimmed), "Of those caches");
+    row("  links", groupedNumber(r.last.linksDimmed), "Of those caches");
     row("Dimming", ms(r.last.dimMs),
         "Finding what dynamic objects hide, by the last call; 0 while they stand still");
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
