@@ -11,7 +11,7 @@ const float kPi = 3.14159265358979;
 #include "shaders/shared/surface_pack.glsl"
 
 layout(std430, binding = RELIGHT_SURFELS) readonly buffer Surfels { GpuSurfel surfels[]; };
-layout(std430, binding = RELIGHT_DIRECT) writeonly buffer Direct { vec4 direct[]; };
+layout(std430, binding = RELIGHT_DIRECT) buffer Direct { vec4 direct[]; };
 layout(set = 1, binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
 layout(set = 1, binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
 layout(set = 1, binding = 2) uniform sampler2DArray shadowAtlas;
@@ -51,9 +51,10 @@ void main() {
     if (i >= range.end)
         return;
     const GpuSurfel s = surfels[i];
-    vec3 E = vec3(0); // of lights without place first: its sum depends on no light's past
-    const uint fresh = range.freshLights, worked = fresh + range.lights - range.keptLights;
-    for (uint n = 0; n < worked; ++n) {
+    // Of lights without place first: the sum depends on no light's past.
+    vec3 E = range.workBegin > 0 ? direct[i].rgb : vec3(0);
+    const uint fresh = range.freshLights, work = fresh + range.lights - range.keptLights;
+    for (uint n = range.workBegin; n < range.workEnd; ++n) {
         const bool keep = n < fresh;
         const uint k = range.keptLights + n - (keep ? 0 : fresh);
         const uint light = keep ? places[k] : k;
@@ -63,7 +64,8 @@ void main() {
         else
             E += lights[light].strength * e;
     }
-    for (uint k = 0; k < range.keptLights; ++k)
+    const uint summed = range.workEnd == work ? range.keptLights : 0;
+    for (uint k = 0; k < summed; ++k)
         E += lights[k].strength * unit[places[k] * range.end + i];
     direct[i] = vec4(E, 0);
 }

@@ -107,6 +107,9 @@ void RelightSteps::dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
     ++dispatches;
 }
 
+// Shadow maps of all lights may be more than any cache holds, so all surfels read those of a few.
+constexpr std::uint32_t kLightsAtOnce = 16;
+
 void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights,
                                 const KeptLights& kept) {
     gpu::writeBuffer(m_device, m_sets[1], 0, kBuffer, lights.lights);
@@ -116,15 +119,19 @@ void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& light
     gpu::writeBuffer(m_device, m_sets[1], 4, kBuffer, kept.places.handle);
     gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kAllReads); // after the shadow maps were drawn
     const auto count = std::uint32_t(m_bake.surfels.size());
-    dispatch(cmd, m_direct,
-             {.begin = 0,
-              .end = count,
-              .lights = lights.count,
-              .normalBias = lights.normalBias,
-              .lightBias = lights.lightBias,
-              .keptLights = kept.kept,
-              .freshLights = kept.fresh},
-             groupsOf(count));
+    const std::uint32_t work = kept.fresh + lights.count - kept.kept;
+    for (std::uint32_t first = 0; first == 0 || first < work; first += kLightsAtOnce)
+        dispatch(cmd, m_direct,
+                 {.begin = 0,
+                  .end = count,
+                  .lights = lights.count,
+                  .normalBias = lights.normalBias,
+                  .lightBias = lights.lightBias,
+                  .keptLights = kept.kept,
+                  .freshLights = kept.fresh,
+                  .workBegin = first,
+                  .workEnd = std::min(first + kLightsAtOnce, work)},
+                 groupsOf(count));
 }
 
 void RelightSteps::recordSurfels(VkCommandBuffer cmd) {

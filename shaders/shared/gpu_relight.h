@@ -62,7 +62,8 @@ struct GpuRelightRange {
     uint lightmapCaches; // field: caches below this are texels, the others cells
     uint gridCells;
     uint lights; float normalBias, lightBias; // direct: as ShadowedLights
-    uint keptLights, freshLights; uint pad[3];  // direct: as KeptLights
+    uint keptLights, freshLights;             // direct: as KeptLights
+    uint workBegin, workEnd, pad; // direct: of fresh lights and then those without place, these; 0 begins, all ends
 };
 // clang-format on
 

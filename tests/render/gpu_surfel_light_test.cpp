@@ -242,6 +242,33 @@ TEST_F(ViewportSurfelLight, LightsBeyondTheRoomForThemAreWorkedOutEachTime) {
     }
 }
 
+TEST_F(ViewportSurfelLight, OfManyLightsNoneIsLeftOutOrTakenTwice) {
+    Scene one = court();
+    one.lights = {lightOf(LightKind::Spot)};
+    prepare(one);
+    const std::vector<glm::vec3> E = irradiance();
+    float largest = 0;
+    for (const glm::vec3 e : E)
+        largest = std::max(largest, e.x);
+    constexpr std::uint32_t kLights = 37;
+    scene.lights.resize(kLights, scene.lights[0]);
+    const std::uint32_t whole = device->properties.limits.maxStorageBufferRange;
+    for (const std::uint32_t room : {2 * kLights, 2U}) {
+        device->properties.limits.maxStorageBufferRange = whole;
+        relighter = gpuRelighter(*device, made);
+        device->properties.limits.maxStorageBufferRange =
+            room * std::uint32_t(made->surfels.size() * sizeof(float));
+        for (int call = 0; call < 2; ++call) { // the second time kept lights are there
+            scene.lights.back().color.x = call == 0 ? 1 : 2;
+            const std::vector<glm::vec3> all = irradiance();
+            const float sum = float(kLights) + float(call);
+            EXPECT_EQ(stats.lightsTraced, call == 0 ? kLights : room > 2 ? 0 : kLights - 2);
+            for (std::size_t i = 0; i < E.size(); ++i) // maps lie elsewhere, as above
+                ASSERT_NEAR(all[i].x, sum * E[i].x, 0x1p-12f * sum * largest) << i;
+        }
+    }
+}
+
 TEST_F(ViewportSurfelLight, GivesWayToNumbersAndComesBack) {
     prepare(court());
     half.direct.assign(made->surfels.size(), glm::vec3(0));
