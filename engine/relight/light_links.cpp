@@ -157,14 +157,22 @@ HWY_INLINE void coneBands(Floats d, V u, V transport, V* factor) {
     });
 }
 
-/// Calls add(Number<i>(), value) for the spherical harmonics of unit directions, each band times
-/// its factor: as shBasisFixed, up to constants.
-template <int Bands, class Add>
+/// Sets of orders m of harmonics, of both signs: bit |m|.
+using Orders = unsigned;
+constexpr Orders kEveryOrder = ~0u, kEvenOrders = 0x55, kOddOrders = 0xaa;
+
+constexpr bool contains(Orders orders, int m) {
+    return (orders >> (m < 0 ? -m : m) & 1) != 0;
+}
+
+/// Calls add(Number<i>(), value) for the spherical harmonics of those orders of unit directions,
+/// each band times its factor: as shBasisFixed, up to constants.
+template <int Bands, Orders Of = kEveryOrder, class Add>
 HWY_INLINE void basisOf(Floats d, V x, V y, V z, const V* factor, const Add& add) {
     V c = x, s = y;
     unrolled<0, Bands>([&](auto m) LIMN_UNROLLED {
         V q2 = hn::Set(d, 1.f), q1 = z;
-        unrolled<m, Bands>([&](auto l) LIMN_UNROLLED {
+        unrolled<contains(Of, m) ? m : Bands, Bands>([&](auto l) LIMN_UNROLLED {
             V q = factor[l];
             if constexpr (l > m + 1) {
                 const V next = hn::NegMulAdd(hn::Set(d, monicBeta(l, m)), q2, hn::Mul(z, q1));
@@ -199,9 +207,15 @@ HWY_INLINE V inverseRoot(Floats d, V v) {
 #endif
 }
 
-/// Calls add(i, value) for the coefficients of as many links as there are lanes.
-template <int Bands, class Add>
-HWY_INLINE void expandCones(Floats d, const Link* links, const Add& add) {
+/// What links say of their cones: unit axes, factors of the bands.
+template <int Bands>
+struct Cones {
+    V x, y, z, factor[Bands];
+};
+
+/// As many as there are lanes.
+template <int Bands>
+HWY_INLINE void readCones(Floats d, const Link* links, Cones<Bands>& cones) {
     const hn::RebindToUnsigned<Floats> du;
     const hn::RebindToSigned<Floats> di;
     hn::Vec<decltype(du)> node, oct, cone;
@@ -223,9 +237,8 @@ HWY_INLINE void expandCones(Floats d, const Link* links, const Add& add) {
             high = hn::PromoteTo(d, hn::UpperHalf(hn::Half<decltype(dh)>(), halfs));
     const V u = hn::ConcatEven(d, high, low), transport = hn::ConcatOdd(d, high, low);
 #endif
-    V factor[Bands];
-    coneBands<Bands>(d, u, transport, factor);
-    basisOf<Bands>(d, hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse), factor, add);
+    cones.x = hn::Mul(x, inverse), cones.y = hn::Mul(y, inverse), cones.z = hn::Mul(z, inverse);
+    coneBands<Bands>(d, u, transport, cones.factor);
 }
 
 float scaleOf(const Caches& caches, std::uint32_t c) {
@@ -246,20 +259,27 @@ HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const gl
     }
 }
 
-/// The sums of one cache, 3 colours of Chroma^2 coefficients, then luma of the others, all in
-/// registers.
-template <int Bands, int Chroma>
-HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
-                         float* total) {
-    constexpr int kColoured = Chroma * Chroma, kSums = 2 * kColoured + Bands * Bands;
-    const Floats d;
-    constexpr int kPadded = (kSums + 3) / 4 * 4;
-    V sum[kPadded];
-    unrolled<0, kPadded>([&](auto i) LIMN_UNROLLED { sum[i] = hn::Zero(d); });
-    for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
-        V light[4];
-        lightOf(d, links + k, count - k, radiosity, light);
-        expandCones<Bands>(d, links + k, [&](auto i, V basis) LIMN_UNROLLED {
+/// Which of the sums of a cache, 3 colours of Chroma^2 coefficients, then luma of the others, are
+/// of those orders.
+template <int Bands, int Chroma, Orders Of>
+constexpr auto sumsOf() {
+    struct {
+        int at[3 * Bands * Bands] = {}, count = 0;
+    } sums;
+    for (int l = 0; l < Bands; ++l)
+        for (int m = -l; m <= l; ++m) {
+            const int i = l * (l + 1) + m, colours = l < Chroma ? 3 : 1;
+            for (int k = 0; contains(Of, m) && k < colours; ++k)
+                sums.at[sums.count++] = l < Chroma ? 3 * i + k : 2 * Chroma * Chroma + i;
+        }
+    return sums;
+}
+
+template <int Bands, int Chroma, Orders Of>
+HWY_INLINE void addCones(Floats d, const Cones<Bands>& cones, const V* light, V* sum) {
+    constexpr int kColoured = Chroma * Chroma;
+    basisOf<Bands, Of>(
+        d, cones.x, cones.y, cones.z, cones.factor, [&](auto i, V basis) LIMN_UNROLLED {
             if constexpr (i < kColoured)
                 unrolled<0, 3>([&](auto j) LIMN_UNROLLED {
                     sum[3 * i + j] = hn::MulAdd(basis, light[j], sum[3 * i + j]);
@@ -267,10 +287,65 @@ HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* 
             else
                 sum[2 * kColoured + i] = hn::MulAdd(basis, light[3], sum[2 * kColoured + i]);
         });
-    }
-    unrolled<0, kPadded / 4>([&](auto i) LIMN_UNROLLED {
-        sumLanes(sum[4 * i], sum[4 * i + 1], sum[4 * i + 2], sum[4 * i + 3], total + 4 * i);
+}
+
+/// Adds the lanes of each.
+template <int Bands, int Chroma, Orders Of>
+HWY_INLINE void addTotals(const V* sum, float* total) {
+    constexpr auto kSums = sumsOf<Bands, Chroma, Of>();
+    constexpr int kFours = (kSums.count + 3) / 4;
+    float out[4 * kFours];
+    unrolled<0, kFours>([&](auto k) LIMN_UNROLLED {
+        constexpr auto kAt = [](int i) { return kSums.at[std::min(i, kSums.count - 1)]; };
+        sumLanes(sum[kAt(4 * k)], sum[kAt(4 * k + 1)], sum[kAt(4 * k + 2)], sum[kAt(4 * k + 3)],
+                 out + 4 * k);
     });
+    for (int i = 0; i < kSums.count; ++i)
+        total[kSums.at[i]] += out[i];
+}
+
+/// The sums of one cache, all in registers: of the orders First at once, then of the orders Second,
+/// if any, for which cones and light of a block of links wait in the nearest cache.
+template <int Bands, int Chroma, Orders First, Orders Second>
+HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                         float* total) {
+    constexpr std::size_t kLanes = hn::MaxLanes(Floats()), kBlock = 256; // links
+    constexpr int kSums = 3 * Bands * Bands;
+    struct Waiting {
+        Cones<Bands> cones;
+        V light[4];
+    } waiting[Second != 0 ? kBlock / kLanes : 1];
+    const Floats d;
+    V sum[kSums];
+    const auto clear = [&]() LIMN_UNROLLED {
+        unrolled<0, kSums>([&](auto i) LIMN_UNROLLED { sum[i] = hn::Zero(d); });
+    };
+    std::fill_n(total, kSums, 0.f);
+    for (std::size_t k = 0; k < count; k += kBlock) {
+        const std::size_t end = std::min(k + kBlock, count);
+        std::size_t vectors = 0;
+        clear();
+        for (std::size_t n = k; n < end; n += kLanes, ++vectors) {
+            for (std::size_t j = n + kAhead; j < n + kAhead + kLanes; ++j)
+                hwy::Prefetch(&radiosity[links[j].node]);
+            V light[4];
+            lightOf(d, links + n, end - n, radiosity, light);
+            Cones<Bands> cones;
+            readCones(d, links + n, cones);
+            if constexpr (Second != 0) {
+                waiting[vectors].cones = cones;
+                std::copy_n(light, 4, waiting[vectors].light);
+            }
+            addCones<Bands, Chroma, First>(d, cones, light, sum);
+        }
+        addTotals<Bands, Chroma, First>(sum, total);
+        if constexpr (Second != 0) {
+            clear();
+            for (std::size_t n = 0; n < vectors; ++n)
+                addCones<Bands, Chroma, Second>(d, waiting[n].cones, waiting[n].light, sum);
+            addTotals<Bands, Chroma, Second>(sum, total);
+        }
+    }
 }
 
 /// sums[i * Colours + k] += basis i * light k, lane by lane, over `vectors`, each of which has
@@ -341,9 +416,12 @@ HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm
             unrolled<0, 4>([&](auto j) LIMN_UNROLLED {
                 hn::Store(colour[j], d, light + (vectors * 4 + j) * kLanes);
             });
-            expandCones<Bands>(d, links + n, [&](auto i, V value) LIMN_UNROLLED {
-                hn::Store(value, d, basis + (vectors * kCount + i) * kLanes);
-            });
+            Cones<Bands> cones;
+            readCones(d, links + n, cones);
+            basisOf<Bands>(d, cones.x, cones.y, cones.z, cones.factor,
+                           [&](auto i, V value) LIMN_UNROLLED {
+                               hn::Store(value, d, basis + (vectors * kCount + i) * kLanes);
+                           });
         }
         addBlocks<3>(coloured, basis, kCount * kLanes, light, 4 * kLanes, vectors, sums);
         addBlocks<1>(kCount - coloured, basis + std::size_t(coloured) * kLanes, kCount * kLanes,
@@ -359,12 +437,14 @@ HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm
 template <int Bands>
 HWY_INLINE void sumCache(const Link* links, std::size_t count, const glm::vec4* radiosity,
                          int chroma, float* total) {
-    if constexpr (Bands == 2 || (Bands == 3 && kManyRegisters))
+    if constexpr (Bands == 2 || (Bands <= 4 && kManyRegisters)) {
+        constexpr Orders kFirst = Bands < 4 ? kEveryOrder : kEvenOrders,
+                         kSecond = Bands < 4 ? 0 : kOddOrders;
         unrolled<1, Bands + 1>([&](auto k) LIMN_UNROLLED {
             if (k == chroma)
-                sumCones<Bands, k>(links, count, radiosity, total);
+                sumCones<Bands, k, kFirst, kSecond>(links, count, radiosity, total);
         });
-    else
+    } else
         sumBlocksOfCones<Bands>(links, count, radiosity, chroma * chroma, total);
 }
 
