@@ -45,7 +45,7 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
                        "r,g,b [nits] | gradient up=r,g,b horizon=r,g,b ground=r,g,b | FILE.hdr or "
                        "FILE.exr, a panorama; replaces the scene's");
     command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0.f, kMostLight));
     command.add_option("--sky-rotation", options.skyRotation,
                        "of the panorama about +Y, from +Z towards +X [degrees]");
 }

@@ -12,12 +12,16 @@ static bool finite(glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-static bool atLeastZero(glm::vec3 v) {
-    return finite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0;
-}
-
 static bool atLeastZero(float v) {
     return std::isfinite(v) && v >= 0;
+}
+
+static bool isLight(float v) {
+    return v >= 0 && v <= kMostLight;
+}
+
+static bool isLight(glm::vec3 v) {
+    return isLight(v.x) && isLight(v.y) && isLight(v.z);
 }
 
 static bool inUnit(float v) {
@@ -43,7 +47,7 @@ static bool valid(const Flipbook& f) {
 static bool valid(const Material& m) {
     const glm::vec4 c = m.baseColor;
     return inUnit(c.x) && inUnit(c.y) && inUnit(c.z) && inUnit(c.w) && inUnit(m.metallic) &&
-           inUnit(m.roughness) && inUnit(m.alphaCutoff) && atLeastZero(m.emission) &&
+           inUnit(m.roughness) && inUnit(m.alphaCutoff) && isLight(m.emission) &&
            valid(m.emissiveFilm) &&
            (m.emissiveTexture.rotation == 0 || m.emissiveFilm.columns == m.emissiveFilm.rows);
 }
@@ -53,8 +57,8 @@ static bool isLightSize(float edge) {
 }
 
 static bool valid(const Light& l) {
-    return finite(l.position) && isUnit(glm::length(l.direction)) && atLeastZero(l.color) &&
-           atLeastZero(l.strength) && atLeastZero(l.range) && l.innerAngle >= 0 &&
+    return finite(l.position) && isUnit(glm::length(l.direction)) && isLight(l.color) &&
+           isLight(l.strength) && atLeastZero(l.range) && l.innerAngle >= 0 &&
            l.innerAngle < l.outerAngle && l.outerAngle <= glm::half_pi<float>() + 1e-6f &&
            isLightSize(l.size.x) && isLightSize(l.size.y) && std::isfinite(l.roll);
 }
@@ -65,8 +69,8 @@ static bool valid(const Camera& c) {
 }
 
 static bool valid(const Sky& s) {
-    return atLeastZero(s.radiance) && atLeastZero(s.horizon) && atLeastZero(s.ground) &&
-           atLeastZero(s.strength) && std::isfinite(s.rotation);
+    return isLight(s.radiance) && isLight(s.horizon) && isLight(s.ground) && isLight(s.strength) &&
+           std::isfinite(s.rotation);
 }
 
 static bool valid(const BakeSettings& b) {

@@ -36,8 +36,8 @@ void describeLight(Fields& fields, T& l) {
     fields("enabled", l.enabled);
     fields("position", l.position);
     fields("direction", l.direction);
-    fields("color", l.color, kNotNegative);
-    fields("strength", l.strength, kNotNegative);
+    fields("color", l.color, kLightRange);
+    fields("strength", l.strength, kLightRange);
     fields("range", l.range, kNotNegative);
     fields("innerAngle", l.innerAngle, FieldRange{0, glm::half_pi<double>()});
     // One float above pi/2 is as near as floats come to it.
@@ -58,11 +58,11 @@ void describeCamera(Fields& fields, T& c) {
 template <class Fields, class T>
 void describeSky(Fields& fields, T& s) {
     fields("kind", s.kind, kSkyNames);
-    fields("radiance", s.radiance, kNotNegative);
-    fields("horizon", s.horizon, kNotNegative);
-    fields("ground", s.ground, kNotNegative);
+    fields("radiance", s.radiance, kLightRange);
+    fields("horizon", s.horizon, kLightRange);
+    fields("ground", s.ground, kLightRange);
     fields("image", s.image);
-    fields("strength", s.strength, kNotNegative);
+    fields("strength", s.strength, kLightRange);
     fields("rotation", s.rotation);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/files/enum_names.h"
+#include "engine/scene/light.h"
 #include "engine/scene/material.h"
 
 #include <limits>
@@ -14,6 +15,7 @@ struct FieldRange {
     double upper = std::numeric_limits<double>::max();
 };
 inline constexpr FieldRange kNotNegative{0};
+inline constexpr FieldRange kLightRange{0, kMostLight};
 inline constexpr FieldRange kUnitRange{0, 1};
 inline constexpr FieldRange kFilmFrames{1, 256};
 
@@ -45,7 +47,7 @@ void describeMaterial(Fields& fields, T& m) {
     fields("baseColor", m.baseColor, kUnitRange);
     fields("metallic", m.metallic, kUnitRange);
     fields("roughness", m.roughness, kUnitRange);
-    fields("emission", m.emission, kNotNegative);
+    fields("emission", m.emission, kLightRange);
     fields("alphaMode", m.alphaMode, kAlphaNames);
     fields("alphaCutoff", m.alphaCutoff, kNotNegative);
     fields("doubleSided", m.doubleSided);

@@ -2,7 +2,9 @@
 #include "engine/files/sky_file.h"
 
 #include "engine/files/image_file.h"
+#include "engine/scene/light.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,8 +19,7 @@ Result<void> readSkyImage(Sky& sky) {
         return fail(fmt::format("{}: no pixels", sky.image));
     for (glm::vec3& p : image->rgb)
         for (int c = 0; c < 3; ++c)
-            if (!(p[c] >= 0) || !std::isfinite(p[c]))
-                p[c] = 0;
+            p[c] = p[c] >= 0 && std::isfinite(p[c]) ? std::min(p[c], kMostLight) : 0;
     sky.panorama = makeSkyImage(std::move(*image));
     return {};
 }

@@ -25,6 +25,13 @@ static float notNegative(double value, GltfRepairs& repairs) {
     return 0;
 }
 
+static float lightNumber(double value, GltfRepairs& repairs) {
+    const float f = notNegative(value, repairs);
+    if (f > kMostLight)
+        repairs.add("light numbers above 1e10 set to it");
+    return std::min(f, kMostLight);
+}
+
 static void readSpot(Light& light, const tinygltf::SpotLight& spot, GltfRepairs& repairs) {
     const double half = glm::half_pi<double>();
     light.outerAngle = float(std::clamp(spot.outerConeAngle, 1e-3, half));
@@ -52,8 +59,8 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
     light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
     if (source.color.size() == 3)
         for (int c = 0; c < 3; ++c)
-            light.color[c] = notNegative(source.color[std::size_t(c)], repairs);
-    light.strength = notNegative(source.intensity, repairs);
+            light.color[c] = lightNumber(source.color[std::size_t(c)], repairs);
+    light.strength = lightNumber(source.intensity, repairs);
     light.range = notNegative(source.range, repairs);
     addObject(document, light);
 }

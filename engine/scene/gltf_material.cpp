@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/gltf_material.h"
 
+#include "engine/scene/light.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -95,9 +97,11 @@ static glm::vec3 readEmission(const tinygltf::Material& source, GltfRepairs& rep
     glm::vec3 emission(0);
     if (source.emissiveFactor.size() == 3)
         for (int c = 0; c < 3; ++c)
-            emission[c] = ranged(source.emissiveFactor[std::size_t(c)], 0, 1e30f, repairs);
+            emission[c] = ranged(source.emissiveFactor[std::size_t(c)], 0, kMostLight, repairs);
     if (const auto* e = extension(source.extensions, "KHR_materials_emissive_strength"))
         emission *= ranged(double(number(member(*e, "emissiveStrength"), 1)), 0, 1e7f, repairs);
+    for (int c = 0; c < 3; ++c)
+        emission[c] = ranged(double(emission[c]), 0, kMostLight, repairs);
     return emission;
 }
 

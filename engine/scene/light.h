@@ -11,6 +11,10 @@ namespace limn {
 
 enum class LightKind : std::uint8_t { Directional, Point, Spot, Rectangle };
 
+/// What a number of light may be at most: colour, strength, emission, the sky's radiance. Within it,
+/// sums of light stay within float. The sun's disc has 1.6e9 nits.
+inline constexpr float kMostLight = 1e10f;
+
 /// What the edges of a Rectangle may measure [m].
 inline constexpr float kMinLightSize = 1e-6f, kMaxLightSize = 1e6f;
 
@@ -21,9 +25,9 @@ struct Light {
     bool enabled = true;
     glm::vec3 position{0};         ///< [m]; Rectangle: of its middle; ignored by Directional
     glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels; ignored by Point
-    glm::vec3 color{1};            ///< linear Rec. 709, >= 0
+    glm::vec3 color{1};            ///< linear Rec. 709, [0, kMostLight]
     float strength = 100;          ///< Directional: irradiance [lux]. Point, Spot: intensity [cd].
-                                   ///< Rectangle: radiance [nits]. >= 0
+                                   ///< Rectangle: radiance [nits]. [0, kMostLight]
     float range = 0;               ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of
                                    ///< KHR_lights_punctual. Point, Spot
     float innerAngle = 0;          ///< Spot: half-angle of full strength [rad]
@@ -41,8 +45,8 @@ struct LightSample {
     float distance = 0;      ///< [m]; infinity for Directional
 };
 
-/// Strength of `light` at world point `p`. Zero irradiance when out of range, off, outside the
-/// cone, or at d = 0; and from a Rectangle, which has no one direction: see rectangle_light.h.
+/// Strength of `light` at world point `p`, nowhere more than at a distance of a micrometre. Zero
+/// irradiance when out of range, off, outside the cone, or at d = 0; and from a Rectangle, which has no one direction: see rectangle_light.h.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
 } // namespace limn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/light_spec.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -50,10 +51,23 @@ static Result<float> parseNonNegative(std::string_view word, std::string_view te
     return number;
 }
 
+static tl::unexpected<Error> tooMuchLight(std::string_view word) {
+    return fail(fmt::format("'{}': may not be more than {:g}", word, kMostLight));
+}
+
+static Result<float> parseStrength(std::string_view word, std::string_view text) {
+    Result<float> strength = parseNonNegative(word, text);
+    if (strength && *strength > kMostLight)
+        return tooMuchLight(word);
+    return strength;
+}
+
 static Result<glm::vec3> parseColor(std::string_view word, std::string_view text) {
     Result<glm::vec3> color = parseTriple(word, text);
     if (color && (color->x < 0 || color->y < 0 || color->z < 0))
         return fail(fmt::format("'{}': a color may not be negative", word));
+    if (color && std::max({color->x, color->y, color->z}) > kMostLight)
+        return tooMuchLight(word);
     return color;
 }
 
@@ -95,7 +109,7 @@ static Result<void> applyWord(Light& light, std::string_view word) {
     if (key == "color")
         return store(light.color, parseColor(word, text));
     if ((key == "lux" && sun) || (key == "cd" && !sun && !rect) || (key == "nits" && rect))
-        return store(light.strength, parseNonNegative(word, text));
+        return store(light.strength, parseStrength(word, text));
     if (key == "pos" && !sun)
         return store(light.position, parseTriple(word, text));
     if (key == "range" && !sun && !rect)

@@ -126,6 +126,8 @@ TEST(LightSpec, NamesTheWordItDoesNotUnderstand) {
                                                          {"sun lux=nan", "'nan'"},
                                                          {"sun lux=1e99", "'1e99'"},
                                                          {"sun lux=-1", "negative"},
+                                                         {"sun lux=2e10", "more than 1e+10"},
+                                                         {"sun color=1,3e38,1", "more than 1e+10"},
                                                          {"sun dir=0,0,0", "zero"},
                                                          {"sun dir=0,1", "three numbers"},
                                                          {"point cd", "'cd'"},
