@@ -44,10 +44,15 @@ static void forEachCache(const CacheRuns& runs, const Body& body) {
 void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                  LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
                  LinkHalfs halfs) {
+    if (halfs.empty())
+        halfs = caches.shCoefficients;
     parallelRanges(runs.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            lightLinks(caches, ends, radiosity, bands, halfs, runs[k].begin, runs[k].end,
-                       sh.data());
+            if (caches.shNode.empty())
+                lightCones(caches, ends, radiosity, bands, runs[k].begin, runs[k].end, sh.data());
+            else
+                lightHarmonics(caches, ends, radiosity, bands, halfs, runs[k].begin, runs[k].end,
+                               sh.data());
     });
 }
 

@@ -22,8 +22,8 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
 /// SH of incident radiance of the caches of some runs, which do not overlap: sh[c * bands^2 + i] =
 /// sum over links before ends[c] of B transport g_l(u) Y_i(direction), bands = bands.luma, with
-/// links of either storage. From band bands.chroma on the light is grey: its luma alone, half of
-/// which is green. Invalid caches among them are left 0.
+/// links of either storage; empty `halfs` are Caches::shCoefficients. From band bands.chroma on the
+/// light is grey: its luma alone, half of which is green. Invalid caches among them are left 0.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016
 void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,

@@ -3,6 +3,7 @@
 
 #include "engine/bake/bake.h"
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,16 +21,25 @@ struct LightBands {
 /// Which links are read: of cache c those from Caches::linkBegin[c] to end[c].
 using LinkEnds = std::span<const std::uint32_t>;
 
-/// Halfs of links of LinkStorage::Sh, as many for each, at least LightBands::luma^2. Empty: those
-/// of Caches::shCoefficients.
+/// Halfs of links of LinkStorage::Sh, as many for each, at least LightBands::luma^2.
 using LinkHalfs = std::span<const std::uint16_t>;
 
-/// The sums of lightCaches, of radiosity as withLuma keeps it, for the caches [begin, end), on one
-/// thread, by the widest vectors that this machine has: cones (LinkStorage::Rtp) one link per lane,
-/// harmonics one coefficient per lane. The order of a cache's sums depends on the machine's
-/// vectors, so results of two kinds of machine agree to rounding only.
-void lightLinks(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
-                glm::vec3* sh);
+/// What the links of cache c are multiplied with.
+inline float linkScale(const Caches& caches, std::uint32_t c) {
+    return std::ldexp(1.f, -caches.linkExponent[c]);
+}
+
+// The sums of lightCaches, of radiosity as withLuma keeps it, for the caches [begin, end), on one
+// thread, by the widest vectors that this machine has. The order of a cache's sums depends on the
+// machine's vectors, so results of two kinds of machine agree to rounding only.
+
+/// Of links of LinkStorage::Rtp: one link per lane.
+void lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
+
+/// Of links of LinkStorage::Sh: one coefficient per lane.
+void lightHarmonics(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                    LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
+                    glm::vec3* sh);
 
 } // namespace limn

@@ -26,9 +26,13 @@ Bounds boundsOf(const std::vector<glm::vec3>& points) {
     return bounds;
 }
 
+Light withoutName(Light l) {
+    l.name.clear();
+    return l;
+}
+
 /// The light with everything that moves no shadow set to one.
 Light shapeOf(Light l) {
-    l.name.clear();
     l.color = glm::vec3(1);
     l.strength = 1;
     return l;
@@ -106,39 +110,45 @@ bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceSc
     state.lightsTraced = state.raysTraced = 0;
     if (state.irradiance.size() != surfels.size())
         state.bounds = boundsOf(surfels.position);
-    std::vector<Light> lights;
+    std::vector<Light>& lights = state.wanted;
+    lights.clear();
     for (const Light& l : scene.lights)
-        if (shines(l) && reaches(l, state.bounds)) {
-            lights.push_back(l);
-            lights.back().name.clear();
-        }
+        if (shines(l) && reaches(l, state.bounds))
+            lights.push_back(withoutName(l));
     const std::uint64_t occluders = hashOccluders(trace.scene());
     if (occluders != state.occluders)
-        state.lights.clear();
+        for (SurfelLight::PerLight& light : state.lights)
+            light.light.enabled = false; // no light that shines
     else if (lights == state.summed && state.irradiance.size() == surfels.size())
         return false;
     state.occluders = occluders;
 
-    std::vector<SurfelLight::PerLight> next;
+    const auto hasShare = [](const SurfelLight::PerLight& l) { return !l.share.empty(); };
+    std::vector<SurfelLight::PerLight>& known = state.known;
+    known.clear();
+    std::swap(known, state.lights);
     for (const Light& light : lights) {
-        const Light shape = shapeOf(light);
-        const auto known = std::find_if(
-            state.lights.begin(), state.lights.end(),
-            [&](const SurfelLight::PerLight& l) { return l.light == shape && !l.share.empty(); });
-        if (known != state.lights.end()) {
-            next.push_back(std::move(*known));
-            known->share.clear();
+        state.lights.push_back({shapeOf(light), {}});
+        SurfelLight::PerLight& next = state.lights.back();
+        const auto same = std::ranges::find_if(
+            known, [&](const auto& l) { return l.light == next.light && hasShare(l); });
+        if (same != known.end())
+            std::swap(next.share, same->share);
+    }
+    auto gone = known.begin(); // whose memory is of use
+    for (SurfelLight::PerLight& light : state.lights) {
+        if (hasShare(light))
             continue;
-        }
-        next.push_back({shape, {}});
-        state.raysTraced += traceLight(surfels, trace, next.back());
+        gone = std::find_if(gone, known.end(), hasShare);
+        if (gone != known.end())
+            std::swap(light.share, gone->share);
+        state.raysTraced += traceLight(surfels, trace, light);
         ++state.lightsTraced;
     }
-    state.lights = std::move(next);
-    state.summed = std::move(lights);
-    const std::vector<glm::vec3> before = std::move(state.irradiance);
+    std::swap(state.summed, lights);
+    std::swap(state.before, state.irradiance);
     sumLights(surfels.size(), state);
-    return before != state.irradiance;
+    return state.before != state.irradiance;
 }
 
 } // namespace limn

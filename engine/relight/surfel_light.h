@@ -27,6 +27,11 @@ struct SurfelLight {
     std::vector<glm::vec3> irradiance; ///< [W m^-2] per surfel, all lights
     std::uint32_t lightsTraced = 0;    ///< by the last update
     std::uint32_t raysTraced = 0;      ///< by the last update
+
+    // Of the update before: memory that the next one writes to.
+    std::vector<Light> wanted;
+    std::vector<PerLight> known;
+    std::vector<glm::vec3> before;
 };
 
 /// Brings `state` up to date with the scene's lights. Lights that are off, black, of no strength or
