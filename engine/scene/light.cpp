@@ -41,7 +41,7 @@ LightSample sampleLight(const Light& light, glm::vec3 p) {
     }
     if (light.kind == LightKind::Spot)
         window *= spotFalloff(light, s.toLight);
-    s.irradiance = light.color * (light.strength * window / std::max(d2, 1e-12f));
+    s.irradiance = light.color * (light.strength * window / std::max(d2, 1e-8f));
     return s;
 }
 

@@ -11,8 +11,8 @@ namespace limn {
 
 enum class LightKind : std::uint8_t { Directional, Point, Spot, Rectangle };
 
-/// What a number of light may be at most: colour, strength, emission, the sky's radiance. Within it,
-/// sums of light stay within float. The sun's disc has 1.6e9 nits.
+/// The most that colour, strength, emission and the sky's radiance may be, so that sums of light
+/// stay within float. The sun's disc has 1.6e9 nits.
 inline constexpr float kMostLight = 1e10f;
 
 /// What the edges of a Rectangle may measure [m].
@@ -45,8 +45,8 @@ struct LightSample {
     float distance = 0;      ///< [m]; infinity for Directional
 };
 
-/// Strength of `light` at world point `p`, nowhere more than at a distance of a micrometre. Zero
-/// irradiance when out of range, off, outside the cone, or at d = 0; and from a Rectangle, which has no one direction: see rectangle_light.h.
+/// Strength of `light` at world point `p`, nowhere more than at 0.1 mm. Zero irradiance when out of
+/// range, off, outside the cone, or at d = 0; and from a Rectangle, see rectangle_light.h.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
 } // namespace limn

@@ -387,6 +387,8 @@ bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
         embreeOccluded(trees->top, r);
         return r.tfar < 0;
     };
+    if (!(ray.tFar > ray.tNear)) // less than 0, it would be taken for Embree's answer
+        return false;
     return meets(m_impl->fixed, TraceMask::Static) || meets(m_impl->moving, TraceMask::Dynamic);
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -203,6 +204,16 @@ TEST(TraceScene, RaysFromASurfaceDoNotMeetItAtAnyScale) {
             ASSERT_FALSE(trace.occluded(away)) << "scale " << s << " ray " << i;
         }
     }
+}
+
+TEST(TraceScene, NothingLiesBeforeTheBeginOfARay) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(0), glm::vec3(1), true));
+    const Scene scene = b.build();
+    const TraceScene trace(scene);
+    for (const float end : {0.f, -1e-6f, -1.f, -std::numeric_limits<float>::infinity()})
+        EXPECT_FALSE(trace.occluded({glm::vec3(0.5f), {0, 1, 0}, 0, end})) << end;
 }
 
 TEST(TraceScene, BlockedSeesWhatLiesBetweenAndNotTheEnds) {
