@@ -71,9 +71,10 @@ static_assert(sizeof(Link) == 12);
 /// air.
 enum class CacheKind : std::uint8_t { Hemisphere, Grid };
 
-/// Where radiance is gathered: texels of the lightmap first, then cells of the grid.
+/// Where radiance is gathered: texels of the lightmap first, then caches of surfels' own, in texels
+/// that no lookup needs, then cells of the grid.
 struct Caches {
-    std::uint32_t lightmapCount = 0;
+    std::uint32_t lightmapCount = 0; ///< surfels' own included
     std::vector<CacheKind> kind;
     std::vector<glm::vec3> position;  ///< world
     std::vector<glm::vec3> normal;    ///< unit geometric normal of its side; 0 for Grid

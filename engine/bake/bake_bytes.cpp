@@ -5,6 +5,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/grid_depth.h"
 #include "engine/bake/link_storage.h"
+#include "engine/bake/seen_patches.h"
 #include "engine/scene/triangle_geometry.h"
 
 namespace limn {
@@ -90,6 +91,7 @@ std::uint64_t expectedCaches(const Scene& scene) {
     if (s.texelsPerMetre > 0)
         texels = area * double(s.texelsPerMetre) * double(s.texelsPerMetre);
     const glm::uvec3 grid = chooseGridSize(scene, layout, s);
+    texels += texels / kCachesPerOwn;
     return std::uint64_t(texels) + std::uint64_t(grid.x) * grid.y * grid.z;
 }
 

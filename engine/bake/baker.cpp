@@ -8,8 +8,10 @@
 #include "engine/bake/fill_invalid.h"
 #include "engine/bake/grid_depth.h"
 #include "engine/bake/input_hash.h"
+#include "engine/bake/seen_patches.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
+#include "engine/bake/trace_record.h"
 #include "engine/bake/trace_stage.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -76,10 +78,37 @@ std::uint32_t raysPerCache(const BakeSettings& settings) {
                                              : std::min(settings.rays, kFormFactorRays);
 }
 
+/// A first look of few rays goes without: it would take half as long again.
+std::uint32_t raysForPatches(const BakeSettings& settings) {
+    return settings.rays < 128 ? 0 : std::min(settings.rays / 16, 32U);
+}
+
+/// The surfels' places and their own caches, as the surface's caches see them.
+SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
+                             const OwnerTables& owners, const LightmapLayout& layout,
+                             const Caches& caches, const CachePoints& points, std::uint32_t looks,
+                             const std::vector<std::uint64_t>& meshes, const Progress& progress,
+                             StageStore* store, std::uint64_t& rays) {
+    const std::uint64_t rayStarts =
+        hashRecord(describeTrace(trace, set, caches, points, std::max(looks, 1U), meshes));
+    const std::uint64_t key = hashValue(layout.width * layout.height, hashValue(rayStarts, 29));
+    return keptOrMade<SeenPatches>(
+        store, key, progress,
+        [](auto& archive, auto& s) { archive(s.place), archive(s.own), archive(s.ownCache); },
+        [&] {
+            SeenPatches made =
+                findSeenPatches(trace, set, owners, layout, caches, points, looks, progress);
+            rays += made.rays;
+            return made;
+        });
+}
+
 /// The training lights as shadow rays see them; traced again only near what moved.
 TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, TraceReport& traced,
                              const Progress& progress, StageStore* store) {
-    const auto fields = [](auto& archive, auto& t) { archive(t.irradiance), archive(t.lamps); };
+    const auto fields = [](auto& archive, auto& t) {
+        archive(t.irradiance), archive(t.lamps), archive(t.position);
+    };
     const auto key = [](std::uint64_t of) { return hashValue(of, 23); };
     return keptOrMade<TracedTraining>(store, key(traced.key), progress, fields, [&] {
         std::optional<EarlierTraining> earlier;
@@ -142,14 +171,26 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.gridBounds = gridBoundsOf(scene);
     result.gridSize = chooseGridSize(scene, atlas.layout, scene.bake);
     CachePoints points;
-    result.caches = placeCaches(scene, atlas, result.gridSize, result.gridBounds, points);
+    result.caches = placeCaches(scene, atlas, glm::uvec3(0), result.gridBounds, points);
+    OwnerTables owners(scene, set);
+    owners.stopWith(progress);
+    if (store)
+        owners.keep(*store, ownerKeys(set, meshes));
+    const SeenPatches seenPatches =
+        seenPatchesStage(trace, set, owners, atlas.layout, result.caches, points,
+                         raysForPatches(scene.bake), meshes, progress, store, rays);
+    if (progress.cancelled())
+        return cancelled();
+    moveSurfels(scene, seenPatches.place, set);
     connectSurfels(scene, atlas.layout, result.caches, set.surfels);
+    addOwnCaches(scene, atlas.layout, seenPatches, set.surfels, result.caches, points);
+    addGridCaches(result.gridSize, result.gridBounds, result.caches, points);
     clock.finish("caches");
 
     GatherHits hits;
     Result<TraceReport> traced =
-        traceHits({trace, set, result.caches, points, scene.bake.linker, raysPerCache(scene.bake),
-                   meshes, gridReach(result.gridBounds, result.gridSize)},
+        traceHits({trace, set, owners, result.caches, points, scene.bake.linker,
+                   raysPerCache(scene.bake), meshes, gridReach(result.gridBounds, result.gridSize)},
                   progress, store, hits);
     if (!traced)
         return tl::make_unexpected(traced.error());

@@ -41,10 +41,8 @@ std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel) {
     return seed;
 }
 
-namespace {
-
-void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
-                      CachePoints& points) {
+void addSurfaceCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
+                     CachePoints& points) {
     const std::size_t first = points.position.size();
     glm::vec3 position{0}, normal{0};
     for (std::uint32_t k = 0; k < texel.count; ++k) {
@@ -61,17 +59,21 @@ void addLightmapCache(const Scene& scene, const AtlasTexel& texel, Caches& cache
     caches.normal.push_back(length > 1e-3f ? normal / length : points.normal[first]);
     caches.texel.push_back(texel.texel);
     points.seed.push_back(seedOf(scene, texel));
+    ++caches.lightmapCount;
 }
-
-} // namespace
 
 Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
                    const Bounds& gridBounds, CachePoints& points) {
     Caches caches;
     points.begin = {0};
     for (const AtlasTexel& t : atlas.texels)
-        addLightmapCache(scene, t, caches, points);
-    caches.lightmapCount = std::uint32_t(caches.size());
+        addSurfaceCache(scene, t, caches, points);
+    addGridCaches(gridSize, gridBounds, caches, points);
+    return caches;
+}
+
+void addGridCaches(glm::uvec3 gridSize, const Bounds& gridBounds, Caches& caches,
+                   CachePoints& points) {
     const glm::vec3 cell = gridBounds.size() / glm::vec3(glm::max(gridSize, glm::uvec3(1)));
     std::uint32_t index = 0;
     for (std::uint32_t z = 0; z < gridSize.z; ++z)
@@ -86,7 +88,6 @@ Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
                 points.normal.emplace_back(0);
                 points.begin.push_back(std::uint32_t(points.position.size()));
             }
-    return caches;
 }
 
 Bounds gridBoundsOf(const Scene& scene) {

@@ -33,6 +33,14 @@ std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel);
 Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
                    const Bounds& gridBounds, CachePoints& points);
 
+/// Appends the cache of a texel. Those of the grid come after all of these.
+void addSurfaceCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,
+                     CachePoints& points);
+
+/// Appends those of the grid's cells.
+void addGridCaches(glm::uvec3 gridSize, const Bounds& gridBounds, Caches& caches,
+                   CachePoints& points);
+
 /// Cells of the grid: settings.grid; or, where that is 0 and some instance has no lightmap, cubes
 /// of about 1/12 of the longest side, at most 32 a side; or none.
 glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,

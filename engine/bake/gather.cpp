@@ -2,7 +2,6 @@
 #include "engine/bake/gather.h"
 
 #include "engine/bake/cluster_tree.h"
-#include "engine/bake/stage_archive.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -12,7 +11,6 @@
 #include <numeric>
 
 #include <glm/geometric.hpp>
-#include <tbb/task_arena.h>
 
 namespace limn {
 
@@ -152,38 +150,20 @@ CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t 
     return result;
 }
 
-const SurfelOwners& RayGatherer::owners(std::uint32_t mesh) const {
-    LazyOwners& lazy = m_owners[mesh];
-    std::call_once(lazy.once, [&] {
-        // Alone: a thread waiting for its helpers must not begin another cache and come back here.
-        tbb::this_task_arena::isolate([&] {
-            const Mesh& m = m_trace.scene().assets->meshes[mesh];
-            const std::size_t cells = m.triangleCount() + 9 * m_set.meshes[mesh].size();
-            constexpr std::size_t kWorthKeeping = 2048; // fewer are as fast to make
-            lazy.owners = keptOrMade<SurfelOwners>(
-                cells < kWorthKeeping ? nullptr : m_store, m_store ? m_ownerKeys[mesh] : 0,
-                m_progress, [](auto& a, auto& o) { SurfelOwners::fields(a, o); },
-                [&] { return SurfelOwners(m, m_set.meshes[mesh], m_progress); });
-        });
-    });
-    return lazy.owners;
-}
-
 Ray RayGatherer::ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const {
     const std::uint32_t k = r % directions.points;
     return {startOf(m_trace, m_points, m_points.begin[cache] + k), directions[r]};
 }
 
-RawHit RayGatherer::trace(const Ray& ray) const {
-    const Hit hit = m_trace.closestHit(ray, TraceMask::Static);
+RawHit RayGatherer::credit(const Hit& hit, glm::vec3 direction) const {
     if (!hit)
-        return std::uint32_t(m_set.surfels.size()) + skyCellOf(ray.direction);
+        return std::uint32_t(m_set.surfels.size()) + skyCellOf(direction);
     const Scene& scene = m_trace.scene();
     const Instance& instance = scene.instances[hit.instance];
     const bool back = !hit.frontFace, passes = back && !isTwoSided(scene.materialOf(instance));
     const std::uint32_t surfel =
         m_set.instanceBegin[hit.instance] +
-        owners(instance.mesh).at(hit.triangle, hit.u, hit.v, back && !passes);
+        m_owners.of(instance.mesh).at(hit.triangle, hit.u, hit.v, back && !passes);
     return passes ? surfel | kBack : surfel;
 }
 

@@ -2,16 +2,12 @@
 #pragma once
 
 #include "engine/bake/cache_points.h"
-#include "engine/bake/stage_store.h"
-#include "engine/bake/surfels.h"
-#include "engine/core/progress.h"
+#include "engine/bake/owner_tables.h"
 #include "engine/math/sampling.h"
 #include "engine/trace/trace_scene.h"
 
 #include <array>
 #include <cstdint>
-#include <mutex>
-#include <utility>
 #include <vector>
 
 namespace limn {
@@ -81,25 +77,21 @@ class RayGatherer {
 public:
     /// Keeps references to all but `rays`, per cache.
     RayGatherer(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, std::uint32_t rays)
+                const CachePoints& points, std::uint32_t rays, const OwnerTables& owners)
         : m_trace(trace), m_set(set), m_caches(caches), m_points(points), m_rays(rays),
-          m_owners(set.meshes.size()) {}
-
-    /// Tables of owners are taken from `store`, or kept there, under these keys per mesh.
-    void keepOwners(StageStore& store, std::vector<std::uint64_t> keys) {
-        m_store = &store;
-        m_ownerKeys = std::move(keys);
-    }
-
-    /// What it finds after `progress` was cancelled is of no use.
-    void stopWith(const Progress& progress) { m_progress = {.cancel = progress.cancel}; }
+          m_owners(owners) {}
 
     CacheRays directions(std::uint32_t cache) const {
         return raysOf(m_caches, m_points, cache, m_rays);
     }
     Ray ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const;
 
-    RawHit trace(const Ray& ray) const;
+    RawHit trace(const Ray& ray) const {
+        return credit(m_trace.closestHit(ray, TraceMask::Static), ray.direction);
+    }
+
+    /// What a ray along `direction` met where `hit` says so.
+    RawHit credit(const Hit& hit, glm::vec3 direction) const;
 
     /// All of a cache's rays; of a buried one only the probes. Returns how many.
     std::uint32_t traceCache(std::uint32_t cache, RawHit* out) const;
@@ -108,21 +100,12 @@ public:
     std::uint32_t traceRest(std::uint32_t cache, RawHit* hits) const;
 
 private:
-    struct LazyOwners {
-        std::once_flag once;
-        SurfelOwners owners;
-    };
-    const SurfelOwners& owners(std::uint32_t mesh) const;
-
     const TraceScene& m_trace;
     const SurfelSet& m_set;
     const Caches& m_caches;
     const CachePoints& m_points;
     std::uint32_t m_rays;
-    Progress m_progress;
-    StageStore* m_store = nullptr;
-    std::vector<std::uint64_t> m_ownerKeys;
-    mutable std::vector<LazyOwners> m_owners; ///< per mesh, built when first met
+    const OwnerTables& m_owners;
 };
 
 /// Makes of raw hits, in hits.sender, what a bake needs: backs of one-sided surfaces carry nothing.

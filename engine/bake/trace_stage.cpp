@@ -81,7 +81,7 @@ class Tracing {
 public:
     Tracing(const TraceInput& input, const Progress& progress, StageStore* store, GatherHits& hits)
         : in(input), m_progress(progress), m_store(store), m_hits(hits),
-          m_gatherer(in.trace, in.set, in.caches, in.points, in.rays),
+          m_gatherer(in.trace, in.set, in.caches, in.points, in.rays, in.owners),
           m_record(describeTrace(in.trace, in.set, in.caches, in.points, in.rays, in.meshes)),
           m_key(hashRecord(m_record)), m_done(m_record.blockCount()), m_changed(in.caches.size()),
           m_left(m_done.size()) {}
@@ -390,13 +390,11 @@ void Tracing::note() {
 Result<TraceReport> Tracing::run() {
     m_report.key = m_key;
     m_progress.at("trace", 0);
-    m_gatherer.stopWith(m_progress);
     m_hits.rays = in.rays;
     m_hits.sender.resize(in.caches.size() * in.rays);
     m_hits.aimedBegin.clear();
     m_record.blocks.resize(m_done.size());
     if (m_store) {
-        m_gatherer.keepOwners(*m_store, ownerKeys(in.set, in.meshes));
         loadDone();
         if (std::count(m_done.begin(), m_done.end(), 0) > 0)
             loadBase();

@@ -15,6 +15,7 @@ namespace limn {
 struct TraceInput {
     const TraceScene& trace;
     const SurfelSet& set;
+    const OwnerTables& owners; ///< of `set`
     const Caches& caches;
     const CachePoints& points;
     Linker linker;

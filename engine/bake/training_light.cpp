@@ -87,7 +87,7 @@ struct Trainer {
             return 0;
         const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
         if (earlier && sameLight[light] && !earlier->moved.elsewhere[s] &&
-            !meets(ray, earlier->moved.places))
+            earlier->light.position[s] == p && !meets(ray, earlier->moved.places))
             return earlier->light.irradiance[s * TracedTraining::kCount + light];
         ++rays;
         return trace.occluded(ray, TraceMask::Static) ? 0 : sample.irradiance.x * cosTheta;
@@ -172,6 +172,7 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
     const std::size_t values = surfels.size() * TracedTraining::kCount;
     if (earlier &&
         (earlier->light.irradiance.size() != values || earlier->light.lamps.size() != kLamps ||
+         earlier->light.position.size() != surfels.size() ||
          earlier->moved.elsewhere.size() != surfels.size()))
         trainer.earlier = nullptr;
     for (const Light& lamp : lamps(trace, surfels)) {
@@ -191,6 +192,7 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                                                      trainer.irradiance(s, k, mine);
                                          rays += mine;
                                      });
+    result.position = surfels.position;
     result.rays = rays;
     return done ? result : TracedTraining{};
 }

@@ -33,9 +33,10 @@ struct TrainingLight {
 struct TracedTraining {
     static constexpr std::uint32_t kCount = 52;
 
-    std::vector<float> irradiance; ///< [surfel * kCount + light]; empty when cancelled
-    std::vector<glm::vec3> lamps;  ///< where they hang
-    std::uint64_t rays = 0;        ///< traced for it
+    std::vector<float> irradiance;   ///< [surfel * kCount + light]; empty when cancelled
+    std::vector<glm::vec3> lamps;    ///< where they hang
+    std::vector<glm::vec3> position; ///< of the surfels
+    std::uint64_t rays = 0;          ///< traced for it
 };
 
 /// An earlier training light of the same document, and what moved since.

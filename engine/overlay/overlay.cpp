@@ -147,12 +147,28 @@ static float gridSpacing(const Bake& bake) {
     return std::min({cell.x, cell.y, cell.z});
 }
 
-// Half a side of the square of surface that each of the lightmap's texels stands for [m].
-static std::vector<float> texelRadii(const Bake& bake, const Scene& scene) {
-    std::vector<float> radius = texelUse(bake.lightmap, scene).density;
-    for (float& r : radius)
+struct TexelRadii {
+    std::vector<float> radius;
+    std::uint32_t own = 0; ///< caches that surfels alone read
+};
+
+// Half a side of the square of surface that each of the lightmap's texels stands for [m]; where no
+// lookup needs it, half the mean of that.
+static TexelRadii texelRadii(const Bake& bake, const Scene& scene) {
+    TexelRadii out{texelUse(bake.lightmap, scene).density};
+    double sum = 0;
+    std::uint32_t used = 0;
+    for (float& r : out.radius) {
         r = r > 0 ? 0.5f / r : 0;
-    return radius;
+        sum += double(r);
+        used += r > 0 ? 1 : 0;
+    }
+    for (std::uint32_t c = 0; c < bake.caches.lightmapCount; ++c)
+        if (float& r = out.radius[bake.caches.texel[c]]; r == 0) {
+            r = float(0.5 * sum / std::max(used, 1U));
+            ++out.own;
+        }
+    return out;
 }
 
 static OverlayMark cacheMark(const Bake& bake, std::uint32_t c, std::span<const float> radii) {
@@ -170,10 +186,10 @@ static OverlayMark cacheMark(const Bake& bake, std::uint32_t c, std::span<const 
 static OverlayData cacheOverlay(const Bake& bake, const Scene& scene) {
     OverlayData out;
     const auto count = std::uint32_t(bake.caches.size());
-    const std::vector<float> radii = texelRadii(bake, scene);
+    const TexelRadii radii = texelRadii(bake, scene);
     std::uint32_t invalidTexels = 0, invalidCells = 0;
     for (std::uint32_t c = 0; c < count; ++c) {
-        out.marks.push_back(cacheMark(bake, c, radii));
+        out.marks.push_back(cacheMark(bake, c, radii.radius));
         if (!isValid(bake.caches, c))
             ++(c < bake.caches.lightmapCount ? invalidTexels : invalidCells);
     }
@@ -186,6 +202,9 @@ static OverlayData cacheOverlay(const Bake& bake, const Scene& scene) {
                                           invalidTexels, invalidCells)}};
     out.legend.notes = {fmt::format("Squares have {:.0f} % of the side of what a texel stands for",
                                     100 * kTexelScale)};
+    if (radii.own > 0)
+        out.legend.notes.push_back(
+            fmt::format("Those of half the size, {}, are read by surfels alone", radii.own));
     if (cells > 0)
         out.legend.notes.push_back(
             fmt::format("Grid cells are {:.3g} m apart", double(gridSpacing(bake))));
@@ -239,7 +258,7 @@ static OverlayData linkOverlay(const Bake& bake, const Scene& scene, std::uint32
         const float w = cut.nodeWeight[i];
         return w > 0 ? viridis(std::log(w / least) / octaves) : kUnlinked;
     });
-    OverlayMark ring = cacheMark(bake, cache, texelRadii(bake, scene));
+    OverlayMark ring = cacheMark(bake, cache, texelRadii(bake, scene).radius);
     ring.radius *= 1.5f;
     ring.shape = MarkShape::Ring;
     out.marks.push_back(ring);

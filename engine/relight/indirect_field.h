@@ -21,7 +21,7 @@ struct IndirectField {
 
     std::uint32_t lightmapWidth = 0, lightmapHeight = 0; ///< texels; 0: no lightmap
     /// Layer i holds coefficient i: lightmap[(i * height + y) * width + x], RGB in xyz, w = 0.
-    /// Texels outside charts are 0 and never needed by a bilinear lookup.
+    /// Texels outside charts are never needed by a bilinear lookup: 0, or of surfels' own caches.
     std::vector<glm::vec4> lightmap;
 
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid

@@ -112,10 +112,11 @@ TEST(BuriedCaches, CostProbesAlone) {
     const TraceScene trace(scene);
     const PlacedCaches p = placed(trace, 8);
     const SurfelSet set = placeSurfels(scene, scene.bake.surfels);
+    const OwnerTables owners(scene, set);
     GatherHits hits;
     const auto report =
-        traceHits({trace, set, p.caches, p.points, Linker::Gather, 256, hashMeshes(scene)}, {},
-                  nullptr, hits);
+        traceHits({trace, set, owners, p.caches, p.points, Linker::Gather, 256, hashMeshes(scene)},
+                  {}, nullptr, hits);
     ASSERT_TRUE(report);
     // Cells are 0.5 m wide: 4 x 4 x 4 lie in the block. No texel does.
     std::uint32_t leftOut = 0;

@@ -46,8 +46,10 @@ struct Fixture {
             charts.push_back(buildCharts(m));
         const Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
         caches = placeCaches(scene, atlas, glm::uvec3(2), gridBoundsOf(scene), points);
-        EXPECT_TRUE(traceHits({trace, set, caches, points, Linker::Gather, 256, hashMeshes(scene)},
-                              {}, nullptr, hits));
+        const OwnerTables owners(scene, set);
+        EXPECT_TRUE(
+            traceHits({trace, set, owners, caches, points, Linker::Gather, 256, hashMeshes(scene)},
+                      {}, nullptr, hits));
         const std::vector<float> seen = seenByCaches(set.surfels, hits, points, caches, tree);
         weighBySight(seen, tree);
         training = trainingLight(scene, set.surfels, tree, seen,

@@ -3,6 +3,7 @@
 #include "engine/bake/atlas_stage.h"
 #include "engine/bake/bake.h"
 #include "engine/bake/input_hash.h"
+#include "engine/bake/seen_patches.h"
 #include "engine/bake/stage_store.h"
 #include "engine/bake/training_light.h"
 #include "engine/core/parallel.h"
@@ -67,11 +68,18 @@ Bake baked(const Scene& scene, StageStore* store = nullptr) {
     return result ? std::move(*result) : Bake{};
 }
 
-/// Rays that look which points of the texels are open; anew whenever anything moves.
-std::uint64_t probesOf(const Scene& scene) {
+/// Rays that look which points of the texels are open, and where the surfels' patches are seen;
+/// anew whenever anything moves.
+std::uint64_t looksOf(const Scene& scene) {
+    const TraceScene trace(scene);
     std::uint64_t rays = 0;
-    EXPECT_TRUE(atlasStage(TraceScene(scene), scene, hashMeshes(scene), {}, nullptr, rays));
-    return rays;
+    const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
+    const SurfelSet set = placeSurfels(scene, scene.bake.surfels);
+    CachePoints points;
+    const Caches caches = placeCaches(scene, *atlas, glm::uvec3(0), gridBoundsOf(scene), points);
+    return rays + findSeenPatches(trace, set, OwnerTables(scene, set), atlas->layout, caches,
+                                  points, scene.bake.rays / 16, {})
+                      .rays;
 }
 
 std::string notesOf(const Bake& bake) {
@@ -104,7 +112,7 @@ TEST(Stages, OtherRaysTraceEverything) {
     scene.bake.rays = 130;
     const Bake more = baked(scene, &store);
     const Bake full = baked(scene);
-    EXPECT_EQ(more.counts.rays, full.counts.rays - probesOf(scene));
+    EXPECT_EQ(more.counts.rays, full.counts.rays - looksOf(scene));
     EXPECT_EQ(more.hash(), full.hash());
 }
 
@@ -124,8 +132,8 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
             const Bake moved = baked(room(blocks), &store);
             const Bake full = baked(room(blocks));
             EXPECT_EQ(moved.hash(), full.hash());
-            const std::uint64_t probes = probesOf(room(blocks));
-            EXPECT_LT(moved.counts.rays - probes, (full.counts.rays - probes) / 2);
+            const std::uint64_t looks = looksOf(room(blocks));
+            EXPECT_LT(moved.counts.rays - looks, (full.counts.rays - looks) / 2);
             EXPECT_NE(notesOf(moved).find("1 instance moved: "), std::string::npos)
                 << notesOf(moved);
         }
@@ -209,9 +217,10 @@ TEST(Stages, TrainingShadowsAreTracedAgainOnlyNearWhatMoved) {
         const auto atlas = atlasStage(trace, scene, meshes, {}, &store, rays);
         CachePoints points;
         Caches caches = placeCaches(scene, *atlas, glm::uvec3(0), gridBoundsOf(scene), points);
+        const OwnerTables owners(scene, set);
         GatherHits hits;
-        return traceHits({trace, set, caches, points, Linker::Gather, 128, meshes}, {}, &store,
-                         hits);
+        return traceHits({trace, set, owners, caches, points, Linker::Gather, 128, meshes}, {},
+                         &store, hits);
     };
     SurfelSet was, is;
     ASSERT_TRUE(traced(before, was));
