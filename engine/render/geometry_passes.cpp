@@ -36,8 +36,8 @@ const std::vector<VkVertexInputAttributeDescription> kAttributes = {
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, color)},
     {6, 2, VK_FORMAT_R32G32_SFLOAT, 0}};
 
-// Binds what the variant reads and draws one instance.
-void drawInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& mesh,
+// Binds what the variant reads to draw one instance.
+void bindInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& mesh,
                   const GpuInstance& instance, const glm::mat4& toClip, std::uint32_t flags,
                   std::uint32_t bindings) {
     GpuDraw draw{};
@@ -54,12 +54,36 @@ void drawInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& m
     const std::array<VkDeviceSize, 3> offsets{};
     vkCmdBindVertexBuffers(cmd, 0, bindings, buffers.data(), offsets.data());
     vkCmdBindIndexBuffer(cmd, mesh.indices.handle, 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
 }
 
 float distanceTo(const Bounds& b, glm::vec3 p) {
     const glm::vec3 nearest = glm::clamp(p, b.lower, b.upper);
     return glm::length(nearest - p);
+}
+
+bool isNear(const Bounds& bounds, const DepthView& view) {
+    return distanceTo(bounds, view.eye) <= view.reach;
+}
+
+// Of what is bound, the triangles in chunks that `view` may show, neighbours together.
+void drawChunks(VkCommandBuffer cmd, const GpuMesh& mesh, const glm::mat4& toWorld,
+                const DepthView& view) {
+    const glm::mat4 toClip = view.toClip * toWorld;
+    constexpr std::uint32_t step = 3 * kChunkTriangles;
+    std::uint32_t begin = 0, end = 0; // indices not yet drawn
+    for (std::size_t i = 0; i < mesh.chunks.size(); ++i) {
+        if (!mayBeVisible(mesh.chunks[i], toClip) ||
+            !isNear(transformBounds(mesh.chunks[i], toWorld), view))
+            continue;
+        const auto first = std::uint32_t(i) * step;
+        if (first != end && end > begin)
+            vkCmdDrawIndexed(cmd, end - begin, 1, begin, 0, 0);
+        if (first != end)
+            begin = first;
+        end = std::min(first + step, mesh.indexCount);
+    }
+    if (end > begin)
+        vkCmdDrawIndexed(cmd, end - begin, 1, begin, 0, 0);
 }
 
 } // namespace
@@ -122,7 +146,7 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
     VkPipeline bound = VK_NULL_HANDLE;
     for (const GpuInstance& instance : scene.instances) {
         const GpuMesh& mesh = scene.meshes[instance.mesh];
-        if (mesh.indexCount == 0 || distanceTo(instance.bounds, view.eye) > view.reach ||
+        if (mesh.indexCount == 0 || !isNear(instance.bounds, view) ||
             !mayBeVisible(instance.bounds, view.toClip))
             continue;
         const std::uint32_t all = materials.features[instance.material];
@@ -135,7 +159,8 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
         bound = pipeline.handle;
         if (features)
             materials.bind(cmd, m_layout.handle, instance.material, slot);
-        drawInstance(cmd, m_layout.handle, mesh, instance, view.toClip, 0, features ? 2 : 1);
+        bindInstance(cmd, m_layout.handle, mesh, instance, view.toClip, 0, features ? 2 : 1);
+        drawChunks(cmd, mesh, instance.toWorld, view);
     }
 }
 
@@ -207,8 +232,9 @@ void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
         materials.bind(cmd, m_layout.handle, instance.material, view.slot);
         const std::uint32_t flags =
             (bothSides ? DRAW_DOUBLE_SIDED : 0u) | (instance.mirrored ? DRAW_MIRRORED : 0u);
-        drawInstance(cmd, m_layout.handle, mesh, instance, view.toClip, flags,
+        bindInstance(cmd, m_layout.handle, mesh, instance, view.toClip, flags,
                      features & FEATURE_LIGHTMAP ? 3 : 2);
+        vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
     }
 }
 

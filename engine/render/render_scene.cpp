@@ -57,6 +57,25 @@ static std::vector<VertexAttributes> gatherAttributes(const MeshSource& s) {
     return out;
 }
 
+static Bounds emptyBounds() {
+    return {glm::vec3(std::numeric_limits<float>::max()),
+            glm::vec3(std::numeric_limits<float>::lowest())};
+}
+
+static void extend(Bounds& bounds, glm::vec3 p) {
+    bounds.lower = glm::min(bounds.lower, p);
+    bounds.upper = glm::max(bounds.upper, p);
+}
+
+static std::vector<Bounds> chunkBounds(const std::vector<glm::vec3>& positions,
+                                       const std::vector<std::uint32_t>& indices) {
+    constexpr std::size_t step = 3 * kChunkTriangles;
+    std::vector<Bounds> chunks((indices.size() + step - 1) / step, emptyBounds());
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        extend(chunks[i / step], positions[indices[i]]);
+    return chunks;
+}
+
 static GpuMesh uploadMesh(gpu::Uploader& uploader, const MeshSource& s) {
     GpuMesh out;
     out.vertexCount = std::uint32_t(s.vertexCount());
@@ -65,13 +84,12 @@ static GpuMesh uploadMesh(gpu::Uploader& uploader, const MeshSource& s) {
     if (out.indexCount == 0 || out.vertexCount == 0)
         return out;
     std::vector<glm::vec3> positions(out.vertexCount);
-    out.bounds = {glm::vec3(std::numeric_limits<float>::max()),
-                  glm::vec3(std::numeric_limits<float>::lowest())};
+    out.bounds = emptyBounds();
     for (std::size_t k = 0; k < positions.size(); ++k) {
         positions[k] = s.mesh.positions[s.source(k)];
-        out.bounds.lower = glm::min(out.bounds.lower, positions[k]);
-        out.bounds.upper = glm::max(out.bounds.upper, positions[k]);
+        extend(out.bounds, positions[k]);
     }
+    out.chunks = chunkBounds(positions, s.indices());
     out.positions =
         uploader.buffer(bytesOf(positions), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "positions");
     out.attributes = uploader.buffer(bytesOf(gatherAttributes(s)),

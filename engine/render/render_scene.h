@@ -20,6 +20,9 @@ struct VertexAttributes {
 };
 static_assert(sizeof(VertexAttributes) == 60);
 
+/// Triangles of a mesh that are culled together where shadow maps look another way.
+constexpr std::uint32_t kChunkTriangles = 256;
+
 /// A mesh on the GPU, its vertices cut along charts where the layout says so.
 struct GpuMesh {
     gpu::Buffer positions;  ///< vec3
@@ -28,7 +31,8 @@ struct GpuMesh {
     std::uint32_t indexCount = 0;
     std::uint32_t vertexCount = 0;
     bool tangents = false;
-    Bounds bounds; ///< object space
+    Bounds bounds;              ///< object space
+    std::vector<Bounds> chunks; ///< of each kChunkTriangles triangles; object space
 };
 
 struct GpuInstance {

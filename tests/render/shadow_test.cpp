@@ -124,6 +124,53 @@ TEST_F(ViewportShadows, AgreeWithTracedRaysButForTheirEdges) {
     }
 }
 
+/// Plates of 0.6 m, a metre apart, from the origin to (8, 0, 8): 3200 triangles in one mesh, rows
+/// from the near half and the far one in turn.
+Mesh plates() {
+    std::vector<glm::vec3> corners;
+    const auto square = [&](glm::vec3 o, float size) {
+        const glm::vec3 x(size, 0, 0), z(0, 0, size);
+        corners.insert(corners.end(), {o, o + z, o + x, o + x, o + z, o + x + z});
+    };
+    for (int row = 0; row < 8; ++row)
+        for (int plate = 0; plate < 8; ++plate)
+            for (int k = 0; k < 25; ++k)
+                square({float(plate) + 0.12f * float(k % 5), 0,
+                        float(4 * (row % 2) + row / 2) + 0.12f * float(k / 5)},
+                       0.12f);
+    return simple::flatShaded(corners, 0);
+}
+
+TEST_F(ViewportShadows, OfAMeshOfManyTrianglesAgreeWithTracedRays) {
+    simple::SceneBuilder b = plane();
+    b.add(plates(), glm::translate(glm::mat4(1), glm::vec3(-3.8f, 1, -3.8f)));
+    options.camera.eye = {3, 4, 5};
+    options.width = 96;
+    options.height = 64;
+    std::vector<Light> lights = {lightOf(LightKind::Point, {0.5f, 2, -0.5f}, {}, 30),
+                                 lightOf(LightKind::Point, {-2, 1.5f, -2}, {}, 30),
+                                 lightOf(LightKind::Spot, {3, 3, 3}, {-1, -1, -1}, 60),
+                                 lightOf(LightKind::Directional, {}, {0.3f, -1, 0.2f}, 3)};
+    lights[1].range = lights[2].range = 4;
+    for (const Light& light : lights) {
+        b.scene.lights = {light};
+        const Scene scene = b.build();
+        const TraceScene trace(scene);
+        const ImageF image = draw(scene, View::Direct);
+        int wrong = 0, lit = 0;
+        for (std::uint32_t y = 0; y < options.height; ++y)
+            for (std::uint32_t x = 0; x < options.width; ++x) {
+                const glm::vec3 expected = tracedDirect(trace, options, x, y);
+                lit += expected.g > 0;
+                wrong += glm::length(pixel(image, x, y) - expected) >
+                         0.05f * glm::length(expected) + 1e-4f;
+            }
+        EXPECT_GT(lit, 200);
+        // Pixels on the edges of shadows.
+        EXPECT_LE(wrong, lit * 4 / 100) << int(light.kind) << ", range " << light.range;
+    }
+}
+
 TEST_F(ViewportShadows, OfARectangleAreSoftAsTracedOnes) {
     simple::SceneBuilder b = planeAndRoof();
     b.add(simple::box({1.5f, 0, -1}, {2.5f, 2, 0.5f}, false));
