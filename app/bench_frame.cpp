@@ -24,6 +24,7 @@ struct FrameBench {
     std::vector<std::string> caches = {"seen"};   ///< "all", "seen"
     std::uint32_t bounces = 1;                    ///< a frame
     int runs = 15;
+    bool coarse = false; ///< shadow maps, as the editor has them while things move
     bool json = false;
 };
 
@@ -107,6 +108,7 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
     row.update(settingsOf(baked));
     row.update({{"lights", scene.lights.size()},
                 {"lights_left_out", stats.lightsLeftOut},
+                {"coarse_shadows", o.coarse},
                 {"bounces", o.bounces},
                 {"caches_lit", frame.seen ? "seen" : "all"},
                 {"caches_unseen", frames.back().cachesUnseen},
@@ -168,6 +170,7 @@ Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Dev
     if (caches == "seen")
         frame.seen = seenCaches(cacheFootprints(lit, *baked.bake), *camera,
                                 float(o.camera.width) / float(o.camera.height));
+    frame.viewport.setCoarseShadows(o.coarse);
     frame.viewport.setScene(lit, {baked.bake, &baked.bake->lightmap});
     std::vector<FrameTimes> frames;
     const std::vector<Light> standing = lit.lights;
@@ -228,6 +231,8 @@ void addFrameBench(CLI::App& bench, Run& run) {
     command->add_option("--device", o->device, "part of a Vulkan device's name");
     command->add_option("--runs", o->runs, "frames, of which the median is printed")
         ->check(CLI::Range(9, 100000));
+    command->add_flag("--coarse-shadows", o->coarse,
+                      "half as many texels across, as in the editor while things move");
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return runFrameBench(*o); }; });
 }

@@ -23,6 +23,7 @@ struct PictureRequest {
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
     std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
     ViewportOptions options;
+    bool moving = false; ///< shadow maps that change may be coarse
     OverlayOptions overlay;
     std::shared_ptr<const Bake> bake;        ///< that the overlay shows; null: there is no overlay
     std::shared_ptr<const Scene> bakedScene; ///< that `bake` was made from

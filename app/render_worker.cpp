@@ -78,7 +78,9 @@ void RenderWorker::measure(const PictureRequest& request) {
 
 // For as long as the last picture took: half of the time goes to the light, half to showing it.
 void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>& hurry) {
-    if (m_litOf != request.scene) {
+    const bool finer = m_litMoving && !request.moving;
+    m_litMoving = request.moving;
+    if (m_litOf != request.scene || finer) {
         m_litOf = request.scene;
         m_litScene =
             sameStaticGeometry(*request.lit.scene, *request.scene)
@@ -162,6 +164,7 @@ Image RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry)
     takeScene(request);
     measure(request);
     request.measure = nullptr;
+    viewport.setCoarseShadows(request.moving);
     const bool here = request.relight && request.lit.bake;
     if (here)
         makeRelighter(request);

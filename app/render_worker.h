@@ -42,6 +42,7 @@ private:
     void makeOverlay(const PictureRequest& request);
 
     std::unique_ptr<ViewportRelighter> m_relighter; ///< of shown.lit, while it is needed
+    bool m_litMoving = false;                       ///< by shadow maps that may be coarse
     bool m_ownField = false;                        ///< the viewport shows the relighter's
     std::shared_ptr<const Scene> m_litOf;           ///< that `m_litScene` was made of
     std::shared_ptr<const Scene> m_litScene;        ///< as the bake can be lit with

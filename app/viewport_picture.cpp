@@ -114,8 +114,8 @@ void ViewportPicture::update(Session& session) {
                                 .height = size.y,
                                 .tonemap = view.tonemap,
                                 .exposureEv = view.exposureEv},
-                shown.overlay, shown.bake, state.overlay.scene, shown.light, session.baked(),
-                shown.relight, measure ? state.trace : nullptr});
+                m_reduced, shown.overlay, shown.bake, state.overlay.scene, shown.light,
+                session.baked(), shown.relight, measure ? state.trace : nullptr});
     m_drawn = m_job.result();
     if (shown.relight)
         state.relight = m_drawn.relight;

@@ -82,45 +82,52 @@ ShadowMaps::Groups ShadowMaps::wantedGroups(const std::vector<Light>& lights) {
     return wanted;
 }
 
-bool ShadowMaps::place(const ShadowKey& key, Group& group, const Bounds& bounds) {
-    const bool large = isLarge(key);
-    const std::uint32_t size = ShadowTiles::smallSize(m_tiles.level()) * (large ? 2 : 1);
-    group.views = shadowViews(key, bounds, size);
+bool ShadowMaps::place(const ShadowKey& key, Group& group) {
+    const std::uint32_t count = shadowViewCount(key);
     group.places.clear();
     group.drawn = false;
-    for (ShadowView& v : group.views) {
-        const auto at = m_tiles.take(large);
+    while (group.places.size() < count) {
+        const auto at = m_tiles.take(isLarge(key));
         if (!at)
             return false;
         group.places.push_back(*at);
-        v.tile = m_tiles.tile(*at, large);
-        const float whole = float(ShadowTiles::kLayerSize);
-        const glm::vec2 offset = glm::vec2(float(v.tile.x), float(v.tile.y)) / whole;
-        const float scale = 0.5f * float(v.tile.size) / whole;
-        const glm::mat4 toTile = glm::translate(glm::mat4(1), glm::vec3(offset + scale, 0)) *
-                                 glm::scale(glm::mat4(1), glm::vec3(scale, scale, 1));
-        v.gpu.toAtlas = toTile * v.toClip;
-        v.gpu.layer = v.tile.layer;
     }
     return true;
 }
 
 // Groups without a place get one; if that fails, because small tiles lie where a large one must,
 // all are placed anew, large ones first.
-void ShadowMaps::placeAll(const Bounds& bounds) {
+void ShadowMaps::placeAll() {
     static_assert(LightKind::Directional == LightKind(0), "first in the order of keys");
     for (auto& [key, group] : m_groups) {
-        if (!group.views.empty() || place(key, group, bounds))
+        if (!group.places.empty() || place(key, group))
             continue;
         m_tiles.reset(m_tiles.level());
         for (auto& [k, g] : m_groups)
-            place(k, g, bounds);
+            place(k, g);
         return;
     }
 }
 
+// Coarse views are drawn into the corner of their tiles.
+void ShadowMaps::makeViews(const ShadowKey& key, Group& group, const Bounds& bounds) {
+    const std::uint32_t size = m_tiles.tile(group.places[0], isLarge(key)).size >> group.coarse;
+    group.views = shadowViews(key, bounds, size);
+    for (std::size_t i = 0; i < group.views.size(); ++i) {
+        ShadowView& v = group.views[i];
+        v.tile = m_tiles.tile(group.places[i], isLarge(key));
+        v.tile.size = size;
+        const float whole = float(ShadowTiles::kLayerSize), scale = 0.5f * float(size) / whole;
+        const glm::vec2 offset = glm::vec2(float(v.tile.x), float(v.tile.y)) / whole;
+        const glm::mat4 toTile = glm::translate(glm::mat4(1), glm::vec3(offset + scale, 0)) *
+                                 glm::scale(glm::mat4(1), glm::vec3(scale, scale, 1));
+        v.gpu.toAtlas = toTile * v.toClip;
+        v.gpu.layer = v.tile.layer;
+    }
+}
+
 std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, const Bounds& bounds,
-                                           std::uint64_t sceneVersion) {
+                                           std::uint64_t sceneVersion, bool coarse) {
     if (sceneVersion != m_sceneVersion) {
         m_groups.clear();
         m_tiles.reset(m_tiles.level());
@@ -142,11 +149,16 @@ std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, con
             m_tiles.free(at, isLarge(key));
     }
     m_groups = std::move(wanted);
-    placeAll(bounds);
+    placeAll();
 
     std::uint32_t layers = 0, first = 0;
     std::map<ShadowKey, ShadowSlot, ShadowKeyOrder> slotOf;
-    for (const auto& [key, group] : m_groups) {
+    for (auto& [key, group] : m_groups) {
+        if (!group.drawn || (group.coarse && !coarse)) {
+            group.drawn = false;
+            group.coarse = coarse;
+            makeViews(key, group, bounds);
+        }
         slotOf[key] = {std::uint32_t(group.views.size()), first};
         first += std::uint32_t(group.views.size());
         for (const ShadowView& v : group.views)
@@ -255,6 +267,7 @@ std::uint32_t ShadowMaps::record(VkCommandBuffer cmd, const DrawCasters& draw) {
     gpu::imageBarrier(cmd, m_atlas.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
                       gpu::kFragmentRead);
     m_atlasFresh = false;
+    ++drawings;
     return drawn;
 }
 

@@ -62,9 +62,11 @@ public:
     explicit ShadowMaps(gpu::Device& device);
 
     /// Finds or makes a place for each of `lights`; all of them shine. `bounds` holds every caster.
-    /// Slots of lights that found no room, the last, have count 0.
+    /// Slots of lights that found no room, the last, have count 0. `coarse`: maps that are out of
+    /// date get half as many texels across; maps are out of date too that have so few, unless
+    /// `coarse`.
     std::vector<ShadowSlot> assign(const std::vector<Light>& lights, const Bounds& bounds,
-                                   std::uint64_t sceneVersion);
+                                   std::uint64_t sceneVersion, bool coarse = false);
 
     /// Draws the maps that are out of date. Returns how many lights were drawn.
     std::uint32_t record(VkCommandBuffer cmd, const DrawCasters& draw);
@@ -75,20 +77,22 @@ public:
     std::vector<shared::GpuShadowView> views() const; ///< of the last assign()
     VkImageView atlasView() const { return m_atlas.view; }
     VkSampler sampler() const { return m_sampler.handle; }
-    std::uint32_t leftOut = 0; ///< lights of the last assign() without room
+    std::uint32_t leftOut = 0;  ///< lights of the last assign() without room
+    std::uint64_t drawings = 0; ///< calls of record() so far that drew
 
 private:
     struct Group {
         std::vector<ShadowView> views;
         std::vector<std::uint32_t> places; ///< of the views among m_tiles
         float reach = 0;                   ///< of the light [m]
-        bool drawn = false;
+        bool drawn = false, coarse = false;
     };
     using Groups = std::map<ShadowKey, Group, ShadowKeyOrder>;
 
     Groups wantedGroups(const std::vector<Light>& lights);
-    bool place(const ShadowKey& key, Group& group, const Bounds& bounds);
-    void placeAll(const Bounds& bounds);
+    bool place(const ShadowKey& key, Group& group);
+    void placeAll();
+    void makeViews(const ShadowKey& key, Group& group, const Bounds& bounds);
     void growAtlas(std::uint32_t layers);
     void beginLayer(VkCommandBuffer cmd, std::uint32_t layer,
                     const std::vector<const ShadowView*>& stale);

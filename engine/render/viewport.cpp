@@ -132,11 +132,12 @@ struct Viewport::Impl {
     std::vector<Light> lights; ///< those that shine on anything
     LightTable relightTable;   ///< of the last shadowedLights()
     std::vector<Light> relightLights;
-    std::uint64_t relightScene = 0, relightVersion = 0;
+    std::uint64_t relightScene = 0, relightDrawings = 0, relightVersion = 0;
     gpu::Timestamps relightTimes; ///< of the shadow maps for them
     std::uint64_t relightSubmission = 0;
     std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
     bool warnedLeftOut = false;
+    bool coarseShadows = false;
     Targets targets;
     std::array<FrameSlot, kFrameSlots> slots;
     std::uint64_t frames = 0;
@@ -192,7 +193,7 @@ std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
     if (!needed)
         return std::vector<ShadowSlot>(lights.size());
     std::vector<ShadowSlot> result =
-        shadows.assign(lights, scene.bounds, scene.version + maskVersion);
+        shadows.assign(lights, scene.bounds, scene.version + maskVersion, coarseShadows);
     if (shadows.leftOut > 0 && !warnedLeftOut)
         logWarning(fmt::format("{} lights are dark in the viewport: room for {} shadow maps only",
                                shadows.leftOut, ShadowTiles::room(ShadowTiles::kMaxLevel)));
@@ -442,6 +443,10 @@ void Viewport::setIndirect(std::shared_ptr<const GpuField> field) {
     m_impl->indirect = {.field = std::move(field)};
 }
 
+void Viewport::setCoarseShadows(bool coarse) {
+    m_impl->coarseShadows = coarse;
+}
+
 void Viewport::setOverlay(std::shared_ptr<const OverlayData> overlay) {
     const auto start = Clock::now();
     m_impl->overlay.set(std::move(overlay));
@@ -509,11 +514,6 @@ ShadowedLights Viewport::shadowedLights() {
     v.device.wait(slot.submission);
     v.readTimes(slot);
     slot.timed = true;
-    const std::uint64_t sceneVersion = v.scene.version + v.maskVersion;
-    if (v.relightVersion == 0 || v.relightLights != v.lights || v.relightScene != sceneVersion)
-        ++v.relightVersion;
-    v.relightLights = v.lights;
-    v.relightScene = sceneVersion;
     const std::vector<ShadowSlot> shadows = v.assignShadows(true);
     writeLightTable(v.device, v.relightTable, v.lights, shadows, v.shadows.views());
     v.materials.writeFactors(slotIndex);
@@ -524,6 +524,13 @@ ShadowedLights Viewport::shadowedLights() {
     v.relightTimes.mark(cmd);
     v.relightSubmission = slot.submission = v.device.submit(cmd);
     v.stats.relightShadowMaps = slot.shadowMapsDrawn;
+    const std::uint64_t sceneVersion = v.scene.version + v.maskVersion;
+    if (v.relightVersion == 0 || v.relightLights != v.lights || v.relightScene != sceneVersion ||
+        v.relightDrawings != v.shadows.drawings)
+        ++v.relightVersion;
+    v.relightLights = v.lights;
+    v.relightScene = sceneVersion;
+    v.relightDrawings = v.shadows.drawings;
     return {.lights = v.relightTable.lights.handle,
             .shadowViews = v.relightTable.shadowViews.handle,
             .atlas = v.shadows.atlasView(),

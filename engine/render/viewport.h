@@ -71,6 +71,10 @@ public:
     /// not const; nobody may still read those of the last call.
     ShadowedLights shadowedLights();
 
+    /// Shadow maps that are drawn from now on have half as many texels across, for while things
+    /// move; without it those that have are drawn anew. False at first.
+    void setCoarseShadows(bool coarse);
+
     /// What is drawn over the pictures from now on, which fade to grey beneath it; uploads only if
     /// the pointer is new. Null: nothing, at no cost. The layout is that of setScene.
     void setOverlay(std::shared_ptr<const OverlayData> overlay);

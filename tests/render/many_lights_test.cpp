@@ -140,6 +140,41 @@ TEST_F(ManyLights, OneThatMovesDrawsItsOwnMapsOnly) {
         ASSERT_NEAR(moved[i], fresh[i], 0x1p-12f * largest) << i;
 }
 
+TEST_F(ManyLights, CoarseMapsAreThoseOfHalfTheSizeAndAreDrawnAnewLater) {
+    Scene scene = partedRoom(20);
+    scene.lights.back().kind = LightKind::Directional;
+    const TraceScene trace(scene);
+    const auto bake = baked(trace, scene.bake);
+    const std::vector<float> fine = irradiance(scene, bake);
+    const std::uint64_t fineVersion = viewport->shadowedLights().version;
+    viewport->setCoarseShadows(true);
+    EXPECT_EQ(irradiance(scene, bake), fine) << "those that are drawn are as good";
+    EXPECT_EQ(viewport->shadowedLights().version, fineVersion);
+    scene.lights[3].position.y = 1.5f;
+    irradiance(scene, bake);
+    EXPECT_EQ(viewport->stats().relightShadowMaps, 1U);
+    const std::uint64_t coarseVersion = viewport->shadowedLights().version;
+    EXPECT_GT(coarseVersion, fineVersion);
+    viewport->setCoarseShadows(false);
+    const std::vector<float> rested = irradiance(scene, bake);
+    EXPECT_EQ(viewport->stats().relightShadowMaps, 1U) << "the others are as they were";
+    EXPECT_GT(viewport->shadowedLights().version, coarseVersion) << "to be lit by anew";
+    viewport = std::make_unique<Viewport>(*device);
+    const std::vector<float> fresh = irradiance(scene, bake);
+    const float largest = *std::max_element(fresh.begin(), fresh.end());
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+        ASSERT_NEAR(rested[i], fresh[i], 0x1p-12f * largest) << i;
+
+    render::ShadowMaps maps(*device);
+    maps.assign(scene.lights, scene.bounds, 1, true);
+    const std::vector<shared::GpuShadowView> coarse = maps.views();
+    maps.assign(scene.lights, scene.bounds, 1, false);
+    const std::vector<shared::GpuShadowView> whole = maps.views();
+    ASSERT_EQ(coarse.size(), whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) // twice, and wider by the margin's four texels
+        EXPECT_NEAR(coarse[i].texelSize, 2 * whole[i].texelSize, 0.02f * whole[i].texelSize);
+}
+
 TEST_F(ManyLights, TakeNoMoreMemoryThanTheAtlasHas) {
     const std::uint64_t most = 512ull << 20;
     std::uint64_t before = viewport->stats().gpuBytes;
