@@ -13,8 +13,7 @@
 
 namespace limn {
 
-void parallelRanges(std::size_t count, std::size_t grain,
-                    const std::function<void(std::size_t, std::size_t)>& body) {
+void parallelRanges(std::size_t count, std::size_t grain, RangeBody body) {
     if (count == 0)
         return;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
@@ -25,7 +24,7 @@ void parallelRanges(std::size_t count, std::size_t grain,
 }
 
 bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progress,
-                    const char* stage, const std::function<void(std::size_t, std::size_t)>& body) {
+                    const char* stage, RangeBody body) {
     progress.at(stage, 0);
     std::atomic<std::size_t> done = 0;
     std::atomic<bool> stopped = false;

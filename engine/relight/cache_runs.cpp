@@ -2,7 +2,6 @@
 #include "engine/relight/cache_runs.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace limn {
 
@@ -13,8 +12,8 @@ CacheRuns runsOf(std::uint32_t begin, std::uint32_t end) {
     return runs;
 }
 
-CacheRuns runsOf(const CacheFlags& flags) {
-    CacheRuns runs;
+void setRuns(const CacheFlags& flags, CacheRuns& runs) {
+    runs.clear();
     for (std::uint32_t c = 0; c < flags.size(); ++c) {
         if (flags[c] == 0)
             continue;
@@ -22,7 +21,6 @@ CacheRuns runsOf(const CacheFlags& flags) {
             runs.push_back({c, c});
         ++runs.back().end;
     }
-    return runs;
 }
 
 CacheFlags cachesRead(const Surfels& surfels, const Caches& caches) {
@@ -35,16 +33,19 @@ CacheFlags cachesRead(const Surfels& surfels, const Caches& caches) {
     return read;
 }
 
-CacheFlags cachesMissing(const Caches& caches, const CacheFlags& current, const CacheFlags* seen) {
-    CacheFlags flags = seen != nullptr ? *seen : CacheFlags(current.size(), 1);
-    addFillSources(caches, flags);
-    return without(std::move(flags), current);
+void setMissing(const Caches& caches, const CacheFlags& current, const CacheFlags* seen,
+                CacheFlags& missing) {
+    if (seen != nullptr)
+        missing = *seen;
+    else
+        missing.assign(current.size(), 1);
+    addFillSources(caches, missing);
+    removeFrom(missing, current);
 }
 
-CacheFlags without(CacheFlags flags, const CacheFlags& other) {
+void removeFrom(CacheFlags& flags, const CacheFlags& other) {
     for (std::size_t c = 0; c < flags.size(); ++c)
         flags[c] &= other[c] == 0;
-    return flags;
 }
 
 void addFillSources(const Caches& caches, CacheFlags& flags) {

@@ -24,18 +24,19 @@ inline constexpr std::uint32_t kLongestRun = 64;
 /// [begin, end) in runs.
 CacheRuns runsOf(std::uint32_t begin, std::uint32_t end);
 
-/// The caches that `flags` has, in runs.
-CacheRuns runsOf(const CacheFlags& flags);
+/// Sets `runs` to the caches that `flags` has.
+void setRuns(const CacheFlags& flags, CacheRuns& runs);
 
 /// The lightmap caches that some surfel reads with a weight above 0. Bounces need no others.
 CacheFlags cachesRead(const Surfels& surfels, const Caches& caches);
 
-/// Those of `seen`, or all where it is null, with what fills invalid ones among them, that
-/// `current` has not.
-CacheFlags cachesMissing(const Caches& caches, const CacheFlags& current, const CacheFlags* seen);
+/// Sets `missing` to those of `seen`, or all where it is null, with what fills invalid ones among
+/// them, that `current` has not.
+void setMissing(const Caches& caches, const CacheFlags& current, const CacheFlags* seen,
+                CacheFlags& missing);
 
-/// Those of `flags` that `other` has not.
-CacheFlags without(CacheFlags flags, const CacheFlags& other);
+/// Takes those of `other` away from `flags`.
+void removeFrom(CacheFlags& flags, const CacheFlags& other);
 
 /// Adds to `flags` the valid caches that stand in for invalid ones among them.
 void addFillSources(const Caches& caches, CacheFlags& flags);

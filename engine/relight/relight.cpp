@@ -73,10 +73,12 @@ struct Relighter::State {
     bool gridLit = false;     ///< the field has a grid
     bool gridMissing = false; ///< and has it since this call
 
-    CacheRuns gridRuns;  ///< the grid's caches
-    CacheFlags read;     ///< by surfels
-    CacheRuns readRuns;  ///< the same
-    CacheFlags current;  ///< the field has the light of the last pull there
+    CacheRuns gridRuns;       ///< the grid's caches
+    CacheFlags read;          ///< by surfels
+    CacheRuns readRuns;       ///< the same
+    CacheFlags current;       ///< the field has the light of the last pull there
+    CacheFlags missing, rest; ///< working space
+    CacheRuns someRuns;       ///< the same
     bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
 
     Dimming dimming;
@@ -107,7 +109,7 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     for (std::size_t c = 0; c < s.everyLink.size(); ++c)
         s.skyLinks += s.everyLink[c] - s.beforeSky[c];
     s.read = cachesRead(s.bake->surfels, s.bake->caches);
-    s.readRuns = runsOf(s.read);
+    setRuns(s.read, s.readRuns);
     s.gridRuns = runsOf(s.bake->caches.lightmapCount, std::uint32_t(s.bake->caches.size()));
     s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
@@ -214,7 +216,10 @@ void Relighter::State::keepInner(const CacheFlags& which) {
 
 /// Lights what surfels read of the last pull and is not there yet.
 void Relighter::State::lightRest() {
-    light(innerBands, runsOf(without(read, current)), inner());
+    rest = read;
+    removeFrom(rest, current);
+    setRuns(rest, someRuns);
+    light(innerBands, someRuns, inner());
     unread = false;
 }
 
@@ -225,15 +230,15 @@ void Relighter::State::readInner() {
 /// Lights what the field is to have, in all bands. `newLight`: surfels have not read that of the
 /// last pull.
 void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
-    const CacheRuns runs = runsOf(which);
-    light(bounceBands, runs, sh);
+    setRuns(which, someRuns);
+    light(bounceBands, someRuns, sh);
     for (std::size_t c = 0; c < which.size(); ++c)
         current[c] |= which[c];
     unread |= newLight;
     if (unread)
         keepInner(which);
     if (finalBands.chroma < bounceBands.chroma)
-        dropChroma(finalBands, runs, sh);
+        dropChroma(finalBands, someRuns, sh);
 }
 
 /// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.
@@ -350,7 +355,8 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         s.readInner();
         stats.surfelReadMs += timer.lap();
     }
-    const CacheFlags lit = cachesMissing(s.bake->caches, s.current, seen);
+    CacheFlags& lit = s.missing;
+    setMissing(s.bake->caches, s.current, seen, lit);
     stats.converged = s.convergence.reached();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {

@@ -61,9 +61,11 @@ struct GpuRelighter::State {
     /// those that are lit besides.
     enum List { kRead, kLit, kRest };
     std::array<std::vector<std::uint32_t>, RelightBuffers::kCacheLists> lists; ///< as sent
+    std::vector<std::uint32_t> order;                                          ///< working space
     CacheFlags read;
     CacheFlags current;       ///< the field has the light of the last pull there
     bool unread = false;      ///< surfels have not read that light yet
+    CacheFlags lit, unlit;    ///< by this call; of those, to be lit yet
     bool gridLit = false;     ///< the field has a grid
     bool gridMissing = false; ///< and has it since this call
 
@@ -76,8 +78,7 @@ struct GpuRelighter::State {
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     bool dim(const Scene* scene, GpuRelightStats& stats);
     double bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
-    void writeField(const CacheFlags& lit, const CacheFlags& unlit, bool grid,
-                    GpuRelightStats& stats);
+    void writeField(bool grid, GpuRelightStats& stats);
     std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
 };
 
@@ -223,7 +224,7 @@ CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
     const std::uint32_t lightmap = bake->caches.lightmapCount;
     const auto begin =
         std::uint32_t(bake->caches.size()) - lightmap + std::uint32_t(which) * lightmap;
-    std::vector<std::uint32_t> order;
+    order.clear();
     for (std::uint32_t c = 0; c < lightmap; ++c)
         if (flags[c] != 0)
             order.push_back(c);
@@ -234,13 +235,15 @@ CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
     gpu::updateBuffer(device, cmd, buffers.order, begin * sizeof order[0],
                       std::as_bytes(std::span(order)));
     device.submit(cmd);
-    lists[which] = std::move(order);
+    std::swap(lists[which], order);
     return result;
 }
 
 /// What was put off.
 void GpuRelighter::State::lightRest() {
-    const CacheList rest = list(kRest, without(read, current));
+    unlit = read;
+    removeFrom(unlit, current);
+    const CacheList rest = list(kRest, unlit);
     device.immediate("rest of the last bounce", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);
         steps->recordLightmapCaches(cmd, rest);
@@ -279,9 +282,8 @@ double GpuRelighter::State::bounce(CacheList caches, bool surfelsRead, GpuReligh
     return total > 0 ? change / total : (change > 0 ? 1 : 0);
 }
 
-/// Writes the caches `lit`, of which `unlit` have yet to be lit, and the grid.
-void GpuRelighter::State::writeField(const CacheFlags& lit, const CacheFlags& unlit, bool grid,
-                                     GpuRelightStats& stats) {
+/// Writes what is to be lit, and the grid.
+void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
     const CacheList toWrite = list(kLit, lit), toLight = list(kRest, unlit);
     device.immediate("field", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after lists were sent
@@ -338,22 +340,24 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
             s.lightRest();
         s.current.assign(s.current.size(), 0);
     }
-    const CacheFlags lit = cachesMissing(caches, s.current, seen);
-    CacheFlags unlit = lit;
+    CacheFlags& lit = s.lit;
+    setMissing(caches, s.current, seen, lit);
+    s.unlit = lit;
     const bool mayPutOff = seen != nullptr && bounces > 1 && !s.steps->dropsChroma();
     for (std::uint32_t k = 0; bouncing && k < bounces && !s.convergence.reached(); ++k) {
         s.unread = mayPutOff && k + 1 == bounces;
         const CacheFlags& now = s.unread ? lit : s.read;
         s.convergence.addRound(
             s.bounce(s.list(s.unread ? State::kLit : State::kRead, now), !s.unread, stats));
-        unlit = without(lit, now);
+        s.unlit = lit;
+        removeFrom(s.unlit, now);
         if (progress.cancelled())
             break;
     }
     stats.converged = s.convergence.reached();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {
-        s.writeField(lit, unlit, s.gridLit && (bouncing || s.gridMissing), stats);
+        s.writeField(s.gridLit && (bouncing || s.gridMissing), stats);
         for (std::size_t c = 0; c < lit.size(); ++c)
             s.current[c] |= lit[c];
     }

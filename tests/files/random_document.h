@@ -49,7 +49,8 @@ private:
     float notNegative() { return std::abs(number()); }
     float unit() { return float(m_random() & 0xffffff) / float(0xffffff); }
     glm::vec3 vec3() { return {number(), number(), number()}; }
-    glm::vec3 color() { return {notNegative(), notNegative(), notNegative()}; }
+    float light() { return std::min(notNegative(), kMostLight); }
+    glm::vec3 color() { return {light(), light(), light()}; }
     glm::vec3 direction() {
         glm::vec3 d{unit() - 0.5f, unit() - 0.5f, unit() + 0.01f};
         return glm::normalize(d);
@@ -98,7 +99,7 @@ private:
             m.baseColor = {unit(), unit(), unit(), unit()};
             m.metallic = unit();
             m.roughness = unit();
-            m.emission = {notNegative(), notNegative(), notNegative()};
+            m.emission = color();
             m.alphaMode = AlphaMode(below(3));
             m.alphaCutoff = notNegative();
             m.doubleSided = coin();
@@ -117,8 +118,8 @@ private:
             l.enabled = coin();
             l.position = vec3();
             l.direction = direction();
-            l.color = {notNegative(), notNegative(), notNegative()};
-            l.strength = notNegative();
+            l.color = color();
+            l.strength = light();
             l.range = notNegative();
             l.innerAngle = unit() * 0.7f;
             l.outerAngle = 0.71f + unit() * 0.8f;
@@ -136,8 +137,7 @@ private:
             return c;
         }
         case 3:
-            return Sky{SkyKind(below(3)), color(), color(), color(), text(),
-                       notNegative(),     number()};
+            return Sky{SkyKind(below(3)), color(), color(), color(), text(), light(), number()};
         default: {
             BakeSettings b;
             b.surfels = 64 + below(1000000);
