@@ -134,6 +134,7 @@ gpu::Pipeline GeometryPasses::createDepth(std::uint32_t features) {
     }
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
+    desc.dynamicCull = true;
     desc.constants = {0, features};
     desc.name = mask ? "depth, masked" : "depth";
     return gpu::createGraphicsPipeline(m_device, desc);
@@ -143,6 +144,8 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
                                const MaterialSet& materials, const DepthView& view,
                                std::uint32_t slot) {
     constexpr std::uint32_t kUsed = FEATURE_ALPHA_MASK | FEATURE_BASE_COLOR_TEXTURE;
+    vkCmdSetCullMode(cmd, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     VkPipeline bound = VK_NULL_HANDLE;
     for (const GpuInstance& instance : scene.instances) {
         const GpuMesh& mesh = scene.meshes[instance.mesh];
@@ -175,6 +178,39 @@ static void orderByDistance(const RenderScene& scene, const GeometryView& view,
             order.emplace_back(distanceTo(instance.bounds, view.eye), i);
     }
     std::sort(order.begin(), order.end());
+}
+
+static void setCulling(VkCommandBuffer cmd, const GpuInstance& instance, bool bothSides,
+                       const GeometryView& view) {
+    vkCmdSetCullMode(cmd,
+                     view.cullBackFaces && !bothSides ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(cmd, instance.mirrored ? VK_FRONT_FACE_CLOCKWISE
+                                             : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+}
+
+// Depths of a triangle round by 2^-23 of the nearest of them: at 1 cm and 30 m on one, 4e-4 of the
+// far one.
+constexpr float kBehind = 0.998f;
+
+void GeometryPasses::drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scene,
+                                    const MaterialSet& materials, const GeometryView& view) {
+    glm::mat4 toClip = view.toClip;
+    for (int column = 0; column < 4; ++column)
+        toClip[column][2] *= kBehind;
+    orderByDistance(scene, view, m_order);
+    gpu::Pipeline& pipeline = m_depth[0];
+    if (!pipeline)
+        pipeline = createDepth(0);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+    for (const auto& [distance, index] : m_order) {
+        const GpuInstance& instance = scene.instances[index];
+        if (materials.features[instance.material] & FEATURE_ALPHA_MASK)
+            continue;
+        const GpuMesh& mesh = scene.meshes[instance.mesh];
+        setCulling(cmd, instance, materials.doubleSided[instance.material], view);
+        bindInstance(cmd, m_layout.handle, mesh, instance, toClip, 0, 1);
+        vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
+    }
 }
 
 // Only what the view shows: fewer variants, and none that reads a texture for nothing.
@@ -225,10 +261,7 @@ void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         bound = pipeline.handle;
         const bool bothSides = materials.doubleSided[instance.material];
-        vkCmdSetCullMode(cmd, view.cullBackFaces && !bothSides ? VK_CULL_MODE_BACK_BIT
-                                                               : VK_CULL_MODE_NONE);
-        vkCmdSetFrontFace(cmd, instance.mirrored ? VK_FRONT_FACE_CLOCKWISE
-                                                 : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        setCulling(cmd, instance, bothSides, view);
         materials.bind(cmd, m_layout.handle, instance.material, view.slot);
         const std::uint32_t flags =
             (bothSides ? DRAW_DOUBLE_SIDED : 0u) | (instance.mirrored ? DRAW_MIRRORED : 0u);

@@ -53,6 +53,11 @@ public:
     void drawDepth(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                    const DepthView& view, std::uint32_t slot);
 
+    /// What drawShaded() will draw of opaque materials, a little further off, into a bound depth
+    /// attachment: then it shades little that something else hides, and the picture is the same.
+    void drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
+                        const GeometryView& view);
+
     /// Shaded but for direct light, into bound colour and depth attachments, nearest instances
     /// first. Set 0 is bound. Views that show direct light have a second colour attachment: the
     /// surface, for DirectPass.

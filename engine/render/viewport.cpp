@@ -299,8 +299,16 @@ void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
                    VK_ATTACHMENT_LOAD_OP_CLEAR, background),
         attachment(targets.surface.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                    VK_ATTACHMENT_LOAD_OP_CLEAR, none)};
-    const auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                  VK_ATTACHMENT_LOAD_OP_CLEAR, none);
+    auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                            VK_ATTACHMENT_LOAD_OP_CLEAR, none);
+    if (device.softwareRasteriser) { // shading is all of its time
+        beginRendering(cmd, options.width, options.height, {}, &depth);
+        setViewport(cmd, options.width, options.height, true);
+        geometry.drawDepthAhead(cmd, scene, materials, view);
+        vkCmdEndRendering(cmd);
+        gpu::memoryBarrier(cmd, gpu::kDepthWrite, gpu::kDepthWrite);
+        depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    }
     beginRendering(cmd, options.width, options.height,
                    std::span(colors).first(showsDirectLight(options.view) ? 2 : 1), &depth);
     setViewport(cmd, options.width, options.height, true);

@@ -243,6 +243,14 @@ TEST_F(ViewportShadows, HonourAlphaMasks) {
         }
     EXPECT_EQ(shadow, 0);
     EXPECT_NEAR(light, 0.4f, 1e-4f);
+    options.camera = {.eye = {0, 5, 0}, .target = {0, 0, 0}, .fovY = 0.7f};
+    const ImageF above = draw(b.build(), View::Albedo);
+    for (std::uint32_t y = 12; y < 20; ++y)
+        for (std::uint32_t x = 12; x < 20; ++x) {
+            const float roof = planePoint(options, x, y, 1).x;
+            ASSERT_GT(std::abs(roof), 0.01f);
+            EXPECT_NEAR(pixel(above, x, y).r, roof < 0 ? 0.5f : 0.2f, 1e-3f) << "seen through";
+        }
 }
 
 TEST_F(ViewportShadows, AreDrawnOnlyWhenALightOrAnObjectMoved) {
