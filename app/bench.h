@@ -28,9 +28,11 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 struct Column {
     const char* title;
     int width;       ///< negative: flush left, and cut off there
-    const char* key; ///< of a row; "bytes" are shown in MiB
+    const char* key; ///< of a row
     int decimals = 2;
+    double scale = 1; ///< times the number
 };
+inline constexpr double kMiB = 1.0 / (1 << 20);
 void printTitles(std::span<const Column> columns);
 void printRow(std::span<const Column> columns, const Json& row);
 

@@ -98,20 +98,21 @@ Json describe(const std::string& scene, const BakeSettings& s, const Bake& bake,
             {"bytes", bytesOf(bake).total()}};
 }
 
-void printRow(const Json& r) {
-    fmt::print("{:<14.14} {:>7} {:<11} {:<13} {:<11} {:>5} {:>8.4f} {:>8.4f} {:>+7.2f} % {:>8.4f} "
-               "{:>8.4f} {:>6.3f} {:>7.2f} "
-               "{:>6.2f} {:>8.2f}\n",
-               r["name"].get<std::string>(), r["surfels"].get<std::uint32_t>(),
-               r["linker"].get<std::string>(), r["clustering"].get<std::string>(),
-               r["cut"].get<std::string>(), r["links"].get<std::uint32_t>(),
-               r["nrmse"].get<double>(), r["nrmse_without_worst_percent"].get<double>(),
-               100 * r["bias"].get<double>(), r["cut_nrmse"].get<double>(),
-               r["cut_nrmse_without_worst_percent"].get<double>(), r["seam"].get<double>(),
-               r["seconds"].get<double>(), r["cut_seconds"].get<double>(),
-               double(r["bytes"].get<std::uint64_t>()) / (1 << 20));
-    std::fflush(stdout);
-}
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"surfels", 7, "surfels"},
+                               {"linker", -11, "linker"},
+                               {"clustering", -13, "clustering"},
+                               {"cut", -11, "cut"},
+                               {"links", 5, "links"},
+                               {"nRMSE", 8, "nrmse", 4},
+                               {"-1 %", 8, "nrmse_without_worst_percent", 4},
+                               {"bias [%]", 8, "bias", 2, 100},
+                               {"cut only", 8, "cut_nrmse", 4},
+                               {"-1 %", 8, "cut_nrmse_without_worst_percent", 4},
+                               {"seam", 6, "seam", 3},
+                               {"bake [s]", 8, "seconds"},
+                               {"cut [s]", 7, "cut_seconds"},
+                               {"MiB", 8, "bytes", 2, kMiB}};
 
 Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& rows) {
     SceneOptions options = o.common;
@@ -166,7 +167,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
         row["seam"] = measureSeams(scene, baked->lightmap, relighter.field()).relative();
         row["reference_noise"] = reference.noise;
         if (!o.json)
-            printRow(row);
+            printRow(kColumns, row);
         rows.push_back(std::move(row));
     }
     return {};
@@ -175,11 +176,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
 Exit runErrorBench(const ErrorBench& o) {
     const ThreadLimit threads(o.threads);
     if (!o.json)
-        fmt::print(
-            "{:<14} {:>7} {:<11} {:<13} {:<11} {:>5} {:>8} {:>8} {:>9} {:>8} {:>8} {:>6} {:>7} "
-            "{:>6} {:>8}\n",
-            "scene", "surfels", "linker", "clustering", "cut", "links", "nRMSE", "-1 %", "bias",
-            "cut only", "-1 %", "seam", "bake s", "cut s", "MiB");
+        printTitles(kColumns);
     Json rows = Json::array();
     for (const std::string& scene : o.scenes)
         if (const Result<void> measured = measureScene(o, scene, rows); !measured)

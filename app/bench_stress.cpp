@@ -184,16 +184,17 @@ Json describe(const StressBench& o, const BenchBake& baked, const gpu::Device& d
     return row;
 }
 
-void printRow(const Json& r) {
-    const auto mib = [&](const char* key) { return r[key].get<double>() / (1 << 20); };
-    fmt::print("{:<14.14} {:>7} {:>8} {:>8} {:>8} {:>9.1f} {:>9.1f} {:>9.1f} {:>8.1f} {:>9.2f} "
-               "{:>8.2f}\n",
-               r["name"].get<std::string>(), r["frames"].get<std::uint64_t>(),
-               r["messages"].get<std::size_t>(), r["invalid_pixels"].get<std::uint64_t>(),
-               r["invalid_field"].get<std::uint64_t>(), mib("resident_start"), mib("resident_warm"),
-               mib("resident_end"), r["growth_mib"].get<double>(), r["median_ms"].get<double>(),
-               r["p95_ms"].get<double>());
-}
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"frames", 7, "frames"},
+                               {"messages", 8, "messages"},
+                               {"bad px", 8, "invalid_pixels"},
+                               {"bad tx", 8, "invalid_field"},
+                               {"start MiB", 9, "resident_start", 1, kMiB},
+                               {"warm MiB", 9, "resident_warm", 1, kMiB},
+                               {"end MiB", 9, "resident_end", 1, kMiB},
+                               {"growth", 8, "growth_mib", 1},
+                               {"frame ms", 9, "median_ms"},
+                               {"p95", 8, "p95_ms"}};
 
 /// What is wrong with a run; empty: nothing.
 std::string defectOf(const StressBench& o, const StressResult& r,
@@ -216,9 +217,7 @@ Exit runStressBench(const StressBench& o) {
     if (!(*device)->validating)
         return failed("the Vulkan validation layer is missing");
     if (!o.json)
-        fmt::print("{:<14} {:>7} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8}\n", "scene",
-                   "frames", "messages", "bad px", "bad tx", "start MiB", "warm MiB", "end MiB",
-                   "growth", "frame ms", "p95");
+        printTitles(kColumns);
     Json rows = Json::array();
     std::string defect;
     const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
@@ -228,7 +227,7 @@ Exit runStressBench(const StressBench& o) {
         const std::vector<std::string> messages = (*device)->validationMessages();
         rows.push_back(describe(o, baked, **device, *result, messages.size()));
         if (!o.json)
-            printRow(rows.back());
+            printRow(kColumns, rows.back());
         if (defect.empty())
             defect = defectOf(o, *result, messages);
         return {};

@@ -38,9 +38,8 @@ static std::string padded(const std::string& text, int width) {
 static std::string shown(const Json& value, const Column& column) {
     if (value.is_string())
         return value.get<std::string>();
-    const bool bytes = std::string_view(column.key) == "bytes";
-    if (bytes || value.is_number_float())
-        return fmt::format("{:.{}f}", value.get<double>() / (bytes ? 1 << 20 : 1), column.decimals);
+    if (value.is_number_float() || column.scale != 1)
+        return fmt::format("{:.{}f}", value.get<double>() * column.scale, column.decimals);
     return value.dump();
 }
 
