@@ -26,9 +26,8 @@ BakeBytes bytesOf(const Bake& bake, LinkStorage storage, std::uint32_t bands);
 BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std::uint64_t caches);
 
 /// About how many caches a bake of the scene will have, as many of them surfels' own as there may
-/// be. With texelsPerMetre the texels at the
-/// charts' borders are not counted. Cheap unless that is set; then it sums the areas of all
-/// triangles.
+/// be. With texelsPerMetre the texels at the charts' borders are not counted. Cheap unless that is
+/// set; then it sums the areas of all triangles.
 std::uint64_t expectedCaches(const Scene& scene);
 
 } // namespace limn

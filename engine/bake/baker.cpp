@@ -171,7 +171,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.gridBounds = gridBoundsOf(scene);
     result.gridSize = chooseGridSize(scene, atlas.layout, scene.bake);
     CachePoints points;
-    result.caches = placeCaches(scene, atlas, glm::uvec3(0), result.gridBounds, points);
+    result.caches = placeCaches(scene, atlas, points);
     OwnerTables owners(scene, set);
     owners.stopWith(progress);
     if (store)

@@ -62,13 +62,11 @@ void addSurfaceCache(const Scene& scene, const AtlasTexel& texel, Caches& caches
     ++caches.lightmapCount;
 }
 
-Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
-                   const Bounds& gridBounds, CachePoints& points) {
+Caches placeCaches(const Scene& scene, const Atlas& atlas, CachePoints& points) {
     Caches caches;
     points.begin = {0};
     for (const AtlasTexel& t : atlas.texels)
         addSurfaceCache(scene, t, caches, points);
-    addGridCaches(gridSize, gridBounds, caches, points);
     return caches;
 }
 

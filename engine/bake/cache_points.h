@@ -28,10 +28,8 @@ WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t
 /// Of the cache of a texel.
 std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel);
 
-/// The caches of an atlas' texels, then those of the grid: kind, mean position, mean normal and
-/// texel are filled.
-Caches placeCaches(const Scene& scene, const Atlas& atlas, glm::uvec3 gridSize,
-                   const Bounds& gridBounds, CachePoints& points);
+/// The caches of an atlas' texels: kind, mean position, mean normal and texel are filled.
+Caches placeCaches(const Scene& scene, const Atlas& atlas, CachePoints& points);
 
 /// Appends the cache of a texel. Those of the grid come after all of these.
 void addSurfaceCache(const Scene& scene, const AtlasTexel& texel, Caches& caches,

@@ -45,7 +45,8 @@ struct Fixture {
         for (const Mesh& m : scene.assets->meshes)
             charts.push_back(buildCharts(m));
         const Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
-        caches = placeCaches(scene, atlas, glm::uvec3(2), gridBoundsOf(scene), points);
+        caches = placeCaches(scene, atlas, points);
+        addGridCaches(glm::uvec3(2), gridBoundsOf(scene), caches, points);
         const OwnerTables owners(scene, set);
         EXPECT_TRUE(
             traceHits({trace, set, owners, caches, points, Linker::Gather, 256, hashMeshes(scene)},

@@ -44,7 +44,7 @@ struct Prepared {
           owners(trace.scene(), set) {
         std::uint64_t rays = 0;
         atlas = *atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
-        caches = placeCaches(scene, atlas, glm::uvec3(0), gridBoundsOf(scene), points);
+        caches = placeCaches(scene, atlas, points);
         seen = findSeenPatches(trace, set, owners, atlas.layout, caches, points, 32, {});
     }
 };

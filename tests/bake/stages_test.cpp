@@ -76,7 +76,7 @@ std::uint64_t looksOf(const Scene& scene) {
     const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
     const SurfelSet set = placeSurfels(scene, scene.bake.surfels);
     CachePoints points;
-    const Caches caches = placeCaches(scene, *atlas, glm::uvec3(0), gridBoundsOf(scene), points);
+    const Caches caches = placeCaches(scene, *atlas, points);
     return rays + findSeenPatches(trace, set, OwnerTables(scene, set), atlas->layout, caches,
                                   points, scene.bake.rays / 16, {})
                       .rays;
@@ -216,7 +216,7 @@ TEST(Stages, TrainingShadowsAreTracedAgainOnlyNearWhatMoved) {
         std::uint64_t rays = 0;
         const auto atlas = atlasStage(trace, scene, meshes, {}, &store, rays);
         CachePoints points;
-        Caches caches = placeCaches(scene, *atlas, glm::uvec3(0), gridBoundsOf(scene), points);
+        Caches caches = placeCaches(scene, *atlas, points);
         const OwnerTables owners(scene, set);
         GatherHits hits;
         return traceHits({trace, set, owners, caches, points, Linker::Gather, 128, meshes}, {},
