@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -103,7 +104,8 @@ TEST_F(GpuDevice, TimesTheStepsOfACommandBufferWithinTheWallClock) {
     constexpr VkDeviceSize kLarge = 64 << 20;
     const Buffer buffer(*device, {.size = kLarge, .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     gpu::Timestamps times(*device, 2);
-    for (int round = 0; round < 2; ++round) {
+    std::array<double, 2> best = {HUGE_VAL, HUGE_VAL}; // of many: a busy machine stops any of them
+    for (int round = 0; round < 20; ++round) {
         const auto start = std::chrono::steady_clock::now();
         device->immediate("times", [&](VkCommandBuffer cmd) {
             times.begin(cmd);
@@ -115,9 +117,11 @@ TEST_F(GpuDevice, TimesTheStepsOfACommandBufferWithinTheWallClock) {
             std::chrono::steady_clock::now() - start;
         const std::vector<double> ms = times.steps();
         ASSERT_EQ(ms.size(), 2u);
-        EXPECT_GT(ms[1], ms[0]) << "the second writes 64 MiB, the first nothing";
         EXPECT_LE(ms[0] + ms[1], wall.count());
+        for (std::size_t i = 0; i < 2; ++i)
+            best[i] = std::min(best[i], ms[i]);
     }
+    EXPECT_GT(best[1], best[0]) << "the second writes 64 MiB, the first nothing";
 }
 
 TEST_F(GpuDevice, ReadsBackTheTopMipOfAnUploadedImage) {
