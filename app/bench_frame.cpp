@@ -10,6 +10,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 namespace limn {
 
@@ -25,6 +26,7 @@ struct FrameBench {
     std::uint32_t bounces = 1;                    ///< a frame
     int runs = 15;
     bool coarse = false; ///< shadow maps, as the editor has them while things move
+    bool movingCamera = false;
     bool json = false;
 };
 
@@ -34,7 +36,7 @@ struct FrameTimes {
     double lightsOnSurfels = 0; ///< from shadow maps, or by rays on the CPU
     double surfels = 0, pull = 0, caches = 0, field = 0;
     double upload = 0; ///< of the field where it comes from the CPU
-    double geometry = 0, direct = 0, tonemap = 0;
+    double geometry = 0, indirect = 0, direct = 0, tonemap = 0;
     double perLight = 0; ///< shadow maps and lights on surfels over the lights
     double total = 0;    ///< of the clock on the wall
     std::uint32_t cachesUnseen = 0;
@@ -44,13 +46,19 @@ struct Pass {
     const char* name;
     double FrameTimes::*ms;
 };
-constexpr Pass kPasses[] = {
-    {"shadow_maps", &FrameTimes::shadowMaps}, {"lights_on_surfels", &FrameTimes::lightsOnSurfels},
-    {"surfels", &FrameTimes::surfels},        {"pull", &FrameTimes::pull},
-    {"caches", &FrameTimes::caches},          {"field", &FrameTimes::field},
-    {"upload", &FrameTimes::upload},          {"geometry", &FrameTimes::geometry},
-    {"direct", &FrameTimes::direct},          {"tonemap", &FrameTimes::tonemap},
-    {"per_light", &FrameTimes::perLight},     {"", &FrameTimes::total}};
+constexpr Pass kPasses[] = {{"shadow_maps", &FrameTimes::shadowMaps},
+                            {"lights_on_surfels", &FrameTimes::lightsOnSurfels},
+                            {"surfels", &FrameTimes::surfels},
+                            {"pull", &FrameTimes::pull},
+                            {"caches", &FrameTimes::caches},
+                            {"field", &FrameTimes::field},
+                            {"upload", &FrameTimes::upload},
+                            {"geometry", &FrameTimes::geometry},
+                            {"indirect", &FrameTimes::indirect},
+                            {"direct", &FrameTimes::direct},
+                            {"tonemap", &FrameTimes::tonemap},
+                            {"per_light", &FrameTimes::perLight},
+                            {"", &FrameTimes::total}};
 
 /// A viewport with bounced light from one device or the other.
 struct FrameScene {
@@ -87,6 +95,7 @@ FrameTimes FrameScene::draw(const Scene& lit, std::uint32_t bounces) {
     t.field = light.fieldMs;
     t.upload = drawn.uploadMs;
     t.geometry = drawn.geometryMs;
+    t.indirect = drawn.indirectMs;
     t.direct = drawn.directMs;
     t.tonemap = drawn.tonemapMs;
     if (!lit.lights.empty())
@@ -113,6 +122,7 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
                 {"caches_lit", frame.seen ? "seen" : "all"},
                 {"caches_unseen", frames.back().cachesUnseen},
                 {"frames", frames.size()},
+                {"geometry_drawn", stats.geometryDrawn - 1}, // but for the first
                 {"bytes", stats.gpuBytes}});
     for (const Pass& pass : kPasses) {
         std::vector<double> ms;
@@ -138,12 +148,19 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"pull", 7, "pull_median_ms"},
                                {"caches", 7, "caches_median_ms"},
                                {"field", 7, "field_median_ms"},
+                               {"drawn", 5, "geometry_drawn"},
                                {"geom", 7, "geometry_median_ms"},
+                               {"bounced", 7, "indirect_median_ms"},
                                {"shade", 7, "direct_median_ms"},
                                {"tone", 7, "tonemap_median_ms"},
                                {"/light", 8, "per_light_median_ms", 3},
                                {"all [ms]", 8, "median_ms"},
                                {"p95", 8, "p95_ms"}};
+
+/// To the right, unit.
+glm::vec3 across(const Camera& camera) {
+    return glm::normalize(rayDirection(camera, 1, 1, 0) - rayDirection(camera, 1, 0, 0));
+}
 
 Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Device& device,
                            std::uint32_t lights, const std::string& relightOn,
@@ -176,6 +193,8 @@ Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Dev
     const std::vector<Light> standing = lit.lights;
     for (int k = 0; k <= o.runs; ++k) {
         lit.lights = movedLights(standing, k);
+        if (o.movingCamera) // a step to the side and back
+            frame.options.camera.eye = camera->eye + 0.1f * float(k % 2) * across(*camera);
         const FrameTimes times = frame.draw(lit, o.bounces);
         if (k > 0) // the first lights materials and makes pipelines too
             frames.push_back(times);
@@ -233,6 +252,8 @@ void addFrameBench(CLI::App& bench, Run& run) {
         ->check(CLI::Range(9, 100000));
     command->add_flag("--coarse-shadows", o->coarse,
                       "half as many texels across, as in the editor while things move");
+    command->add_flag("--moving-camera", o->movingCamera,
+                      "steps of 10 cm to the side: triangles are drawn in every frame");
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return runFrameBench(*o); }; });
 }

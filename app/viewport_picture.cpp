@@ -21,10 +21,11 @@ constexpr float kScaleStep = 1.f / 16; // so that the size does not change with 
 } // namespace
 
 float ViewportPicture::chooseScale(glm::uvec2 full) const {
-    const double all = m_msPerPixel * double(full.x) * double(full.y);
-    if (all <= kMovingMs)
+    const double all = m_msPerPixel * double(full.x) * double(full.y),
+                 most = std::max(kMovingMs - m_shadowMs, kMovingMs / 4);
+    if (all <= most)
         return 1;
-    const float wanted = float(std::sqrt(kMovingMs / all));
+    const float wanted = float(std::sqrt(most / all));
     return std::clamp(std::floor(wanted / kScaleStep) * kScaleStep, kLeastScale, 1.f);
 }
 
@@ -55,13 +56,16 @@ void ViewportPicture::takeDrawn(Session& session) {
         return;
     const Image& image = *m_drawn.image;
     const ViewportStats& stats = m_drawn.stats;
-    m_msPerPixel = stats.totalMs / (double(image.width) * double(image.height));
+    m_shadowMs = stats.shadowMs;
+    m_msPerPixel = (stats.totalMs - stats.shadowMs) / (double(image.width) * double(image.height));
     FrameStatus& frame = state.frame;
     frame.uploadMs = stats.uploadMs;
     frame.shadowMs = stats.shadowMs;
-    frame.shadeMs = stats.shadeMs;
+    frame.surfacesMs = stats.geometryMs;
+    frame.shadeMs = stats.indirectMs + stats.directMs;
     frame.viewportMs = stats.totalMs;
     frame.shadowMapsDrawn = stats.shadowMapsDrawn;
+    frame.surfacesDrawn = stats.geometryDrawn;
     frame.gpuBytes = stats.gpuBytes;
     frame.width = image.width;
     frame.height = image.height;

@@ -65,8 +65,9 @@ private:
     std::uint64_t m_onDevice = 0; ///< number of the picture in m_image
     std::optional<Shown> m_shown; ///< as asked for last
     std::chrono::steady_clock::time_point m_changed;
-    double m_msPerPixel = 0;                ///< of the last picture; 0: none yet
-    std::shared_ptr<const Bake> m_measured; ///< that relighting was measured for last
+    /// Of the last picture: of its shadow maps, which do not depend on its size, and of the rest.
+    double m_shadowMs = 0, m_msPerPixel = 0; ///< 0: none yet
+    std::shared_ptr<const Bake> m_measured;  ///< that relighting was measured for last
     bool m_reduced = false; ///< the picture asked for has fewer pixels than the window has for it
 };
 

@@ -35,8 +35,8 @@ function(limn_test name)
     ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0")
 endfunction()
 
-# limn_shaders(limn_render shade.vert shade.frag): compiles shaders/NAME to SPIR-V and embeds it, as
-# `const std::uint32_t kShadeFrag[]` of the generated header "shaders/shade.frag.h".
+# limn_shaders(limn_render surface.vert surface.frag): compiles shaders/NAME to SPIR-V and embeds it, as
+# `const std::uint32_t kSurfaceFrag[]` of the generated header "shaders/surface.frag.h".
 # Each is compiled again when any file of shaders/shared changes.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 function(limn_shaders target)

@@ -68,11 +68,13 @@ struct RelightPlace {
 
 /// What the panels show of the window and its viewport.
 struct FrameStatus {
-    double uploadMs = 0, shadowMs = 0, shadeMs = 0, viewportMs = 0; ///< of the last picture
+    /// Of the last picture.
+    double uploadMs = 0, shadowMs = 0, surfacesMs = 0, shadeMs = 0, viewportMs = 0;
     std::uint32_t shadowMapsDrawn = 0;
     std::uint64_t gpuBytes = 0;
     std::uint32_t width = 0, height = 0; ///< of the last picture [px]
     std::uint64_t pictures = 0;          ///< viewport renders
+    std::uint64_t surfacesDrawn = 0;     ///< of those, how many drew triangles
     std::uint64_t uiFrames = 0;
     double uiMs = 0;        ///< last UI frame, without waiting for events
     double longestUiMs = 0; ///< since the start

@@ -55,6 +55,8 @@ static void timeTable(const EditorState& state) {
         row(step.label, ms(step.ms(r)), step.tooltip, step.color);
     row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
     row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
+    row("Surfaces", ms(f.surfacesMs),
+        "Triangles that the camera sees; kept while it, objects and materials stand still");
     row("Shade", ms(f.shadeMs), "The picture from caches and direct light");
     ImGui::EndTable();
 }
@@ -182,6 +184,8 @@ static void windowTable(const EditorState& state) {
     row("UI frames", groupedNumber(f.uiFrames), "Stands still while nothing happens");
     row("Pictures", groupedNumber(f.pictures),
         "Drawn by the viewport; stands still while nothing changes");
+    row("  redrawn", groupedNumber(f.surfacesDrawn),
+        "Pictures for which triangles were drawn; light that changes needs none");
     row("Size", fmt::format("{} \u00d7 {}", f.width, f.height),
         "Pixels of the picture; fewer while things move on a slow device");
     ImGui::EndTable();

@@ -15,11 +15,10 @@ layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = 1, std430) readonly buffer Lights { GpuLight lights[]; };
 layout(set = 0, binding = 2, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
 layout(set = 0, binding = 3) uniform sampler2DArray shadowAtlas;
-layout(set = 0, binding = 6) uniform usampler2D surfaceImage;
-layout(set = 0, binding = 7) uniform sampler2D depthImage;
 
 layout(location = 0) out vec4 outColor;
 
+#include "shaders/shared/seen_surface.glsl"
 #include "shaders/shared/shadowed_light.glsl"
 #include "shaders/shared/rectangle_shadow.glsl"
 
@@ -86,19 +85,9 @@ void addDirect(PackedSurface s, vec3 F0, bool any, inout vec3 E, inout vec3 spec
     }
 }
 
-// Where the pixel's ray meets the surface.
-vec3 positionAt(vec2 pixel, float depth) {
-    const vec2 ndc = 2.0 * pixel * frame.pixelSize - 1.0;
-    const vec3 ray = frame.rayCentre + ndc.x * frame.rayRight - ndc.y * frame.rayUp;
-    return frame.eye + ray * (frame.depthScale / (depth + frame.depthOffset));
-}
-
 void main() {
-    const ivec2 pixel = ivec2(gl_FragCoord.xy);
-    const float depth = texelFetch(depthImage, pixel, 0).r;
-    PackedSurface s = unpackSurface(texelFetch(surfaceImage, pixel, 0));
-    s.position = positionAt(gl_FragCoord.xy, depth);
-    s.toEye = normalize(frame.eye - s.position);
+    const float depth = texelFetch(depthImage, ivec2(gl_FragCoord.xy), 0).r;
+    const PackedSurface s = seenSurface(depth);
     const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
     vec3 E = vec3(0), specular = vec3(0);
     addDirect(s, F0, depth > 0.0, E, specular);

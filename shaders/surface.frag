@@ -1,30 +1,36 @@
 // SPDX-License-Identifier: MIT
-// VIEW_LIT and VIEW_DIRECT: everything but direct light, and the surface for direct.frag.
+// All that shading needs of a surface besides the light: indirect.frag and direct.frag add it, once per pixel and each
+// time that it changes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/surface.glsl"
 #include "shaders/shared/surface_pack.glsl"
 
-layout(location = 0) out vec4 outColor;
-layout(location = 1) out uvec4 outSurface;
+// Bands of bounced light that the surface reads.
+layout(constant_id = 2) const uint kBands = 3;
 
-// Emission and what bounced light makes of the surface.
-vec3 indirectRadiance(Surface s) {
-    const FieldSums field =
-        readIndirect(s, reflect(-s.toEye, s.detailNormal), lobeExponent(s.roughness));
-    const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
-    const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
-    return s.albedo * field.irradiance / kPi + specularAlbedo(F0, s.roughness, NoV) * field.lobe + emission();
+layout(location = 0) out vec4 outEmitted; // nits, or what views without light show; how bounced light is read, see main()
+layout(location = 1) out uvec4 outSurface;
+layout(location = 2) out vec4 outReceiver; // lightmap coordinates, metallic, roughness
+
+vec3 unlit(Surface s) {
+    if (kView == VIEW_ALBEDO)
+        return s.albedo;
+    if (kView == VIEW_NORMALS)
+        return s.detailNormal * 0.5 + 0.5;
+    return kView == VIEW_LIT ? emission() : vec3(0);
 }
 
 void main() {
     const Surface s = readSurface(baseColor());
-    outColor = vec4(0, 0, 0, 1);
+    outReceiver = vec4(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset), s.metallic, s.roughness);
     if (isBlackBack()) { // two normals that no light meets both
-        outSurface = packSurface(vec3(0), 0.0, 1.0, -s.geometricNormal, s.geometricNormal);
+        outEmitted = vec4(0);
+        outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal);
         return;
     }
-    if (kView == VIEW_LIT)
-        outColor.rgb = indirectRadiance(s);
-    outSurface = packSurface(s.baseColor, s.metallic, s.roughness, s.detailNormal, s.geometricNormal);
+    // Bands from the lightmap are positive, from the grid negative.
+    const float bands = has(FEATURE_LIGHTMAP) ? float(kBands) : has(FEATURE_GRID) ? -float(kBands) : 0.0;
+    outEmitted = vec4(unlit(s), bands);
+    outSurface = packSurface(s.baseColor, s.detailNormal, s.geometricNormal);
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/geometry_passes.h"
 
-#include "engine/math/sh.h"
 #include "shaders/depth.vert.h"
 #include "shaders/depth_mask.frag.h"
 #include "shaders/depth_mask.vert.h"
-#include "shaders/shade.frag.h"
-#include "shaders/shade.vert.h"
 #include "shaders/shared/gpu_frame.h"
 #include "shaders/surface.frag.h"
+#include "shaders/surface.vert.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -95,11 +93,10 @@ GeometryPasses::GeometryPasses(gpu::Device& device, VkDescriptorSetLayout frameL
     m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuDraw), "geometry");
 }
 
-gpu::Pipeline GeometryPasses::createShaded(const Variant& variant) {
+gpu::Pipeline GeometryPasses::createSurface(const Variant& variant) {
     gpu::GraphicsPipelineDesc desc;
-    desc.vertex = kShadeVert;
-    desc.fragment =
-        showsDirectLight(variant.view) ? gpu::Spirv(kSurfaceFrag) : gpu::Spirv(kShadeFrag);
+    desc.vertex = kSurfaceVert;
+    desc.fragment = kSurfaceFrag;
     desc.layout = m_layout.handle;
     desc.bindings = kBindings;
     desc.attributes = kAttributes;
@@ -107,14 +104,12 @@ gpu::Pipeline GeometryPasses::createShaded(const Variant& variant) {
         desc.bindings.pop_back();
         desc.attributes.back() = {6, 0, VK_FORMAT_R32G32_SFLOAT, 0}; // declared, not used
     }
-    desc.colorFormats = {kLinearFormat};
-    if (showsDirectLight(variant.view))
-        desc.colorFormats.push_back(kSurfaceFormat);
+    desc.colorFormats = {kLinearFormat, kSurfaceFormat, kReceiverFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
     desc.dynamicCull = true;
     desc.constants = {std::uint32_t(variant.view), variant.features, variant.bands};
-    desc.name = "shade";
+    desc.name = "surfaces";
     return gpu::createGraphicsPipeline(m_device, desc);
 }
 
@@ -243,9 +238,11 @@ static std::uint32_t bandsRead(std::uint32_t needed, std::uint32_t features,
     return std::min(wanted, view.bands);
 }
 
-void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
-                                const MaterialSet& materials, const GeometryView& view) {
+SurfacesDrawn GeometryPasses::drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
+                                           const MaterialSet& materials, const GeometryView& view,
+                                           std::uint32_t slot) {
     orderByDistance(scene, view, m_order);
+    SurfacesDrawn drawn;
     VkPipeline bound = VK_NULL_HANDLE;
     for (const auto& [distance, index] : m_order) {
         const GpuInstance& instance = scene.instances[index];
@@ -254,21 +251,26 @@ void GeometryPasses::drawShaded(VkCommandBuffer cmd, const RenderScene& scene,
             variantFeatures(materials.features[instance.material], mesh, instance, view);
         const Variant variant{view.view, features,
                               bandsRead(materials.bands[instance.material], features, view)};
-        gpu::Pipeline& pipeline = m_shaded[variant];
+        if (const std::uint32_t field = features & (FEATURE_LIGHTMAP | FEATURE_GRID)) {
+            drawn.features |= field;
+            drawn.bands[variant.bands] = true;
+        }
+        gpu::Pipeline& pipeline = m_surface[variant];
         if (!pipeline)
-            pipeline = createShaded(variant);
+            pipeline = createSurface(variant);
         if (bound != pipeline.handle)
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         bound = pipeline.handle;
         const bool bothSides = materials.doubleSided[instance.material];
         setCulling(cmd, instance, bothSides, view);
-        materials.bind(cmd, m_layout.handle, instance.material, view.slot);
+        materials.bind(cmd, m_layout.handle, instance.material, slot);
         const std::uint32_t flags =
             (bothSides ? DRAW_DOUBLE_SIDED : 0u) | (instance.mirrored ? DRAW_MIRRORED : 0u);
         bindInstance(cmd, m_layout.handle, mesh, instance, view.toClip, flags,
                      features & FEATURE_LIGHTMAP ? 3 : 2);
         vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
     }
+    return drawn;
 }
 
 } // namespace limn::render

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "engine/gpu/pipeline.h"
+#include "engine/math/sh.h"
 #include "engine/render/material_set.h"
 #include "engine/render/render_scene.h"
 #include "engine/scene/view.h"
 
+#include <array>
 #include <map>
 #include <utility>
 
@@ -14,9 +16,10 @@ namespace limn::render {
 constexpr VkFormat kLinearFormat =
     VK_FORMAT_R32G32B32A32_SFLOAT;                      ///< lights of 1e6 cd overflow halfs
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT; ///< 1 near, 0 far
-constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT; ///< surface_pack.glsl
+constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;    ///< surface_pack.glsl
+constexpr VkFormat kReceiverFormat = VK_FORMAT_R32G32B32A32_SFLOAT; ///< the same
 
-/// Whether a view needs the surface image, and the direct pass after the shaded one.
+/// Whether a view needs the direct pass.
 constexpr bool showsDirectLight(View view) {
     return view == View::Lit || view == View::Direct;
 }
@@ -29,7 +32,13 @@ struct GeometryView {
     bool grid = false;       ///< instances without lightmap read the grid
     std::uint32_t bands = 3; ///< of the indirect light
     bool cullBackFaces = true;
-    std::uint32_t slot = 0;
+    bool operator==(const GeometryView&) const = default;
+};
+
+/// How the surfaces that were drawn read bounced light.
+struct SurfacesDrawn {
+    std::array<bool, kMaxBands + 1> bands{}; ///< any reads so many
+    std::uint32_t features = 0;              ///< FEATURE_LIGHTMAP, FEATURE_GRID: any does
 };
 
 /// What is inside `toClip` and no further than `reach` from `eye` [m].
@@ -39,9 +48,8 @@ struct DepthView {
     float reach = 0;
 };
 
-/// Pipelines that draw a RenderScene: depth only (shadow maps) and shaded. Variants are made when
-/// first needed, so that a surface pays only for the textures and the kind of indirect light it
-/// has.
+/// Pipelines that draw a RenderScene: depth only (shadow maps) and surfaces. Variants are made when
+/// first needed, so that a surface pays only for the textures it has.
 class GeometryPasses {
 public:
     GeometryPasses(gpu::Device& device, VkDescriptorSetLayout frameLayout,
@@ -53,31 +61,31 @@ public:
     void drawDepth(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                    const DepthView& view, std::uint32_t slot);
 
-    /// What drawShaded() will draw of opaque materials, a little further off, into a bound depth
+    /// What drawSurfaces() will draw of opaque materials, a little further off, into a bound depth
     /// attachment: then it shades little that something else hides, and the picture is the same.
     void drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                         const GeometryView& view);
 
-    /// Shaded but for direct light, into bound colour and depth attachments, nearest instances
-    /// first. Set 0 is bound. Views that show direct light have a second colour attachment: the
-    /// surface, for DirectPass.
-    void drawShaded(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
-                    const GeometryView& view);
+    /// What SurfaceImages keeps of surfaces, into its bound images, nearest instances first. Set 0
+    /// is bound; `slot` as in MaterialSet.
+    SurfacesDrawn drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
+                               const MaterialSet& materials, const GeometryView& view,
+                               std::uint32_t slot);
 
 private:
-    /// What a variant of shading depends on.
+    /// What a surface's variant depends on.
     struct Variant {
         View view;
         std::uint32_t features, bands;
         auto operator<=>(const Variant&) const = default;
     };
 
-    gpu::Pipeline createShaded(const Variant& variant);
+    gpu::Pipeline createSurface(const Variant& variant);
     gpu::Pipeline createDepth(std::uint32_t features);
 
     gpu::Device& m_device;
     gpu::PipelineLayout m_layout;
-    std::map<Variant, gpu::Pipeline> m_shaded;
+    std::map<Variant, gpu::Pipeline> m_surface;
     std::map<std::uint32_t, gpu::Pipeline>
         m_depth; ///< by FEATURE_BASE_COLOR_TEXTURE and FEATURE_ALPHA_MASK
     std::vector<std::pair<float, std::uint32_t>>

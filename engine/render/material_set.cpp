@@ -179,6 +179,7 @@ bool MaterialSet::update(const Scene& scene) {
         newMasks |= !sameMask(m_materials[i], scene.materials[i]);
     }
     if (newSets || m_materials != scene.materials) {
+        ++version;
         bands.clear();
         for (const Material& m : scene.materials)
             bands.push_back(std::uint8_t(receiverBands(*scene.assets, m, kMaxBands)));

@@ -34,6 +34,8 @@ public:
     void bind(VkCommandBuffer cmd, VkPipelineLayout pipelineLayout, std::uint32_t material,
               std::uint32_t slot) const;
 
+    std::uint64_t version = 0; ///< grows when any material changed
+
     /// FEATURE_* of each material.
     std::vector<std::uint32_t> features;
     std::vector<bool> doubleSided;

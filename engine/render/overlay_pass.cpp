@@ -144,15 +144,15 @@ void OverlayPass::drawMarks(VkCommandBuffer cmd, const GeometryView& view, float
 }
 
 void OverlayPass::record(VkCommandBuffer cmd, const RenderScene& scene, const GeometryView& view,
-                         float pixelSize) {
+                         float pixelSize, std::uint32_t slot) {
     if (!m_mark)
         makePipelines();
     drawSurfaces(cmd, scene, view, false);
     if (m_texels) {
-        gpu::writeBuffer(m_device, m_sets[view.slot], 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+        gpu::writeBuffer(m_device, m_sets[slot], 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                          m_texels.handle);
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_surfaceLayout.handle, 0, 1,
-                                &m_sets[view.slot], 0, nullptr);
+                                &m_sets[slot], 0, nullptr);
         drawSurfaces(cmd, scene, view, true);
     }
     if (m_markCount > 0)

@@ -23,9 +23,10 @@ public:
     bool active() const { return m_markCount > 0 || bool(m_texels); }
 
     /// Into the bound colour attachment (kColorFormat) and depth attachment; the depth is that of
-    /// GeometryPasses::drawShaded with the same view. `pixelSize`: a pixel's height at distance 1.
+    /// SurfaceImages with the same view. `pixelSize`: a pixel's height at distance 1; `slot` as in
+    /// MaterialSet.
     void record(VkCommandBuffer cmd, const RenderScene& scene, const GeometryView& view,
-                float pixelSize);
+                float pixelSize, std::uint32_t slot);
 
 private:
     void makePipelines();

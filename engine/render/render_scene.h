@@ -11,7 +11,7 @@
 
 namespace limn::render {
 
-/// What shading reads of a vertex besides its position; locations 1 to 5 of shade.vert.
+/// What shading reads of a vertex besides its position; locations 1 to 5 of surface.vert.
 struct VertexAttributes {
     glm::vec3 normal{0, 0, 1};
     glm::vec4 tangent{1, 0, 0, 1};

@@ -8,10 +8,12 @@
 #include "engine/render/direct_pass.h"
 #include "engine/render/geometry_passes.h"
 #include "engine/render/indirect_light.h"
+#include "engine/render/indirect_pass.h"
 #include "engine/render/light_table.h"
 #include "engine/render/overlay_pass.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/sky_pass.h"
+#include "engine/render/surface_images.h"
 #include "engine/render/tonemap_pass.h"
 
 #include <algorithm>
@@ -41,7 +43,8 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -53,6 +56,7 @@ enum Timestamp : std::uint32_t {
     kBegin,
     kShadowsDone,
     kGeometryDone,
+    kIndirectDone,
     kShadeDone,
     kEnd,
     kTimestamps
@@ -77,7 +81,7 @@ struct FrameSlot {
 };
 
 struct Targets {
-    gpu::Image linear, depth, surface, color;
+    gpu::Image linear, color;
 };
 
 struct DepthRange {
@@ -104,15 +108,13 @@ struct Viewport::Impl {
                     const std::vector<ShadowSlot>& shadows);
     void writeFrameSet(const FrameSlot& slot);
     void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
-    void recordShade(VkCommandBuffer cmd, const FrameSlot& slot, const GeometryView& view,
-                     const ViewportOptions& options);
     void beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options);
-    void recordSky(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options,
-                   std::uint32_t slotIndex);
+    void recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options,
+                        std::uint32_t slotIndex);
     void recordDirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options);
     void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
     void recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
-                       const ViewportOptions& options);
+                       const ViewportOptions& options, std::uint32_t slot);
     void readTimes(FrameSlot& slot);
 
     gpu::Device& device;
@@ -121,8 +123,10 @@ struct Viewport::Impl {
     gpu::DescriptorPool framePool;
     gpu::Sampler lightmapSampler;
     GeometryPasses geometry;
-    DirectPass direct;
+    SurfaceImages surfaces;
+    IndirectPass indirectPass;
     SkyPass sky;
+    DirectPass direct;
     gpu::Sampler texelSampler;
     TonemapPass tonemap;
     OverlayPass overlay;
@@ -152,8 +156,9 @@ Viewport::Impl::Impl(gpu::Device& d)
       lightmapSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                              .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                              .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-      geometry(d, frameLayout.handle, materials.layout()), direct(d, frameLayout.handle),
-      sky(d, frameLayout.handle),
+      geometry(d, frameLayout.handle, materials.layout()), surfaces(d),
+      indirectPass(d, frameLayout.handle), sky(d, frameLayout.handle),
+      direct(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
       tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})), relightTimes(d, 1) {
@@ -183,10 +188,8 @@ void Viewport::Impl::ensureTargets(std::uint32_t w, std::uint32_t h) {
     using gpu::ImageDesc;
     targets.linear =
         gpu::Image(device, ImageDesc::renderTarget(tw, th, kLinearFormat, "linear colour"));
-    targets.depth = gpu::Image(device, ImageDesc::renderTarget(tw, th, kDepthFormat, "depth"));
-    targets.surface =
-        gpu::Image(device, ImageDesc::renderTarget(tw, th, kSurfaceFormat, "surface"));
     targets.color = gpu::Image(device, ImageDesc::renderTarget(tw, th, kColorFormat, "colour"));
+    surfaces.ensure({tw, th});
 }
 
 std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
@@ -220,6 +223,8 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
     const glm::mat4 projection = projectionMatrix(options.camera, aspect, range.zFar, range.zNear);
     frame.depthOffset = projection[2][2];
     frame.depthScale = projection[3][2];
+    if (options.view == View::Lit)
+        frame.background = sky.colour();
     std::memcpy(slot.frame.mapped, &frame, sizeof frame);
 }
 
@@ -230,11 +235,13 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
     gpu::writeTexture(device, slot.set, 3, shadows.atlasView(), shadows.sampler());
     gpu::writeTexture(device, slot.set, 4, indirect.field->lightmap.view, lightmapSampler.handle);
     gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.field->grid.handle);
-    gpu::writeTexture(device, slot.set, 6, targets.surface.view, texelSampler.handle);
-    gpu::writeTexture(device, slot.set, 7, targets.depth.view, texelSampler.handle);
+    gpu::writeTexture(device, slot.set, 6, surfaces.surface.view, texelSampler.handle);
+    gpu::writeTexture(device, slot.set, 7, surfaces.depth.view, texelSampler.handle);
     const gpu::Buffer* depth = indirect.field->gridDepth.get(); // without, it is not read
     gpu::writeBuffer(device, slot.set, 8, kFrameTypes[8],
                      depth ? depth->handle : indirect.field->grid.handle);
+    gpu::writeTexture(device, slot.set, 9, surfaces.emitted.view, texelSampler.handle);
+    gpu::writeTexture(device, slot.set, 10, surfaces.receiver.view, texelSampler.handle);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
@@ -249,96 +256,36 @@ void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::ui
         shadows.prepare(cmd);
 }
 
-static void setViewport(VkCommandBuffer cmd, std::uint32_t width, std::uint32_t height, bool flip) {
-    const auto w = float(width), h = float(height);
-    const VkViewport viewport = flip ? VkViewport{0, h, w, -h, 0, 1} : VkViewport{0, 0, w, h, 0, 1};
-    const VkRect2D scissor{{0, 0}, {width, height}};
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &scissor);
-}
-
-static VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout,
-                                            VkAttachmentLoadOp load, VkClearValue clear) {
-    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-            .imageView = view,
-            .imageLayout = layout,
-            .loadOp = load,
-            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-            .clearValue = clear};
-}
-
-static void beginRendering(VkCommandBuffer cmd, std::uint32_t width, std::uint32_t height,
-                           std::span<const VkRenderingAttachmentInfo> colors,
-                           const VkRenderingAttachmentInfo* depth) {
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = {{0, 0}, {width, height}},
-                               .layerCount = 1,
-                               .colorAttachmentCount = std::uint32_t(colors.size()),
-                               .pColorAttachments = colors.data(),
-                               .pDepthAttachment = depth};
-    vkCmdBeginRendering(cmd, &info);
-}
-
-// All but direct light.
-void Viewport::Impl::recordShade(VkCommandBuffer cmd, const FrameSlot& slot,
-                                 const GeometryView& view, const ViewportOptions& options) {
-    const auto discard = [&](const gpu::Image& image, const gpu::Access& to) {
-        gpu::Access before = gpu::kFragmentRead; // of the frame before; its contents are cleared
-        before.access = VK_ACCESS_2_NONE;
-        before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-        gpu::imageBarrier(cmd, image.handle, gpu::aspectOf(image.format), before, to);
-    };
-    discard(targets.linear, gpu::kColorWrite);
-    discard(targets.surface, gpu::kColorWrite);
-    discard(targets.depth, gpu::kDepthWrite);
-    VkClearValue background{}, none{};
-    if (options.view == View::Lit)
-        background.color = {{sky.colour().r, sky.colour().g, sky.colour().b, 0}};
-    const std::array colors = {
-        attachment(targets.linear.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                   VK_ATTACHMENT_LOAD_OP_CLEAR, background),
-        attachment(targets.surface.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                   VK_ATTACHMENT_LOAD_OP_CLEAR, none)};
-    auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                            VK_ATTACHMENT_LOAD_OP_CLEAR, none);
-    if (device.softwareRasteriser) { // shading is all of its time
-        beginRendering(cmd, options.width, options.height, {}, &depth);
-        setViewport(cmd, options.width, options.height, true);
-        geometry.drawDepthAhead(cmd, scene, materials, view);
-        vkCmdEndRendering(cmd);
-        gpu::memoryBarrier(cmd, gpu::kDepthWrite, gpu::kDepthWrite);
-        depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
-    }
-    beginRendering(cmd, options.width, options.height,
-                   std::span(colors).first(showsDirectLight(options.view) ? 2 : 1), &depth);
-    setViewport(cmd, options.width, options.height, true);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, geometry.layout(), 0, 1,
-                            &slot.set, 0, nullptr);
-    geometry.drawShaded(cmd, scene, materials, view);
-    vkCmdEndRendering(cmd);
-    gpu::imageBarrier(cmd, targets.surface.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
-                      gpu::kFragmentRead);
-    gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
-                      gpu::kFragmentRead);
+// Whoever `read` the colours of the frame before is done; they are overwritten.
+static void discard(VkCommandBuffer cmd, const gpu::Image& image, gpu::Access read) {
+    read.access = VK_ACCESS_2_NONE;
+    read.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    gpu::imageBarrier(cmd, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, read, gpu::kColorWrite);
 }
 
 // Draws over the whole linear image, after what is in it.
 void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options) {
     gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
-    const std::array color = {attachment(targets.linear.view,
-                                         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                         VK_ATTACHMENT_LOAD_OP_LOAD, {})};
-    beginRendering(cmd, options.width, options.height, color, nullptr);
-    setViewport(cmd, options.width, options.height, false);
+    const std::array color = {attachment(
+        targets.linear.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD)};
+    beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
 }
 
-void Viewport::Impl::recordSky(VkCommandBuffer cmd, const FrameSlot& slot,
-                               const ViewportOptions& options, std::uint32_t slotIndex) {
-    if (options.view != View::Lit || !sky.active())
-        return;
-    beginOnLinear(cmd, options);
-    sky.record(cmd, slot.set, slotIndex);
+// All but direct light.
+void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
+                                    const ViewportOptions& options, std::uint32_t slotIndex) {
+    discard(cmd, targets.linear, gpu::kFragmentRead);
+    const std::array color = {attachment(targets.linear.view,
+                                         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                         VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+    beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
+    indirectPass.record(cmd, slot.set, options.view, surfaces.drawn());
     vkCmdEndRendering(cmd);
+    if (options.view == View::Lit && sky.active()) {
+        beginOnLinear(cmd, options);
+        sky.record(cmd, slot.set, slotIndex);
+        vkCmdEndRendering(cmd);
+    }
 }
 
 void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
@@ -354,17 +301,11 @@ void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
 
 void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options,
                                    std::uint32_t slot) {
-    // Whoever showed the last picture, by sampling or blitting, is done with it.
-    gpu::Access before = gpu::kAllReads;
-    before.access = VK_ACCESS_2_NONE;
-    before.layout = VK_IMAGE_LAYOUT_UNDEFINED; // it is overwritten
-    gpu::imageBarrier(cmd, targets.color.handle, VK_IMAGE_ASPECT_COLOR_BIT, before,
-                      gpu::kColorWrite);
+    discard(cmd, targets.color, gpu::kAllReads); // whoever showed it, by sampling or blitting
     const std::array color = {attachment(targets.color.view,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                         VK_ATTACHMENT_LOAD_OP_DONT_CARE, {})};
-    beginRendering(cmd, options.width, options.height, color, nullptr);
-    setViewport(cmd, options.width, options.height, false);
+                                         VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+    beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
     const bool radiance = options.view != View::Albedo && options.view != View::Normals;
     tonemap.record(cmd, targets.linear.view,
                    {.exposure = radiance ? std::exp2(options.exposureEv) : 1.f,
@@ -376,23 +317,23 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
 
 // Over the tone-mapped picture, so that colours are those of the legend; then hands it out.
 void Viewport::Impl::recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
-                                   const ViewportOptions& options) {
+                                   const ViewportOptions& options, std::uint32_t slot) {
     if (overlay.active()) {
         gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
-        gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kFragmentRead,
+        gpu::imageBarrier(cmd, surfaces.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kFragmentRead,
                           gpu::kDepthWrite);
         const std::array color = {attachment(targets.color.view,
                                              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                             VK_ATTACHMENT_LOAD_OP_LOAD, {})};
-        const auto depth = attachment(targets.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                      VK_ATTACHMENT_LOAD_OP_LOAD, {});
-        beginRendering(cmd, options.width, options.height, color, &depth);
-        setViewport(cmd, options.width, options.height, true);
+                                             VK_ATTACHMENT_LOAD_OP_LOAD)};
+        const auto depth = attachment(surfaces.depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                      VK_ATTACHMENT_LOAD_OP_LOAD);
+        beginRendering(cmd, {options.width, options.height}, color, &depth, true);
         overlay.record(cmd, scene, view,
-                       2 * std::tan(options.camera.fovY / 2) / float(options.height));
+                       2 * std::tan(options.camera.fovY / 2) / float(options.height), slot);
         vkCmdEndRendering(cmd);
-        gpu::imageBarrier(cmd, targets.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
+        gpu::imageBarrier(cmd, surfaces.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
                           gpu::kFragmentRead);
+        surfaces.forget();
     }
     gpu::Access after = gpu::kAllReads;
     after.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -414,8 +355,8 @@ void Viewport::Impl::readTimes(FrameSlot& slot) {
     };
     stats.shadowMs = between(kBegin, kShadowsDone);
     stats.geometryMs = between(kShadowsDone, kGeometryDone);
-    stats.directMs = between(kGeometryDone, kShadeDone);
-    stats.shadeMs = between(kShadowsDone, kShadeDone);
+    stats.indirectMs = between(kGeometryDone, kIndirectDone);
+    stats.directMs = between(kIndirectDone, kShadeDone);
     stats.tonemapMs = between(kShadeDone, kEnd);
     stats.totalMs = between(kBegin, kEnd);
     stats.uploadMs = slot.uploadMs;
@@ -494,7 +435,6 @@ void Viewport::render(const ViewportOptions& options) {
     v.pendingUploadMs = 0;
 
     GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
-    view.slot = slotIndex;
     view.bands = v.indirect.field->bands;
     const VkCommandBuffer cmd = v.device.begin("viewport");
     const auto mark = [&](Timestamp t) { gpu::writeTimestamp(cmd, slot.queries.handle, t); };
@@ -502,13 +442,16 @@ void Viewport::render(const ViewportOptions& options) {
     mark(kBegin);
     v.recordShadows(cmd, slot, slotIndex, direct);
     mark(kShadowsDone);
-    v.recordShade(cmd, slot, view, options);
-    v.recordSky(cmd, slot, options, slotIndex);
+    v.stats.geometryDrawn +=
+        v.surfaces.record(cmd, v.geometry, v.scene, v.materials, view,
+                          {options.width, options.height}, slotIndex, slot.set);
     mark(kGeometryDone);
+    v.recordIndirect(cmd, slot, options, slotIndex);
+    mark(kIndirectDone);
     v.recordDirect(cmd, slot, options);
     mark(kShadeDone);
     v.recordTonemap(cmd, options, slotIndex);
-    v.recordOverlay(cmd, view, options);
+    v.recordOverlay(cmd, view, options, slotIndex);
     mark(kEnd);
     slot.submission = v.device.submit(cmd);
     slot.timed = false;

@@ -35,10 +35,13 @@ struct ViewportOptions {
 };
 
 struct ViewportStats {
-    /// Of the last frame that is done, the GPU's clock. Shade is geometry and direct light.
-    double uploadMs = 0, shadowMs = 0, shadeMs = 0, totalMs = 0;
-    double geometryMs = 0, directMs = 0, tonemapMs = 0; ///< tone mapping with the overlay
-    std::uint32_t shadowMapsDrawn = 0;                  ///< 0 when no light or object changed
+    /// Of the last frame that is done, the GPU's clock.
+    double uploadMs = 0, shadowMs = 0, geometryMs = 0, indirectMs = 0, directMs = 0, totalMs = 0;
+    double tonemapMs = 0;              ///< with the overlay
+    std::uint32_t shadowMapsDrawn = 0; ///< 0 when no light or object changed
+    /// Frames for which triangles were drawn: not where camera, objects and materials are those of
+    /// the frame before, and only its light is new.
+    std::uint64_t geometryDrawn = 0;
     double relightShadowMs = 0;          ///< shadow maps of the last shadowedLights() that is done
     std::uint32_t relightShadowMaps = 0; ///< drawn by the last shadowedLights()
     std::uint32_t lightsLeftOut = 0;     ///< dark, for lack of room for their shadow maps

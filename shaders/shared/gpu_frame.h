@@ -29,6 +29,7 @@ struct GpuFrame {
     vec3 rayRight;  float depthOffset; // depthScale / (depth + depthOffset)
     vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m, 0: no depths
     vec2 pixelSize; vec2 pad1;         // 1 / picture's size in pixels
+    vec3 background; float pad2;       // nits, where no surface is
 };
 
 /// Push constants of the geometry passes.
@@ -45,7 +46,7 @@ struct GpuDraw {
 #define DRAW_MIRRORED 2u // the transform has a negative determinant
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuFrame) == 128);
+static_assert(sizeof(GpuFrame) == 144);
 static_assert(sizeof(GpuDraw) == 128);
 } // namespace limn::shared
 #endif

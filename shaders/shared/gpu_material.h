@@ -29,7 +29,8 @@ struct GpuMaterial {
 };
 // clang-format on
 
-// Specialisation constant 1 of shade.frag and depth_mask.frag: what a material needs.
+// Specialisation constant 1 of surface.frag, indirect.frag and depth_mask.frag: what a material
+// needs.
 #define FEATURE_BASE_COLOR_TEXTURE 1u
 #define FEATURE_METALLIC_ROUGHNESS_TEXTURE 2u
 #define FEATURE_NORMAL_TEXTURE 4u
@@ -38,7 +39,8 @@ struct GpuMaterial {
 #define FEATURE_LIGHTMAP 32u
 #define FEATURE_GRID 64u
 
-// Specialisation constant 0 of shade.frag: the order of limn::View.
+// Specialisation constant 0 of surface.frag, indirect.frag and direct.frag: the order of
+// limn::View.
 #define VIEW_LIT 0u
 #define VIEW_DIRECT 1u
 #define VIEW_INDIRECT 2u

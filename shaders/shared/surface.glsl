@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a rasterised fragment is made of: inputs, material, normals, bounced light. For fragment shaders of shade.vert.
+// What a rasterised fragment is made of: inputs, material, normals. For fragment shaders of surface.vert.
 #include "shaders/shared/gpu_frame.h"
 #include "shaders/shared/gpu_material.h"
-#define SH_BANDS_CONSTANT 2 // those that this surface reads
-#include "shaders/shared/sh_bands.glsl"
-#include "shaders/shared/specular.glsl"
-#include "shaders/shared/sh_field.glsl"
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
 layout(constant_id = 1) const uint kFeatures = 0;
@@ -13,9 +9,6 @@ layout(constant_id = 1) const uint kFeatures = 0;
 layout(push_constant) uniform Draw { GpuDraw draw; };
 
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
-layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
-layout(set = 0, binding = 5, std430) readonly buffer Grid { vec4 grid[]; };
-layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
 
 layout(set = 1, binding = 0) uniform MaterialBlock { GpuMaterial material; };
 layout(set = 1, binding = 1) uniform sampler2D textures0;
@@ -38,8 +31,6 @@ vec2 textureUv(int k) {
     const vec3 uv = vec3(material.uvRows[2 * k].w > 0.5 ? fragUv.zw : fragUv.xy, 1);
     return vec2(dot(material.uvRows[2 * k].xyz, uv), dot(material.uvRows[2 * k + 1].xyz, uv));
 }
-
-#include "shaders/shared/grid_depth.glsl"
 
 struct Surface {
     vec3 position;
@@ -94,68 +85,6 @@ Surface readSurface(vec4 base) {
     }
     s.albedo = min(s.baseColor * (1.0 - s.metallic), 0.99);
     return s;
-}
-
-/// Two sums over the harmonics of the light that reaches the surface by bounces. Unrolled: on a software rasteriser a
-/// loop over 64 lookups takes half as long again.
-struct FieldSums {
-    vec3 irradiance, lobe;
-};
-
-void addCoefficient(inout FieldSums sums, vec3 c, float irradiance, float lobe) {
-    sums.irradiance += irradiance * c;
-    sums.lobe += lobe * c;
-}
-
-FieldSums readLightmap(float irradiance[kCoefficients], float lobe[kCoefficients]) {
-    FieldSums sums = FieldSums(vec3(0), vec3(0));
-    const vec2 uv = fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset);
-    [[unroll]] for (int i = 0; i < kCoefficients; ++i)
-        addCoefficient(sums, textureLod(lightmap, vec3(uv, i), 0.0).rgb, irradiance[i], lobe[i]);
-    return sums;
-}
-
-FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], float lobe[kCoefficients]) {
-    FieldSums sums = FieldSums(vec3(0), vec3(0));
-    const ivec3 last = ivec3(frame.gridSize) - 1;
-    const vec3 x = clamp((position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
-    const ivec3 lower = min(ivec3(x), last);
-    const vec3 f = x - vec3(lower);
-    const vec3 cellSize = 1.0 / frame.gridScale; // the rest as sampleIrradiance of the CPU
-    const vec3 clear = position +
-                       normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
-    float sum = 0.0;
-    for (int k = 0; k < 8; ++k) {
-        const ivec3 high = ivec3(k & 1, (k >> 1) & 1, k >> 2);
-        const ivec3 cell = min(lower + high, last);
-        const vec3 w = mix(1.0 - f, f, vec3(high));
-        const uint index =
-            (uint(cell.z) * frame.gridSize.y + uint(cell.y)) * frame.gridSize.x + uint(cell.x);
-        float weight = w.x * w.y * w.z;
-        if (frame.gridReach > 0.0) {
-            const vec3 centre = frame.gridLower + (vec3(cell) + 0.5) * cellSize;
-            weight *= 1e-5 + seenFromCell(index, clear - centre, frame.gridReach);
-        }
-        sum += weight;
-        [[unroll]] for (int i = 0; i < kCoefficients; ++i)
-            addCoefficient(sums, weight * grid[uint(i) * frame.gridCells + index].rgb, irradiance[i], lobe[i]);
-    }
-    return FieldSums(sums.irradiance / sum, sums.lobe / sum);
-}
-
-/// Irradiance at s.detailNormal, and mean radiance in the lobe cos^n about `mirrored`, both at least 0.
-FieldSums readIndirect(Surface s, vec3 mirrored, float n) {
-    FieldSums sums = FieldSums(vec3(0), vec3(0));
-    if (!has(FEATURE_LIGHTMAP | FEATURE_GRID))
-        return sums;
-    float irradiance[kCoefficients], lobe[kCoefficients];
-    irradianceWeights(s.detailNormal, irradiance);
-    lobeWeights(mirrored, n, lobe);
-    if (has(FEATURE_LIGHTMAP))
-        sums = readLightmap(irradiance, lobe);
-    else
-        sums = readGrid(s.position, s.normal, irradiance, lobe);
-    return FieldSums(max(sums.irradiance, 0.0), max(sums.lobe, 0.0));
 }
 
 vec3 emission() {

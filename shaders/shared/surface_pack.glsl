@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A surface in 16 bytes between surface.frag and direct.frag: base colour, roughness, metallic, two normals.
+// A surface in 32 bytes between surface.frag and the passes that light it: base colour and two normals in integers,
+// lightmap coordinates, metallic and roughness as they are.
 
 struct PackedSurface {
     vec3 position;
@@ -8,6 +9,7 @@ struct PackedSurface {
     vec3 toEye;           // unit
     vec3 baseColor;
     float metallic, roughness;
+    vec2 lightmapUv;
     vec3 albedo; // diffuse reflectance
 };
 
@@ -26,21 +28,19 @@ vec3 octDecode(vec2 p) {
 }
 
 // Square roots: their 16 bits keep dark colours to 1e-3 of themselves down to 2e-4.
-uvec4 packSurface(vec3 baseColor, float metallic, float roughness, vec3 normal, vec3 geometricNormal) {
+uvec4 packSurface(vec3 baseColor, vec3 normal, vec3 geometricNormal) {
     const vec3 root = sqrt(clamp(baseColor, 0.0, 1.0));
-    const uint blue = packUnorm2x16(vec2(root.b, 0));
-    const uint glossy = packUnorm4x8(vec4(0, 0, metallic, roughness));
-    return uvec4(packUnorm2x16(root.rg), blue | glossy, packSnorm2x16(octEncode(normal)),
+    return uvec4(packUnorm2x16(root.rg), packUnorm2x16(vec2(root.b, 0)), packSnorm2x16(octEncode(normal)),
                  packSnorm2x16(octEncode(geometricNormal)));
 }
 
-PackedSurface unpackSurface(uvec4 p) {
+PackedSurface unpackSurface(uvec4 p, vec4 receiver) {
     PackedSurface s;
     const vec3 root = vec3(unpackUnorm2x16(p.x), unpackUnorm2x16(p.y).x);
-    const vec4 glossy = unpackUnorm4x8(p.y);
     s.baseColor = root * root;
-    s.metallic = glossy.z;
-    s.roughness = glossy.w;
+    s.lightmapUv = receiver.xy;
+    s.metallic = receiver.z;
+    s.roughness = receiver.w;
     s.albedo = min(s.baseColor * (1.0 - s.metallic), 0.99);
     s.detailNormal = octDecode(unpackSnorm2x16(p.z));
     s.geometricNormal = octDecode(unpackSnorm2x16(p.w));

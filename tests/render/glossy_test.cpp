@@ -26,7 +26,7 @@ protected:
                       : glm::vec3(std::sin(k), std::cos(2 * k), std::sin(3 * k + 1));
     }
 
-    /// What surface.frag is to draw of the plane y = 0 in a pixel.
+    /// What indirect.frag is to make of the plane y = 0 in a pixel.
     glm::vec3 expected(const Material& m, std::uint32_t bands, glm::vec3 p) const {
         std::vector<glm::vec3> c;
         for (std::uint32_t i = 0; i < bands * bands; ++i)

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/render/geometry_passes.h"
+
+#include <compare>
+#include <map>
+
+namespace limn::render {
+
+/// Writes the linear image: what surfaces emit and the bounced light that they reflect, or the
+/// background.
+class IndirectPass {
+public:
+    IndirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
+
+    /// Into all of the bound linear image; `frameSet` holds the surface's images and the field.
+    void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view,
+                const SurfacesDrawn& surfaces);
+
+private:
+    struct Variant {
+        View view;
+        std::uint32_t features, bands;
+        bool first;
+        auto operator<=>(const Variant&) const = default;
+    };
+
+    VkPipeline pipeline(const Variant& variant);
+
+    gpu::Device& m_device;
+    gpu::PipelineLayout m_layout;
+    std::map<Variant, gpu::Pipeline> m_pipelines;
+};
+
+} // namespace limn::render
