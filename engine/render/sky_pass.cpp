@@ -5,7 +5,6 @@
 #include "engine/gpu/uploader.h"
 #include "engine/math/packing.h"
 #include "engine/render/geometry_passes.h"
-#include "engine/render/material_set.h"
 #include "shaders/fullscreen.vert.h"
 #include "shaders/shared/gpu_sky.h"
 #include "shaders/sky.frag.h"
@@ -31,15 +30,9 @@ static gpu::Image uploadPanorama(gpu::Device& device, const ImageF& pixels) {
     return image;
 }
 
-SkyPass::SkyPass(gpu::Device& device, VkDescriptorSetLayout frameLayout) : m_device(device) {
-    const std::array types = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-    m_setLayout = gpu::createSetLayout(device, types);
-    m_pool = gpu::createDescriptorPool(device, kFrameSlots, types);
-    for (std::uint32_t i = 0; i < kFrameSlots; ++i)
-        m_sets.push_back(gpu::allocateSet(device, m_pool, m_setLayout));
-    m_sampler = gpu::createSampler(
-        device, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST});
-    const std::array layouts = {frameLayout, m_setLayout.handle};
+SkyPass::SkyPass(gpu::Device& device, VkDescriptorSetLayout frameLayout)
+    : m_device(device), m_texture(device) {
+    const std::array layouts = {frameLayout, m_texture.layout()};
     m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuSky), "sky");
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = kFullscreenVert;
@@ -73,8 +66,7 @@ bool SkyPass::active() const {
 }
 
 void SkyPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, std::uint32_t slot) {
-    gpu::writeTexture(m_device, m_sets[slot], 0, m_panorama.view, m_sampler.handle);
-    const std::array sets = {frameSet, m_sets[slot]};
+    const std::array sets = {frameSet, m_texture.with(m_panorama.view, slot)};
     const GpuSky push{.zenith = m_sky.radiance,
                       .strength = m_sky.strength,
                       .horizon = m_sky.horizon,

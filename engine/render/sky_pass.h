@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/gpu/descriptors.h"
 #include "engine/gpu/image.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/render/slot_texture.h"
 #include "engine/scene/sky.h"
 
 namespace limn::render {
@@ -26,12 +26,9 @@ public:
 
 private:
     gpu::Device& m_device;
-    gpu::DescriptorSetLayout m_setLayout;
-    gpu::DescriptorPool m_pool;
+    SlotTexture m_texture;
     gpu::PipelineLayout m_layout;
     gpu::Pipeline m_pipeline;
-    gpu::Sampler m_sampler;
-    std::vector<VkDescriptorSet> m_sets; ///< per slot
     Sky m_sky;
     std::shared_ptr<const SkyImage> m_uploaded; ///< what m_panorama holds; null: one black pixel
     gpu::Image m_panorama;

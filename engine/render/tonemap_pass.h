@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/gpu/descriptors.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/render/slot_texture.h"
 #include "engine/scene/view.h"
 #include "shaders/shared/gpu_tonemap.h"
 
@@ -21,13 +21,9 @@ public:
                 std::uint32_t slot);
 
 private:
-    gpu::Device& m_device;
-    gpu::DescriptorSetLayout m_setLayout;
-    gpu::DescriptorPool m_pool;
+    SlotTexture m_linear;
     gpu::PipelineLayout m_layout;
     gpu::Pipeline m_pipeline;
-    gpu::Sampler m_sampler;
-    std::vector<VkDescriptorSet> m_sets; ///< per slot
 };
 
 } // namespace limn::render
