@@ -17,14 +17,9 @@ constexpr std::size_t kMostLights = 8;
 constexpr float kPi = std::numbers::pi_v<float>;
 
 Bounds worldBounds(const Scene& scene, const Instance& instance) {
-    Bounds b{glm::vec3(std::numeric_limits<float>::max()),
-             glm::vec3(std::numeric_limits<float>::lowest())};
-    for (const glm::vec3 p : scene.meshOf(instance).positions) {
-        const glm::vec3 q(instance.toWorld * glm::vec4(p, 1));
-        b.lower = glm::min(b.lower, q);
-        b.upper = glm::max(b.upper, q);
-    }
-    return b;
+    return boundsOf(scene.meshOf(instance).positions | std::views::transform([&](glm::vec3 p) {
+                        return glm::vec3(instance.toWorld * glm::vec4(p, 1));
+                    }));
 }
 
 } // namespace

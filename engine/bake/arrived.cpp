@@ -17,14 +17,12 @@ static std::vector<bool> maskOf(std::size_t count, const std::vector<std::uint32
 }
 
 BoundingSphere sphereAround(const TraceScene& trace, const Mesh& mesh, const glm::mat4& toWorld) {
-    glm::vec3 lower(1e30f), upper(-1e30f);
-    for (const glm::vec3 p : mesh.positions) {
-        const glm::vec3 world = toWorld * glm::vec4(p, 1);
-        lower = glm::min(lower, world);
-        upper = glm::max(upper, world);
-    }
-    const glm::vec3 centre = (lower + upper) * 0.5f;
-    return {centre, glm::length(upper - lower) * 0.505f + trace.epsilonAt(centre) * 4};
+    if (mesh.positions.empty())
+        return {};
+    const Bounds box = boundsOf(mesh.positions | std::views::transform([&](glm::vec3 p) {
+                                    return glm::vec3(toWorld * glm::vec4(p, 1));
+                                }));
+    return {box.centre(), glm::length(box.size()) * 0.505f + trace.epsilonAt(box.centre()) * 4};
 }
 
 ArrivedObjects::ArrivedObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances)

@@ -26,15 +26,11 @@ ClusterMetric metricOf(const BakeSettings& settings, glm::vec3 size) {
 
 MergeTree meshTree(const MeshSurfels& surfels, const BakeSettings& settings,
                    const Progress& progress) {
-    glm::vec3 lower(1e30f), upper(-1e30f);
-    for (const glm::vec3 p : surfels.position) {
-        lower = glm::min(lower, p);
-        upper = glm::max(upper, p);
-    }
+    const Bounds box = boundsOf(surfels.position);
     std::vector<ClusterItem> items(surfels.size());
     for (std::size_t i = 0; i < items.size(); ++i)
-        items[i] = {surfels.position[i] - lower, surfels.normal[i], 1};
-    return clusterItems(settings.clustering, items, metricOf(settings, upper - lower), progress);
+        items[i] = {surfels.position[i] - box.lower, surfels.normal[i], 1};
+    return clusterItems(settings.clustering, items, metricOf(settings, box.size()), progress);
 }
 
 MergeTree keptMeshTree(const MeshSurfels& surfels, const BakeSettings& settings,

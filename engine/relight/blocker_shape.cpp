@@ -30,13 +30,9 @@ struct Welded {
 // Of the size: vertices as near are one, and planes as near.
 constexpr float kOnePlace = 1e-5f, kOnePlane = 1e-4f;
 
-Bounds boundsOf(const Mesh& mesh) {
-    Bounds b{glm::vec3(1e30f), glm::vec3(-1e30f)};
-    for (const std::uint32_t i : mesh.indices) {
-        b.lower = glm::min(b.lower, mesh.positions[i]);
-        b.upper = glm::max(b.upper, mesh.positions[i]);
-    }
-    return b;
+Bounds boundsOfTriangles(const Mesh& mesh) {
+    return boundsOf(mesh.indices |
+                    std::views::transform([&](std::uint32_t i) { return mesh.positions[i]; }));
 }
 
 void findRim(Welded& w) {
@@ -202,7 +198,7 @@ float ballWithin(const Welded& w, glm::vec3 centre) {
 BlockerShape blockerShape(const Scene& scene, std::uint32_t mesh) {
     const Mesh& m = scene.assets->meshes[mesh];
     BlockerShape shape;
-    shape.box = boundsOf(m);
+    shape.box = boundsOfTriangles(m);
     const Welded welded = weld(m, shape.box);
     shape.sides = convexSides(welded);
     if (!shape.sides.empty()) {

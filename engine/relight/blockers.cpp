@@ -32,12 +32,10 @@ bool place(const Instance& instance, Blocker& b) {
     const Bounds& box = b.shape->box;
     b.toObject = glm::inverse(linear);
     b.origin = glm::vec3(instance.toWorld[3]);
-    b.bounds = {glm::vec3(1e30f), glm::vec3(-1e30f)};
+    b.bounds = kNoBounds;
     for (unsigned k = 0; k < 8; ++k) {
-        const glm::vec3 side(k & 1U, k >> 1 & 1U, k >> 2),
-            corner = b.origin + linear * glm::mix(box.lower, box.upper, side);
-        b.bounds.lower = glm::min(b.bounds.lower, corner);
-        b.bounds.upper = glm::max(b.bounds.upper, corner);
+        const glm::vec3 side(k & 1U, k >> 1 & 1U, k >> 2);
+        extend(b.bounds, b.origin + linear * glm::mix(box.lower, box.upper, side));
     }
     b.centre = b.origin + linear * box.centre();
     for (unsigned k = 0; k < 4; ++k) { // the other corners are as far

@@ -69,11 +69,9 @@ Polygon cutToReach(Polygon p, glm::ivec2 texel, glm::ivec2 size) {
 }
 
 void add(CacheFootprint& to, const Polygon& p, glm::vec3 normal) {
-    const bool first = to.bounds.lower.x > to.bounds.upper.x;
-    for (std::size_t i = 0; i < p.count; ++i) {
-        to.bounds.lower = glm::min(to.bounds.lower, p.corners[i].position);
-        to.bounds.upper = glm::max(to.bounds.upper, p.corners[i].position);
-    }
+    const bool first = isEmpty(to.bounds);
+    for (std::size_t i = 0; i < p.count; ++i)
+        extend(to.bounds, p.corners[i].position);
     if (first)
         to.normal = normal;
     to.cosSpread = std::min(to.cosSpread, glm::dot(to.normal, normal));

@@ -5,8 +5,6 @@
 #include "engine/core/parallel.h"
 #include "engine/gpu/uploader.h"
 
-#include <limits>
-
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -57,20 +55,10 @@ static std::vector<VertexAttributes> gatherAttributes(const MeshSource& s) {
     return out;
 }
 
-static Bounds emptyBounds() {
-    return {glm::vec3(std::numeric_limits<float>::max()),
-            glm::vec3(std::numeric_limits<float>::lowest())};
-}
-
-static void extend(Bounds& bounds, glm::vec3 p) {
-    bounds.lower = glm::min(bounds.lower, p);
-    bounds.upper = glm::max(bounds.upper, p);
-}
-
 static std::vector<Bounds> chunkBounds(const std::vector<glm::vec3>& positions,
                                        const std::vector<std::uint32_t>& indices) {
     constexpr std::size_t step = 3 * kChunkTriangles;
-    std::vector<Bounds> chunks((indices.size() + step - 1) / step, emptyBounds());
+    std::vector<Bounds> chunks((indices.size() + step - 1) / step, kNoBounds);
     for (std::size_t i = 0; i < indices.size(); ++i)
         extend(chunks[i / step], positions[indices[i]]);
     return chunks;
@@ -84,7 +72,7 @@ static GpuMesh uploadMesh(gpu::Uploader& uploader, const MeshSource& s) {
     if (out.indexCount == 0 || out.vertexCount == 0)
         return out;
     std::vector<glm::vec3> positions(out.vertexCount);
-    out.bounds = emptyBounds();
+    out.bounds = kNoBounds;
     for (std::size_t k = 0; k < positions.size(); ++k) {
         positions[k] = s.mesh.positions[s.source(k)];
         extend(out.bounds, positions[k]);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -35,12 +34,9 @@ std::array<glm::vec3, 8> corners(const Bounds& b) {
 // Orthographic, as tight round the scene as an axis-aligned box in light space can be.
 ShadowView directionalView(const ShadowKey& key, const Bounds& bounds, std::uint32_t mapSize) {
     const glm::mat4 toLight = glm::lookAtRH(glm::vec3(0), key.direction, upFor(key.direction));
-    glm::vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
-    for (glm::vec3 p : corners(bounds)) {
-        const glm::vec3 q(toLight * glm::vec4(p, 1));
-        lower = glm::min(lower, q);
-        upper = glm::max(upper, q);
-    }
+    auto [lower, upper] = boundsOf(corners(bounds) | std::views::transform([&](glm::vec3 p) {
+                                       return glm::vec3(toLight * glm::vec4(p, 1));
+                                   }));
     const glm::vec3 size = glm::max(upper - lower, glm::vec3(1e-6f * (1 + glm::length(upper))));
     const glm::vec3 margin(glm::vec2(size) * (kMarginTexels / float(mapSize)), 0.01f * size.z);
     lower -= margin;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
 #include <glm/common.hpp>
@@ -86,9 +85,8 @@ static void addInstances(Scene& scene, const Node& node, ObjectId id, const Plac
 }
 
 /// Of all instances, or of the static ones alone.
-static Bounds boundsOf(const Scene& scene, bool dynamic) {
-    const float inf = std::numeric_limits<float>::infinity();
-    std::vector<Bounds> each(scene.instances.size(), {glm::vec3(inf), glm::vec3(-inf)});
+static Bounds instanceBounds(const Scene& scene, bool dynamic) {
+    std::vector<Bounds> each(scene.instances.size(), kNoBounds);
     parallelRanges(scene.instances.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Instance& instance = scene.instances[i];
@@ -99,17 +97,14 @@ static Bounds boundsOf(const Scene& scene, bool dynamic) {
                 const glm::vec3 world = toWorld * glm::vec4(p, 1);
                 if (!std::isfinite(world.x) || !std::isfinite(world.y) || !std::isfinite(world.z))
                     continue;
-                each[i].lower = glm::min(each[i].lower, world);
-                each[i].upper = glm::max(each[i].upper, world);
+                extend(each[i], world);
             }
         }
     });
-    Bounds all{glm::vec3(inf), glm::vec3(-inf)};
-    for (const Bounds& b : each) {
-        all.lower = glm::min(all.lower, b.lower);
-        all.upper = glm::max(all.upper, b.upper);
-    }
-    return all.lower.x <= all.upper.x ? all : Bounds{};
+    Bounds all = kNoBounds;
+    for (const Bounds& b : each)
+        extend(all, b);
+    return isEmpty(all) ? Bounds{} : all;
 }
 
 bool shines(const Light& l) {
@@ -124,7 +119,7 @@ bool reaches(const Light& l, const Bounds& bounds) {
 }
 
 Bounds staticBounds(const Scene& scene) {
-    return boundsOf(scene, false);
+    return instanceBounds(scene, false);
 }
 
 bool showTime(Scene& scene, const Document& document, double seconds) {
@@ -167,7 +162,7 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, do
     showTime(scene, document, seconds);
     scene.sky = singleton<Sky>(document);
     scene.bake = singleton<BakeSettings>(document);
-    scene.bounds = boundsOf(scene, true);
+    scene.bounds = instanceBounds(scene, true);
     return scene;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/bounds.h"
 #include "engine/scene/document.h"
 #include "engine/scene/image.h"
 #include "engine/scene/mesh.h"
@@ -34,14 +35,6 @@ struct Instance {
     /// triangle is normalToWorld * cross(p1 - p0, p2 - p0) with the object's positions, never the
     /// cross of world edges.
     glm::mat3 normalToWorld{1};
-};
-
-struct Bounds {
-    glm::vec3 lower{0}, upper{0};
-
-    glm::vec3 size() const { return upper - lower; }
-    glm::vec3 centre() const { return (lower + upper) * 0.5f; }
-    bool operator==(const Bounds&) const = default;
 };
 
 /// Whether the light is on and sends anything.
