@@ -23,7 +23,7 @@ struct RelightStats {
     double dimMs = 0;         ///< which links dynamic objects block; 0 while they stand still
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
-    std::uint32_t shadowRays = 0;
+    std::uint64_t shadowRays = 0;
     bool converged = false;         ///< another bounce would change next to nothing (Convergence)
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing

@@ -17,15 +17,6 @@ namespace limn {
 
 namespace {
 
-Bounds boundsOf(const std::vector<glm::vec3>& points) {
-    Bounds bounds{glm::vec3(1e30f), glm::vec3(-1e30f)};
-    for (const glm::vec3 p : points) {
-        bounds.lower = glm::min(bounds.lower, p);
-        bounds.upper = glm::max(bounds.upper, p);
-    }
-    return bounds;
-}
-
 Light withoutName(Light l) {
     l.name.clear();
     return l;
@@ -47,44 +38,38 @@ std::uint64_t hashOccluders(const Scene& scene) {
 
 // Neighbours shift the points on the rectangle differently, so that what is left of their pattern
 // averages out over a cluster.
-std::uint32_t traceRectangle(const Surfels& surfels, const TraceScene& trace,
-                             SurfelLight::PerLight& out) {
-    const LightRectangle rectangle = lightRectangle(out.light);
+float rectangleShare(const TraceScene& trace, const LightRectangle& rectangle, glm::vec3 p,
+                     glm::vec3 n, std::uint32_t surfel, std::uint64_t& rays) {
+    const std::uint32_t bits = mixBits(surfel);
+    return shadowedIrradiance(trace, rectangle, p, n, SurfelLight::kRectanglePoints,
+                              {unitFloat(bits), unitFloat(mixBits(bits))}, rays);
+}
+
+float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::vec3 n,
+                 std::uint64_t& rays) {
+    const LightSample sample = sampleLight(light, p);
+    const float cosTheta = glm::dot(n, sample.toLight);
+    if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
+        return 0;
+    ++rays;
+    const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
+    return trace.occluded(ray) ? 0 : sample.irradiance.x * cosTheta;
+}
+
+// Returns the shadow rays traced.
+std::uint64_t traceLight(const Surfels& surfels, const TraceScene& trace,
+                         SurfelLight::PerLight& out) {
+    const bool isRectangle = out.light.kind == LightKind::Rectangle;
+    const LightRectangle rectangle = isRectangle ? lightRectangle(out.light) : LightRectangle{};
+    out.share.resize(surfels.size());
     std::atomic<std::uint64_t> rays = 0;
     parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::uint64_t mine = 0;
         for (std::size_t s = begin; s < end; ++s) {
-            const std::uint32_t bits = mixBits(std::uint32_t(s));
-            out.share[s] = shadowedIrradiance(trace, rectangle, surfels.position[s],
-                                              surfels.normal[s], SurfelLight::kRectanglePoints,
-                                              {unitFloat(bits), unitFloat(mixBits(bits))}, mine);
-        }
-        rays += mine;
-    });
-    return std::uint32_t(rays);
-}
-
-// Returns the shadow rays traced.
-std::uint32_t traceLight(const Surfels& surfels, const TraceScene& trace,
-                         SurfelLight::PerLight& out) {
-    out.share.resize(surfels.size());
-    if (out.light.kind == LightKind::Rectangle)
-        return traceRectangle(surfels, trace, out);
-    std::atomic<std::uint32_t> rays = 0;
-    parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
-        std::uint32_t mine = 0;
-        for (std::size_t s = begin; s < end; ++s) {
-            out.share[s] = 0;
             const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
-            const LightSample light = sampleLight(out.light, p);
-            const float cosTheta = glm::dot(n, light.toLight);
-            if (!(cosTheta > 0) || !(light.irradiance.x > 0))
-                continue;
-            ++mine;
-            const Ray ray{trace.clearOf(p, n), light.toLight, 0,
-                          light.distance - trace.epsilonAt(p)};
-            if (!trace.occluded(ray))
-                out.share[s] = light.irradiance.x * cosTheta;
+            out.share[s] = isRectangle
+                               ? rectangleShare(trace, rectangle, p, n, std::uint32_t(s), mine)
+                               : pointShare(trace, out.light, p, n, mine);
         }
         rays += mine;
     });
@@ -107,7 +92,8 @@ void sumLights(std::size_t surfels, SurfelLight& state) {
 
 bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
                        SurfelLight& state) {
-    state.lightsTraced = state.raysTraced = 0;
+    state.lightsTraced = 0;
+    state.raysTraced = 0;
     if (state.irradiance.size() != surfels.size())
         state.bounds = boundsOf(surfels.position);
     std::vector<Light>& lights = state.wanted;

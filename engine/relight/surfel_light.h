@@ -26,7 +26,7 @@ struct SurfelLight {
 
     std::vector<glm::vec3> irradiance; ///< [W m^-2] per surfel, all lights
     std::uint32_t lightsTraced = 0;    ///< by the last update
-    std::uint32_t raysTraced = 0;      ///< by the last update
+    std::uint64_t raysTraced = 0;      ///< by the last update
 
     // Of the update before: memory that the next one writes to.
     std::vector<Light> wanted;
