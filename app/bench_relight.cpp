@@ -4,6 +4,7 @@
 #include "app/moving_lights.h"
 
 #include "engine/measure/read_bandwidth.h"
+#include "engine/relight/bouncing.h"
 #include "engine/relight/relight.h"
 #include "engine/relight/seen_caches.h"
 
@@ -25,6 +26,7 @@ struct RelightBench {
     std::vector<std::string> caches = {"all"}; ///< "all", "seen" by the camera
     CameraOptions camera;
     std::uint32_t bounces = 1; ///< a run
+    bool anew = false;         ///< each run begins without bounced light
     int runs = 31;
     bool json = false;
 };
@@ -69,8 +71,10 @@ struct FieldDifference {
 };
 
 /// With every light and dynamic object moved.
-Scene sceneAt(const Scene& scene, int k) {
+Scene sceneAt(const RelightBench& o, const Scene& scene, int k) {
     Scene moved = scene;
+    if (o.anew)
+        moved.bake.maxBounces = o.bounces;
     moved.lights = movedLights(scene.lights, k);
     moveObjects(moved, scene, k);
     return moved;
@@ -97,7 +101,7 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
         relighters.push_back(std::make_unique<Relighter>(baked.bake, o.lit));
     }
     for (int k = 0; k <= o.runs; ++k) {
-        const Scene lit = sceneAt(scene, k);
+        const Scene lit = sceneAt(o, scene, k);
         const TraceScene trace(lit, baked.trace);
         for (std::size_t m = 0; m < all.size(); ++m) {
             // The first lights materials too, until the light rests; without lights it would stay
@@ -118,6 +122,10 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
     return all;
 }
 
+double passedOverPercent(const RelightStats& run) {
+    return 100 * double(run.linksPassedOver) / double(std::max<std::uint64_t>(run.links, 1));
+}
+
 Json describe(const RelightBench& o, const BenchBake& baked, const Measured& measured,
               const Scene& scene, double bytesPerSecond) {
     const std::vector<RelightStats>& runs = measured.runs;
@@ -130,12 +138,16 @@ Json describe(const RelightBench& o, const BenchBake& baked, const Measured& mea
     row.update({{"bands_lit", runs.back().bandsLit},
                 {"lights", scene.lights.size()},
                 {"bounces", o.bounces},
+                {"anew", o.anew},
                 {"caches", caches.size()},
                 {"caches_lit", measured.caches},
                 {"caches_unseen", runs.back().cachesUnseen},
                 {"caches_unread", runs.back().cachesUnread},
                 {"nrmse", measured.nrmse ? Json(*measured.nrmse) : Json()},
                 {"links_in_all", caches.linkCount()},
+                {"links_of_run", runs.back().links},
+                {"links_passed_over", runs.back().linksPassedOver},
+                {"passed_over_percent", passedOverPercent(runs.back())},
                 {"bytes", bytes},
                 {"bytes_per_second", bytesPerSecond},
                 {"floor_ms", 1000 * double(bytes) / bytesPerSecond},
@@ -162,6 +174,7 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"chroma", 6, "chroma_bands"},
                                {"kind", -4, "storage"},
                                {"MiB", 8, "bytes", 2, kMiB},
+                               {"over [%]", 8, "passed_over_percent", 1},
                                {"floor", 7, "floor_ms"},
                                {"direct", 7, "direct_median_ms"},
                                {"dimming", 7, "dimming_median_ms"},
@@ -180,7 +193,7 @@ Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBen
 #ifdef LIMN_HAS_VIEWPORT
     Result<GpuRuns> gpu =
         relightOnGpu(device == "gpu" ? "" : device, baked.trace, baked.bake, o.lit, o.bounces,
-                     o.runs, [&](int k) { return sceneAt(scene, k); });
+                     o.runs, [&](int k) { return sceneAt(o, scene, k); });
     if (!gpu)
         return tl::make_unexpected(gpu.error());
     return std::vector<Measured>{{gpu->device, "all", std::move(gpu->runs), {}}};
@@ -210,6 +223,8 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
 }
 
 Exit runRelightBench(const RelightBench& o) {
+    if (o.anew && o.bounces > kFewBounces)
+        return failed(fmt::format("--anew: at most {} bounces", kFewBounces));
     if (!o.json)
         printTitles(kColumns);
     Json rows = Json::array();
@@ -243,6 +258,10 @@ void addRelightBench(CLI::App& bench, Run& run) {
             CLI::IsMember(std::vector<std::string>{"all", "seen"}));
     addCameraOptions(*command, o->camera);
     command->add_option("--bounces", o->bounces, "of a run")->check(CLI::Range(1, 64));
+    command->add_flag("--anew", o->anew,
+                      fmt::format("let each run begin without bounced light, as where the bake "
+                                  "section asks for so few bounces, at most {}",
+                                  kFewBounces));
     command->add_option("--runs", o->runs, "of which the median is printed")
         ->check(CLI::Range(1, 100000));
     command->add_flag("--json", o->json, "one JSON object on stdout");

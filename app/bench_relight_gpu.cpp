@@ -42,6 +42,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                                                  .emitted = emitted,
                                                  .sky = sky,
                                                  .bands = bands,
+                                                 .maxBounces = lit.bake.maxBounces,
                                                  .grid = needsGrid(lit, bake->lightmap),
                                                  .dimming = &lit},
                                                 bounces);
@@ -55,6 +56,8 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
         r.totalMs = traced.count() + g.totalMs;
         r.cachesDimmed = g.cachesDimmed;
         r.linksDimmed = g.linksDimmed;
+        r.links = g.links;
+        r.linksPassedOver = g.linksPassedOver;
         r.gridCachesSkipped = g.gridCachesSkipped;
         r.bandsLit = bands;
         r.bandsSkipped = bake->settings.bands - bands;

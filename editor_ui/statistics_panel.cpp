@@ -146,8 +146,11 @@ static void relightTable(EditorState& state) {
         "colour or strength changed");
     row("Lights off", groupedNumber(r.last.lightsOff),
         "Off, black or out of reach of every surface: they cost nothing");
-    row("Sky links", groupedNumber(r.last.skyLinksSkipped),
-        "Passed over by the last call, because the sky is black");
+    row("Links", groupedNumber(r.last.links),
+        "Of the caches that the last call lit, once for each bounce");
+    row("  passed over", groupedNumber(r.last.linksPassedOver),
+        "What they come from sends no light: a black sky or, on the CPU, surfaces in the dark. "
+        "Nothing is lost without them");
     row("Bands lit",
         std::to_string(r.last.bandsLit) + " of " +
             std::to_string(r.last.bandsLit + r.last.bandsSkipped),

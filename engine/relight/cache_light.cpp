@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace limn {
 
@@ -41,19 +42,29 @@ static void forEachCache(const CacheRuns& runs, const Body& body) {
     });
 }
 
-void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                 LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
-                 LinkHalfs halfs) {
+LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                       LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
+                       LinkHalfs halfs) {
     if (halfs.empty())
         halfs = caches.shCoefficients;
+    std::atomic<std::uint64_t> passedOver = 0;
     parallelRanges(runs.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k)
+        std::uint64_t over = 0;
+        for (std::size_t k = first; k < last; ++k) {
+            const auto [begin, end] = runs[k];
             if (caches.shNode.empty())
-                lightCones(caches, ends, radiosity, bands, runs[k].begin, runs[k].end, sh.data());
+                over += lightCones(caches, ends, radiosity, bands, begin, end, sh.data());
             else
-                lightHarmonics(caches, ends, radiosity, bands, halfs, runs[k].begin, runs[k].end,
-                               sh.data());
+                lightHarmonics(caches, ends, radiosity, bands, halfs, begin, end, sh.data());
+            for (std::uint32_t c = begin; c < end; ++c)
+                over += caches.linkBegin[c + 1] - ends[c];
+        }
+        passedOver += over;
     });
+    std::uint64_t links = 0;
+    for (const CacheRun& run : runs)
+        links += caches.linkBegin[run.end] - caches.linkBegin[run.begin];
+    return {links, passedOver};
 }
 
 std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands) {

@@ -20,15 +20,21 @@ inline glm::vec4 withLuma(glm::vec3 rgb) {
 /// `radiosity` has one entry per node, leaves filled in by withLuma.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
+/// Links of the caches that were lit, and how many of them were passed over, because what they come
+/// from sends no light: the same number for any number of threads. Their error is 0.
+struct LinkCounts {
+    std::uint64_t links = 0, passedOver = 0;
+};
+
 /// SH of incident radiance of the caches of some runs, which do not overlap: sh[c * bands^2 + i] =
 /// sum over links before ends[c] of B transport g_l(u) Y_i(direction), bands = bands.luma, with
 /// links of either storage; empty `halfs` are Caches::shCoefficients. From band bands.chroma on the
 /// light is grey: its luma alone, half of which is green. Invalid caches among them are left 0.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016
-void lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                 LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
-                 LinkHalfs halfs = {});
+LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                       LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
+                       LinkHalfs halfs = {});
 
 /// The first bands^2 halfs of each link of LinkStorage::Sh, without the others between: memory
 /// brings whole lines. Empty where links are cones.

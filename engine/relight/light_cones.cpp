@@ -243,6 +243,9 @@ HWY_INLINE void readCones(Floats d, const Link* links, Cones<Bands>& cones) {
 /// So many links before it is used, light is fetched from where many nodes are kept.
 constexpr std::size_t kAhead = 32;
 
+/// Links behind those of a cache that are read too, though nothing comes of them.
+constexpr std::size_t kReadBehind = kAhead + hn::MaxLanes(Floats());
+
 /// As gatherLight; lanes of `count` and more are black.
 HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const glm::vec4* radiosity,
                         V* light) {
@@ -252,6 +255,13 @@ HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const gl
         for (int k = 0; k < 4; ++k)
             light[k] = hn::IfThenElseZero(own, light[k]);
     }
+}
+
+/// Whether links of this light add nothing at all.
+HWY_INLINE bool isBlack(Floats d, const V* light) {
+    // Luma nearly says it, in one test where all is lit.
+    const V zero = hn::Zero(d), any = hn::Or(hn::Or(light[0], light[1]), light[2]);
+    return hn::AllTrue(d, hn::Eq(light[3], zero)) && hn::AllTrue(d, hn::Eq(any, zero));
 }
 
 /// Which of the sums of a cache, 3 colours of Chroma^2 coefficients, then luma of the others, are
@@ -299,11 +309,12 @@ HWY_INLINE void addTotals(const V* sum, float* total) {
         total[kSums.at[i]] += out[i];
 }
 
-/// The sums of one cache, all in registers: of the orders First at once, then of the orders Second,
-/// if any, for which cones and light of a block of links wait in the nearest cache.
+/// Adds the sums of some links, all in registers: of the orders First at once, then of the orders
+/// Second, if any, for which cones and light of a block of links wait in the nearest cache. Returns
+/// how many links were passed over.
 template <int Bands, int Chroma, Orders First, Orders Second>
-HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
-                         float* total) {
+HWY_INLINE std::size_t sumCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                                float* total) {
     constexpr std::size_t kLanes = hn::MaxLanes(Floats()), kBlock = 256; // links
     constexpr int kSums = 3 * Bands * Bands;
     struct Waiting {
@@ -315,16 +326,20 @@ HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* 
     const auto clear = [&]() LIMN_UNROLLED {
         unrolled<0, kSums>([&](auto i) LIMN_UNROLLED { sum[i] = hn::Zero(d); });
     };
-    std::fill_n(total, kSums, 0.f);
+    std::size_t passedOver = 0;
     for (std::size_t k = 0; k < count; k += kBlock) {
         const std::size_t end = std::min(k + kBlock, count);
         std::size_t vectors = 0;
         clear();
-        for (std::size_t n = k; n < end; n += kLanes, ++vectors) {
+        for (std::size_t n = k; n < end; n += kLanes) {
             for (std::size_t j = n + kAhead; j < n + kAhead + kLanes; ++j)
                 hwy::Prefetch(&radiosity[links[j].node]);
             V light[4];
             lightOf(d, links + n, end - n, radiosity, light);
+            if (isBlack(d, light)) {
+                passedOver += std::min(kLanes, end - n);
+                continue;
+            }
             Cones<Bands> cones;
             readCones(d, links + n, cones);
             if constexpr (Second != 0) {
@@ -332,7 +347,10 @@ HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* 
                 std::copy_n(light, 4, waiting[vectors].light);
             }
             addCones<Bands, Chroma, First>(d, cones, light, sum);
+            ++vectors;
         }
+        if (vectors == 0)
+            continue;
         addTotals<Bands, Chroma, First>(sum, total);
         if constexpr (Second != 0) {
             clear();
@@ -341,6 +359,7 @@ HWY_INLINE void sumCones(const Link* links, std::size_t count, const glm::vec4* 
             addTotals<Bands, Chroma, Second>(sum, total);
         }
     }
+    return passedOver;
 }
 
 /// sums[i * Colours + k] += basis i * light k, lane by lane, over `vectors`, each of which has
@@ -390,8 +409,8 @@ HWY_INLINE void addBlocks(int coefficients, const float* basis, std::size_t stri
 /// As sumCones for more sums than there are registers: basis and light of a block of links wait
 /// in the nearest cache.
 template <int Bands>
-HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
-                                 int coloured, float* total) {
+HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
+                                        const glm::vec4* radiosity, int coloured, float* total) {
     constexpr int kCount = Bands * Bands;
     constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     constexpr std::size_t kBlock = 4096 / kCount / 16 * 16; // links, of a basis of 16 KiB
@@ -400,14 +419,19 @@ HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm
     const Floats d;
     const int all = 2 * coloured + kCount;
     std::fill_n(sums, std::size_t(all + 3) * kLanes, 0.f);
+    std::size_t passedOver = 0;
     for (std::size_t k = 0; k < count; k += kBlock) {
         const std::size_t end = std::min(k + kBlock, count);
         std::size_t vectors = 0;
-        for (std::size_t n = k; n < end; n += kLanes, ++vectors) {
+        for (std::size_t n = k; n < end; n += kLanes) {
             for (std::size_t j = n + kAhead; j < n + kAhead + kLanes; ++j)
                 hwy::Prefetch(&radiosity[links[j].node]);
             V colour[4];
             lightOf(d, links + n, end - n, radiosity, colour);
+            if (isBlack(d, colour)) {
+                passedOver += std::min(kLanes, end - n);
+                continue;
+            }
             unrolled<0, 4>([&](auto j) LIMN_UNROLLED {
                 hn::Store(colour[j], d, light + (vectors * 4 + j) * kLanes);
             });
@@ -417,6 +441,7 @@ HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm
                            [&](auto i, V value) LIMN_UNROLLED {
                                hn::Store(value, d, basis + (vectors * kCount + i) * kLanes);
                            });
+            ++vectors;
         }
         addBlocks<3>(coloured, basis, kCount * kLanes, light, 4 * kLanes, vectors, sums);
         addBlocks<1>(kCount - coloured, basis + std::size_t(coloured) * kLanes, kCount * kLanes,
@@ -425,41 +450,61 @@ HWY_INLINE void sumBlocksOfCones(const Link* links, std::size_t count, const glm
     }
     const auto sum = [&](int i)
                          LIMN_UNROLLED { return hn::Load(d, sums + std::size_t(i) * kLanes); };
-    for (int i = 0; i < all; i += 4)
-        sumLanes(sum(i), sum(i + 1), sum(i + 2), sum(i + 3), total + i);
+    for (int i = 0; i < all; i += 4) {
+        float out[4];
+        sumLanes(sum(i), sum(i + 1), sum(i + 2), sum(i + 3), out);
+        for (int j = 0; j < 4; ++j)
+            total[i + j] += out[j];
+    }
+    return passedOver;
 }
 
 template <int Bands>
-HWY_INLINE void sumCache(const Link* links, std::size_t count, const glm::vec4* radiosity,
-                         int chroma, float* total) {
+HWY_INLINE std::size_t sumLinks(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                                int chroma, float* total) {
     if constexpr (Bands == 2 || (Bands <= 4 && kManyRegisters)) {
         constexpr Orders kFirst = Bands < 4 ? kEveryOrder : kEvenOrders,
                          kSecond = Bands < 4 ? 0 : kOddOrders;
+        std::size_t passedOver = 0;
         unrolled<1, Bands + 1>([&](auto k) LIMN_UNROLLED {
             if (k == chroma)
-                sumCones<Bands, k, kFirst, kSecond>(links, count, radiosity, total);
+                passedOver = sumCones<Bands, k, kFirst, kSecond>(links, count, radiosity, total);
         });
+        return passedOver;
     } else
-        sumBlocksOfCones<Bands>(links, count, radiosity, chroma * chroma, total);
+        return sumBlocksOfCones<Bands>(links, count, radiosity, chroma * chroma, total);
+}
+
+/// So many links are copied at once where the array ends behind them.
+constexpr std::size_t kCopied = 1024;
+
+/// The sums of a cache, of its links [first, last). Returns how many were passed over.
+template <int Bands>
+HWY_INLINE std::size_t sumCache(const std::vector<Link>& links, std::size_t first, std::size_t last,
+                                const glm::vec4* radiosity, int chroma, float* total) {
+    std::fill_n(total, 3 * Bands * Bands, 0.f);
+    if (last + kReadBehind <= links.size())
+        return sumLinks<Bands>(links.data() + first, last - first, radiosity, chroma, total);
+    std::size_t passedOver = 0;
+    for (std::size_t count; first < last; first += count) {
+        Link copies[kCopied + kReadBehind] = {};
+        count = std::min(kCopied, last - first);
+        std::copy_n(links.begin() + std::ptrdiff_t(first), count, copies);
+        passedOver += sumLinks<Bands>(copies, count, radiosity, chroma, total);
+    }
+    return passedOver;
 }
 
 template <int Bands>
-void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
-                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+std::size_t lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
+                       std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     constexpr int kCount = Bands * Bands;
     const int coloured = chroma * chroma;
-    const std::size_t lanes = hn::Lanes(Floats());
-    std::vector<Link> padded;
     float total[3 * kCount + 3] = {};
+    std::size_t passedOver = 0;
     for (std::uint32_t c = begin; c < end; ++c) {
-        const std::size_t first = caches.linkBegin[c], count = ends[c] - first;
-        const Link* links = caches.links.data() + first;
-        if (first + count + kAhead + lanes > caches.links.size()) { // the array's end
-            padded.assign(links, links + count);
-            padded.resize(count + kAhead + lanes);
-            links = padded.data();
-        }
-        sumCache<Bands>(links, count, radiosity, chroma, total);
+        passedOver +=
+            sumCache<Bands>(caches.links, caches.linkBegin[c], ends[c], radiosity, chroma, total);
         const float scale = linkScale(caches, c);
         glm::vec3* out = sh + std::size_t(c) * kCount;
         for (int i = 0; i < coloured; ++i)
@@ -468,15 +513,16 @@ void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
         for (int i = coloured; i < kCount; ++i)
             out[i] = glm::vec3(total[2 * coloured + i] * (kMonicScale[std::size_t(i)] * scale));
     }
+    return passedOver;
 }
 
-void lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, LightBands bands,
-                std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    using Light = void (*)(const Caches&, LinkEnds, const glm::vec4*, int, std::uint32_t,
-                           std::uint32_t, glm::vec3*);
+std::size_t lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
+                       LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+    using Light = std::size_t (*)(const Caches&, LinkEnds, const glm::vec4*, int, std::uint32_t,
+                                  std::uint32_t, glm::vec3*);
     constexpr Light kLight[] = {lightBands<2>, lightBands<3>, lightBands<4>, lightBands<5>,
                                 lightBands<6>, lightBands<7>, lightBands<8>};
-    kLight[bands.luma - 2](caches, ends, radiosity, bands.chroma, begin, end, sh);
+    return kLight[bands.luma - 2](caches, ends, radiosity, bands.chroma, begin, end, sh);
 }
 
 } // namespace HWY_NAMESPACE
@@ -488,10 +534,9 @@ namespace limn {
 
 HWY_EXPORT(lightCones);
 
-void lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    HWY_DYNAMIC_DISPATCH(lightCones)
-    (caches, ends, radiosity.data(), bands, begin, end, sh);
+std::size_t lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                       LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
+    return HWY_DYNAMIC_DISPATCH(lightCones)(caches, ends, radiosity.data(), bands, begin, end, sh);
 }
 
 } // namespace limn

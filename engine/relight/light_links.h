@@ -33,9 +33,10 @@ inline float linkScale(const Caches& caches, std::uint32_t c) {
 // thread, by the widest vectors that this machine has. The order of a cache's sums depends on the
 // machine's vectors, so results of two kinds of machine agree to rounding only.
 
-/// Of links of LinkStorage::Rtp: one link per lane.
-void lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
-                LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
+/// Of links of LinkStorage::Rtp: one link per lane. Whole vectors of links to nodes without light
+/// are passed over, which changes no sum; returns how many links that are.
+std::size_t lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
+                       LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
 
 /// Of links of LinkStorage::Sh: one coefficient per lane.
 void lightHarmonics(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,

@@ -53,8 +53,8 @@ struct Relighter::State {
     LightBands innerBands, bounceBands, finalBands;
     std::vector<std::uint16_t> halfs; ///< of links in fewer bands than stored; empty: as stored
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
-    std::uint64_t skyLinks = 0;                      ///< between the two
     LinkEnds ends;                                   ///< the ones in use
+    LinkCounts links;                                ///< of this call
     bool started = false;
     std::uint32_t maxBounces = 0; ///< of the last call's scene
     Convergence convergence;
@@ -106,8 +106,6 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     s.lit = lit;
     s.everyLink = allLinks(s.bake->caches);
     s.beforeSky = linksBeforeSky(s.bake->caches, s.bake->tree);
-    for (std::size_t c = 0; c < s.everyLink.size(); ++c)
-        s.skyLinks += s.everyLink[c] - s.beforeSky[c];
     s.read = cachesRead(s.bake->surfels, s.bake->caches);
     setRuns(s.read, s.readRuns);
     s.gridRuns = runsOf(s.bake->caches.lightmapCount, std::uint32_t(s.bake->caches.size()));
@@ -187,8 +185,11 @@ void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<g
     if (runs.empty())
         return;
     out.resize(std::max(out.size(), runs.back().end * coefficients));
-    lightCaches(dimmed.cones.links.empty() ? caches : dimmed.cones, ends, radiosity, in, runs, out,
-                dimmed.halfs.empty() ? halfs : dimmed.halfs);
+    const LinkCounts counts =
+        lightCaches(dimmed.cones.links.empty() ? caches : dimmed.cones, ends, radiosity, in, runs,
+                    out, dimmed.halfs.empty() ? halfs : dimmed.halfs);
+    links.links += counts.links;
+    links.passedOver += counts.passedOver;
     fillInvalidCaches(caches, in.luma, runs, out);
 }
 
@@ -319,7 +320,6 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     ends = blackSky ? beforeSky : everyLink;
     started = true;
     stats.cachesUnread = std::uint32_t(std::ranges::count(read, 0));
-    stats.skyLinksSkipped = blackSky ? skyLinks : 0;
     return changed;
 }
 
@@ -329,6 +329,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     State& s = *m_state;
     RelightStats stats;
     Timer total;
+    s.links = {};
     const bool changed = s.takeScene(scene, trace, stats);
     Timer timer;
     const bool bouncing = bounces > 0 && !s.convergence.reached();
@@ -374,6 +375,8 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         stats.fieldMs = timer.lap();
     }
     stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
+    stats.links = s.links.links;
+    stats.linksPassedOver = s.links.passedOver;
     stats.totalMs = total.lap();
     return stats;
 }

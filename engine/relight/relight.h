@@ -27,7 +27,8 @@ struct RelightStats {
     bool converged = false;         ///< another bounce would change next to nothing (Convergence)
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
-    std::uint64_t skyLinksSkipped = 0;   ///< per bounce: links to nothing but a black sky
+    std::uint64_t links = 0;     ///< of the caches lit by this call, once for each bounce
+    std::uint64_t linksPassedOver = 0;   ///< of those: what they come from sends no light
     std::uint32_t bandsLit = 0;          ///< of the caches
     std::uint32_t bandsSkipped = 0;      ///< bands of the bake that no surface's reflection needs
     std::uint32_t gridCachesSkipped = 0; ///< nothing would read them

@@ -4,6 +4,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
 #include "engine/relight/bouncing.h"
+#include "engine/relight/cache_light.h"
 #include "engine/relight_gpu/gpu_dimming.h"
 #include "engine/relight_gpu/relight_steps.h"
 
@@ -53,7 +54,9 @@ struct GpuRelighter::State {
     Convergence convergence;
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;                 ///< as sent
-    std::uint64_t skyLinksSkipped = 0;          ///< per bounce
+    bool blackSky = false;                      ///< as the caches were sent
+    std::vector<std::uint32_t> linkEnds;        ///< of their links
+    LinkCounts links;                           ///< of this call
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
     std::uint64_t fieldVersion = 0;
 
@@ -73,7 +76,7 @@ struct GpuRelighter::State {
     CacheList list(List which, const CacheFlags& flags);
     void lightRest();
     bool setBands(std::uint32_t bands);
-    std::vector<shared::GpuCache> cachesUnder(bool blackSky);
+    void countLinks(const CacheFlags& lightmap, bool grid);
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     bool dim(const Scene* scene, GpuRelightStats& stats);
@@ -103,6 +106,7 @@ Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
     if (!buffers)
         return tl::make_unexpected(buffers.error());
     auto state = std::make_unique<State>(device, std::move(bake), std::move(*buffers));
+    state->linkEnds = allLinks(state->bake->caches);
     state->read = cachesRead(state->bake->surfels, state->bake->caches);
     state->setBands(0);
     state->direct.buffer = &state->buffers.direct;
@@ -132,16 +136,15 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
     return true;
 }
 
-/// As they are read under a black sky, where links to nothing else are passed over, or under
-/// another.
-std::vector<shared::GpuCache> GpuRelighter::State::cachesUnder(bool blackSky) {
+/// Counts those of caches that are to be lit.
+void GpuRelighter::State::countLinks(const CacheFlags& lightmap, bool grid) {
     const Caches& caches = bake->caches;
-    const std::vector<std::uint32_t> all = allLinks(caches);
-    const std::vector<std::uint32_t> ends = blackSky ? linksBeforeSky(caches, bake->tree) : all;
-    skyLinksSkipped = 0;
-    for (std::size_t c = 0; c < all.size(); ++c)
-        skyLinksSkipped += all[c] - ends[c];
-    return packCaches(caches, ends);
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        if (c < lightmap.size() ? lightmap[c] == 0 : !grid)
+            continue;
+        links.links += caches.linkBegin[c + 1] - caches.linkBegin[c];
+        links.passedOver += caches.linkBegin[c + 1] - linkEnds[c];
+    }
 }
 
 /// True if lights or materials had changed.
@@ -177,8 +180,11 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         sky.assign(inputs.sky.begin(), inputs.sky.end());
         send(buffers.radiosity, bake->tree.surfels, padded(sky));
         const bool black = std::ranges::all_of(sky, [](glm::vec3 c) { return c == glm::vec3(0); });
-        if (black != (skyLinksSkipped > 0))
-            send(buffers.caches, 0, cachesUnder(black));
+        if (black != blackSky) { // links to nothing else are passed over
+            blackSky = black;
+            linkEnds = black ? linksBeforeSky(bake->caches, bake->tree) : allLinks(bake->caches);
+            send(buffers.caches, 0, packCaches(bake->caches, linkEnds));
+        }
         convergence.skyChanged();
         skyChanged = true;
     }
@@ -244,6 +250,7 @@ void GpuRelighter::State::lightRest() {
     unlit = read;
     removeFrom(unlit, current);
     const CacheList rest = list(kRest, unlit);
+    countLinks(unlit, false);
     device.immediate("rest of the last bounce", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);
         steps->recordLightmapCaches(cmd, rest);
@@ -285,6 +292,7 @@ double GpuRelighter::State::bounce(CacheList caches, bool surfelsRead, GpuReligh
 /// Writes what is to be lit, and the grid.
 void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
     const CacheList toWrite = list(kLit, lit), toLight = list(kRest, unlit);
+    countLinks(unlit, grid);
     device.immediate("field", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after lists were sent
         times.begin(cmd);
@@ -330,6 +338,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     State& s = *m_state;
     GpuRelightStats stats;
     const auto start = Clock::now();
+    s.links = {};
     const Caches& caches = s.bake->caches;
     const bool newBands = s.setBands(inputs.bands);
     const std::uint64_t dispatchesBefore = s.steps->dispatches;
@@ -347,6 +356,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     for (std::uint32_t k = 0; bouncing && k < bounces && !s.convergence.reached(); ++k) {
         s.unread = mayPutOff && k + 1 == bounces;
         const CacheFlags& now = s.unread ? lit : s.read;
+        s.countLinks(now, false);
         s.convergence.addRound(
             s.bounce(s.list(s.unread ? State::kLit : State::kRead, now), !s.unread, stats));
         s.unlit = lit;
@@ -363,7 +373,8 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     }
     stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
     stats.cachesUnread = std::uint32_t(std::ranges::count(s.read, 0));
-    stats.skyLinksSkipped = stats.skipped ? 0 : s.skyLinksSkipped;
+    stats.links = s.links.links;
+    stats.linksPassedOver = s.links.passedOver;
     stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
     stats.totalMs = msSince(start);
     return stats;

@@ -47,7 +47,8 @@ struct GpuRelightStats {
     std::uint64_t bytesUploaded = 0;
     /// Lights that were worked out: they or an object moved, or there is no room to keep them.
     std::uint32_t lightsTraced = 0;
-    std::uint64_t skyLinksSkipped = 0;                ///< as RelightStats::skyLinksSkipped
+    std::uint64_t links = 0;                          ///< as RelightStats::links
+    std::uint64_t linksPassedOver = 0;                ///< of those: to a black sky
     std::uint32_t cachesUnread = 0, cachesUnseen = 0; ///< as RelightStats'
     std::uint32_t gridCachesSkipped = 0;              ///< as RelightStats::gridCachesSkipped
     std::uint32_t cachesDimmed = 0;                   ///< as RelightStats::cachesDimmed

@@ -53,7 +53,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.bounces = g.bounces;
     stats.converged = g.converged;
     stats.skipped = g.skipped;
-    stats.skyLinksSkipped = g.skyLinksSkipped;
+    stats.links = g.links;
+    stats.linksPassedOver = g.linksPassedOver;
     stats.cachesDimmed = g.cachesDimmed;
     stats.linksDimmed = g.linksDimmed;
     stats.gridCachesSkipped = g.gridCachesSkipped;

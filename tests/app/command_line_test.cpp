@@ -353,6 +353,19 @@ TEST_F(CommandLine, BenchRelightMovesDynamicObjectsAndTimesTheirDimming) {
     EXPECT_GT(both[1]["dimming_median_ms"], 0);
 }
 
+TEST_F(CommandLine, BenchRelightCountsLinksThatArePassedOver) {
+    const std::string start = "bench relight cornell --surfels 2048 --links 64 --rays 64 "
+                              "--lightmap 400 --storage rtp --runs 9 --json -o " +
+                              path("over") + " --light 'spot pos=0,1.5,0 dir=0,-1,0 cd=9 outer=9'";
+    const nlohmann::json on = json(start)["rows"][0], anew = json(start + " --anew")["rows"][0];
+    EXPECT_GT(on["links_of_run"], on["caches"]);
+    EXPECT_EQ(anew["links_of_run"], on["links_of_run"]);
+    EXPECT_GT(anew["links_passed_over"], on["links_passed_over"]) << "no light has bounced yet";
+    EXPECT_DOUBLE_EQ(double(anew["passed_over_percent"]),
+                     100 * double(anew["links_passed_over"]) / double(anew["links_of_run"]));
+    EXPECT_EQ(limn(start + " --anew --bounces 9").exit, 1);
+}
+
 TEST_F(CommandLine, BenchStressFindsNothingWrongButWhatIs) {
     const std::string start = "bench stress cornell --surfels 256 --links 16 --rays 32 --lightmap "
                               "200 --width 32 --height 24 --json -o " +
