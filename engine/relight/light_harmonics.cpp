@@ -28,8 +28,8 @@ constexpr int vectorsOf(int bands) {
     return (bands * bands + kLanes - 1) / kLanes;
 }
 
-/// Adds the links of one cache; `halfs` are theirs, `stored` for each, of which the first Bands^2
-/// are read, with a vector's worth more behind. The sums are red of all coefficients, or luma where
+/// Adds some links of one cache to its sums; `halfs` are theirs, `stored` for each, of which the
+/// first vectorsOf(Bands) vectors are read. The sums are red of all coefficients, or luma where
 /// there is no colour, and green and blue of the first `Coloured` vectors of them.
 template <int Bands, int Coloured>
 HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* halfs,
@@ -41,10 +41,12 @@ HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* ha
     constexpr int kLanes = int(hn::MaxLanes(Floats()));
     constexpr int kVectors = vectorsOf(Bands);
     V r[kVectors], g[Coloured], b[Coloured];
-    for (V& v : r)
-        v = hn::Zero(d);
-    for (int i = 0; i < Coloured; ++i)
-        g[i] = b[i] = hn::Zero(d);
+    for (int i = 0; i < kVectors; ++i)
+        r[i] = hn::Load(d, sums + i * kLanes);
+    for (int i = 0; i < Coloured; ++i) {
+        g[i] = hn::Load(d, sums + (kVectors + i) * kLanes);
+        b[i] = hn::Load(d, sums + (2 * kVectors + i) * kLanes);
+    }
     for (std::size_t k = 0; k < links; ++k) {
         const glm::vec4& from = radiosity[nodes[k]];
         const V red = hn::Set(d, from.x), green = hn::Set(d, from.y), blue = hn::Set(d, from.z),
@@ -82,17 +84,22 @@ void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
     alignas(HWY_MAX_BYTES) float sums[3 * kSums] = {};
     const float *const r = sums, *const g = sums + kSums, *const b = sums + 2 * kSums;
     const std::size_t stored = all.size() / caches.shNode.size();
-    std::vector<std::uint16_t> padded;
-    for (std::uint32_t c = begin; c < end; ++c) {
-        const std::size_t first = caches.linkBegin[c], last = ends[c];
-        const std::uint16_t* halfs = all.data() + first * stored;
-        if (last * stored + kLanes > all.size()) { // the array's end
-            padded.assign(halfs, halfs + (last - first) * stored);
-            padded.resize(padded.size() + kLanes, 0);
-            halfs = padded.data();
-        }
+    // From this link on vectors reach beyond the array's end. Those are fewer halfs than kSums.
+    const std::size_t behind = all.size() < kSums ? 0 : (all.size() - kSums) / stored + 1;
+    std::uint16_t copies[2 * kSums] = {};
+    if (ends[end - 1] > behind)
+        std::copy(all.begin() + std::ptrdiff_t(behind * stored), all.end(), copies);
+    const auto add = [&](std::size_t first, std::size_t last, const std::uint16_t* halfs) {
         addHarmonics<Bands, Coloured>(caches.shNode.data() + first, halfs, stored, last - first,
                                       radiosity, sums);
+    };
+    for (std::uint32_t c = begin; c < end; ++c) {
+        const std::size_t first = caches.linkBegin[c], last = ends[c];
+        const std::size_t middle = std::clamp(behind, first, last);
+        std::fill(std::begin(sums), std::end(sums), 0.f);
+        add(first, middle, all.data() + first * stored);
+        if (middle < last)
+            add(middle, last, copies + (middle - behind) * stored);
         const float scale = linkScale(caches, c);
         glm::vec3* out = sh + c * kCount;
         std::size_t i = 0;

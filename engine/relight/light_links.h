@@ -38,7 +38,8 @@ inline float linkScale(const Caches& caches, std::uint32_t c) {
 std::size_t lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                        LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
 
-/// Of links of LinkStorage::Sh: one coefficient per lane.
+/// Of links of LinkStorage::Sh: one coefficient per lane. Those without light are read like all:
+/// memory brings their coefficients with the others', and finding them takes longer than that.
 void lightHarmonics(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                     LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
                     glm::vec3* sh);

@@ -31,9 +31,11 @@ static std::atomic<std::uint64_t> allocations = 0;
 namespace limn {
 namespace {
 
-TEST(RelightMemory, MovedLightsTakeNoneAnew) {
+void expectNoneAnew(LinkStorage storage) {
     Scene scene = *litRoom(2000, 2000);
     scene.lights.resize(20, scene.lights[0]);
+    scene.bake.storage = storage;
+    scene.instances[1].dynamic = true; // lit from the grid, whose links are the last of all
     const TraceScene trace{scene};
     const auto made = std::make_shared<const Bake>(*bake(trace));
     Relighter relighter(made);
@@ -47,9 +49,15 @@ TEST(RelightMemory, MovedLightsTakeNoneAnew) {
         return allocations - before;
     };
     EXPECT_GT(relight(1.5f, nullptr), 0U) << "the first call makes room";
+    EXPECT_EQ(relighter.field().gridSize, glm::uvec3(2));
     relight(1.6f, &seen);
     for (int k = 0; k < 4; ++k)
         EXPECT_EQ(relight(1.7f + 0.1f * float(k), k % 2 == 0 ? nullptr : &seen), 0U) << k;
+}
+
+TEST(RelightMemory, MovedLightsTakeNoneAnew) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        expectNoneAnew(storage);
 }
 
 } // namespace
