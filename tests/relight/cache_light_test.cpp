@@ -205,6 +205,52 @@ TEST(LightCaches, ABlackSkyNeedsNoneOfItsLinks) {
     }
 }
 
+/// With no more than `most` links of each cache.
+Caches shortened(const Caches& caches, std::uint32_t most, std::vector<std::uint32_t>& ends) {
+    Caches out = caches;
+    out.links.clear(), out.shNode.clear(), out.shCoefficients.clear();
+    const auto stored = std::ptrdiff_t(
+        caches.shNode.empty() ? 0 : caches.shCoefficients.size() / caches.shNode.size());
+    ends.clear();
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        const std::ptrdiff_t begin = caches.linkBegin[c];
+        ends.push_back(std::min(caches.linkBegin[c] + most, caches.linkBegin[c + 1]));
+        const std::ptrdiff_t count = std::ptrdiff_t(ends.back()) - begin;
+        if (caches.shNode.empty())
+            out.links.insert(out.links.end(), caches.links.begin() + begin,
+                             caches.links.begin() + begin + count);
+        else
+            out.shNode.insert(out.shNode.end(), caches.shNode.begin() + begin,
+                              caches.shNode.begin() + begin + count);
+        out.shCoefficients.insert(out.shCoefficients.end(),
+                                  caches.shCoefficients.begin() + begin * stored,
+                                  caches.shCoefficients.begin() + (begin + count) * stored);
+        out.linkBegin[c + 1] = out.linkBegin[c] + std::uint32_t(count);
+    }
+    return out;
+}
+
+TEST(LightCaches, IsTheSameWhereverTheArrayOfLinksEnds) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        for (int bands = 2; bands <= 8; ++bands) {
+            const Bake baked = bakedRoom(storage, std::uint32_t(bands));
+            const std::vector<glm::vec4> radiosity = randomRadiosity(baked.tree, false);
+            const auto all = std::uint32_t(baked.caches.size());
+            const auto litBy = [&](const Caches& caches, LinkEnds ends) {
+                std::vector<glm::vec3> sh(all * std::size_t(bands * bands));
+                lightCaches(caches, ends, radiosity, {bands, bands}, runsOf(0, all), sh);
+                return sh;
+            };
+            for (const std::uint32_t most : {1U, 2U, 5U, 20U}) {
+                std::vector<std::uint32_t> ends;
+                const Caches few = shortened(baked.caches, most, ends);
+                EXPECT_EQ(few.linkCount(), few.linkBegin.back());
+                EXPECT_TRUE(litBy(few, allLinks(few)) == litBy(baked.caches, ends))
+                    << bands << " bands, " << most << " links";
+            }
+        }
+}
+
 TEST(ReadCaches, IsTheIrradianceOfTheWeightedCaches) {
     std::mt19937 rng(5);
     std::uniform_real_distribution<float> any(-1, 1);
