@@ -149,8 +149,8 @@ static void relightTable(EditorState& state) {
     row("Links", groupedNumber(r.last.links),
         "Of the caches that the last call lit, once for each bounce");
     row("  passed over", groupedNumber(r.last.linksPassedOver),
-        "What they come from sends no light: a black sky or, on the CPU, surfaces in the dark. "
-        "Nothing is lost without them");
+        "What they come from sends no light: a black sky or, where the CPU reads cones, surfaces "
+        "in the dark. Nothing is lost without them");
     row("Bands lit",
         std::to_string(r.last.bandsLit) + " of " +
             std::to_string(r.last.bandsLit + r.last.bandsSkipped),
