@@ -459,9 +459,10 @@ HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
     return passedOver;
 }
 
+/// Not in line: it is called from two places, and compiling it once takes long enough.
 template <int Bands>
-HWY_INLINE std::size_t sumLinks(const Link* links, std::size_t count, const glm::vec4* radiosity,
-                                int chroma, float* total) {
+HWY_NOINLINE std::size_t sumLinks(const Link* links, std::size_t count, const glm::vec4* radiosity,
+                                  int chroma, float* total) {
     if constexpr (Bands == 2 || (Bands <= 4 && kManyRegisters)) {
         constexpr Orders kFirst = Bands < 4 ? kEveryOrder : kEvenOrders,
                          kSecond = Bands < 4 ? 0 : kOddOrders;
