@@ -6,8 +6,11 @@
 #include "engine/core/archive.h"
 #include "engine/core/hash.h"
 #include "engine/core/replace_file.h"
+#include "engine/math/packing.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -178,6 +181,55 @@ std::string indexDefect(const Bake& b) {
     return linkDefect(b);
 }
 
+bool isNumber(float v) {
+    return std::isfinite(v);
+}
+template <glm::length_t N>
+bool isNumber(const glm::vec<N, float>& v) {
+    for (glm::length_t i = 0; i < N; ++i)
+        if (!std::isfinite(v[i]))
+            return false;
+    return true;
+}
+template <class Values>
+bool areNumbers(const Values& values) {
+    return std::ranges::all_of(values, [](const auto& v) { return isNumber(v); });
+}
+
+/// What relighting multiplies and sums is finite, and so is what comes of it: links bring no more
+/// than kMostTransport of what their cluster sends, some hundred times what there can be.
+std::string numberDefect(const Bake& b) {
+    constexpr float kMostTransport = 1024;
+    const Surfels& s = b.surfels;
+    const Caches& c = b.caches;
+    if (!areNumbers(s.position) || !areNumbers(s.normal) || !areNumbers(s.area) ||
+        !areNumbers(s.barycentric) || !areNumbers(s.cacheWeight))
+        return "SURFELS: not a number";
+    if (!areNumbers(b.tree.skyDirection) ||
+        !std::ranges::all_of(b.tree.leftWeight, [](float w) { return w >= 0 && w <= 1; }))
+        return "CLUSTERS: not a number, or no weight";
+    if (!areNumbers(c.position) || !areNumbers(c.normal) || !areNumbers(c.fillWeight))
+        return "CACHES: not a number";
+    const std::size_t coefficients = std::size_t(b.settings.bands) * b.settings.bands;
+    const auto magnitude = [](std::uint16_t half) { return half & 0x7fff; };
+    constexpr int kLargest = 0x7bff; // half; beyond it are infinity and what is no number
+    for (std::size_t cache = 0; cache < c.size(); ++cache) {
+        const float scaled = std::ldexp(kMostTransport, c.linkExponent[cache]);
+        const int most = scaled < 65504 ? floatToHalf(scaled) : kLargest;
+        for (std::size_t k = c.linkBegin[cache]; k < c.linkBegin[cache + 1]; ++k) {
+            const auto first = c.shCoefficients.begin() + std::ptrdiff_t(k * coefficients);
+            const bool fits =
+                c.shNode.empty()
+                    ? magnitude(c.links[k].u) <= kLargest && magnitude(c.links[k].transport) <= most
+                    : std::all_of(first, first + std::ptrdiff_t(coefficients),
+                                  [&](std::uint16_t half) { return magnitude(half) <= most; });
+            if (!fits)
+                return "CACHES: a link brings more light than there is";
+        }
+    }
+    return {};
+}
+
 std::string layoutDefect(const LightmapLayout& l) {
     for (const MeshCharts& m : l.meshes) {
         if (m.chartUv.size() != m.sourceVertex.size() ||
@@ -288,11 +340,13 @@ Result<Bake> readBake(const std::string& path) {
         if (!archive.ok || !archive.atEnd())
             defect = fmt::format("{}: chunk {}: wrong length", path, name);
     });
-    if (defect.empty())
-        if (std::string inside = layoutDefect(bake.lightmap) + indexDefect(bake); !inside.empty())
-            defect = fmt::format("{}: {}", path, inside);
     if (!defect.empty())
         return fail(defect);
+    std::string inside = layoutDefect(bake.lightmap) + indexDefect(bake);
+    if (inside.empty()) // so that what is looked at is there
+        inside = numberDefect(bake);
+    if (!inside.empty())
+        return fail(fmt::format("{}: {}", path, inside));
     return bake;
 }
 

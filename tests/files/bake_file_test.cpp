@@ -142,6 +142,34 @@ TEST_F(BakeFile, IndicesOutOfRangeAreRefusedEvenWithRightChecksums) {
     EXPECT_FALSE(readBake(path));
 }
 
+TEST_F(BakeFile, WhatIsNoNumberOrBringsLightFromNowhereIsRefusedEvenWithRightChecksums) {
+    const float inf = std::numeric_limits<float>::infinity(),
+                nan = std::numeric_limits<float>::quiet_NaN();
+    const auto refuses = [&](const Bake& good, const char* chunk, const auto& breakIt) {
+        Bake broken = good;
+        breakIt(broken);
+        ASSERT_TRUE(writeBake(path, broken));
+        const Result<Bake> refused = readBake(path);
+        ASSERT_FALSE(refused);
+        EXPECT_NE(refused.error().message.find(chunk), std::string::npos);
+    };
+    refuses(baked, "SURFELS", [&](Bake& b) { b.surfels.position[7].y = inf; });
+    refuses(baked, "SURFELS", [&](Bake& b) { b.surfels.area[0] = nan; });
+    refuses(baked, "SURFELS", [&](Bake& b) { b.surfels.cacheWeight[3].w = nan; });
+    refuses(baked, "CLUSTERS", [&](Bake& b) { b.tree.leftWeight[3] = nan; });
+    refuses(baked, "CLUSTERS", [&](Bake& b) { b.tree.leftWeight[3] = 1.5f; });
+    refuses(baked, "CACHES", [&](Bake& b) { b.caches.normal[3].x = nan; });
+    const auto firstLink = [](Bake& b) -> Link& { return b.caches.links[b.caches.linkBegin[2]]; };
+    refuses(baked, "CACHES", [&](Bake& b) { firstLink(b).u = 0x7e00; });
+    refuses(baked, "CACHES", [&](Bake& b) { firstLink(b).transport = 0x7c00; });
+    refuses(baked, "CACHES", [&](Bake& b) { b.caches.linkExponent[2] = -128; });
+    refuses(baked, "CACHES", [&](Bake& b) { b.caches.linkExponent[2] = 3; });
+    scene.bake.storage = LinkStorage::Sh;
+    const Bake harmonics = *bake(TraceScene(scene));
+    refuses(harmonics, "CACHES", [&](Bake& b) { b.caches.shCoefficients[40] = 0xfc00; });
+    refuses(harmonics, "CACHES", [&](Bake& b) { b.caches.linkExponent[2] = 3; });
+}
+
 TEST_F(BakeFile, ANewerVersionSaysSo) {
     ASSERT_TRUE(writeBake(path, baked));
     std::string newer = contents();
