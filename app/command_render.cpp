@@ -219,6 +219,8 @@ nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& i
                            {"ms", image.relight.totalMs},
                            {"bounces", image.relight.bounces},
                            {"converged", image.relight.converged},
+                           {"passed_on", image.relight.passedOn},
+                           {"grows", image.relight.grows},
                            {"caches_unseen", image.relight.cachesUnseen},
                            {"caches_unread", image.relight.cachesUnread}};
     if (overlay)
@@ -273,6 +275,8 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
         const Result<RenderedImage> image = (*draw)(scene, request);
         if (!image)
             return tl::make_unexpected(image.error());
+        if (image->relight.grows)
+            logWarning("bounced light grew with every bounce and was stopped: bake again");
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const std::string path = framePath(options, frame);
         if (const Result<void> written = writePicture(path, *image); !written)

@@ -196,8 +196,11 @@ static void idleWords(EditorState& state) {
         return;
     ImGui::SameLine(0, 24);
     const RelightStatus& r = state.relight;
-    if (r.converged)
-        ImGui::TextDisabled("Light converged after %u bounces", r.bounces);
+    if (r.last.grows)
+        ImGui::TextUnformatted("Light grew with every bounce and was stopped: bake again");
+    else if (r.converged)
+        ImGui::TextDisabled("Light converged after %u bounce%s", r.bounces,
+                            r.bounces == 1 ? "" : "s");
     else if (r.running)
         ImGui::Text("Light bouncing: %u", r.bounces);
 }

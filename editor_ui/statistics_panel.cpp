@@ -129,15 +129,20 @@ static void relightTable(EditorState& state) {
     if (!beginTable("relight", "Bounced light"))
         return;
     row("State",
-        r.converged ? "converged"
-        : r.running ? "bouncing"
-                    : "idle",
-        "Converged: another bounce would change nothing");
+        r.last.grows  ? "stopped"
+        : r.converged ? "converged"
+        : r.running   ? "bouncing"
+                      : "idle",
+        r.last.grows ? "Every bounce brought more light than the one before: bake again"
+                     : "Converged: another bounce would change nothing");
     placeRow(state.relightPlace);
     for (const RelightOn on : {RelightOn::Cpu, RelightOn::Gpu})
         row(on == RelightOn::Cpu ? "  CPU" : "  GPU", measuredMs(state.relightPlace, on),
             "One update of one bounce with every light moved: what Auto compares");
     row("Bounces", std::to_string(r.bounces), "Since the last edit");
+    row("Passed on", r.last.passedOn > 0 ? fmt::format("{:.3f}", r.last.passedOn) : "\u2013",
+        "Share of the light of a bounce that the next one hands on, below 1 where no light comes "
+        "from nowhere; known from the third bounce after an edit on");
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
     row("Shadow rays", groupedNumber(r.last.shadowRays),
         "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps");

@@ -8,6 +8,14 @@
 
 namespace limn {
 
+/// What a round did to the light that surfels send: their radiosity times area, all colours [W].
+struct RoundChange {
+    double change = 0; ///< sum of what each surfel sends more or less
+    double total = 0;
+
+    double relative() const { return total > 0 ? change / total : (change > 0 ? 1 : 0); }
+};
+
 /// When bounces may end, on whichever device they run.
 class Convergence {
 public:
@@ -16,22 +24,44 @@ public:
 
     bool reached() const { return m_reached; }
 
-    void lightChanged() { m_reached = false; }
+    /// Share of the change by one round that the next one hands on; 0: not known yet. As surfaces
+    /// reflect less than they receive and receive no more than is sent, it is below 1.
+    double passedOn() const { return m_passedOn; }
+
+    /// Rounds end, too, where light grew in kGrowing of them, one after the other: whatever the
+    /// cause, it would go on without end.
+    static constexpr std::uint32_t kGrowing = 3;
+    bool grows() const { return m_growing >= kGrowing; }
+
+    void lightChanged() {
+        m_reached = false;
+        m_rounds = m_growing = 0;
+        m_passedOn = 0;
+    }
     /// A changed sky, or links that are dimmed otherwise, change no surfel before the caches have
     /// seen it: it reaches them in the first round, and the surfels' radiosity in the second.
     void skyChanged() {
-        m_reached = false;
+        lightChanged();
         m_unseenRounds = 2;
     }
-    /// After each round: by how much it changed the total radiosity, over that total.
-    void addRound(double change) {
-        m_reached = change < kChange && m_unseenRounds == 0;
+    void addRound(RoundChange round) {
+        // Two rounds bring what has changed; each one after them reflects the one before.
+        const bool reflects = ++m_rounds > kBringing && m_before > 0;
+        m_passedOn = reflects ? round.change / m_before : 0;
+        m_before = round.change;
+        const bool converged = round.relative() < kChange;
+        m_growing = m_passedOn > kRounding && !converged ? m_growing + 1 : 0;
+        m_reached = (converged && m_unseenRounds == 0) || grows();
         m_unseenRounds -= m_unseenRounds > 0;
     }
 
 private:
+    static constexpr std::uint32_t kBringing = 2;
+    static constexpr double kRounding = 1.001;
+
     bool m_reached = false;
-    std::uint32_t m_unseenRounds = 0;
+    std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;
+    double m_before = 0, m_passedOn = 0;
 };
 
 /// So few bounces, or fewer, are taken as they are asked for (BakeSettings::maxBounces): whenever

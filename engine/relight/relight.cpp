@@ -95,7 +95,7 @@ struct Relighter::State {
     bool takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats);
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
-    double lightSurfels();
+    RoundChange lightSurfels();
     void writeField(const CacheFlags& which, bool grid);
 };
 
@@ -242,18 +242,18 @@ void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
         dropChroma(finalBands, someRuns, sh);
 }
 
-/// B = albedo (E_direct + E_indirect) + pi L_e. Returns the change of the total over the total.
-double Relighter::State::lightSurfels() {
+/// B = albedo (E_direct + E_indirect) + pi L_e.
+RoundChange Relighter::State::lightSurfels() {
     const Surfels& s = bake->surfels;
-    double change = 0, total = 0;
+    RoundChange round;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
         const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
-        change += double(d.x + d.y + d.z) * s.area[i];
-        total += double(b.x + b.y + b.z) * s.area[i];
+        round.change += double(d.x + d.y + d.z) * s.area[i];
+        round.total += double(b.x + b.y + b.z) * s.area[i];
         radiosity[i] = withLuma(b);
     }
-    return total > 0 ? change / total : (change > 0 ? 1 : 0);
+    return round;
 }
 
 void Relighter::State::writeField(const CacheFlags& which, bool grid) {
@@ -359,6 +359,8 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     CacheFlags& lit = s.missing;
     setMissing(s.bake->caches, s.current, seen, lit);
     stats.converged = s.convergence.reached();
+    stats.passedOn = s.convergence.passedOn();
+    stats.grows = s.convergence.grows();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {
         const bool grid = s.gridLit && (bouncing || s.gridMissing);

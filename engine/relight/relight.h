@@ -24,7 +24,10 @@ struct RelightStats {
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint64_t shadowRays = 0;
-    bool converged = false;         ///< another bounce would change next to nothing (Convergence)
+    bool converged = false; ///< another bounce would change next to nothing (Convergence)
+    double passedOn = 0; ///< of the light that a bounce brings, by the next (Convergence); 0: not
+                         ///< known yet
+    bool grows = false;  ///< bounces were stopped, because they brought ever more light
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
     std::uint64_t links = 0;     ///< of the caches lit by this call, once for each bounce

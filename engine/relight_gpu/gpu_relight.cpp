@@ -80,7 +80,7 @@ struct GpuRelighter::State {
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     bool dim(const Scene* scene, GpuRelightStats& stats);
-    double bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
+    RoundChange bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
     void writeField(bool grid, GpuRelightStats& stats);
     std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
 };
@@ -259,8 +259,9 @@ void GpuRelighter::State::lightRest() {
     unread = false;
 }
 
-/// One iteration. Returns the change of the surfels' total radiosity over that total.
-double GpuRelighter::State::bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats) {
+/// One iteration.
+RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
+                                        GpuRelightStats& stats) {
     device.immediate("bounce", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
         times.begin(cmd);
@@ -280,13 +281,13 @@ double GpuRelighter::State::bounce(CacheList caches, bool surfelsRead, GpuReligh
     stats.pullMs += ms[1];
     stats.cacheLightMs += ms[2];
     ++stats.bounces;
-    double change = 0, total = 0;
+    RoundChange round;
     const auto* groups = static_cast<const glm::vec2*>(buffers.change.mapped);
     for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec2); ++g) {
-        change += double(groups[g].x);
-        total += double(groups[g].y);
+        round.change += double(groups[g].x);
+        round.total += double(groups[g].y);
     }
-    return total > 0 ? change / total : (change > 0 ? 1 : 0);
+    return round;
 }
 
 /// Writes what is to be lit, and the grid.
@@ -365,6 +366,8 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
             break;
     }
     stats.converged = s.convergence.reached();
+    stats.passedOn = s.convergence.passedOn();
+    stats.grows = s.convergence.grows();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {
         s.writeField(s.gridLit && (bouncing || s.gridMissing), stats);

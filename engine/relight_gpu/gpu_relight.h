@@ -54,6 +54,8 @@ struct GpuRelightStats {
     std::uint32_t cachesDimmed = 0;                   ///< as RelightStats::cachesDimmed
     std::uint64_t linksDimmed = 0;                    ///< as RelightStats::linksDimmed
     bool converged = false;                           ///< as RelightStats::converged
+    double passedOn = 0;                              ///< as RelightStats::passedOn
+    bool grows = false;                               ///< as RelightStats::grows
     bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 

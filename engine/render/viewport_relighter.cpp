@@ -52,6 +52,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.bandsSkipped = std::uint32_t(most) - bands;
     stats.bounces = g.bounces;
     stats.converged = g.converged;
+    stats.passedOn = g.passedOn;
+    stats.grows = g.grows;
     stats.skipped = g.skipped;
     stats.links = g.links;
     stats.linksPassedOver = g.linksPassedOver;

@@ -182,6 +182,24 @@ TEST_F(GpuRelight, RefusesADeviceThatBindsTooFewBuffers) {
     EXPECT_NE(refused.error().message.find("20 are needed"), std::string::npos);
 }
 
+TEST_F(GpuRelight, PassesOnWhatTheCpuDoesAndStopsLightThatGrows) {
+    const RelightStats cpu = Relighter(made).relight(scene, *trace, 64);
+    const GpuRelightStats gpu = relighter->relight(values.inputs(), 64);
+    EXPECT_GT(cpu.passedOn, 0.1);
+    EXPECT_NEAR(gpu.passedOn, cpu.passedOn, 1e-3);
+    EXPECT_FALSE(gpu.grows);
+    Bake bright = *made;
+    for (std::int8_t& e : bright.caches.linkExponent)
+        e = std::int8_t(e - 10);
+    const auto loud = gpuRelighter(*device, std::make_shared<const Bake>(std::move(bright)));
+    const GpuRelightStats stats = loud->relight(values.inputs(), 64);
+    EXPECT_TRUE(stats.grows);
+    EXPECT_LT(stats.bounces, 8U);
+    for (const glm::vec3 b : loud->readRadiosity())
+        EXPECT_TRUE(std::isfinite(b.x));
+    EXPECT_TRUE(loud->relight(values.inputs(), 64).skipped);
+}
+
 TEST_F(GpuRelight, AClosedGlowingRoomReachesItsRadiosityAtEveryBandCount) {
     simple::SceneBuilder b;
     b.addMaterial(simple::lambert(glm::vec3(0.5f), glm::vec3(1)));

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// What bounces pass on: less than they receive, or they are stopped.
+#include "engine/relight/bouncing.h"
+#include "tests/relight/lit_room.h"
+#include "tests/relight/relit.h"
+
+#include <cmath>
+
+namespace limn {
+namespace {
+
+Scene roomOf(float albedo, LinkStorage storage = LinkStorage::Rtp) {
+    Scene scene = *litRoom(900, 800);
+    scene.materials[0].baseColor = glm::vec4(glm::vec3(albedo), 1);
+    scene.bake.rays = 256;
+    scene.bake.links = 64;
+    scene.bake.storage = storage;
+    return scene;
+}
+
+/// Every link brings 2^exponent times the light.
+std::shared_ptr<const Bake> amplified(Bake baked, int exponent) {
+    for (std::int8_t& e : baked.caches.linkExponent)
+        e = std::int8_t(e - exponent);
+    return std::make_shared<const Bake>(std::move(baked));
+}
+
+TEST(Energy, AClosedRoomPassesOnItsAlbedo) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
+        for (const float albedo : {0.2f, 0.6f, 0.9f}) {
+            const Scene scene = roomOf(albedo, storage);
+            const TraceScene trace(scene);
+            Relighter relighter(bakeOf(trace));
+            EXPECT_EQ(relighter.relight(scene, trace, 2).passedOn, 0) << "not known yet";
+            const RelightStats stats = relighter.relight(scene, trace, 400);
+            EXPECT_TRUE(stats.converged);
+            EXPECT_FALSE(stats.grows);
+            EXPECT_NEAR(stats.passedOn, albedo, 0.02 * albedo);
+        }
+}
+
+TEST(Energy, AnOpenRoomPassesOnLess) {
+    Scene scene = roomOf(0.6f);
+    auto assets = std::make_shared<Assets>(*scene.assets);
+    assets->meshes[0].indices.resize(assets->meshes[0].indices.size() - 6); // a wall
+    scene.assets = assets;
+    const Relit lit(scene);
+    Relighter relighter(lit.baked);
+    const double passedOn = relighter.relight(scene, lit.trace, 64).passedOn;
+    EXPECT_GT(passedOn, 0.3);
+    EXPECT_LT(passedOn, 0.57);
+}
+
+TEST(Energy, LightThatGrowsIsStoppedWhileItIsFinite) {
+    for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
+        Scene scene = roomOf(0.6f, storage);
+        const TraceScene trace(scene);
+        const auto baked = bakeOf(trace);
+        Relighter relighter(amplified(*baked, 10)); // 600 times as much with every bounce
+        const RelightStats stats = relighter.relight(scene, trace, 64);
+        EXPECT_TRUE(stats.grows);
+        EXPECT_TRUE(stats.converged) << "no more bounces";
+        EXPECT_EQ(stats.bounces, 2 + Convergence::kGrowing);
+        EXPECT_NEAR(stats.passedOn, 1024 * 0.6, 0.05 * 1024 * 0.6);
+        for (const glm::vec4 b : relighter.radiosity())
+            EXPECT_TRUE(std::isfinite(b.x));
+        EXPECT_TRUE(relighter.relight(scene, trace, 64).skipped);
+
+        scene.materials[0].baseColor = glm::vec4(glm::vec3(0.6f / 1024), 1);
+        const RelightStats darker = relighter.relight(scene, trace, 400);
+        EXPECT_FALSE(darker.grows);
+        EXPECT_TRUE(darker.converged);
+        EXPECT_NEAR(darker.passedOn, 0.6, 0.02 * 0.6);
+    }
+}
+
+TEST(Energy, ALittleMoreThanAllIsGrowthAndRoundingIsNot) {
+    Convergence steady, growing;
+    for (int k = 0; k < 9; ++k) {
+        steady.addRound({1 + 1e-6 * k, 10});
+        growing.addRound({std::pow(1.01, k), 10});
+    }
+    EXPECT_FALSE(steady.grows());
+    EXPECT_FALSE(steady.reached());
+    EXPECT_TRUE(growing.grows());
+    EXPECT_TRUE(growing.reached());
+    growing.lightChanged();
+    EXPECT_FALSE(growing.grows());
+    EXPECT_FALSE(growing.reached());
+    EXPECT_EQ(growing.passedOn(), 0);
+}
+
+} // namespace
+} // namespace limn
