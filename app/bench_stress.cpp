@@ -26,6 +26,7 @@ struct StressBench {
     CameraOptions camera;
     std::string output, device;
     double seconds = 60, growthMiB = 64;
+    std::uint64_t frames = 1; ///< at least
     std::uint32_t seed = 1;
     bool json = false;
 };
@@ -142,7 +143,7 @@ Result<StressResult> stress(const StressBench& o, const BenchBake& baked, gpu::D
         device, baked, {.camera = *camera, .width = o.camera.width, .height = o.camera.height});
     viewport.fillShadowMaps(random.scene);
     const auto start = Clock::now();
-    for (double seconds = 0; seconds < o.seconds;) {
+    for (double seconds = 0; seconds < o.seconds || result.frames < o.frames;) {
         if (const Result<void> drawn = viewport.draw(random, result); !drawn)
             return tl::make_unexpected(drawn.error());
         seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -256,6 +257,8 @@ void addStressBench(CLI::App& bench, Run& run) {
     command->add_option("-o,--output", o->output, "folder of stress.csv and stress.json")
         ->required();
     command->add_option("--seconds", o->seconds, "for each bake")->check(CLI::Range(0.1, 1e6));
+    command->add_option("--frames", o->frames, "at least so many, however long they take")
+        ->check(CLI::Range(1, 1000000));
     command->add_option("--seed", o->seed, "the same makes the same changes");
     command
         ->add_option("--growth", o->growthMiB,
