@@ -6,7 +6,7 @@
 #include "engine/math/sh.h"
 #include "engine/math/ycocg.h"
 #include "engine/relight/surfel_read.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/relight/lit_room.h"
 
 #include <gtest/gtest.h>
 
@@ -16,25 +16,12 @@
 namespace limn {
 namespace {
 
-using namespace simple;
-
 Bake bakedRoom(LinkStorage storage, std::uint32_t bands, bool window = false,
                std::uint32_t links = 24) {
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.5f)));
-    Mesh walls = box(glm::vec3(0), glm::vec3(4, 3, 5), true);
-    if (window)
-        walls.indices.resize(walls.indices.size() - 6);
-    b.add(walls);
-    b.add(box(glm::vec3(1, 0.3f, 1), glm::vec3(2, 2, 2), false));
-    Scene scene = b.build();
-    scene.bake.storage = storage;
-    scene.bake.bands = bands;
-    scene.bake.surfels = 500;
+    Scene scene = hall(storage, bands, window);
     scene.bake.lightmapCaches = 200;
     scene.bake.rays = std::max(128U, 4 * links);
     scene.bake.links = links;
-    scene.bake.grid = {3, 2, 3};
     Result<Bake> baked = bake(TraceScene(scene));
     EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
     return baked ? std::move(*baked) : Bake{};

@@ -15,24 +15,11 @@
 namespace limn {
 namespace {
 
-using namespace simple;
-
 Scene litHall(LinkStorage storage, std::uint32_t bands, bool window = false) {
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.5f)));
-    Mesh walls = box(glm::vec3(0), glm::vec3(4, 3, 5), true);
-    if (window)
-        walls.indices.resize(walls.indices.size() - 6);
-    b.add(walls);
-    b.add(box(glm::vec3(1, 0.3f, 1), glm::vec3(2, 2, 2), false));
-    Scene scene = b.build();
-    scene.bake.storage = storage;
-    scene.bake.bands = bands;
-    scene.bake.surfels = 500;
+    Scene scene = hall(storage, bands, window);
     scene.bake.lightmapCaches = 100;
     scene.bake.rays = 512;
     scene.bake.links = 80;
-    scene.bake.grid = {3, 2, 3};
     return scene;
 }
 

@@ -24,4 +24,20 @@ inline std::shared_ptr<const Scene> litRoom(std::uint32_t surfels, std::uint32_t
     return std::make_shared<const Scene>(b.build());
 }
 
+/// A room with a block off its floor, lit by nothing; with a `window`, open on one side.
+inline Scene hall(LinkStorage storage, std::uint32_t bands, bool window = false) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    Mesh walls = simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true);
+    if (window)
+        walls.indices.resize(walls.indices.size() - 6);
+    b.add(walls);
+    b.add(simple::box(glm::vec3(1, 0.3f, 1), glm::vec3(2, 2, 2), false));
+    b.scene.bake.storage = storage;
+    b.scene.bake.bands = bands;
+    b.scene.bake.surfels = 500;
+    b.scene.bake.grid = {3, 2, 3};
+    return b.build();
+}
+
 } // namespace limn
