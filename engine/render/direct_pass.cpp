@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/direct_pass.h"
 
+#include "engine/render/fullscreen.h"
 #include "engine/render/geometry_passes.h"
 #include "shaders/direct.frag.h"
-#include "shaders/fullscreen.vert.h"
 
 #include <cassert>
 
@@ -17,20 +17,14 @@ void DirectPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view
     assert(showsDirectLight(view));
     gpu::Pipeline& pipeline = m_pipelines[view];
     if (!pipeline) {
-        gpu::GraphicsPipelineDesc desc;
-        desc.vertex = kFullscreenVert;
-        desc.fragment = kDirectFrag;
-        desc.layout = m_layout.handle;
-        desc.colorFormats = {kLinearFormat};
+        auto desc = fullscreenDesc(kDirectFrag, m_layout.handle, kLinearFormat, "direct light");
         desc.additive = true;
         desc.constants = {std::uint32_t(view)};
-        desc.name = "direct light";
         pipeline = gpu::createGraphicsPipeline(m_device, desc);
     }
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0, 1, &frameSet,
                             0, nullptr);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
+    drawFullscreen(cmd, pipeline.handle);
 }
 
 } // namespace limn::render

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/indirect_pass.h"
 
-#include "shaders/fullscreen.vert.h"
+#include "engine/render/fullscreen.h"
 #include "shaders/indirect.frag.h"
 
 namespace limn::render {
@@ -14,14 +14,9 @@ IndirectPass::IndirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayou
 VkPipeline IndirectPass::pipeline(const Variant& variant) {
     gpu::Pipeline& pipeline = m_pipelines[variant];
     if (!pipeline) {
-        gpu::GraphicsPipelineDesc desc;
-        desc.vertex = kFullscreenVert;
-        desc.fragment = kIndirectFrag;
-        desc.layout = m_layout.handle;
-        desc.colorFormats = {kLinearFormat};
+        auto desc = fullscreenDesc(kIndirectFrag, m_layout.handle, kLinearFormat, "indirect light");
         desc.constants = {std::uint32_t(variant.view), variant.features, variant.bands,
                           std::uint32_t(variant.first)};
-        desc.name = "indirect light";
         pipeline = gpu::createGraphicsPipeline(m_device, desc);
     }
     return pipeline.handle;
@@ -31,18 +26,14 @@ void IndirectPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View vi
                           const SurfacesDrawn& surfaces) {
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0, 1, &frameSet,
                             0, nullptr);
-    const auto draw = [&](const Variant& variant) {
-        vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(variant));
-        vkCmdDraw(cmd, 3, 1, 0, 0);
-    };
     bool first = true;
     for (std::uint32_t bands = 0; bands < surfaces.bands.size(); ++bands)
         if (surfaces.bands[bands]) {
-            draw({view, surfaces.features, bands, first});
+            drawFullscreen(cmd, pipeline({view, surfaces.features, bands, first}));
             first = false;
         }
     if (first) // no surface reads any
-        draw({view, 0, kIrradianceBands, true});
+        drawFullscreen(cmd, pipeline({view, 0, kIrradianceBands, true}));
 }
 
 } // namespace limn::render

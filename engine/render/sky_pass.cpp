@@ -4,8 +4,8 @@
 #include "engine/core/log.h"
 #include "engine/gpu/uploader.h"
 #include "engine/math/packing.h"
+#include "engine/render/fullscreen.h"
 #include "engine/render/geometry_passes.h"
-#include "shaders/fullscreen.vert.h"
 #include "shaders/shared/gpu_sky.h"
 #include "shaders/sky.frag.h"
 
@@ -34,13 +34,8 @@ SkyPass::SkyPass(gpu::Device& device, VkDescriptorSetLayout frameLayout)
     : m_device(device), m_texture(device) {
     const std::array layouts = {frameLayout, m_texture.layout()};
     m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuSky), "sky");
-    gpu::GraphicsPipelineDesc desc;
-    desc.vertex = kFullscreenVert;
-    desc.fragment = kSkyFrag;
-    desc.layout = m_layout.handle;
-    desc.colorFormats = {kLinearFormat};
-    desc.name = "sky";
-    m_pipeline = gpu::createGraphicsPipeline(device, desc);
+    m_pipeline = gpu::createGraphicsPipeline(
+        device, fullscreenDesc(kSkyFrag, m_layout.handle, kLinearFormat, "sky"));
     m_panorama = uploadPanorama(device, {1, 1, {glm::vec3(0)}});
 }
 
@@ -73,11 +68,10 @@ void SkyPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, std::uint32_
                       .turn = m_sky.rotation / (2 * std::numbers::pi_v<float>),
                       .ground = m_sky.ground,
                       .image = m_sky.showsImage()};
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_pipeline.handle);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0,
                             std::uint32_t(sets.size()), sets.data(), 0, nullptr);
     vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof push, &push);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
+    drawFullscreen(cmd, m_pipeline.handle);
 }
 
 } // namespace limn::render

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/tonemap_pass.h"
 
-#include "shaders/fullscreen.vert.h"
+#include "engine/render/fullscreen.h"
 #include "shaders/tonemap.frag.h"
 
 namespace limn::render {
@@ -15,23 +15,17 @@ static_assert(std::uint32_t(Tonemap::Aces) == TONEMAP_ACES &&
 TonemapPass::TonemapPass(gpu::Device& device) : m_linear(device) {
     const std::array layouts = {m_linear.layout()};
     m_layout = gpu::createPipelineLayout(device, layouts, sizeof(GpuTonemap), "tone mapping");
-    gpu::GraphicsPipelineDesc desc;
-    desc.vertex = kFullscreenVert;
-    desc.fragment = kTonemapFrag;
-    desc.layout = m_layout.handle;
-    desc.colorFormats = {kColorFormat};
-    desc.name = "tone mapping";
-    m_pipeline = gpu::createGraphicsPipeline(device, desc);
+    m_pipeline = gpu::createGraphicsPipeline(
+        device, fullscreenDesc(kTonemapFrag, m_layout.handle, kColorFormat, "tone mapping"));
 }
 
 void TonemapPass::record(VkCommandBuffer cmd, VkImageView linear, const GpuTonemap& push,
                          std::uint32_t slot) {
     const VkDescriptorSet set = m_linear.with(linear, slot);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_pipeline.handle);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0, 1, &set, 0,
                             nullptr);
     vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof push, &push);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
+    drawFullscreen(cmd, m_pipeline.handle);
 }
 
 } // namespace limn::render
