@@ -46,19 +46,9 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                                                  .grid = needsGrid(lit, bake->lightmap),
                                                  .dimming = &lit},
                                                 bounces);
-        RelightStats r;
+        RelightStats r = g;
         r.directMs = traced.count() + g.uploadMs;
-        r.dimMs = g.dimMs;
-        r.surfelLightMs = g.surfelLightMs;
-        r.pullMs = g.pullMs;
-        r.cacheLightMs = g.cacheLightMs;
-        r.fieldMs = g.fieldMs;
-        r.totalMs = traced.count() + g.totalMs;
-        r.cachesDimmed = g.cachesDimmed;
-        r.linksDimmed = g.linksDimmed;
-        r.links = g.links;
-        r.linksPassedOver = g.linksPassedOver;
-        r.gridCachesSkipped = g.gridCachesSkipped;
+        r.totalMs += traced.count();
         r.bandsLit = bands;
         r.bandsSkipped = bake->settings.bands - bands;
         r.shadowRays = light.raysTraced;

@@ -5,7 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/relight/cache_runs.h"
-#include "engine/relight/indirect_field.h"
+#include "engine/relight/relight.h"
 #include "engine/relight_gpu/gpu_field.h"
 #include "engine/relight_gpu/shadowed_lights.h"
 
@@ -34,29 +34,15 @@ struct SurfelInputs {
     const Scene* dimming = nullptr;
 };
 
-/// Milliseconds and counters of one GpuRelighter::relight() call. Steps are in the GPU's time.
-struct GpuRelightStats {
-    double uploadMs = 0; ///< of what had changed
-    double directMs = 0; ///< lights onto the surfels
-    double dimMs = 0;    ///< as RelightStats::dimMs: found on the CPU, and sent
-    double surfelLightMs = 0, pullMs = 0, cacheLightMs = 0;
-    double fieldMs = 0;           ///< last bands of caches, lightmap and grid
-    double totalMs = 0;           ///< from call to return
-    std::uint32_t bounces = 0;    ///< iterations run by this call
+/// Milliseconds and counters of one GpuRelighter::relight() call, where they differ from
+/// Relighter's: steps are in the GPU's time, without surfelReadMs; fieldMs is with the last bands
+/// of caches, dimMs with what is sent; linksPassedOver are those to a black sky; lightsTraced are
+/// also those without room to be kept. shadowRays, lightsOff, bandsLit and bandsSkipped are the
+/// caller's to say.
+struct GpuRelightStats : RelightStats {
+    double uploadMs = 0;          ///< of what had changed
     std::uint32_t dispatches = 0; ///< 0 when skipped
     std::uint64_t bytesUploaded = 0;
-    /// Lights that were worked out: they or an object moved, or there is no room to keep them.
-    std::uint32_t lightsTraced = 0;
-    std::uint64_t links = 0;                          ///< as RelightStats::links
-    std::uint64_t linksPassedOver = 0;                ///< of those: to a black sky
-    std::uint32_t cachesUnread = 0, cachesUnseen = 0; ///< as RelightStats'
-    std::uint32_t gridCachesSkipped = 0;              ///< as RelightStats::gridCachesSkipped
-    std::uint32_t cachesDimmed = 0;                   ///< as RelightStats::cachesDimmed
-    std::uint64_t linksDimmed = 0;                    ///< as RelightStats::linksDimmed
-    bool converged = false;                           ///< as RelightStats::converged
-    double passedOn = 0;                              ///< as RelightStats::passedOn
-    bool grows = false;                               ///< as RelightStats::grows
-    bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
 };
 
 /// Relighter's steps as Vulkan compute. The same light up to the rounding of 32-bit sums in another
