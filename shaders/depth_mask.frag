@@ -15,8 +15,8 @@ void main() {
     float alpha = material.baseColor.a * fragAlpha;
     if ((kFeatures & FEATURE_BASE_COLOR_TEXTURE) != 0) {
         const vec3 uv = vec3(material.uvRows[0].w > 0.5 ? fragUv.zw : fragUv.xy, 1);
-        alpha *= texture(baseColorTexture,
-                         vec2(dot(material.uvRows[0].xyz, uv), dot(material.uvRows[1].xyz, uv))).a;
+        alpha *= textureLod(baseColorTexture, // as in surface.glsl
+                            vec2(dot(material.uvRows[0].xyz, uv), dot(material.uvRows[1].xyz, uv)), 0.0).a;
     }
     if (alpha < material.alphaCutoff)
         discard;

@@ -89,7 +89,7 @@ static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& d
 
     VkPipelineRasterizationStateCreateInfo raster{};
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.cullMode = desc.cull;
+    raster.cullMode = VK_CULL_MODE_NONE;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.depthBiasEnable = desc.depthBias;
     raster.lineWidth = 1;
@@ -123,8 +123,8 @@ static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& d
     dynamics.assign({VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR});
     if (desc.depthBias)
         dynamics.push_back(VK_DYNAMIC_STATE_DEPTH_BIAS);
-    if (desc.dynamicCull)
-        dynamics.insert(dynamics.end(), {VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE});
+    if (desc.dynamicFrontFace)
+        dynamics.push_back(VK_DYNAMIC_STATE_FRONT_FACE);
     VkPipelineDynamicStateCreateInfo dynamic{};
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
     dynamic.dynamicStateCount = std::uint32_t(dynamics.size());

@@ -28,9 +28,9 @@ struct GraphicsPipelineDesc {
     bool additive = false;  ///< colours are added to what is there
     bool depthBias = false; ///< set with vkCmdSetDepthBias
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkCullModeFlags cull = VK_CULL_MODE_NONE; ///< counter-clockwise on screen is the front
-    bool dynamicCull =
-        false; ///< cull mode and front face are set with vkCmdSetCullMode, vkCmdSetFrontFace
+    /// The front face is set with vkCmdSetFrontFace; else counter-clockwise on screen is the front.
+    /// No face is culled.
+    bool dynamicFrontFace = false;
     /// Specialisation constants: word i is constant_id i of both stages.
     std::vector<std::uint32_t> constants;
     const char* name = "";

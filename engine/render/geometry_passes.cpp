@@ -107,7 +107,7 @@ gpu::Pipeline GeometryPasses::createSurface(const Variant& variant) {
     desc.colorFormats = {kLinearFormat, kSurfaceFormat, kReceiverFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
-    desc.dynamicCull = true;
+    desc.dynamicFrontFace = true;
     desc.constants = {std::uint32_t(variant.view), variant.features, variant.bands};
     desc.name = "surfaces";
     return gpu::createGraphicsPipeline(m_device, desc);
@@ -129,7 +129,6 @@ gpu::Pipeline GeometryPasses::createDepth(std::uint32_t features) {
     }
     desc.depthFormat = kDepthFormat;
     desc.depthCompare = VK_COMPARE_OP_GREATER;
-    desc.dynamicCull = true;
     desc.constants = {0, features};
     desc.name = mask ? "depth, masked" : "depth";
     return gpu::createGraphicsPipeline(m_device, desc);
@@ -139,8 +138,6 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
                                const MaterialSet& materials, const DepthView& view,
                                std::uint32_t slot) {
     constexpr std::uint32_t kUsed = FEATURE_ALPHA_MASK | FEATURE_BASE_COLOR_TEXTURE;
-    vkCmdSetCullMode(cmd, VK_CULL_MODE_NONE);
-    vkCmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     VkPipeline bound = VK_NULL_HANDLE;
     for (const GpuInstance& instance : scene.instances) {
         const GpuMesh& mesh = scene.meshes[instance.mesh];
@@ -175,14 +172,6 @@ static void orderByDistance(const RenderScene& scene, const GeometryView& view,
     std::sort(order.begin(), order.end());
 }
 
-static void setCulling(VkCommandBuffer cmd, const GpuInstance& instance, bool bothSides,
-                       const GeometryView& view) {
-    vkCmdSetCullMode(cmd,
-                     view.cullBackFaces && !bothSides ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
-    vkCmdSetFrontFace(cmd, instance.mirrored ? VK_FRONT_FACE_CLOCKWISE
-                                             : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-}
-
 // Depths of a triangle round by 2^-23 of the nearest of them: at 1 cm and 30 m on one, 4e-4 of the
 // far one.
 constexpr float kBehind = 0.998f;
@@ -202,7 +191,6 @@ void GeometryPasses::drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scen
         if (materials.features[instance.material] & FEATURE_ALPHA_MASK)
             continue;
         const GpuMesh& mesh = scene.meshes[instance.mesh];
-        setCulling(cmd, instance, materials.doubleSided[instance.material], view);
         bindInstance(cmd, m_layout.handle, mesh, instance, toClip, 0, 1);
         vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
     }
@@ -262,7 +250,8 @@ SurfacesDrawn GeometryPasses::drawSurfaces(VkCommandBuffer cmd, const RenderScen
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         bound = pipeline.handle;
         const bool bothSides = materials.doubleSided[instance.material];
-        setCulling(cmd, instance, bothSides, view);
+        vkCmdSetFrontFace(cmd, instance.mirrored ? VK_FRONT_FACE_CLOCKWISE
+                                                 : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         materials.bind(cmd, m_layout.handle, instance.material, slot);
         const std::uint32_t flags =
             (bothSides ? DRAW_DOUBLE_SIDED : 0u) | (instance.mirrored ? DRAW_MIRRORED : 0u);

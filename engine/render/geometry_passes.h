@@ -31,7 +31,6 @@ struct GeometryView {
     glm::vec3 eye{0};
     bool grid = false;       ///< instances without lightmap read the grid
     std::uint32_t bands = 3; ///< of the indirect light
-    bool cullBackFaces = true;
     bool operator==(const GeometryView&) const = default;
 };
 
@@ -57,7 +56,7 @@ public:
 
     VkPipelineLayout layout() const { return m_layout.handle; }
 
-    /// Everything that `view` shows, no culling of faces, into a bound depth attachment.
+    /// Everything that `view` shows, whichever side it looks from, into a bound depth attachment.
     void drawDepth(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                    const DepthView& view, std::uint32_t slot);
 
@@ -66,8 +65,9 @@ public:
     void drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scene, const MaterialSet& materials,
                         const GeometryView& view);
 
-    /// What SurfaceImages keeps of surfaces, into its bound images, nearest instances first. Set 0
-    /// is bound; `slot` as in MaterialSet.
+    /// What SurfaceImages keeps of surfaces, into its bound images, nearest instances first. The
+    /// back of a one-sided surface is black and hides what is behind it, as paths see it. Set 0 is
+    /// bound; `slot` as in MaterialSet.
     SurfacesDrawn drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
                                const MaterialSet& materials, const GeometryView& view,
                                std::uint32_t slot);

@@ -58,7 +58,7 @@ GpuMaterial factorsOf(const Material& m) {
     g.metallic = m.metallic;
     g.roughness = m.roughness;
     g.normalScale = m.normalScale;
-    g.alphaCutoff = m.alphaCutoff;
+    g.alphaCutoff = alphaCutoff(m);
     const auto textures = texturesOf(m);
     for (std::size_t k = 0; k < textures.size(); ++k) {
         const TextureRef& t = textures[k].ref;
@@ -165,10 +165,9 @@ static bool sameTextures(const Material& a, const Material& b) {
 }
 
 static bool sameMask(const Material& a, const Material& b) {
-    return a.alphaMode == b.alphaMode &&
-           (a.alphaMode != AlphaMode::Mask ||
-            (a.baseColorTexture == b.baseColorTexture && a.alphaCutoff == b.alphaCutoff &&
-             a.baseColor.a == b.baseColor.a));
+    return isCutout(a) == isCutout(b) &&
+           (!isCutout(a) || (a.baseColorTexture == b.baseColorTexture &&
+                             alphaCutoff(a) == alphaCutoff(b) && a.baseColor.a == b.baseColor.a));
 }
 
 bool MaterialSet::update(const Scene& scene) {
@@ -193,7 +192,7 @@ bool MaterialSet::update(const Scene& scene) {
     doubleSided.assign(m_materials.size(), false);
     for (std::uint32_t i = 0; i < m_materials.size(); ++i) {
         writeSet(i, m_materials[i]);
-        if (m_materials[i].alphaMode == AlphaMode::Mask)
+        if (isCutout(m_materials[i]))
             features[i] |= FEATURE_ALPHA_MASK;
         doubleSided[i] = m_materials[i].doubleSided;
     }

@@ -61,7 +61,7 @@ static gpu::GraphicsPipelineDesc surfaceDesc(VkPipelineLayout layout, gpu::Spirv
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}, {1, 1, VK_FORMAT_R32G32_SFLOAT, 0}};
     desc.colorFormats = {kColorFormat};
     desc.depthFormat = kDepthFormat;
-    // What an alpha mask or culling took away has another depth than what is seen.
+    // What an alpha mask took away has another depth than what is seen.
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
     desc.depthWrite = false;
     desc.name = "overlay on surfaces";

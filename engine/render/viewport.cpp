@@ -411,7 +411,6 @@ static GeometryView geometryView(const ViewportOptions& options, const Bounds& b
                   viewMatrix(options.camera);
     view.eye = options.camera.eye;
     view.grid = grid;
-    view.cullBackFaces = options.cullBackFaces;
     return view;
 }
 

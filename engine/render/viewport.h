@@ -30,8 +30,6 @@ struct ViewportOptions {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
-    bool cullBackFaces =
-        true; ///< as glTF has it; else the back of a one-sided surface is black, as paths see it
 };
 
 struct ViewportStats {

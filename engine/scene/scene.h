@@ -78,6 +78,9 @@ inline constexpr float kBlendCutoff = 0.5f;
 /// kBlendCutoff.
 bool isCutout(const Material& material);
 
+/// Alpha below which the surface is absent, to rays, shadow maps and cameras alike; 0 for Opaque.
+float alphaCutoff(const Material& material);
+
 /// Only the alpha of surfaceMaterial, 0 or 1; cheap where the material is opaque.
 float surfaceAlpha(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
                    float v);

@@ -56,16 +56,22 @@ bool isCutout(const Material& material) {
     return material.alphaMode != AlphaMode::Opaque;
 }
 
-static float cutAlpha(const Material& material, float alpha) {
+float alphaCutoff(const Material& material) {
+    // An alpha equal to the cutoff must not fall below it where interpolation rounds.
+    constexpr float kRounding = 1 - 1e-5f;
     switch (material.alphaMode) {
     case AlphaMode::Opaque:
-        return 1;
+        return 0;
     case AlphaMode::Mask:
-        return alpha >= material.alphaCutoff ? 1.f : 0.f;
+        return kRounding * material.alphaCutoff;
     case AlphaMode::Blend:
-        return alpha >= kBlendCutoff ? 1.f : 0.f;
+        return kRounding * kBlendCutoff;
     }
-    return 1;
+    return 0;
+}
+
+static float cutAlpha(const Material& material, float alpha) {
+    return !isCutout(material) || alpha >= alphaCutoff(material) ? 1.f : 0.f;
 }
 
 float surfaceAlpha(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,

@@ -23,7 +23,7 @@ AlphaMask makeAlphaMask(const Assets& assets, const Mesh& mesh, const Material& 
     mask.mesh = &mesh;
     mask.texture = material.baseColorTexture;
     mask.factor = material.baseColor.w;
-    mask.cutoff = material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : kBlendCutoff;
+    mask.cutoff = alphaCutoff(material);
     const std::int32_t i = mask.texture.image;
     const std::vector<glm::vec2>& uv = mask.texture.texCoord == 1 ? mesh.uv1 : mesh.uv0;
     if (i < 0 || std::size_t(i) >= assets.images.size() ||

@@ -94,11 +94,17 @@ vec3 emission() {
     return e;
 }
 
-// Discards what the alpha mask cuts away.
+// Discards what the alpha mask cuts away. Alpha is that of the finest level, as rays read it: in coarser ones it tends to
+// its mean, and what covers less than the cutoff would vanish.
 vec4 baseColor() {
-    vec4 base = material.baseColor * fragColor;
-    if (has(FEATURE_BASE_COLOR_TEXTURE))
-        base *= texture(textures0, textureUv(TEXTURE_BASE_COLOR));
+    const vec4 factor = material.baseColor * fragColor;
+    vec4 base = factor;
+    if (has(FEATURE_BASE_COLOR_TEXTURE)) {
+        const vec2 uv = textureUv(TEXTURE_BASE_COLOR);
+        base *= texture(textures0, uv);
+        if (has(FEATURE_ALPHA_MASK))
+            base.a = factor.a * textureLod(textures0, uv, 0.0).a;
+    }
     if (has(FEATURE_ALPHA_MASK) && base.a < material.alphaCutoff)
         discard;
     return base;

@@ -32,7 +32,6 @@ TEST_F(Golden, TheViewportsCornellBoxIsCloseToItsPathTracedPicture) {
     options.view = View::Irradiance;
     options.camera = lit.camera;
     options.width = options.height = 256;
-    options.cullBackFaces = false; // as paths see them
     viewport.render(options);
     golden::expectCornellIrradiance(shrink(viewport.readLinear(), 4), "golden_viewport");
 }
