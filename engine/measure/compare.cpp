@@ -5,6 +5,7 @@
 #include "engine/measure/ssim.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double kRelMseFloor = 0.01;    ///< of mean(ref)^2
 constexpr double kRelMseDropped = 0.001; ///< share of the worst pixels
+constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseMost
 constexpr float kMiddleGrey = 0.18f;     ///< where the reference's mean goes before tone mapping
 constexpr float kHeatmapFull = 0.5f;     ///< relative error of the darkest colours
 constexpr float kHeatmapFloor = 0.05f;   ///< of mean(ref), keeps black pixels from ruling the map
@@ -49,6 +51,15 @@ std::vector<bool> validPixels(const ImageF& a, const ImageF& b) {
     return valid;
 }
 
+std::string sizesDiffer(const ImageF& a, const ImageF& b) {
+    return fmt::format("sizes differ: {} x {} against {} x {}", a.width, a.height, b.width,
+                       b.height);
+}
+
+bool sameSize(const ImageF& a, const ImageF& b) {
+    return a.width == b.width && a.height == b.height;
+}
+
 double meanOfValid(const ImageF& image, const std::vector<bool>& valid) {
     double sum = 0;
     std::size_t count = 0;
@@ -71,23 +82,38 @@ double meanOfValid(const Plane& plane, const std::vector<bool>& valid, double no
     return count > 0 ? sum / double(count) : none;
 }
 
+/// Sets `nrmse` and `nrmseMost` to what the pixels' squared errors, or estimates of them, say.
+/// Reorders `squares`.
+void rootMeanSquares(std::vector<double>& squares, double mean, Comparison& c) {
+    if (squares.empty())
+        return;
+    const auto root = [&](std::size_t count) {
+        double sum = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            sum += squares[i];
+        return ratio(std::sqrt(std::max(sum, 0.0) / double(count)), std::abs(mean));
+    };
+    std::sort(squares.begin(), squares.end());
+    c.nrmse = root(squares.size());
+    c.nrmseMost = root(squares.size() - squares.size() / kWorstOneOf);
+}
+
 void numericErrors(const ImageF& test, const ImageF& reference, const std::vector<bool>& valid,
                    Comparison& c) {
     const double meanR = meanOfValid(reference, valid), meanT = meanOfValid(test, valid);
-    std::vector<double> relative;
-    double squares = 0;
+    std::vector<double> relative, squares;
     for (std::size_t i = 0; i < valid.size(); ++i) {
         if (!valid[i])
             continue;
         const glm::dvec3 r(reference.rgb[i]), d = glm::dvec3(test.rgb[i]) - r;
-        squares += channelMean(d * d);
+        squares.push_back(channelMean(d * d));
         const glm::dvec3 base = r * r + kRelMseFloor * meanR * meanR;
         relative.push_back(
             (ratio(d.x * d.x, base.x) + ratio(d.y * d.y, base.y) + ratio(d.z * d.z, base.z)) / 3);
     }
     if (relative.empty())
         return;
-    c.nrmse = ratio(std::sqrt(squares / double(relative.size())), std::abs(meanR));
+    rootMeanSquares(squares, meanR, c);
     c.bias = ratio(meanT - meanR, meanR);
     std::sort(relative.begin(), relative.end());
     relative.resize(relative.size() - std::size_t(kRelMseDropped * double(relative.size())));
@@ -122,9 +148,8 @@ Plane displayedLuminance(const ImageF& image) {
 } // namespace
 
 Result<Comparison> compareImages(const ImageF& test, const ImageF& reference) {
-    if (test.width != reference.width || test.height != reference.height)
-        return fail(fmt::format("sizes differ: {} x {} against {} x {}", test.width, test.height,
-                                reference.width, reference.height));
+    if (!sameSize(test, reference))
+        return fail(sizesDiffer(test, reference));
     const std::vector<bool> valid = validPixels(test, reference);
     Comparison c;
     c.invalidPixels = std::uint64_t(std::count(valid.begin(), valid.end(), false));
@@ -135,6 +160,43 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference) {
     c.ssim = meanOfValid(ssimMap(displayedLuminance(t), displayedLuminance(r)), valid, 1);
     c.flip = meanOfValid(flipMap(t, r), valid, 0);
     return c;
+}
+
+// With t = truth + e and r_k = truth + n_k, E[(t - r_1)(t - r_2)] = e^2 as long as n_1 and n_2 have
+// zero mean and are independent of each other; (t - r)^2 has an expectation of e^2 + var(n).
+Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
+                                 const ImageF& reference2) {
+    for (const ImageF* r : {&reference, &reference2})
+        if (!sameSize(test, *r))
+            return fail(sizesDiffer(test, *r));
+    const ImageF mean = meanImage(reference, reference2);
+    Result<Comparison> c = compareImages(test, mean);
+    if (!c)
+        return c;
+    const std::vector<bool> valid = validPixels(test, mean);
+    std::vector<double> products;
+    double noise = 0;
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        if (!valid[i])
+            continue;
+        const glm::dvec3 t(test.rgb[i]), r1(reference.rgb[i]), r2(reference2.rgb[i]);
+        products.push_back(channelMean((t - r1) * (t - r2)));
+        noise += channelMean((r1 - r2) * (r1 - r2)) / 4; // the variance of (r1 + r2) / 2
+    }
+    if (products.empty())
+        return c;
+    const double scale = meanOfValid(mean, valid);
+    c->referenceNoise = ratio(std::sqrt(noise / double(products.size())), std::abs(scale));
+    rootMeanSquares(products, scale, *c);
+    return c;
+}
+
+ImageF meanImage(const ImageF& a, const ImageF& b) {
+    assert(sameSize(a, b));
+    ImageF mean = a;
+    for (std::size_t i = 0; i < mean.rgb.size(); ++i)
+        mean.rgb[i] = 0.5f * a.rgb[i] + 0.5f * b.rgb[i];
+    return mean;
 }
 
 // Ends of a blue to orange scale that all kinds of colour blindness tell apart, sRGB.

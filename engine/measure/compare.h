@@ -12,16 +12,32 @@ namespace limn {
 /// mapping. x / 0 is infinite, 0 / 0 is 0. For SSIM and FLIP both images are exposed so that the
 /// reference's mean becomes 0.18 and go through the ACES curve; FLIP assumes 67 pixels per degree.
 struct Comparison {
-    double nrmse = 0;  ///< rms(test - ref) / mean(ref), over all channels
+    double nrmse = 0; ///< rms(test - ref) / mean(ref), over all channels
+    double nrmseMost =
+        0;             ///< the same without the worst 1 % of the pixels; mean(ref) is that of all
     double relmse = 0; ///< mean of (t-r)^2 / (r^2 + 0.01 mean(r)^2), worst 0.1 % of pixels dropped
     double bias = 0;   ///< mean(test) / mean(ref) - 1
     double ssim = 0;   ///< on tone-mapped luminance; 1: equal
     double flip = 0;   ///< mean FLIP error on the tone-mapped image; 0: equal
-    std::uint64_t invalidPixels = 0; ///< NaN, Inf in either; left out of the metrics
+    /// Standard error of a pixel of the references' mean, rms / mean(ref); 0 with one reference,
+    /// which does not tell.
+    double referenceNoise = 0;
+    std::uint64_t invalidPixels = 0; ///< NaN, Inf in any; left out of the metrics
 };
 
 /// Fails when sizes differ, naming both.
 Result<Comparison> compareImages(const ImageF& test, const ImageF& reference);
+
+/// The same against two references r1, r2 of independent noise (different seeds), whose noise does
+/// not count as an error of `test`: nrmse^2 = mean((t - r1)(t - r2)) / mean(ref)^2, 0 where that is
+/// negative. For nrmseMost the products are what is sorted; where their noise exceeds the error,
+/// the worst 1 % are the noisiest ones, and the figure comes out too low. All other metrics are
+/// against the mean of r1 and r2.
+Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
+                                 const ImageF& reference2);
+
+/// (a + b) / 2. Sizes must be equal.
+ImageF meanImage(const ImageF& a, const ImageF& b);
 
 /// Signed relative error of luminance per pixel, (t - r) / (r + 0.05 mean(r)), as a diverging,
 /// colour-blind-safe map: blue too dark, orange too bright, full at 50 %; invalid pixels magenta.

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -202,9 +203,20 @@ TEST_F(CommandLine, ReferenceAndComparePrintOneJsonObject) {
     EXPECT_EQ(first["invalid_pixels"], 0);
     json(start + "--spp 16 -o " + b);
     const nlohmann::json same = json("compare " + a + " " + a + " --json");
-    expectKeys(same, {"nrmse", "relmse", "bias", "ssim", "flip", "invalid_pixels"});
+    expectKeys(same, {"nrmse", "nrmse_without_worst_percent", "relmse", "bias", "ssim", "flip",
+                      "invalid_pixels"});
     EXPECT_EQ(same["nrmse"], 0);
     EXPECT_GT(json("compare " + a + " " + b + " --json")["nrmse"], 0);
+    const std::string c = path("c.exr"), d = path("d.exr");
+    json(start + "--spp 16 --seed 2 -o " + c);
+    json(start + "--spp 16 --seed 3 -o " + d);
+    const nlohmann::json two = json("compare " + b + " " + c + " --reference2 " + d + " --json");
+    expectKeys(two, {"nrmse", "nrmse_without_worst_percent", "bias", "reference_noise"});
+    // All three are equally noisy: without the references' part half of the variance is left.
+    const double one = json("compare " + b + " " + c + " --json")["nrmse"];
+    EXPECT_NEAR(two["nrmse"].get<double>() / one, std::sqrt(0.5), 0.1);
+    EXPECT_NEAR(two["reference_noise"].get<double>() / one, 0.5, 0.1);
+    expectRefusal("compare " + b + " " + c + " --reference2 nowhere.exr", "nowhere.exr");
 }
 
 #ifdef LIMN_HAS_VIEWPORT

@@ -30,6 +30,25 @@ ImageF scaled(ImageF image, float factor) {
     return image;
 }
 
+/// One bit of a pixel's x as +1 or -1. Rows of different bits are orthogonal to each other and to a
+/// constant over any multiple of 2^(bit + 1) pixels.
+float walsh(std::size_t x, int bit) {
+    return (x >> bit & 1) != 0 ? 1.f : -1.f;
+}
+
+/// Pictures of mean 1 whose errors and noise are orthogonal, exactly.
+struct OrthogonalNoise {
+    ImageF test = constantImage(256, 100, glm::vec3(1)), first = test, second = test;
+
+    OrthogonalNoise(float error, float offset, float noise) {
+        for (std::size_t i = 0; i < test.rgb.size(); ++i) {
+            test.rgb[i] += offset + error * walsh(i, 0);
+            first.rgb[i] += noise * walsh(i, 1);
+            second.rgb[i] += noise * walsh(i, 2);
+        }
+    }
+};
+
 } // namespace
 
 TEST(Compare, EqualImagesHaveNoError) {
@@ -116,6 +135,104 @@ TEST(Compare, DifferentSizesAreAnErrorThatNamesBoth) {
     ASSERT_FALSE(c);
     EXPECT_NE(c.error().message.find("4 x 3"), std::string::npos);
     EXPECT_NE(c.error().message.find("5 x 7"), std::string::npos);
+}
+
+TEST(Compare, TheWorstPercentIsLeftOut) {
+    ImageF reference = constantImage(100, 50, glm::vec3(2)), test = reference;
+    for (glm::vec3& p : test.rgb)
+        p += 0.5f;
+    for (std::size_t i = 0; i < 50; ++i) // just what is dropped
+        test.rgb[i * 97] = glm::vec3(1000, 2, 2);
+    const Result<Comparison> c = compareImages(test, reference);
+    ASSERT_TRUE(c);
+    EXPECT_NEAR(c->nrmseMost, 0.25, 1e-9);
+    EXPECT_NEAR(c->nrmse, std::sqrt(0.99 * 0.25 + 0.01 * 998 * 998 / 3) / 2, 1e-6);
+    test.rgb[1] = glm::vec3(1000, 2, 2); // one more stays
+    EXPECT_NEAR(compareImages(test, reference)->nrmseMost,
+                std::sqrt((4949 * 0.25 + 998.0 * 998 / 3) / 4950) / 2, 1e-6);
+    EXPECT_EQ(c->referenceNoise, 0);
+}
+
+TEST(Compare, TwoReferencesGiveTheErrorWithoutTheirNoise) {
+    const double error = 0.125, offset = 0.03125, noise = 0.5; // sums of these are exact
+    const OrthogonalNoise p{float(error), float(offset), float(noise)};
+    const Result<Comparison> one = compareImages(p.test, p.first);
+    const Result<Comparison> two = compareImages(p.test, p.first, p.second);
+    ASSERT_TRUE(one && two);
+    const double truth = std::sqrt(error * error + offset * offset);
+    EXPECT_NEAR(two->nrmse, truth, 1e-12);
+    EXPECT_NEAR(two->bias, offset, 1e-12);
+    EXPECT_NEAR(two->referenceNoise, noise / std::sqrt(2), 1e-12);
+    EXPECT_NEAR(one->nrmse, std::sqrt(truth * truth + noise * noise), 1e-12);
+    // All else is against the mean of both.
+    const Result<Comparison> mean = compareImages(p.test, meanImage(p.first, p.second));
+    EXPECT_EQ(two->relmse, mean->relmse);
+    EXPECT_EQ(two->flip, mean->flip);
+    const Result<Comparison> swapped = compareImages(p.test, p.second, p.first);
+    EXPECT_EQ(two->nrmse, swapped->nrmse);
+    EXPECT_EQ(two->nrmseMost, swapped->nrmseMost);
+}
+
+TEST(Compare, TwoReferencesOfRandomNoiseMeetAKnownError) {
+    ImageF test = constantImage(256, 256, glm::vec3(1)), first = test, second = test;
+    const ImageF a = noiseImage(256, 256, 11), b = noiseImage(256, 256, 12); // mean 1, variance 1
+    double truth = 0;
+    for (std::size_t i = 0; i < test.rgb.size(); ++i) {
+        const float e = 0.25f * std::sin(0.37f * float(i));
+        truth += double(e) * double(e) / double(test.rgb.size());
+        test.rgb[i] += e;
+        first.rgb[i] = a.rgb[i];
+        second.rgb[i] = b.rgb[i];
+    }
+    truth = std::sqrt(truth);
+    const Result<Comparison> two = compareImages(test, first, second);
+    ASSERT_TRUE(two);
+    // The product of both noises has a standard deviation of 1 per channel, that of an error and a
+    // noise up to 0.35: the mean over 3 * 65536
+    // channels then has one below 0.0024. The derivative of a square is 2 truth.
+    EXPECT_NEAR(two->nrmse, truth, 4 * 0.0024 / (2 * truth));
+    EXPECT_NEAR(two->referenceNoise, std::sqrt(0.5), 0.01);
+    EXPECT_GT(compareImages(test, first)->nrmse, 1);
+    EXPECT_GT(compareImages(test, meanImage(first, second))->nrmse, 0.7);
+}
+
+TEST(Compare, NoiseWithoutAnErrorIsNone) {
+    OrthogonalNoise p(0, 0, 0.5f);
+    EXPECT_EQ(compareImages(p.test, p.first, p.second)->nrmse, 0);
+    // Noise that is opposite makes the estimate of the square negative.
+    for (std::size_t i = 0; i < p.test.rgb.size(); ++i)
+        p.second.rgb[i] = 2.f - p.first.rgb[i];
+    const Result<Comparison> c = compareImages(p.test, p.first, p.second);
+    EXPECT_EQ(c->nrmse, 0);
+    EXPECT_EQ(c->nrmseMost, 0);
+    EXPECT_EQ(c->bias, 0);
+}
+
+TEST(Compare, BackgroundCountsAsPixelsWithoutAnError) {
+    // As with one reference: pixels where nothing is are 0 in all pictures.
+    ImageF test = constantImage(10, 10, glm::vec3(0)), first = test;
+    for (std::size_t i = 0; i < 50; ++i) {
+        first.rgb[i] = glm::vec3(2);
+        test.rgb[i] = glm::vec3(3);
+    }
+    const double expected = std::sqrt(0.5); // rms of half ones, over a mean of 1
+    EXPECT_NEAR(compareImages(test, first)->nrmse, expected, 1e-9);
+    EXPECT_NEAR(compareImages(test, first, first)->nrmse, expected, 1e-9);
+}
+
+TEST(Compare, PixelsThatAreInvalidInEitherReferenceAreLeftOut) {
+    OrthogonalNoise p(0.125f, 0, 0.5f);
+    p.second.rgb[3].x = std::numeric_limits<float>::quiet_NaN();
+    p.first.rgb[4].y = std::numeric_limits<float>::infinity();
+    const Result<Comparison> c = compareImages(p.test, p.first, p.second);
+    ASSERT_TRUE(c);
+    EXPECT_EQ(c->invalidPixels, 2u);
+    EXPECT_TRUE(std::isfinite(c->nrmse) && std::isfinite(c->referenceNoise));
+    EXPECT_NEAR(c->nrmse, 0.125, 1e-3);
+    const Result<Comparison> sizes =
+        compareImages(p.test, p.first, constantImage(5, 7, glm::vec3(1)));
+    ASSERT_FALSE(sizes);
+    EXPECT_NE(sizes.error().message.find("5 x 7"), std::string::npos);
 }
 
 TEST(Compare, NoiseLowersSimilarityMoreThanBrightness) {
