@@ -27,7 +27,7 @@ struct GlossyBench {
     SceneOptions scene;
     CameraOptions camera{.width = 256, .height = 256};
     std::string object, output;
-    std::vector<float> exponents = {5, 30, 100};
+    std::vector<float> roughnesses = {0.1f, 0.3f, 0.5f, 0.7f, 0.9f};
     std::vector<std::uint32_t> bands = {2, 3, 4, 5, 6, 7, 8};
     std::vector<std::string> storages = {"rtp", "sh"};
     std::uint32_t samplesPerPixel = 256, surfels = 32768, links = 512, lightmap = 40000;
@@ -47,11 +47,11 @@ struct GlossyView {
 };
 
 /// Makes the instances of a node a metal of nine tenths' reflectance; false: there are none.
-bool makeMetal(Scene& scene, const Document& document, const std::string& name, float n) {
+bool makeMetal(Scene& scene, const Document& document, const std::string& name, float roughness) {
     Material metal;
     metal.baseColor = {0.9f, 0.9f, 0.9f, 1};
     metal.metallic = 1;
-    metal.roughness = std::pow(2 / (n + 2), 0.25f); // lobeExponent()
+    metal.roughness = roughness;
     scene.materials.push_back(metal);
     bool any = false;
     for (Instance& instance : scene.instances)
@@ -136,7 +136,7 @@ Result<void> keepPicture(const GlossyBench& o, const std::string& name, const Im
                     toneMappedImage(image, Tonemap::Aces, 0));
 }
 
-Result<void> measureBake(const GlossyBench& o, const GlossyView& view, float n,
+Result<void> measureBake(const GlossyBench& o, const GlossyView& view, float roughness,
                          const BakeSettings& settings, StageStore& store, Json& rows) {
     const TraceScene trace(view.scene);
     Result<Bake> made = bake(trace, progressOnStderr(), &store, &settings);
@@ -153,7 +153,7 @@ Result<void> measureBake(const GlossyBench& o, const GlossyView& view, float n,
     options.allBands = true;
     Json row = {{"name", std::filesystem::path(o.scene.scene).stem().string()},
                 {"object", o.object},
-                {"n", n},
+                {"roughness", roughness},
                 {"bands", settings.bands},
                 {"storage", kStorageNames[std::size_t(settings.storage)]}};
     for (const bool windowed : {true, false}) {
@@ -163,16 +163,17 @@ Result<void> measureBake(const GlossyBench& o, const GlossyView& view, float n,
         const char* kind = windowed ? "" : "_cut_off";
         row[fmt::format("nrmse{}", kind)] = error.nrmse;
         row[fmt::format("bias{}", kind)] = error.bias;
-        const auto kept = keepPicture(o,
-                                      fmt::format("n{}-bands{}-{}{}", n, settings.bands,
-                                                  row["storage"].get<std::string>(), kind),
-                                      image);
+        const auto kept =
+            keepPicture(o,
+                        fmt::format("roughness{}-bands{}-{}{}", roughness, settings.bands,
+                                    row["storage"].get<std::string>(), kind),
+                        image);
         if (!kept)
             return kept;
     }
     row["reference_noise"] = view.noise;
     if (!o.json) {
-        fmt::print("{:>5} {:>5} {:<4} {:>8.4f} {:>+7.2f} % {:>8.4f} {:>+7.2f} %\n", n,
+        fmt::print("{:>9} {:>5} {:<4} {:>8.4f} {:>+7.2f} % {:>8.4f} {:>+7.2f} %\n", roughness,
                    settings.bands, row["storage"].get<std::string>(), row["nrmse"].get<double>(),
                    100 * row["bias"].get<double>(), row["nrmse_cut_off"].get<double>(),
                    100 * row["bias_cut_off"].get<double>());
@@ -182,11 +183,11 @@ Result<void> measureBake(const GlossyBench& o, const GlossyView& view, float n,
     return {};
 }
 
-Result<void> measureExponent(const GlossyBench& o, const ImportedScene& imported, float n,
-                             StageStore& store, Json& rows) {
+Result<void> measureRoughness(const GlossyBench& o, const ImportedScene& imported, float roughness,
+                              StageStore& store, Json& rows) {
     GlossyView view;
     view.scene = flatten(imported.document, imported.assets);
-    if (!makeMetal(view.scene, imported.document, o.object, n))
+    if (!makeMetal(view.scene, imported.document, o.object, roughness))
         return fail(fmt::format("--object: {} has no object {}", o.scene.scene, o.object));
     const Result<Camera> camera = chooseCamera(view.scene, o.camera);
     if (!camera)
@@ -198,9 +199,11 @@ Result<void> measureExponent(const GlossyBench& o, const ImportedScene& imported
         return fail(fmt::format("--object: the camera does not see {}", o.object));
     findTruth(view, o, trace);
     if (!o.json)
-        fmt::print("n = {}: {} pixels of {}, noise of the reference {:.4f}\n", n, view.pixels,
-                   o.object, view.noise);
-    if (const auto kept = keepPicture(o, fmt::format("n{}-reference", n), view.truth); !kept)
+        fmt::print("roughness {}: {} pixels of {}, noise of the reference {:.4f}\n", roughness,
+                   view.pixels, o.object, view.noise);
+    if (const auto kept =
+            keepPicture(o, fmt::format("roughness{}-reference", roughness), view.truth);
+        !kept)
         return kept;
     BakeSettings settings;
     settings.surfels = o.surfels;
@@ -210,7 +213,8 @@ Result<void> measureExponent(const GlossyBench& o, const ImportedScene& imported
         for (const std::uint32_t bands : o.bands) {
             settings.storage = named<LinkStorage>(kStorageNames, storage);
             settings.bands = bands;
-            if (const auto measured = measureBake(o, view, n, settings, store, rows); !measured)
+            if (const auto measured = measureBake(o, view, roughness, settings, store, rows);
+                !measured)
                 return measured;
         }
     return {};
@@ -225,11 +229,11 @@ Exit runGlossyBench(const GlossyBench& o) {
     if (const Exit made = writeRows(rows, o.output, "glossy", false); made != Exit::Done)
         return made; // before anything is traced for it
     if (!o.json)
-        fmt::print("{:>5} {:>5} {:<4} {:>8} {:>9} {:>8} {:>9}\n", "n", "bands", "kind", "nRMSE",
-                   "bias", "cut off", "bias");
+        fmt::print("{:>9} {:>5} {:<4} {:>8} {:>9} {:>8} {:>9}\n", "roughness", "bands", "kind",
+                   "nRMSE", "bias", "cut off", "bias");
     StageStore store;
-    for (const float n : o.exponents)
-        if (const auto measured = measureExponent(o, *imported, n, store, rows); !measured)
+    for (const float roughness : o.roughnesses)
+        if (const auto measured = measureRoughness(o, *imported, roughness, store, rows); !measured)
             return failed(measured.error().message);
     return writeRows(rows, o.output, "glossy", o.json);
 }
@@ -249,7 +253,7 @@ void addGlossyBench(CLI::App& bench, Run& run) {
     const auto list = [&](const char* flag, auto& values, const char* text, const auto& check) {
         command->add_option(flag, values, text)->delimiter(',')->check(check);
     };
-    list("--exponents", o->exponents, "n of the lobe cos^n, a list", CLI::Range(0, 798));
+    list("--roughness", o->roughnesses, "of the metal, a list", CLI::Range(0.0, 1.0));
     list("--bands", o->bands, "SH bands, a list", CLI::Range(2, 8));
     list("--storage", o->storages, "a list of link storages", oneOf(kStorageNames));
     command->add_option("--spp", o->samplesPerPixel, "of the reference")

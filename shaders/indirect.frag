@@ -20,6 +20,7 @@ layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
 layout(set = 0, binding = 5, std430) readonly buffer Grid { vec4 grid[]; };
 layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
 layout(set = 0, binding = 9) uniform sampler2D emittedImage;
+layout(set = 0, binding = 11) uniform sampler2DArray reflectionTable;
 
 layout(location = 0) out vec4 outColor;
 
@@ -71,12 +72,12 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
     return FieldSums(sums.irradiance / sum, sums.lobe / sum);
 }
 
-/// Irradiance, and mean radiance in the lobe of the surface's polish about the mirrored direction, both at least 0.
-FieldSums readField(PackedSurface s, bool fromGrid) {
+/// Irradiance, and mean radiance in the lobe that the surface reflects, both at least 0.
+FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid) {
     FieldSums sums = FieldSums(vec3(0), vec3(0));
     float irradiance[kCoefficients], lobe[kCoefficients];
     irradianceWeights(s.detailNormal, irradiance);
-    lobeWeights(reflect(-s.toEye, s.detailNormal), lobeExponent(s.roughness), lobe); // in VIEW_LIT alone
+    lobeWeights(axis, factors, lobe); // in VIEW_LIT alone
     const bool lightmapRead = (kFeatures & FEATURE_LIGHTMAP) != 0 && !fromGrid,
                gridRead = (kFeatures & FEATURE_GRID) != 0 && fromGrid;
     // Loops, because software rasterisers work branches out that no pixel of a block takes.
@@ -88,15 +89,20 @@ FieldSums readField(PackedSurface s, bool fromGrid) {
 }
 
 vec3 bouncedLight(PackedSurface s, bool fromGrid) {
-    const FieldSums field = readField(s, fromGrid);
+    const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
+    ReflectionLobe reflection = reflectionLobe(reflectionTable, s.roughness, NoV, kBands);
+    windowFactors(reflection.factors);
+    const vec3 axis = normalize(reflection.towards.x * s.detailNormal +
+                                reflection.towards.y * reflect(-s.toEye, s.detailNormal));
+    const FieldSums field = readField(s, axis, reflection.factors, fromGrid);
     if (kView == VIEW_IRRADIANCE)
         return field.irradiance;
     const vec3 diffuse = s.albedo * field.irradiance / kPi;
     if (kView != VIEW_LIT)
         return diffuse;
     const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
-    const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
-    return diffuse + specularAlbedo(F0, s.roughness, NoV) * field.lobe;
+    const float seen = fromGrid ? 1.0 : hemisphereSeen(reflection.factors, dot(axis, s.geometricNormal));
+    return diffuse + (F0 * reflection.share.x + reflection.share.y) * field.lobe / seen;
 }
 
 void main() {

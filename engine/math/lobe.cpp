@@ -13,21 +13,17 @@ namespace limn {
 static constexpr std::array<float, kMaxBands + 1> kMirrorBlur = {
     0, 0, 0.20273f, 0.12417f, 0.09887f, 0.02879f, 0.02643f, 0.01244f, 0.00910f};
 
-float lobeExponent(float roughness) {
-    const float alpha = std::max(roughness * roughness, 0.05f);
-    return std::max(2 / (alpha * alpha) - 2, 0.f);
-}
-
-std::array<float, kMaxBands> windowedLobeFactors(float n, int bands) {
-    assert(n >= 0 && bands >= 2 && bands <= kMaxBands);
-    // To first order a lobe is itself such a blur, of the t that gives its s_1: what it has, the
-    // window need not add.
-    const float own = 0.5f * std::log((n + 2) / (n + 1));
+std::array<float, kMaxBands> windowedFactors(const std::array<float, kMaxBands>& s, int bands) {
+    assert(bands >= 2 && bands <= kMaxBands);
+    // To first order a lobe is itself such a blur, of the t that gives its last band: what it has,
+    // the window need not add. Below 0.001 the band is as good as not there: no window.
+    const float last = std::max(s[std::size_t(bands - 1)], 1e-3f);
+    const float own = -std::log(last) / float(bands * (bands - 1));
     const float t = std::max(kMirrorBlur[std::size_t(bands)] - own, 0.f);
-    std::array<float, kMaxBands> s = lobeFactors(n);
-    for (int l = 0; l < kMaxBands; ++l)
-        s[std::size_t(l)] *= l < bands ? std::exp(-t * float(l * (l + 1))) : 0.f;
-    return s;
+    std::array<float, kMaxBands> windowed{};
+    for (int l = 0; l < bands; ++l)
+        windowed[std::size_t(l)] = s[std::size_t(l)] * std::exp(-t * float(l * (l + 1)));
+    return windowed;
 }
 
 glm::vec3 shLobe(int bands, const glm::vec3* c, glm::vec3 d,
@@ -44,25 +40,30 @@ glm::vec3 shLobe(int bands, const glm::vec3* c, glm::vec3 d,
     return sum;
 }
 
-std::array<float, kMaxBands + 1> lobeLosses(float n) {
-    // The integral of P_l over a cap, squared, has the mean q_l = (1/(2l-1) + 1/(2l+3)) / (2l+1)^2
-    // over caps of all sizes; the loss squared is the sum of (2l+1) q_l s_l^2. Of the narrowest
-    // lobe, n = 798, the bands from 128 on would add 1e-7.
-    constexpr int kEnd = 128;
-    std::array<double, kEnd> term{};
-    double before = 1, s = (n + 1.0) / (n + 2.0); // s_{l-1}, s_l
-    for (int l = 1; l < kEnd; ++l) {
-        term[std::size_t(l)] = (1.0 / (2 * l - 1) + 1.0 / (2 * l + 3)) / (2 * l + 1) * s * s;
-        const double next = before * (n + 1.0 - l) / (n + 2.0 + l);
-        before = s;
-        s = next;
+float hemisphereSeen(const std::array<float, kMaxBands>& factors, int bands, float cosine) {
+    // The hemisphere is 1/2 + sum of h_l P_l over odd l, h_l = (P_{l-1}(0) - P_{l+1}(0)) / 2.
+    static constexpr float kHalf[kMaxBands] = {0.5f, 0.75f,     0, -7 / 16.f,
+                                               0,    11 / 32.f, 0, -75 / 256.f};
+    float sum = kHalf[0], before = 1, p = cosine; // P_{l-1}, P_l
+    for (int l = 1; l < bands; ++l) {
+        sum += kHalf[l] * factors[std::size_t(l)] * p;
+        const float next = (float(2 * l + 1) * cosine * p - float(l) * before) / float(l + 1);
+        before = p;
+        p = next;
     }
+    return std::max(sum, 0.5f);
+}
+
+std::array<float, kMaxBands + 1> lobeLosses(std::span<const double> s) {
+    // The integral of P_l over a cap, squared, has the mean q_l = (1/(2l-1) + 1/(2l+3)) / (2l+1)^2
+    // over caps of all sizes; the loss squared is the sum of (2l+1) q_l s_l^2.
     std::array<float, kMaxBands + 1> loss{};
     double sum = 0;
-    for (int l = kEnd - 1; l > 0; --l) {
-        sum += term[std::size_t(l)];
-        if (l <= kMaxBands)
-            loss[std::size_t(l)] = float(std::sqrt(sum));
+    for (std::size_t l = s.size() - 1; l > 0; --l) {
+        const auto k = double(l);
+        sum += (1 / (2 * k - 1) + 1 / (2 * k + 3)) / (2 * k + 1) * s[l] * s[l];
+        if (l <= std::size_t(kMaxBands))
+            loss[l] = float(std::sqrt(sum));
     }
     return loss;
 }

@@ -10,6 +10,7 @@
 #include "engine/reference/surface_point.h"
 #include "engine/relight/relight.h"
 #include "engine/scene/receiver_bands.h"
+#include "engine/scene/reflection_lobe.h"
 
 #include <cassert>
 #include <optional>
@@ -38,25 +39,34 @@ glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePo
                              hit.v, p.position, p.normal, !hit.frontFace});
 }
 
-/// Mean radiance in the lobe.
-glm::vec3 fieldLobe(const FieldContext& c, const Hit& hit, const GlossyPoint& g) {
+/// What the glossy side reflects of the field.
+glm::vec3 fieldReflection(const FieldContext& c, const Hit& hit, const GlossyPoint& g) {
     if (!c.hasField())
         return glm::vec3(0);
     const Scene& scene = c.trace.scene();
     const int bands = c.bands[scene.instances[hit.instance].material];
-    const float n = lobeExponent(g.gloss.roughness);
-    return sampleLobe({c.field, c.layout, scene, hit.instance, hit.triangle, hit.u, hit.v,
-                       g.surface.position, g.surface.normal, !hit.frontFace},
-                      g.mirrored, bands,
-                      c.windowedLobes ? windowedLobeFactors(n, bands) : lobeFactors(n));
+    const glm::vec3 n = g.surface.normal;
+    const ReflectionLobe lobe =
+        reflectionLobe(g.gloss.roughness, glm::clamp(glm::dot(n, g.toEye), 0.f, 1.f));
+    const auto factors = c.windowedLobes ? windowedFactors(lobe.factors, bands) : lobe.factors;
+    const glm::vec3 axis = lobeAxis(lobe, n, glm::reflect(-g.toEye, n));
+    const glm::vec3 seen = sampleLobe({c.field, c.layout, scene, hit.instance, hit.triangle, hit.u,
+                                       hit.v, g.surface.position, n, !hit.frontFace},
+                                      axis, bands, factors);
+    const bool hemisphere =
+        hit.instance < c.layout.instances.size() && !c.layout.instances[hit.instance].uv.empty();
+    const glm::vec3 radiance =
+        hemisphere
+            ? seen / hemisphereSeen(factors, bands, glm::dot(axis, g.surface.geometricNormal))
+            : seen;
+    return (g.gloss.F0 * lobe.share.x + lobe.share.y) * radiance;
 }
 
 glm::vec3 shadeLit(const FieldContext& c, const Hit& hit, const GlossyPoint& g,
                    const DirectSample& direct) {
     const SurfacePoint& p = g.surface;
     return p.emission + g.reflect(direct.irradiance, direct.toLight) +
-           p.albedo / glm::pi<float>() * fieldIrradiance(c, hit, p) +
-           g.lobeAlbedo() * fieldLobe(c, hit, g);
+           p.albedo / glm::pi<float>() * fieldIrradiance(c, hit, p) + fieldReflection(c, hit, g);
 }
 
 glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight, glm::vec2 onLight) {

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint32_t kRouletteBounce = 3; ///< shorter paths are never cut
 constexpr std::uint32_t kDimensionsPerBounce = 5;
-constexpr std::uint32_t kLobeSeed = 0x6c6f6265; // parts a lobe's samples from the others of a pixel
+constexpr std::uint32_t kLobeSeed =
+    0x6c6f6265; // parts a reflection's samples from the others of a pixel
 
 // Power heuristic, exponent 2. Veach. Robust Monte Carlo Methods for Light Transport. 1997
 float misWeight(float pdf, float other) {
@@ -23,37 +24,62 @@ float misWeight(float pdf, float other) {
     return 1 / (1 + ratio * ratio);
 }
 
-// Irradiance from one point on an emitter, weighted against the chance of the bounce to find it.
-glm::vec3 emitterIrradiance(const PathContext& c, const SurfacePoint& p, float pick, glm::vec2 u,
-                            std::uint64_t& rays) {
+// Light that was looked for, not met by a bounce.
+struct FoundLight {
+    glm::vec3 irradiance{0}; ///< over its density; 0: none arrives
+    glm::vec3 toLight{0};
+    float pdf = 1; ///< [sr^-1]
+};
+
+// From one point on an emitter.
+FoundLight emitterLight(const PathContext& c, const SurfacePoint& p, float pick, glm::vec2 u,
+                        std::uint64_t& rays) {
+    if (c.emitters.empty())
+        return {};
     const EmitterSample s = sampleEmitter(c.emitters, c.trace.scene(), p.position, pick, u);
     if (s.radiance == glm::vec3(0))
-        return glm::vec3(0);
+        return {};
     const glm::vec3 origin = rayOrigin(c.trace, p);
     const glm::vec3 way = s.position + s.normal * c.trace.epsilonAt(s.position) - origin;
     const float distance = glm::length(way);
     const glm::vec3 direction = way / distance;
     const float cosTheta = glm::dot(p.normal, direction);
     if (!(cosTheta > 0) || !(glm::dot(p.geometricNormal, direction) > 0))
-        return glm::vec3(0);
+        return {};
     ++rays;
     if (c.trace.occluded({origin, direction, 0, distance}))
-        return glm::vec3(0);
-    const float bouncePdf = cosTheta / glm::pi<float>();
-    return s.radiance * (cosTheta / s.pdf * misWeight(s.pdf, bouncePdf));
+        return {};
+    return {s.radiance * (cosTheta / s.pdf), direction, s.pdf};
 }
 
-// Irradiance from one direction of the sky's image, weighted against the chance of the bounce.
-glm::vec3 skyIrradiance(const PathContext& c, const SurfacePoint& p, glm::vec2 u,
-                        std::uint64_t& rays) {
+// From one direction of the sky's image.
+FoundLight skyLight(const PathContext& c, const SurfacePoint& p, glm::vec2 u, std::uint64_t& rays) {
+    if (c.sky.empty())
+        return {};
     const SkySample s = sampleSky(c.sky, c.trace.scene().sky, u);
     const float cosTheta = glm::dot(p.normal, s.direction);
     if (!(s.pdf > 0) || !(cosTheta > 0) || !(glm::dot(p.geometricNormal, s.direction) > 0))
-        return glm::vec3(0);
+        return {};
     ++rays;
     if (c.trace.occluded({rayOrigin(c.trace, p), s.direction}))
+        return {};
+    return {s.radiance * (cosTheta / s.pdf), s.direction, s.pdf};
+}
+
+// Irradiance, weighted against the chance of a bounce to find it.
+glm::vec3 diffuseShare(const SurfacePoint& p, const FoundLight& f) {
+    if (f.irradiance == glm::vec3(0))
         return glm::vec3(0);
-    return s.radiance * (cosTheta / s.pdf * misWeight(s.pdf, cosTheta / glm::pi<float>()));
+    return f.irradiance * misWeight(f.pdf, glm::dot(p.normal, f.toLight) / glm::pi<float>());
+}
+
+// Reflected radiance, weighted likewise.
+glm::vec3 glossyShare(const GlossyPoint& g, const FoundLight& f) {
+    if (f.irradiance == glm::vec3(0))
+        return glm::vec3(0);
+    const glm::vec3 n = g.surface.normal;
+    return f.irradiance * specularBrdf(g.gloss, n, g.toEye, f.toLight) *
+           misWeight(f.pdf, specularPdf(g.gloss.roughness, n, g.toEye, f.toLight));
 }
 
 } // namespace
@@ -69,11 +95,8 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     for (std::uint32_t bounce = 0; bounce < c.maxBounces; ++bounce) {
         const std::uint32_t dimension = kFirstPathDimension + bounce * kDimensionsPerBounce;
         const glm::vec2 picks = sampler.pair(dimension);
-        if (!c.emitters.empty())
-            E += T * emitterIrradiance(c, p, picks.x, sampler.pair(dimension + 1), rays);
-
-        if (!c.sky.empty())
-            E += T * skyIrradiance(c, p, sampler.pair(dimension + 4), rays);
+        E += T * diffuseShare(p, emitterLight(c, p, picks.x, sampler.pair(dimension + 1), rays));
+        E += T * diffuseShare(p, skyLight(c, p, sampler.pair(dimension + 4), rays));
 
         const glm::vec3 direction = sampleCosineHemisphere(p.normal, sampler.pair(dimension + 2));
         if (!(glm::dot(direction, p.geometricNormal) > 0))
@@ -112,16 +135,15 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     return E;
 }
 
-glm::vec3 sampleLobeRadiance(const PathContext& c, const SurfacePoint& p, glm::vec3 mirrored,
-                             float n, const Sampler& sampler, std::uint64_t& rays) {
-    const Sampler own{mixBits(sampler.seed, kLobeSeed), sampler.index};
-    const glm::vec3 direction = sampleLobeDirection(mirrored, n, own.pair(0));
-    if (c.maxBounces == 0 || !(glm::dot(direction, p.geometricNormal) > 0))
-        return glm::vec3(0);
+// What a glossy bounce meets: `pdf` is its density.
+static glm::vec3 radianceAlong(const PathContext& c, const SurfacePoint& p, glm::vec3 direction,
+                               float pdf, const Sampler& own, std::uint64_t& rays) {
     ++rays;
     const Hit hit = c.trace.closestHit({rayOrigin(c.trace, p), direction});
-    if (!hit)
-        return skyRadiance(c.trace.scene().sky, direction);
+    if (!hit) {
+        const glm::vec3 radiance = skyRadiance(c.trace.scene().sky, direction);
+        return radiance * misWeight(pdf, skyPdf(c.sky, radiance));
+    }
     const std::optional<SurfacePoint> next = surfacePoint(c.trace, hit);
     if (!next)
         return glm::vec3(0);
@@ -130,7 +152,27 @@ glm::vec3 sampleLobeRadiance(const PathContext& c, const SurfacePoint& p, glm::v
             .irradiance;
     const glm::vec3 bounced =
         sampleIndirectIrradiance({c.trace, c.emitters, c.sky, c.maxBounces - 1}, *next, own, rays);
-    return next->emission + next->albedo / glm::pi<float>() * (direct + bounced);
+    glm::vec3 radiance = next->albedo / glm::pi<float>() * (direct + bounced);
+    if (next->emission != glm::vec3(0))
+        radiance += next->emission * misWeight(pdf, emitterPdf(c.emitters, hit, p.position));
+    return radiance;
+}
+
+glm::vec3 sampleReflectedRadiance(const PathContext& c, const GlossyPoint& g,
+                                  const Sampler& sampler, std::uint64_t& rays) {
+    if (c.maxBounces == 0)
+        return glm::vec3(0);
+    const Sampler own{mixBits(sampler.seed, kLobeSeed), sampler.index};
+    const Sampler looking{mixBits(own.seed, kLobeSeed), sampler.index};
+    const SurfacePoint& p = g.surface;
+    glm::vec3 L = glossyShare(g, emitterLight(c, p, looking.pair(0).x, looking.pair(1), rays)) +
+                  glossyShare(g, skyLight(c, p, looking.pair(2), rays));
+    const SpecularSample s = sampleSpecular(g.gloss, p.normal, g.toEye, own.pair(0));
+    if (glm::dot(s.toLight, p.geometricNormal) > 0)
+        L += s.weight * radianceAlong(c, p, s.toLight,
+                                      specularPdf(g.gloss.roughness, p.normal, g.toEye, s.toLight),
+                                      own, rays);
+    return L;
 }
 
 } // namespace limn

@@ -30,10 +30,10 @@ inline constexpr std::uint32_t kOnLightDimension = 1u << 16;
 glm::vec3 sampleIndirectIrradiance(const PathContext& context, const SurfacePoint& first,
                                    const Sampler& sampler, std::uint64_t& rays);
 
-/// One unbiased estimate of the mean radiance [W m^-2 sr^-1] that reaches `p` from the lobe
-/// (n+1)/(2 pi) cos^n about unit `mirrored`, by any way but straight from directional, point, spot
-/// and rectangle lights. From below the surface's horizon comes none.
-glm::vec3 sampleLobeRadiance(const PathContext& context, const SurfacePoint& p, glm::vec3 mirrored,
-                             float n, const Sampler& sampler, std::uint64_t& rays);
+/// One unbiased estimate of the radiance [W m^-2 sr^-1] that the glossy side of `p` reflects to the
+/// eye, of all light but what comes straight from directional, point, spot and rectangle lights.
+/// From below the triangle's horizon comes none.
+glm::vec3 sampleReflectedRadiance(const PathContext& context, const GlossyPoint& p,
+                                  const Sampler& sampler, std::uint64_t& rays);
 
 } // namespace limn

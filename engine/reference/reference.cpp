@@ -2,7 +2,6 @@
 #include "engine/reference/reference.h"
 
 #include "engine/core/parallel.h"
-#include "engine/math/lobe.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
 #include "engine/reference/pixel_rays.h"
@@ -55,9 +54,7 @@ glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Samp
     if (view != View::Lit)
         return p->albedo / glm::pi<float>() * direct.irradiance + indirect;
     const GlossyPoint g = glossyPoint(c.trace, hit, ray, *p);
-    const glm::vec3 glossy =
-        g.lobeAlbedo() *
-        sampleLobeRadiance(c, *p, g.mirrored, lobeExponent(g.gloss.roughness), sampler, rays);
+    const glm::vec3 glossy = sampleReflectedRadiance(c, g, sampler, rays);
     return p->emission + g.reflect(direct.irradiance, direct.toLight) + indirect + glossy;
 }
 

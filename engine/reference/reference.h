@@ -29,9 +29,7 @@ struct ReferenceResult {
 };
 
 /// Path-traced ground truth: every surface Lambertian with surfaceMaterial()'s albedo. In Lit the
-/// first one is glossy besides: specularBrdf() of what comes straight from lights, and of all else
-/// the mean over the lobe cos^n about the mirrored direction, n = lobeExponent(), times
-/// specularAlbedo(), which is what bounced light in spherical harmonics can be asked for. Cosines
+/// first one is glossy besides: it reflects all light by specularBrdf(). Cosines
 /// are those of the interpolated vertex normals, without normal maps; the triangle itself bounds
 /// what is seen. The back of a one-sided surface is black, to the camera and to paths, and blocks.
 /// Emission leaves the front only, unless the material is double-sided. Nothing is clamped: no

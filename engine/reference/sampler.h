@@ -81,10 +81,4 @@ inline glm::vec3 sampleCosineHemisphere(glm::vec3 n, glm::vec2 u) {
     return directionAbout(n, std::sqrt(u.x), std::sqrt(1 - u.x), u.y);
 }
 
-/// Direction about unit `d` with density (n+1)/(2 pi) cos^n, n >= 0.
-inline glm::vec3 sampleLobeDirection(glm::vec3 d, float n, glm::vec2 u) {
-    const float cosine = std::pow(1 - u.x, 1 / (n + 1));
-    return directionAbout(d, std::sqrt(std::max(1 - cosine * cosine, 0.f)), cosine, u.y);
-}
-
 } // namespace limn

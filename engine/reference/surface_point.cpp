@@ -41,10 +41,6 @@ std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit
     return p;
 }
 
-glm::vec3 GlossyPoint::lobeAlbedo() const {
-    return specularAlbedo(gloss, glm::clamp(glm::dot(surface.normal, toEye), 0.f, 1.f));
-}
-
 glm::vec3 GlossyPoint::reflect(glm::vec3 irradiance, glm::vec3 toLight) const {
     if (irradiance == glm::vec3(0))
         return irradiance;
@@ -56,7 +52,7 @@ GlossyPoint glossyPoint(const TraceScene& trace, const Hit& hit, const Ray& ray,
                         const SurfacePoint& p) {
     const Scene& scene = trace.scene();
     return {p, surfaceGloss(scene, scene.instances[hit.instance], hit.triangle, hit.u, hit.v),
-            -ray.direction, glm::reflect(ray.direction, p.normal)};
+            -ray.direction};
 }
 
 glm::vec3 rayOrigin(const TraceScene& trace, const SurfacePoint& p) {

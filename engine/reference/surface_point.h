@@ -25,11 +25,8 @@ std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit
 struct GlossyPoint {
     SurfacePoint surface;
     Gloss gloss;
-    glm::vec3 toEye{0};    ///< unit
-    glm::vec3 mirrored{0}; ///< unit; the middle of the reflecting lobe
+    glm::vec3 toEye{0}; ///< unit
 
-    /// Share of light from everywhere that the lobe reflects to the eye.
-    glm::vec3 lobeAlbedo() const;
     /// Radiance to the eye of what comes straight from a light: diffuse and glossy.
     glm::vec3 reflect(glm::vec3 irradiance, glm::vec3 toLight) const;
 };

@@ -4,6 +4,7 @@
 #include "engine/bake/grid_depth.h"
 #include "engine/core/log.h"
 #include "engine/gpu/uploader.h"
+#include "engine/scene/reflection_lobe.h"
 
 #include <array>
 #include <cassert>
@@ -61,6 +62,18 @@ IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& fiel
     const bool sameDepth = before.depth && before.depth == field.gridDepth;
     return {.field = uploadField(device, field, sameDepth ? before.field->gridDepth : nullptr),
             .depth = field.gridDepth};
+}
+
+gpu::Image uploadReflectionTable(gpu::Device& device) {
+    gpu::Image image(device, {.width = kReflectionNodes,
+                              .height = kReflectionNodes,
+                              .layers = kReflectionLayers,
+                              .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                              .array = true,
+                              .name = "reflection table"});
+    gpu::Uploader(device).image(image, std::as_bytes(reflectionTable()));
+    return image;
 }
 
 void describeGrid(const GpuField& field, shared::GpuFrame& frame) {

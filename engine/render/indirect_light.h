@@ -20,6 +20,9 @@ struct IndirectLight {
 IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
                                   const IndirectLight& before = {});
 
+/// limn::reflectionTable() as a sampled array of RGBA32F.
+gpu::Image uploadReflectionTable(gpu::Device& device);
+
 /// Fills the grid's rows of `frame`.
 void describeGrid(const GpuField& field, shared::GpuFrame& frame);
 

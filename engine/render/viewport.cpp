@@ -44,7 +44,7 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -122,6 +122,7 @@ struct Viewport::Impl {
     gpu::DescriptorSetLayout frameLayout;
     gpu::DescriptorPool framePool;
     gpu::Sampler lightmapSampler;
+    gpu::Image reflectionTable;
     GeometryPasses geometry;
     SurfaceImages surfaces;
     IndirectPass indirectPass;
@@ -156,6 +157,7 @@ Viewport::Impl::Impl(gpu::Device& d)
       lightmapSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                              .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                              .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+      reflectionTable(uploadReflectionTable(d)),
       geometry(d, frameLayout.handle, materials.layout()), surfaces(d),
       indirectPass(d, frameLayout.handle), sky(d, frameLayout.handle),
       direct(d, frameLayout.handle),
@@ -242,6 +244,7 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
                      depth ? depth->handle : indirect.field->grid.handle);
     gpu::writeTexture(device, slot.set, 9, surfaces.emitted.view, texelSampler.handle);
     gpu::writeTexture(device, slot.set, 10, surfaces.receiver.view, texelSampler.handle);
+    gpu::writeTexture(device, slot.set, 11, reflectionTable.view, lightmapSampler.handle);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,

@@ -2,7 +2,7 @@
 #include "engine/scene/receiver_bands.h"
 
 #include "engine/math/lobe.h"
-#include "engine/scene/specular.h"
+#include "engine/scene/reflection_lobe.h"
 
 #include <algorithm>
 #include <array>
@@ -39,23 +39,51 @@ TexelCounts countTexels(const Image& image) {
     return counts;
 }
 
-/// Mean of specularAlbedo's brightest channel over all directions of a hemisphere, by the cosine.
-float meanShare(const Gloss& gloss) {
-    constexpr int kDirections = 8; // equal shares of NoV^2
-    float sum = 0;
-    for (int i = 0; i < kDirections; ++i) {
-        const glm::vec3 a =
-            specularAlbedo(gloss, std::sqrt((float(i) + 0.5f) / float(kDirections)));
-        sum += std::max({a.x, a.y, a.z});
+constexpr int kRoughnessSteps = 16;
+constexpr int kViews = 4;      ///< equal shares of NoV^2, so that each counts by its cosine
+constexpr int kLossBands = 64; ///< of the narrowest lobe, the bands from there on would add 0.01
+
+float viewCosine(int k) {
+    return std::sqrt((float(k) + 0.5f) / float(kViews));
+}
+
+/// lobeLosses() of the reflection under the angles of viewCosine(), by roughness.
+using Losses =
+    std::array<std::array<std::array<float, kMaxBands + 1>, kViews>, kRoughnessSteps + 1>;
+
+Losses findLosses() {
+    Losses losses{};
+    for (int r = 0; r <= kRoughnessSteps; ++r)
+        for (int k = 0; k < kViews; ++k)
+            losses[std::size_t(r)][std::size_t(k)] =
+                lobeLosses(integrateReflection(float(r) / float(kRoughnessSteps), viewCosine(k), 32,
+                                               kLossBands)
+                               .factors);
+    return losses;
+}
+
+/// rms over all directions of light and angles of view of what is missing in the brightest channel,
+/// over the light that arrives.
+float reflectionLoss(const Gloss& gloss, int bands) {
+    static const Losses losses = findLosses();
+    const float at = std::clamp(gloss.roughness, 0.f, 1.f) * float(kRoughnessSteps);
+    const int base = std::min(int(at), kRoughnessSteps - 1);
+    float square = 0;
+    for (int k = 0; k < kViews; ++k) {
+        const auto lossAt = [&](int row) {
+            return losses[std::size_t(row)][std::size_t(k)][std::size_t(bands)];
+        };
+        const glm::vec3 share = specularAlbedo(gloss, viewCosine(k));
+        const float lost = std::max({share.x, share.y, share.z}) *
+                           glm::mix(lossAt(base), lossAt(base + 1), at - float(base));
+        square += lost * lost / float(kViews);
     }
-    return sum / float(kDirections);
+    return std::sqrt(square);
 }
 
 int bandsOf(const Gloss& gloss, int most) {
-    const auto loss = lobeLosses(lobeExponent(gloss.roughness));
-    const float share = meanShare(gloss);
     int bands = std::min(kIrradianceBands, most);
-    while (bands < most && loss[std::size_t(bands)] * share > kReflectionLoss)
+    while (bands < most && reflectionLoss(gloss, bands) > kReflectionLoss)
         ++bands;
     return bands;
 }

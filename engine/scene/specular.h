@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace limn {
@@ -19,14 +20,25 @@ struct Gloss {
 Gloss surfaceGloss(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
                    float v);
 
-/// Share of light from everywhere that the lobe reflects to a direction of cosine NoV in [0, 1].
-/// Karis. Physically Based Shading on Mobile. 2014. Its fit is of another visibility term: of rough
-/// white metals it is up to 0.17 below the integral of specularBrdf().
-glm::vec3 specularAlbedo(const Gloss& gloss, float NoV);
-
 /// Cook-Torrance with GGX, without the cosine of the light [sr^-1]. All directions unit, away from
 /// the surface. Walter et al. Microfacet Models for Refraction through Rough Surfaces. 2007; the
-/// visibility term is Hammon's approximation of the height-correlated Smith term. alpha >= 0.002.
+/// visibility term is Hammon's approximation of the height-correlated Smith term. alpha >= 0.002;
+/// NoV >= 1e-4.
 glm::vec3 specularBrdf(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::vec3 toLight);
+
+/// A direction that light may come from.
+struct SpecularSample {
+    glm::vec3 toLight{0}; ///< unit, above the horizon of `n`; 0 where the facet sends it below
+    glm::vec3 weight{0};  ///< specularBrdf() times the cosine over specularPdf()
+};
+
+/// By the normals of microfacets that the eye sees, from `u` in [0, 1)^2: the mean of weight times
+/// radiance is what the surface reflects. An eye below the horizon of `n` counts as just above it.
+/// Heitz. Sampling the GGX Distribution of Visible Normals. 2018
+SpecularSample sampleSpecular(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::vec2 u);
+
+/// Density of sampleSpecular() [sr^-1]: below 1 in sum, by those facets that send light below the
+/// horizon.
+float specularPdf(float roughness, glm::vec3 n, glm::vec3 toEye, glm::vec3 toLight);
 
 } // namespace limn

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What surfaces make of spherical harmonics of radiance, kBands of them: sums of coefficients by the weights that are
-// worked out here. Needs specular.glsl and sh_bands.glsl.
+// worked out here. Needs kPi of specular.glsl, and sh_bands.glsl.
 
 /// Of irradiance [W m^-2] on a plane facing n: of the first three bands, the others 0.
 void irradianceWeights(vec3 n, out float w[kCoefficients]) {
@@ -11,23 +11,38 @@ void irradianceWeights(vec3 n, out float w[kCoefficients]) {
             w[i] *= l < 3 ? A[l < 3 ? l : 0] : 0.0;
 }
 
-/// Of mean radiance in the lobe cos^n about d: windowedLobeFactors() of engine/math/lobe.h.
-void lobeWeights(vec3 d, float n, out float w[kCoefficients]) {
+/// s_l w_l: windowedFactors() of engine/math/lobe.h.
+void windowFactors(inout float s[8]) {
     const float kMirrorBlur[9] = float[](0.0, 0.0, 0.20273, 0.12417, 0.09887, 0.02879, 0.02643, 0.01244, 0.00910);
-    // exp(-2 t) of the window exp(-t l (l + 1)), t = max(blur - log((n + 2) / (n + 1)) / 2, 0).
-    const float window = min(exp(-2.0 * kMirrorBlur[kBands]) * ((n + 2.0) / (n + 1.0)), 1.0);
-    float s[kBands];
-    s[0] = 1.0;
-    s[1] = (n + 1.0) / (n + 2.0);
-    [[unroll]] for (int l = 2; l < kBands; ++l)
-        s[l] = s[l - 2] * (n + 2.0 - float(l)) / (n + float(l) + 1.0);
-    shBasis(d, w);
+    // exp(-2 t) of the window exp(-t l (l + 1)), t = max(blur - own, 0), own = -log(last band) / (bands (bands - 1)).
+    const float window = min(exp(-2.0 * kMirrorBlur[kBands]) *
+                                 pow(max(s[kBands - 1], 1e-3), -2.0 / float(kBands * (kBands - 1))),
+                             1.0);
     float step = 1.0, windowed = 1.0; // window^l, window^(l (l + 1) / 2)
-    [[unroll]] for (int l = 0; l < kBands; ++l) {
-        step *= l == 0 ? 1.0 : window;
+    [[unroll]] for (int l = 1; l < kBands; ++l) {
+        step *= window;
         windowed *= step;
-        const float factor = s[l] * windowed;
-        [[unroll]] for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            w[i] *= factor;
+        s[l] *= windowed;
     }
+}
+
+/// Of mean radiance in a round lobe of factors s about d.
+void lobeWeights(vec3 d, float s[8], out float w[kCoefficients]) {
+    shBasis(d, w);
+    [[unroll]] for (int l = 1; l < kBands; ++l)
+        [[unroll]] for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+            w[i] *= s[l];
+}
+
+/// hemisphereSeen() of engine/math/lobe.h.
+float hemisphereSeen(float s[8], float cosine) {
+    const float kHalf[8] = float[](0.5, 0.75, 0.0, -7.0 / 16.0, 0.0, 11.0 / 32.0, 0.0, -75.0 / 256.0);
+    float sum = kHalf[0], before = 1.0, p = cosine;
+    [[unroll]] for (int l = 1; l < kBands; ++l) {
+        sum += kHalf[l] * s[l] * p;
+        const float next = (float(2 * l + 1) * cosine * p - float(l) * before) / float(l + 1);
+        before = p;
+        p = next;
+    }
+    return max(sum, 0.5);
 }

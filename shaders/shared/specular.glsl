@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Glossy reflection. engine/scene/specular.h and engine/math/lobe.h have the same.
+// Glossy reflection of light in spherical harmonics: engine/scene/reflection_lobe.h, whose table this reads.
 
 const float kPi = 3.14159265358979;
 
-/// Directional albedo of the specular lobe. Karis. Physically Based Shading on Mobile. 2014.
-vec3 specularAlbedo(vec3 F0, float roughness, float NoV) {
-    const vec4 r = roughness * vec4(-1, -0.0275, -0.572, 0.022) + vec4(1, 0.0425, 1.04, -0.04);
-    const float a = min(r.x * r.x, exp2(-9.28 * NoV)) * r.x + r.y;
-    return max(F0 * (-1.04 * a + r.z) + (1.04 * a + r.w), 0.0);
-}
+/// ReflectionLobe of engine/scene/reflection_lobe.h; of the factors only those of so many bands are read.
+struct ReflectionLobe {
+    vec2 share, towards;
+    float factors[8];
+};
 
-/// Exponent of the lobe about the mirrored direction. Karis. Specular BRDF Reference. 2013
-float lobeExponent(float roughness) {
-    const float alpha = max(roughness * roughness, 0.05);
-    return max(2.0 / (alpha * alpha) - 2.0, 0.0);
+ReflectionLobe reflectionLobe(sampler2DArray table, float roughness, float NoV, int bands) {
+    const float nodes = float(textureSize(table, 0).x);
+    const vec2 at = (vec2(sqrt(NoV), roughness) * (nodes - 1.0) + 0.5) / nodes;
+    const vec4 a = textureLod(table, vec3(at, 0), 0.0);
+    const float s1 = sqrt(dot(a.zw, a.zw) + 2.0 * a.z * a.w * NoV);
+    const vec4 b = bands > 2 ? textureLod(table, vec3(at, 1), 0.0) : vec4(0);
+    const vec4 c = bands > 6 ? textureLod(table, vec3(at, 2), 0.0) : vec4(0);
+    return ReflectionLobe(a.xy, a.zw, float[](1.0, s1, b.x, b.y, b.z, b.w, c.x, c.y));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/lobe.h"
+#include "engine/reference/field_render.h"
 #include "engine/scene/receiver_bands.h"
-#include "engine/scene/specular.h"
+#include "engine/scene/reflection_lobe.h"
 #include "tests/render/viewport_fixture.h"
 
 namespace limn {
@@ -35,11 +36,13 @@ protected:
         const Gloss gloss{glm::mix(glm::vec3(0.04f), glm::vec3(m.baseColor), m.metallic),
                           m.roughness};
         const glm::vec3 toEye = glm::normalize(options.camera.eye - p);
-        const glm::vec3 lobe = shLobe(read, c.data(), {-toEye.x, toEye.y, -toEye.z},
-                                      windowedLobeFactors(lobeExponent(m.roughness), read));
+        const ReflectionLobe lobe = reflectionLobe(m.roughness, toEye.y);
+        const glm::vec3 reflected =
+            shLobe(read, c.data(), lobeAxis(lobe, {0, 1, 0}, {-toEye.x, toEye.y, -toEye.z}),
+                   windowedFactors(lobe.factors, read));
         const glm::vec3 albedo = glm::vec3(m.baseColor) * (1 - m.metallic);
         return albedo / kPi * shIrradiance(std::min(int(bands), 3), c.data(), {0, 1, 0}) +
-               specularAlbedo(gloss, toEye.y) * lobe;
+               specularAlbedo(gloss, toEye.y) * reflected;
     }
 };
 
@@ -72,6 +75,47 @@ TEST_F(ViewportGlossy, ReadsMoreBandsAsSoonAsAMaterialIsPolished) {
         expectNear(pixel(image, 7, 9), expected(b.scene.materials[0], 8, planePoint(options, 7, 9)),
                    2e-4f);
     }
+}
+
+// Light from all above a surface, in any number of bands: none of a lobe is lost below the horizon.
+TEST_F(ViewportGlossy, AWhiteHemisphereIsReflectedWhole) {
+    constexpr float kHalf[] = {0.5f, 0.75f, 0, -7 / 16.f, 0, 11 / 32.f, 0, -75 / 256.f};
+    options.camera.eye = {1, 1.5f, 4};
+    layout = std::make_shared<LightmapLayout>();
+    layout->width = layout->height = 1;
+    layout->instances = {{std::vector<glm::vec2>(4, {0.5f, 0.5f})}};
+    layout->meshes = {{{0, 1, 2, 3}, {0, 1, 2, 0, 2, 3}, {0, 0}, {}, {{1, 1}}}};
+    for (const float roughness : {0.1f, 1.f})
+        for (const std::uint32_t bands : {2U, 3U, 6U, 8U}) {
+            simple::SceneBuilder b = plane({0.9f, 0.6f, 0.3f});
+            Material& m = b.scene.materials[0];
+            m.metallic = 1;
+            m.roughness = roughness;
+            IndirectField f;
+            f.bands = bands;
+            f.version = bands;
+            f.lightmapWidth = f.lightmapHeight = 1;
+            float y[kMaxCoefficients];
+            shBasis(int(bands), {0, 1, 0}, y);
+            for (int l = 0, i = 0; l < int(bands); ++l)
+                for (; i < (l + 1) * (l + 1); ++i)
+                    f.lightmap.emplace_back(glm::vec3(4 * kPi / float(2 * l + 1) * kHalf[l] * y[i]),
+                                            0);
+            viewport->setIndirect(f);
+            const ImageF image = draw(b.build(), View::Lit);
+            FieldRenderOptions traced;
+            traced.camera = options.camera;
+            traced.width = traced.height = 32;
+            const Scene scene = b.build();
+            const ImageF byCpu = renderField(TraceScene(scene), f, *layout, traced);
+            for (const std::uint32_t at : {5U, 16U, 29U}) {
+                const glm::vec3 toEye =
+                    glm::normalize(options.camera.eye - planePoint(options, at, at));
+                const glm::vec3 expected = specularAlbedo({{0.9f, 0.6f, 0.3f}, roughness}, toEye.y);
+                expectNear(pixel(image, at, at), expected, 2e-4f, "viewport");
+                expectNear(pixel(byCpu, at, at), expected, 0.02f, "CPU, elsewhere in the pixel");
+            }
+        }
 }
 
 } // namespace
