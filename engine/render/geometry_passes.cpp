@@ -54,11 +54,6 @@ void bindInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& m
     vkCmdBindIndexBuffer(cmd, mesh.indices.handle, 0, VK_INDEX_TYPE_UINT32);
 }
 
-float distanceTo(const Bounds& b, glm::vec3 p) {
-    const glm::vec3 nearest = glm::clamp(p, b.lower, b.upper);
-    return glm::length(nearest - p);
-}
-
 bool isNear(const Bounds& bounds, const DepthView& view) {
     return distanceTo(bounds, view.eye) <= view.reach;
 }

@@ -29,13 +29,14 @@ static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
     g.halfHeight = light.size.y / 2;
     g.shadowViews = shadow.count;
     g.firstView = shadow.first;
+    g.cascades = shadow.cascades;
     return g;
 }
 
 /// Wherever its views are in the table.
 static std::uint64_t shapeOf(GpuLight light, const shared::GpuShadowView* views) {
     const std::uint64_t shadow =
-        hashBytes(views, light.shadowViews * sizeof(shared::GpuShadowView));
+        hashBytes(views, (light.shadowViews + light.cascades) * sizeof(shared::GpuShadowView));
     light.strength = glm::vec3(1);
     light.firstView = 0;
     return hashBytes(&light, sizeof light, shadow);

@@ -5,7 +5,11 @@
 #include "engine/core/parallel.h"
 #include "engine/gpu/uploader.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace limn::render {
@@ -167,6 +171,43 @@ Bounds transformBounds(const Bounds& bounds, const glm::mat4& m) {
         out.upper += glm::max(a, b);
     }
     return out;
+}
+
+float distanceTo(const Bounds& bounds, glm::vec3 p) {
+    return glm::length(glm::clamp(p, bounds.lower, bounds.upper) - p);
+}
+
+// Of triangles [first, end) of an instance; no more than `nearest`.
+static float nearestTriangle(const Mesh& mesh, const glm::mat4& toWorld, std::size_t first,
+                             std::size_t end, const glm::mat4& toClip, glm::vec3 eye,
+                             float nearest) {
+    for (std::size_t t = first; t < end; ++t) {
+        Bounds bounds = kNoBounds;
+        for (const std::uint32_t k : mesh.triangle(t))
+            extend(bounds, glm::vec3(toWorld * glm::vec4(mesh.positions[k], 1)));
+        const float distance = distanceTo(bounds, eye);
+        if (distance < nearest && mayBeVisible(bounds, toClip))
+            nearest = distance;
+    }
+    return nearest;
+}
+
+float nearestInSight(const RenderScene& scene, const glm::mat4& toClip, glm::vec3 eye) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const GpuInstance& instance : scene.instances) {
+        if (distanceTo(instance.bounds, eye) >= nearest || !mayBeVisible(instance.bounds, toClip))
+            continue;
+        const Mesh& mesh = scene.assets->meshes[instance.mesh];
+        const std::vector<Bounds>& chunks = scene.meshes[instance.mesh].chunks;
+        for (std::size_t i = 0; i < chunks.size(); ++i) {
+            const Bounds bounds = transformBounds(chunks[i], instance.toWorld);
+            if (distanceTo(bounds, eye) < nearest && mayBeVisible(bounds, toClip))
+                nearest = nearestTriangle(mesh, instance.toWorld, i * kChunkTriangles,
+                                          std::min((i + 1) * kChunkTriangles, mesh.triangleCount()),
+                                          toClip, eye, nearest);
+        }
+    }
+    return nearest;
 }
 
 bool mayBeVisible(const Bounds& bounds, const glm::mat4& toClip) {

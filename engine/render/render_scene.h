@@ -67,4 +67,11 @@ Bounds transformBounds(const Bounds& bounds, const glm::mat4& m);
 /// False when no point of `bounds` can be inside the clip volume of `toClip` (depth [0, 1]).
 bool mayBeVisible(const Bounds& bounds, const glm::mat4& toClip);
 
+/// From `p` to the nearest point of `bounds` [m].
+float distanceTo(const Bounds& bounds, glm::vec3 p);
+
+/// No more than the distance from `eye` to the nearest surface inside `toClip` [m], by the bounds
+/// of its triangles; infinity where there is none.
+float nearestInSight(const RenderScene& scene, const glm::mat4& toClip, glm::vec3 eye);
+
 } // namespace limn::render

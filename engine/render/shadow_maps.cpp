@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -39,8 +40,11 @@ void ShadowMaps::growAtlas(std::uint32_t layers) {
                                     .layerViews = true,
                                     .name = "shadow atlas"});
     m_atlasFresh = true;
-    for (auto& [key, g] : m_groups)
+    for (auto& [key, g] : m_groups) {
         g.drawn = false;
+        for (Cascade& c : g.cascades)
+            c.drawn = false;
+    }
 }
 
 static bool isLarge(const ShadowKey& key) {
@@ -95,39 +99,74 @@ bool ShadowMaps::place(const ShadowKey& key, Group& group) {
     return true;
 }
 
-// Groups without a place get one; if that fails, because small tiles lie where a large one must,
-// all are placed anew, large ones first.
+// Groups without a place get one; if that fails, because small tiles lie where a large one must or
+// cascades take the room, all are placed anew, large ones first and no cascade.
 void ShadowMaps::placeAll() {
     static_assert(LightKind::Directional == LightKind(0), "first in the order of keys");
     for (auto& [key, group] : m_groups) {
         if (!group.places.empty() || place(key, group))
             continue;
         m_tiles.reset(m_tiles.level());
-        for (auto& [k, g] : m_groups)
+        for (auto& [k, g] : m_groups) {
+            g.cascades.clear();
             place(k, g);
+        }
         return;
     }
 }
 
-// Coarse views are drawn into the corner of their tiles.
+// Views of fewer texels than their tile has are drawn into its corner.
+static void placeInAtlas(ShadowView& v, ShadowTile tile, std::uint32_t size) {
+    v.tile = tile;
+    v.tile.size = size;
+    const float whole = float(ShadowTiles::kLayerSize), scale = 0.5f * float(size) / whole;
+    const glm::vec2 offset = glm::vec2(float(tile.x), float(tile.y)) / whole;
+    const glm::mat4 toTile = glm::translate(glm::mat4(1), glm::vec3(offset + scale, 0)) *
+                             glm::scale(glm::mat4(1), glm::vec3(scale, scale, 1));
+    v.gpu.toAtlas = toTile * v.toClip;
+    v.gpu.layer = tile.layer;
+    const float margin = float(SHADOW_MARGIN) / whole;
+    v.gpu.inside = glm::vec4(offset + margin, offset + 2 * scale - margin);
+}
+
 void ShadowMaps::makeViews(const ShadowKey& key, Group& group, const Bounds& bounds) {
     const std::uint32_t size = m_tiles.tile(group.places[0], isLarge(key)).size >> group.coarse;
     group.views = shadowViews(key, bounds, size);
-    for (std::size_t i = 0; i < group.views.size(); ++i) {
-        ShadowView& v = group.views[i];
-        v.tile = m_tiles.tile(group.places[i], isLarge(key));
-        v.tile.size = size;
-        const float whole = float(ShadowTiles::kLayerSize), scale = 0.5f * float(size) / whole;
-        const glm::vec2 offset = glm::vec2(float(v.tile.x), float(v.tile.y)) / whole;
-        const glm::mat4 toTile = glm::translate(glm::mat4(1), glm::vec3(offset + scale, 0)) *
-                                 glm::scale(glm::mat4(1), glm::vec3(scale, scale, 1));
-        v.gpu.toAtlas = toTile * v.toClip;
-        v.gpu.layer = v.tile.layer;
+    for (std::size_t i = 0; i < group.views.size(); ++i)
+        placeInAtlas(group.views[i], m_tiles.tile(group.places[i], isLarge(key)), size);
+}
+
+// Those whose projection is as before stay; the others are to be drawn.
+void ShadowMaps::updateCascades(const ShadowKey& key, Group& group, const Bounds& bounds,
+                                bool coarse, const ShadowCamera& camera) {
+    const std::vector<glm::mat4> wanted = cascadeProjections(key.direction, bounds, camera);
+    for (; group.cascades.size() > wanted.size(); group.cascades.pop_back())
+        m_tiles.free(group.cascades.back().place, false);
+    while (group.cascades.size() < wanted.size()) {
+        const auto place = m_tiles.take(false);
+        if (!place)
+            break;
+        group.cascades.push_back({.view = {}, .place = *place});
+    }
+    for (std::size_t k = 0; k < group.cascades.size(); ++k) {
+        Cascade& c = group.cascades[k];
+        if (c.drawn && c.view.toClip == wanted[k] && (coarse || !c.coarse))
+            continue;
+        const ShadowTile tile = m_tiles.tile(c.place, false);
+        const std::uint32_t size = tile.size >> coarse;
+        c.drawn = false;
+        c.coarse = coarse;
+        c.view.toClip = wanted[k];
+        c.view.gpu.axis = glm::vec4(key.direction, 0);
+        const glm::vec3 across = glm::transpose(wanted[k])[0]; // 2 / width long
+        c.view.gpu.texelSize = 2 / (float(size) * glm::length(across));
+        placeInAtlas(c.view, tile, size);
     }
 }
 
 std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, const Bounds& bounds,
-                                           std::uint64_t sceneVersion, bool coarse) {
+                                           std::uint64_t sceneVersion, bool coarse,
+                                           const ShadowCamera* camera) {
     if (sceneVersion != m_sceneVersion) {
         m_groups.clear();
         m_tiles.reset(m_tiles.level());
@@ -147,6 +186,8 @@ std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, con
         }
         for (const std::uint32_t at : group.places)
             m_tiles.free(at, isLarge(key));
+        for (const Cascade& c : group.cascades)
+            m_tiles.free(c.place, false);
     }
     m_groups = std::move(wanted);
     placeAll();
@@ -159,10 +200,14 @@ std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, con
             group.coarse = coarse;
             makeViews(key, group, bounds);
         }
-        slotOf[key] = {std::uint32_t(group.views.size()), first};
-        first += std::uint32_t(group.views.size());
-        for (const ShadowView& v : group.views)
+        if (camera && key.kind == LightKind::Directional)
+            updateCascades(key, group, bounds, coarse, *camera);
+        slotOf[key] = {std::uint32_t(group.views.size()), first,
+                       std::uint32_t(group.cascades.size())};
+        forEachView(group, [&](const ShadowView& v) {
+            ++first;
             layers = std::max(layers, v.tile.layer + 1);
+        });
     }
     if (layers > 0 && (layers > m_atlas.layers || m_atlas.width != ShadowTiles::kLayerSize))
         growAtlas(layers);
@@ -176,8 +221,7 @@ std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, con
 std::vector<shared::GpuShadowView> ShadowMaps::views() const {
     std::vector<shared::GpuShadowView> out;
     for (const auto& [key, group] : m_groups)
-        for (const ShadowView& v : group.views)
-            out.push_back(v.gpu);
+        forEachView(group, [&](const ShadowView& v) { out.push_back(v.gpu); });
     return out;
 }
 
@@ -190,8 +234,7 @@ void ShadowMaps::beginLayer(VkCommandBuffer cmd, std::uint32_t layer,
                             const std::vector<const ShadowView*>& stale) {
     std::size_t used = 0;
     for (const auto& [key, group] : m_groups)
-        for (const ShadowView& v : group.views)
-            used += v.tile.layer == layer;
+        forEachView(group, [&](const ShadowView& v) { used += v.tile.layer == layer; });
     const bool whole = used == stale.size();
     VkRenderingAttachmentInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
@@ -233,6 +276,7 @@ void ShadowMaps::prepare(VkCommandBuffer cmd) {
 
 std::uint32_t ShadowMaps::record(VkCommandBuffer cmd, const DrawCasters& draw) {
     std::uint32_t drawn = 0;
+    bool lasting = false; // any but cascades
     struct Stale {
         std::vector<const ShadowView*> views;
         std::vector<const Groups::value_type*> owners;
@@ -240,14 +284,20 @@ std::uint32_t ShadowMaps::record(VkCommandBuffer cmd, const DrawCasters& draw) {
     std::map<std::uint32_t, Stale> layers;
     for (auto& entry : m_groups) {
         auto& [key, g] = entry;
-        if (g.drawn)
-            continue;
-        g.drawn = true;
-        ++drawn;
-        for (const ShadowView& v : g.views) {
+        bool any = false;
+        const auto add = [&](const ShadowView& v) {
             layers[v.tile.layer].views.push_back(&v);
             layers[v.tile.layer].owners.push_back(&entry);
-        }
+            any = true;
+        };
+        if (!g.drawn)
+            for (const ShadowView& v : g.views)
+                add(v);
+        lasting |= !std::exchange(g.drawn, true);
+        for (Cascade& c : g.cascades)
+            if (!std::exchange(c.drawn, true))
+                add(c.view);
+        drawn += any;
     }
     if (drawn == 0) {
         prepare(cmd);
@@ -267,7 +317,7 @@ std::uint32_t ShadowMaps::record(VkCommandBuffer cmd, const DrawCasters& draw) {
     gpu::imageBarrier(cmd, m_atlas.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
                       gpu::kFragmentRead);
     m_atlasFresh = false;
-    ++drawings;
+    drawings += lasting;
     return drawn;
 }
 

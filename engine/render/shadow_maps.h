@@ -5,6 +5,7 @@
 #include "engine/gpu/image.h"
 #include "engine/render/material_set.h"
 #include "engine/render/render_scene.h"
+#include "engine/render/shadow_cascades.h"
 #include "engine/render/shadow_tiles.h"
 #include "shaders/shared/gpu_light.h"
 
@@ -35,6 +36,7 @@ struct ShadowSlot {
     std::uint32_t count =
         0; ///< SHADOW_SINGLE, SHADOW_CUBE or SHADOW_RECTANGLE; 0: none, the light is left out
     std::uint32_t first = 0;
+    std::uint32_t cascades = 0; ///< of a directional light; behind the others, coarse ones first
 };
 
 /// One view: its projection and its place in the atlas.
@@ -51,22 +53,26 @@ using DrawCasters =
 
 /// Shadow maps of all lights in one layered depth atlas. A directional light fills a layer, a spot
 /// a quarter, a point light six quarters, a rectangle 24. Where that is more than all layers, maps
-/// are half as wide and high, or a quarter, … A map is drawn when its light moved, reaches further
-/// or the scene changed, not when only its colour did.
+/// are half as wide and high, or a quarter, … What room is left, cascades of directional lights
+/// take, a quarter each. A map is drawn when its light moved, reaches further or the scene changed,
+/// not when only its colour did; a cascade, when the camera has left its step, too.
 class ShadowMaps {
 public:
     /// Receivers are moved off their surface by so many shadow texels, along the normal and towards
     /// the light: for rounding, and for the facets next to the one that is lit.
-    static constexpr float kNormalBias = 0.2f, kLightBias = 0.5f;
+    /// More of the latter keeps the corners of lit rooms lit to the edge, less lets a finer line of
+    /// light in below the edge of a roof. Surfels, which stand for a patch, take more.
+    static constexpr float kNormalBias = 0.2f, kLightBias = 0.25f, kSurfelLightBias = 0.5f;
 
     explicit ShadowMaps(gpu::Device& device);
 
     /// Finds or makes a place for each of `lights`; all of them shine. `bounds` holds every caster.
     /// Slots of lights that found no room, the last, have count 0. `coarse`: maps that are out of
     /// date get half as many texels across; maps are out of date too that have so few, unless
-    /// `coarse`.
+    /// `coarse`. Cascades are those for `camera`; without one they stay as they are.
     std::vector<ShadowSlot> assign(const std::vector<Light>& lights, const Bounds& bounds,
-                                   std::uint64_t sceneVersion, bool coarse = false);
+                                   std::uint64_t sceneVersion, bool coarse = false,
+                                   const ShadowCamera* camera = nullptr);
 
     /// Draws the maps that are out of date. Returns how many lights were drawn.
     std::uint32_t record(VkCommandBuffer cmd, const DrawCasters& draw);
@@ -78,21 +84,39 @@ public:
     VkImageView atlasView() const { return m_atlas.view; }
     VkSampler sampler() const { return m_sampler.handle; }
     std::uint32_t leftOut = 0;  ///< lights of the last assign() without room
-    std::uint64_t drawings = 0; ///< calls of record() so far that drew
+    std::uint64_t drawings = 0; ///< calls of record() so far that drew any map but cascades
 
 private:
+    /// A small tile.
+    struct Cascade {
+        ShadowView view;
+        std::uint32_t place = 0;
+        bool drawn = false, coarse = false;
+    };
     struct Group {
         std::vector<ShadowView> views;
         std::vector<std::uint32_t> places; ///< of the views among m_tiles
-        float reach = 0;                   ///< of the light [m]
+        std::vector<Cascade> cascades;
+        float reach = 0; ///< of the light [m]
         bool drawn = false, coarse = false;
     };
     using Groups = std::map<ShadowKey, Group, ShadowKeyOrder>;
+
+    /// In the order of views().
+    template <class Function>
+    static void forEachView(const Group& group, const Function& f) {
+        for (const ShadowView& v : group.views)
+            f(v);
+        for (const Cascade& c : group.cascades)
+            f(c.view);
+    }
 
     Groups wantedGroups(const std::vector<Light>& lights);
     bool place(const ShadowKey& key, Group& group);
     void placeAll();
     void makeViews(const ShadowKey& key, Group& group, const Bounds& bounds);
+    void updateCascades(const ShadowKey& key, Group& group, const Bounds& bounds, bool coarse,
+                        const ShadowCamera& camera);
     void growAtlas(std::uint32_t layers);
     void beginLayer(VkCommandBuffer cmd, std::uint32_t layer,
                     const std::vector<const ShadowView*>& stale);
@@ -105,6 +129,12 @@ private:
     std::uint64_t m_sceneVersion = ~0ull;
     bool m_atlasFresh = true; ///< its contents and layout are undefined
 };
+
+/// World to a frame that looks along a directional light.
+glm::mat4 directionalFrame(glm::vec3 direction);
+
+/// Round the corners of `bounds` in such a frame.
+Bounds boundsInFrame(const Bounds& bounds, const glm::mat4& frame);
 
 /// How many views shadowViews() gives.
 std::uint32_t shadowViewCount(const ShadowKey& key);

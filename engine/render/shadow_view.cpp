@@ -33,10 +33,8 @@ std::array<glm::vec3, 8> corners(const Bounds& b) {
 
 // Orthographic, as tight round the scene as an axis-aligned box in light space can be.
 ShadowView directionalView(const ShadowKey& key, const Bounds& bounds, std::uint32_t mapSize) {
-    const glm::mat4 toLight = glm::lookAtRH(glm::vec3(0), key.direction, upFor(key.direction));
-    auto [lower, upper] = boundsOf(corners(bounds) | std::views::transform([&](glm::vec3 p) {
-                                       return glm::vec3(toLight * glm::vec4(p, 1));
-                                   }));
+    const glm::mat4 toLight = directionalFrame(key.direction);
+    auto [lower, upper] = boundsInFrame(bounds, toLight);
     const glm::vec3 size = glm::max(upper - lower, glm::vec3(1e-6f * (1 + glm::length(upper))));
     const glm::vec3 margin(glm::vec2(size) * (kMarginTexels / float(mapSize)), 0.01f * size.z);
     lower -= margin;
@@ -72,6 +70,16 @@ ShadowView perspectiveView(glm::vec3 eye, glm::vec3 axis, float tanHalf, const B
 }
 
 } // namespace
+
+glm::mat4 directionalFrame(glm::vec3 direction) {
+    return glm::lookAtRH(glm::vec3(0), direction, upFor(direction));
+}
+
+Bounds boundsInFrame(const Bounds& bounds, const glm::mat4& frame) {
+    return boundsOf(corners(bounds) | std::views::transform([&](glm::vec3 p) {
+                        return glm::vec3(frame * glm::vec4(p, 1));
+                    }));
+}
 
 ShadowKey shadowKey(const Light& light) {
     ShadowKey key{.kind = light.kind};

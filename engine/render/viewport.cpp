@@ -80,6 +80,13 @@ struct FrameSlot {
     bool timed = false; ///< its timestamps were read
 };
 
+/// nearestInSight() of the last frame that asked for it.
+struct NearestSeen {
+    glm::mat4 toClip{0};
+    std::uint64_t scene = 0; ///< RenderScene::version
+    float distance = 0;      ///< [m]
+};
+
 struct Targets {
     gpu::Image linear, color;
 };
@@ -103,7 +110,7 @@ struct Viewport::Impl {
     explicit Impl(gpu::Device& d);
 
     void ensureTargets(std::uint32_t width, std::uint32_t height);
-    std::vector<ShadowSlot> assignShadows(bool needed);
+    std::vector<ShadowSlot> assignShadows(const ShadowCamera* camera);
     void writeFrame(FrameSlot& slot, const ViewportOptions& options,
                     const std::vector<ShadowSlot>& shadows);
     void writeFrameSet(const FrameSlot& slot);
@@ -143,6 +150,7 @@ struct Viewport::Impl {
     std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
     bool warnedLeftOut = false;
     bool coarseShadows = false;
+    NearestSeen nearestSeen;
     Targets targets;
     std::array<FrameSlot, kFrameSlots> slots;
     std::uint64_t frames = 0;
@@ -194,11 +202,9 @@ void Viewport::Impl::ensureTargets(std::uint32_t w, std::uint32_t h) {
     surfaces.ensure({tw, th});
 }
 
-std::vector<ShadowSlot> Viewport::Impl::assignShadows(bool needed) {
-    if (!needed)
-        return std::vector<ShadowSlot>(lights.size());
+std::vector<ShadowSlot> Viewport::Impl::assignShadows(const ShadowCamera* camera) {
     std::vector<ShadowSlot> result =
-        shadows.assign(lights, scene.bounds, scene.version + maskVersion, coarseShadows);
+        shadows.assign(lights, scene.bounds, scene.version + maskVersion, coarseShadows, camera);
     if (shadows.leftOut > 0 && !warnedLeftOut)
         logWarning(fmt::format("{} lights are dark in the viewport: room for {} shadow maps only",
                                shadows.leftOut, ShadowTiles::room(ShadowTiles::kMaxLevel)));
@@ -417,6 +423,20 @@ static GeometryView geometryView(const ViewportOptions& options, const Bounds& b
     return view;
 }
 
+static ShadowCamera shadowCamera(const ViewportOptions& options, const GeometryView& view,
+                                 const RenderScene& scene, NearestSeen& seen) {
+    if (seen.toClip != view.toClip || seen.scene != scene.version)
+        seen = {view.toClip, scene.version, nearestInSight(scene, view.toClip, view.eye)};
+    const float aspect = float(options.width) / float(options.height);
+    const glm::vec3 forward = rayDirection(options.camera, aspect, 0, 0);
+    const glm::vec3 corner = rayDirection(options.camera, aspect, 1, 1);
+    return {.eye = view.eye,
+            .forward = forward,
+            .tanCorner = glm::length(corner - forward),
+            .nearest = seen.distance,
+            .pixel = 2 * std::tan(options.camera.fovY / 2) / float(options.height)};
+}
+
 void Viewport::render(const ViewportOptions& options) {
     assert(options.width > 0 && options.height > 0);
     Impl& v = *m_impl;
@@ -429,15 +449,19 @@ void Viewport::render(const ViewportOptions& options) {
     v.height = options.height;
     v.ensureTargets(options.width, options.height);
     const bool direct = showsDirectLight(options.view);
-    const std::vector<ShadowSlot> shadows = v.assignShadows(direct);
+    GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
+    view.bands = v.indirect.field->bands;
+    std::vector<ShadowSlot> shadows(v.lights.size());
+    if (direct) {
+        const ShadowCamera camera = shadowCamera(options, view, v.scene, v.nearestSeen);
+        shadows = v.assignShadows(&camera);
+    }
     v.writeFrame(slot, options, shadows);
     v.writeFrameSet(slot);
     v.materials.writeFactors(slotIndex);
     slot.uploadMs = v.pendingUploadMs + msSince(start);
     v.pendingUploadMs = 0;
 
-    GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
-    view.bands = v.indirect.field->bands;
     const VkCommandBuffer cmd = v.device.begin("viewport");
     const auto mark = [&](Timestamp t) { gpu::writeTimestamp(cmd, slot.queries.handle, t); };
     vkCmdResetQueryPool(cmd, slot.queries.handle, 0, kTimestamps);
@@ -467,7 +491,9 @@ ShadowedLights Viewport::shadowedLights() {
     v.device.wait(slot.submission);
     v.readTimes(slot);
     slot.timed = true;
-    const std::vector<ShadowSlot> shadows = v.assignShadows(true);
+    std::vector<ShadowSlot> shadows = v.assignShadows(nullptr);
+    for (ShadowSlot& s : shadows) // surfels lie everywhere, and do not depend on the camera
+        s.cascades = 0;
     writeLightTable(v.device, v.relightTable, v.lights, shadows, v.shadows.views());
     v.materials.writeFactors(slotIndex);
     v.device.wait(v.relightSubmission); // its times are measured anew
@@ -490,7 +516,7 @@ ShadowedLights Viewport::shadowedLights() {
             .sampler = v.shadows.sampler(),
             .count = v.relightTable.count,
             .normalBias = ShadowMaps::kNormalBias,
-            .lightBias = ShadowMaps::kLightBias,
+            .lightBias = ShadowMaps::kSurfelLightBias,
             .shapes = v.relightTable.shapes,
             .casters = v.relightScene,
             .version = v.relightVersion};

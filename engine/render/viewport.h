@@ -35,8 +35,9 @@ struct ViewportOptions {
 struct ViewportStats {
     /// Of the last frame that is done, the GPU's clock.
     double uploadMs = 0, shadowMs = 0, geometryMs = 0, indirectMs = 0, directMs = 0, totalMs = 0;
-    double tonemapMs = 0;              ///< with the overlay
-    std::uint32_t shadowMapsDrawn = 0; ///< 0 when no light or object changed
+    double tonemapMs = 0; ///< with the overlay
+    /// Lights of which any was drawn; 0 when no light, object or camera changed.
+    std::uint32_t shadowMapsDrawn = 0;
     /// Frames for which triangles were drawn: not where camera, objects and materials are those of
     /// the frame before, and only its light is new.
     std::uint64_t geometryDrawn = 0;

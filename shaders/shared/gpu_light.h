@@ -24,6 +24,8 @@ using uint = std::uint32_t;
 #define SHADOW_CUBE 6u
 #define SHADOW_RECTANGLE 24u // a cube for each quarter of a rectangle
 
+#define SHADOW_MARGIN 4 // texels at the rim of a cascade that serve the filter alone
+
 #define SHADOW_NEAR 1e-4 // near plane of perspective views, in parts of the far plane
 
 // clang-format off
@@ -33,7 +35,7 @@ struct GpuLight {
     vec3 direction; uint kind;          // unit, the way light travels; LIGHT_*
     vec3 strength;  float spotScale;    // colour times lux, cd or nits; 1 / (cos inner - cos outer)
     float cosOuter; uint shadowViews; uint firstView; float halfHeight; // m
-    vec3 halfWidth; float pad; // m; of a rectangle, to the middle of an edge
+    vec3 halfWidth; uint cascades; // m; of a rectangle, to the middle of an edge; views behind the others
 };
 
 /// A shadow map: a tile of one layer of the atlas.
@@ -43,12 +45,13 @@ struct GpuShadowView {
     float texelSize;   // m: a texel's width; perspective views: at distance 1 m along the axis
     float perspective; // 1, or 0 for orthographic
     uint layer; float zFar; // m; perspective views
+    vec4 inside; // least and largest atlas coordinates that a cascade serves
 };
 // clang-format on
 
 #ifdef __cplusplus
 static_assert(sizeof(GpuLight) == 80);
-static_assert(sizeof(GpuShadowView) == 96);
+static_assert(sizeof(GpuShadowView) == 112);
 } // namespace limn::shared
 #endif
 

@@ -27,25 +27,46 @@ vec2 planeGradient(GpuShadowView view, vec3 n, vec4 q, float width) {
     return vec2(dt.z * db.y - db.z * dt.y, dt.x * db.z - db.x * dt.z) / det;
 }
 
+// The view that resolves `position` best: of a directional light the finest cascade that holds it, else its map of the
+// whole scene.
+GpuShadowView bestView(GpuLight light, vec3 position, vec3 toLight) {
+    uint best = light.firstView + (light.shadowViews == SHADOW_CUBE ? cubeFace(-toLight) : 0u);
+    for (uint k = 1u; k <= light.cascades; ++k) {
+        const uint view = light.firstView + k;
+        const vec2 uv = (shadowViews[view].toAtlas * vec4(position, 1)).xy;
+        const vec4 inside = shadowViews[view].inside;
+        if (all(greaterThan(uv, inside.xy)) && all(lessThan(uv, inside.zw)))
+            best = view;
+    }
+    return shadowViews[best];
+}
+
+// A texel that shows something so many texels behind the receiver's plane does not show the receiver: it ends before.
+const float kBehindTexels = 4.0;
+
 // 1: the light arrives at `position` on a surface of unit normal n; 0: it does not. The point is moved by `bias`
 // texels along the normal and towards the light. Each texel is compared with the depth of the surface's plane at its own
-// middle, so that flat surfaces need no bias, however steep. A loop, because software rasterisers skip nothing else.
+// middle, so that flat surfaces need no bias, however steep. Texels that show only what lies far behind the plane say
+// nothing about the receiver, which has no part in them: else light would come in where closed geometry ends, below the
+// edge of a roof say. Where all are such, the surface is too small for the map, and lit. A loop, because software
+// rasterisers skip nothing else.
 float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias, bool lit) {
-    float sum = 1.0;
+    float visible = 1.0;
     const int count = lit ? 1 : 0;
     for (int once = 0; once < count; ++once) {
-        const uint face = light.shadowViews == SHADOW_CUBE ? cubeFace(-toLight) : 0u;
-        const GpuShadowView view = shadowViews[light.firstView + face];
+        const GpuShadowView view = bestView(light, position, toLight);
         const float depth =
             view.perspective > 0.5 ? dot(view.axis.xyz, position) - view.axis.w : 1.0;
         const float width = view.texelSize * depth;
         const vec3 p = position + width * (bias.x * n + bias.y * toLight);
         const vec4 q = view.toAtlas * vec4(p, 1);
         const vec3 centre = q.xyz / q.w;
+        const vec4 further = q - view.toAtlas * vec4(kBehindTexels * width * toLight, 0);
+        const float behind = further.z / further.w - centre.z; // < 0
         const vec2 gradient = planeGradient(view, n, q, width);
         const vec2 size = vec2(textureSize(shadowAtlas, 0).xy);
         const vec2 x = centre.xy * size - 0.5, base = floor(x), f = x - base;
-        sum = 0.0;
+        float sum = 0.0, shown = 0.0; // weights of the texels that see the receiver, and of those that tell
         for (int k = 0; k < 4; ++k) {
             const vec2 corner = vec2((k & 1) * 2 - 1, (k >> 1) * 2 - 1);
             const vec4 stored = textureGather(
@@ -53,11 +74,14 @@ float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias,
             const vec4 i = corner.x + vec4(0, 1, 1, 0), j = corner.y + vec4(1, 1, 0, 0);
             const vec4 plane = centre.z + gradient.x * ((base.x + i + 0.5) / size.x - centre.x) +
                                gradient.y * ((base.y + j + 0.5) / size.y - centre.y);
-            sum += dot(vec4(greaterThanEqual(plane, stored)),
-                       tentWeight(i, f.x) * tentWeight(j, f.y));
+            const vec4 weight = tentWeight(i, f.x) * tentWeight(j, f.y);
+            const vec4 tells = weight * vec4(greaterThanEqual(stored, plane + behind));
+            sum += dot(vec4(greaterThanEqual(plane, stored)), tells);
+            shown += dot(vec4(1), tells);
         }
+        visible = shown > 0.0 ? sum / shown : 1.0;
     }
-    return sum;
+    return visible;
 }
 
 // sampleLight() of engine/scene/light.cpp.
