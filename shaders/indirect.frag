@@ -13,11 +13,12 @@
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
 layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID: what any surface reads
+layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
 layout(constant_id = 3) const bool kFirst = true; // of the passes: it writes pixels of other bands and the background too
 
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
-layout(set = 0, binding = 5, std430) readonly buffer Grid { vec4 grid[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Grid { uvec2 grid[]; };
 layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
 layout(set = 0, binding = 9) uniform sampler2D emittedImage;
 layout(set = 0, binding = 11) uniform sampler2DArray reflectionTable;
@@ -33,15 +34,29 @@ struct FieldSums {
     vec3 irradiance, lobe;
 };
 
-void addCoefficient(inout FieldSums sums, vec3 c, float irradiance, float lobe) {
-    sums.irradiance += irradiance * c;
-    sums.lobe += lobe * c;
+// As engine/relight/field_packing.h: coefficients in colour, then grey ones, in layers of four values.
+const int kColoured = kChroma < kBands ? kChroma * kChroma : kCoefficients;
+const int kGreyFrom = 3 * kChroma * kChroma;
+const int kValues = kChroma < kBands ? kGreyFrom + kCoefficients - kColoured : 3 * kCoefficients;
+const int kLayers = (kValues + 3) / 4;
+
+void addValues(inout FieldSums sums, int layer, vec4 values, float irradiance[kCoefficients], float lobe[kCoefficients]) {
+    [[unroll]] for (int q = 0; q < 4; ++q) {
+        const int v = 4 * layer + q;
+        if (v < 3 * kColoured) {
+            sums.irradiance[v % 3] += irradiance[v / 3] * values[q];
+            sums.lobe[v % 3] += lobe[v / 3] * values[q];
+        } else if (v < kValues) {
+            sums.irradiance += irradiance[v - 2 * kColoured] * values[q];
+            sums.lobe += lobe[v - 2 * kColoured] * values[q];
+        }
+    }
 }
 
 FieldSums readLightmap(vec2 uv, float irradiance[kCoefficients], float lobe[kCoefficients]) {
     FieldSums sums = FieldSums(vec3(0), vec3(0));
-    [[unroll]] for (int i = 0; i < kCoefficients; ++i)
-        addCoefficient(sums, textureLod(lightmap, vec3(uv, i), 0.0).rgb, irradiance[i], lobe[i]);
+    [[unroll]] for (int k = 0; k < kLayers; ++k)
+        addValues(sums, k, textureLod(lightmap, vec3(uv, k), 0.0), irradiance, lobe);
     return sums;
 }
 
@@ -66,8 +81,10 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
             weight *= 1e-5 + seenFromCell(index, clear - centre, frame.gridReach);
         }
         sum += weight;
-        [[unroll]] for (int i = 0; i < kCoefficients; ++i)
-            addCoefficient(sums, weight * grid[uint(i) * frame.gridCells + index].rgb, irradiance[i], lobe[i]);
+        [[unroll]] for (int layer = 0; layer < kLayers; ++layer) {
+            const uvec2 halfs = grid[uint(layer) * frame.gridCells + index];
+            addValues(sums, layer, weight * vec4(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y)), irradiance, lobe);
+        }
     }
     return FieldSums(sums.irradiance / sum, sums.lobe / sum);
 }
@@ -85,7 +102,7 @@ FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid)
         sums = readLightmap(s.lightmapUv, irradiance, lobe);
     for (int once = 0; once < int(gridRead); ++once)
         sums = readGrid(s.position, s.detailNormal, irradiance, lobe);
-    return FieldSums(max(sums.irradiance, 0.0), max(sums.lobe, 0.0));
+    return FieldSums(max(sums.irradiance, 0.0) * frame.fieldUnit, max(sums.lobe, 0.0) * frame.fieldUnit);
 }
 
 vec3 bouncedLight(PackedSurface s, bool fromGrid) {

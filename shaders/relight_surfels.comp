@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// B = albedo (E_direct + E_indirect) + pi L_e of every surfel, and by how much that changed.
+// B = albedo (E_direct + E_indirect) + pi L_e of every surfel, by how much that changed, and how bright the brightest is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -10,24 +10,27 @@ layout(std430, binding = RELIGHT_ALBEDO) readonly buffer Albedo { vec4 albedo[];
 layout(std430, binding = RELIGHT_EMITTED) readonly buffer Emitted { vec4 emitted[]; };
 layout(std430, binding = RELIGHT_INDIRECT) readonly buffer Indirect { vec4 indirect[]; };
 layout(std430, binding = RELIGHT_RADIOSITY) buffer Radiosity { vec4 radiosity[]; };
-layout(std430, binding = RELIGHT_CHANGE) writeonly buffer Change { vec2 change[]; };
+layout(std430, binding = RELIGHT_CHANGE) writeonly buffer Change { vec4 change[]; };
 
-shared vec2 changes[kLanes];
+shared vec3 changes[kLanes];
 
 void main() {
     const uint lane = gl_LocalInvocationIndex, i = itemIndex();
-    changes[lane] = vec2(0);
+    changes[lane] = vec3(0);
     if (i < range.end) {
         const vec3 B = albedo[i].rgb * (direct[i].rgb + indirect[i].rgb) + emitted[i].rgb;
         const vec3 d = abs(B - radiosity[i].rgb);
-        changes[lane] = vec2(d.r + d.g + d.b, B.r + B.g + B.b) * surfels[i].area;
+        changes[lane] = vec3(vec2(d.r + d.g + d.b, B.r + B.g + B.b) * surfels[i].area, max(B.r, max(B.g, B.b)));
         radiosity[i] = vec4(B, 0);
     }
     barrier();
     if (lane == 0 && i < range.end) { // in one order, so that the same light gives the same bits
         vec2 sum = vec2(0);
-        for (uint k = 0; k < kLanes; ++k)
-            sum += changes[k];
-        change[groupIndex()] = sum;
+        float brightest = 0.0;
+        for (uint k = 0; k < kLanes; ++k) {
+            sum += changes[k].xy;
+            brightest = max(brightest, changes[k].z);
+        }
+        change[groupIndex()] = vec4(sum, brightest, 0);
     }
 }

@@ -18,6 +18,8 @@ namespace limn {
 /// exitant radiance is albedo E / pi. Reflections read all bands that they need and are there.
 struct IndirectField {
     std::uint32_t bands = 3; ///< [2, 8]; 3 unless a surface of the scene is glossy
+    /// Bands in colour, the others being grey; 0: all of them.
+    std::uint32_t chromaBands = 0;
 
     std::uint32_t lightmapWidth = 0, lightmapHeight = 0; ///< texels; 0: no lightmap
     /// Layer i holds coefficient i: lightmap[(i * height + y) * width + x], RGB in xyz, w = 0.
@@ -33,6 +35,9 @@ struct IndirectField {
     std::uint64_t version = 0; ///< grows with every change of the numbers above
 
     std::uint32_t coefficients() const { return bands * bands; }
+    std::uint32_t chroma() const {
+        return chromaBands == 0 || chromaBands > bands ? bands : chromaBands;
+    }
     bool operator==(const IndirectField&) const;
 };
 

@@ -148,6 +148,7 @@ void Relighter::State::setBands(int count) {
     dimming.hidden = {};
     dimming.blockers = 0;
     field.bands = std::uint32_t(bands);
+    field.chromaBands = std::uint32_t(finalBands.chroma);
     field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
                           glm::vec4(0));
 }

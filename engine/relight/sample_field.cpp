@@ -97,9 +97,10 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
 bool IndirectField::operator==(const IndirectField& o) const {
     const bool sameDepth =
         gridDepth && o.gridDepth ? *gridDepth == *o.gridDepth : gridDepth == o.gridDepth;
-    return sameDepth && bands == o.bands && lightmapWidth == o.lightmapWidth &&
-           lightmapHeight == o.lightmapHeight && lightmap == o.lightmap && gridSize == o.gridSize &&
-           gridBounds == o.gridBounds && grid == o.grid && version == o.version;
+    return sameDepth && bands == o.bands && chroma() == o.chroma() &&
+           lightmapWidth == o.lightmapWidth && lightmapHeight == o.lightmapHeight &&
+           lightmap == o.lightmap && gridSize == o.gridSize && gridBounds == o.gridBounds &&
+           grid == o.grid && version == o.version;
 }
 
 glm::vec3 sampleIrradiance(const FieldPoint& at) {

@@ -8,12 +8,12 @@
 namespace limn {
 
 gpu::Image createFieldLightmap(gpu::Device& device, std::uint32_t width, std::uint32_t height,
-                               std::uint32_t coefficients, VkImageUsageFlags written) {
+                               std::uint32_t layers, VkImageUsageFlags written) {
     return {device,
             {.width = std::max(width, 1U),
              .height = std::max(height, 1U),
-             .layers = coefficients,
-             .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+             .layers = layers,
+             .format = VK_FORMAT_R16G16B16A16_SFLOAT,
              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | written,
              .array = true,
              .name = "lightmap"}};

@@ -9,15 +9,16 @@
 
 namespace limn {
 
-/// An IndirectField on the GPU, laid out alike, for shaders to sample.
+/// An IndirectField on the GPU for shaders to sample, packed as field_packing.h says.
 struct GpuField {
-    /// RGBA32F, a layer per coefficient, in SHADER_READ_ONLY_OPTIMAL; 1x1 black without a lightmap.
+    /// RGBA16F, fieldLayers() of them, in SHADER_READ_ONLY_OPTIMAL; 1x1 black without a lightmap.
     gpu::Image lightmap;
-    gpu::Buffer grid; ///< a storage buffer; one element where there is no grid
+    gpu::Buffer grid; ///< a storage buffer, likewise; one element where there is no grid
+    float scale = 1;  ///< of all values; > 0
     /// As IndirectField::gridDepth; null: the cells see everything.
     std::shared_ptr<const gpu::Buffer> gridDepth;
 
-    std::uint32_t bands = 3;
+    std::uint32_t bands = 3, chroma = 3;
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;
 
@@ -26,6 +27,6 @@ struct GpuField {
 
 /// GpuField::lightmap, its contents undefined, for shaders to sample and for `written`.
 gpu::Image createFieldLightmap(gpu::Device& device, std::uint32_t width, std::uint32_t height,
-                               std::uint32_t coefficients, VkImageUsageFlags written);
+                               std::uint32_t layers, VkImageUsageFlags written);
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/gpu/timestamps.h"
 #include "engine/relight/bouncing.h"
 #include "engine/relight/cache_light.h"
+#include "engine/relight/field_packing.h"
 #include "engine/relight_gpu/gpu_dimming.h"
 #include "engine/relight_gpu/relight_steps.h"
 
@@ -59,6 +60,9 @@ struct GpuRelighter::State {
     LinkCounts links;                           ///< of this call
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
     std::uint64_t fieldVersion = 0;
+    float brightest = 0;   ///< radiosity of surfels at the last bounce [W m^-2]
+    float fieldScale = 0;  ///< of what the field holds; 0: nothing
+    CacheFlags everyCache; ///< of the lightmap
 
     /// Lists of the lightmap's caches: those that surfels read, those to write into the field, and
     /// those that are lit besides.
@@ -81,6 +85,7 @@ struct GpuRelighter::State {
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     bool dim(const Scene* scene, GpuRelightStats& stats);
     RoundChange bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
+    float brightestCoefficient() const;
     void writeField(bool grid, GpuRelightStats& stats);
     std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
 };
@@ -128,11 +133,12 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
         bands = bake->settings.bands;
     if (steps && buffers.field->bands == bands)
         return false;
-    makeRelitField(device, *bake, bands, buffers);
+    const LightBands final = finalBands(bake->settings, int(bands));
+    makeRelitField(device, *bake, bands, std::uint32_t(final.chroma), buffers);
+    fieldScale = 0;
     current.assign(bake->caches.lightmapCount, 0);
     unread = gridLit = false;
-    steps.emplace(device, *bake, buffers, bounceBands(bake->settings, int(bands)),
-                  finalBands(bake->settings, int(bands)));
+    steps.emplace(device, *bake, buffers, bounceBands(bake->settings, int(bands)), final);
     return true;
 }
 
@@ -282,17 +288,35 @@ RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
     stats.cacheLightMs += ms[2];
     ++stats.bounces;
     RoundChange round;
-    const auto* groups = static_cast<const glm::vec2*>(buffers.change.mapped);
-    for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec2); ++g) {
+    const auto* groups = static_cast<const glm::vec4*>(buffers.change.mapped);
+    brightest = 0;
+    for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec4); ++g) {
+        brightest = std::max(brightest, groups[g].z);
         round.change += double(groups[g].x);
         round.total += double(groups[g].y);
     }
     return round;
 }
 
-/// Writes what is to be lit, and the grid.
+/// What no coefficient is brighter than: the integral of |Y_i| is below sqrt(4 pi), so that light
+/// of radiosity B all around, of radiance B / pi, gives one of 1.13 B at most.
+float GpuRelighter::State::brightestCoefficient() const {
+    float most = brightest;
+    for (const glm::vec3& c : sky)
+        most = std::max({most, c.x, c.y, c.z});
+    return 1.13f * most;
+}
+
+/// Writes what is to be lit, and the grid; all that was lit before too where the scale has to
+/// change, which only another bounce can make it.
 void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
-    const CacheList toWrite = list(kLit, lit), toLight = list(kRest, unlit);
+    const bool rescaled = !scaleServes(fieldScale, brightestCoefficient());
+    if (rescaled) {
+        fieldScale = limn::fieldScale(brightestCoefficient());
+        everyCache.assign(bake->caches.lightmapCount, 1);
+        grid = gridLit;
+    }
+    const CacheList toWrite = list(kLit, rescaled ? everyCache : lit), toLight = list(kRest, unlit);
     countLinks(unlit, grid);
     device.immediate("field", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after lists were sent
@@ -300,9 +324,10 @@ void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
         if (toLight.end > toLight.begin)
             steps->recordLightmapCaches(cmd, toLight);
         steps->recordFinalCaches(cmd, toWrite, grid);
-        steps->recordField(cmd, toWrite, grid);
+        steps->recordField(cmd, toWrite, grid, fieldScale);
         times.mark(cmd);
     });
+    buffers.field->scale = fieldScale;
     stats.fieldMs = times.steps()[0];
     ++fieldVersion;
 }
@@ -420,19 +445,21 @@ IndirectField GpuRelighter::readField() const {
     out.gridSize = s.gridLit ? s.bake->gridSize : glm::uvec3(0);
     out.gridBounds = s.bake->gridBounds;
     out.version = s.fieldVersion;
-    out.lightmap.resize(std::size_t(out.lightmapWidth) * out.lightmapHeight * out.coefficients());
-    if (!out.lightmap.empty())
-        gpu::readImage(s.device, s.buffers.field->lightmap,
-                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, out.lightmapWidth,
-                       out.lightmapHeight, std::as_writable_bytes(std::span(out.lightmap)),
-                       out.coefficients());
+    const GpuField& field = *s.buffers.field;
+    out.chromaBands = field.chroma;
+    const std::uint32_t layers = fieldLayers(field.bands, field.chroma);
+    std::vector<glm::u16vec4> packed(std::size_t(out.lightmapWidth) * out.lightmapHeight * layers);
+    if (!packed.empty())
+        gpu::readImage(s.device, field.lightmap, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       out.lightmapWidth, out.lightmapHeight,
+                       std::as_writable_bytes(std::span(packed)), layers);
+    out.lightmap = unpackField(packed, field.bands, field.chroma, field.scale);
     if (s.gridLit && !s.bake->gridDepth.empty())
         out.gridDepth = {s.bake, &s.bake->gridDepth};
-    out.grid.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z *
-                    out.coefficients());
-    if (!out.grid.empty())
-        gpu::readBuffer(s.device, s.buffers.field->grid,
-                        std::as_writable_bytes(std::span(out.grid)));
+    packed.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z * layers);
+    if (!packed.empty())
+        gpu::readBuffer(s.device, field.grid, std::as_writable_bytes(std::span(packed)));
+    out.grid = unpackField(packed, field.bands, field.chroma, field.scale);
     return out;
 }
 

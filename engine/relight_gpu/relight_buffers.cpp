@@ -4,6 +4,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/uploader.h"
 #include "engine/relight/cache_light.h"
+#include "engine/relight/field_packing.h"
 #include "engine/relight/indirect_field.h"
 #include "engine/relight_gpu/tree_levels.h"
 
@@ -168,7 +169,7 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
         out.indirect = make.empty(surfels, color, "indirect irradiance");
         out.radiosity = make.empty(bake.tree.size(), color, "radiosity");
         out.sh = make.empty(bake.caches.size() * coefficients, color, "cache harmonics");
-        out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec2), "change",
+        out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec4), "change",
                                 gpu::MemoryKind::Readback);
         std::vector<std::uint32_t> order;
         for (std::uint32_t c = bake.caches.lightmapCount; c < bake.caches.size(); ++c)
@@ -188,20 +189,22 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
 }
 
 void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
-                    RelightBuffers& buffers) {
-    assert(bands <= bake.settings.bands);
+                    std::uint32_t chroma, RelightBuffers& buffers) {
+    assert(bands <= bake.settings.bands && chroma <= bands);
+    const std::uint32_t layers = fieldLayers(bands, chroma);
     auto field = std::make_shared<GpuField>();
     field->bands = bands;
+    field->chroma = chroma;
     field->lightmap =
-        createFieldLightmap(device, bake.lightmap.width, bake.lightmap.height, bands * bands,
+        createFieldLightmap(device, bake.lightmap.width, bake.lightmap.height, layers,
                             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     field->gridSize = bake.gridSize;
     field->gridBounds = bake.gridBounds;
     // Every cell is a cache, so this is no larger than the harmonics, which fit.
     field->grid = StorageMaker(device).empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
-                                                 bake.gridSize.z * bands * bands,
-                                             sizeof(glm::vec4), "grid cells");
+                                                 bake.gridSize.z * layers,
+                                             sizeof(glm::u16vec4), "grid cells");
     field->gridDepth = buffers.gridDepth;
     buffers.field = std::move(field);
     clearBuffers(device, {buffers.sh.handle, buffers.field->grid.handle});

@@ -46,8 +46,9 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
 /// Fills buffers with 0. What was submitted before must not use them any more.
 void clearBuffers(gpu::Device& device, std::initializer_list<VkBuffer> buffers);
 
-/// A black field of so many bands, no more than the bake's, and black harmonics.
+/// A black field of so many bands, no more than the bake's, `chroma` of them in colour, and black
+/// harmonics.
 void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
-                    RelightBuffers& buffers);
+                    std::uint32_t chroma, RelightBuffers& buffers);
 
 } // namespace limn

@@ -2,6 +2,7 @@
 #include "engine/relight_gpu/relight_steps.h"
 
 #include "engine/gpu/barrier.h"
+#include "engine/relight/field_packing.h"
 #include "shaders/relight_caches.comp.h"
 #include "shaders/relight_chroma.comp.h"
 #include "shaders/relight_direct.comp.h"
@@ -52,6 +53,7 @@ RelightSteps::RelightSteps(gpu::Device& device, const Bake& bake, const RelightB
                            LightBands bounce, LightBands final)
     : m_device(device), m_bake(bake), m_buffers(buffers),
       m_coefficients(std::uint32_t(bounce.luma * bounce.luma)),
+      m_layers(fieldLayers(std::uint32_t(final.luma), std::uint32_t(final.chroma))),
       m_dropsChroma(final.chroma < bounce.chroma) {
     createSets();
     const std::uint32_t lanes = cacheLanes(device);
@@ -186,21 +188,25 @@ void RelightSteps::recordFinalCaches(VkCommandBuffer cmd, CacheList list, bool g
     fill(cmd, m_buffers.lightmapFills, m_buffers.fillCount);
 }
 
-void RelightSteps::writeField(VkCommandBuffer cmd, CacheList list) {
+void RelightSteps::writeField(VkCommandBuffer cmd, CacheList list, float scale) {
     const glm::uvec3 grid = m_bake.gridSize;
     dispatch(cmd, m_field,
-             {list.begin, list.end, m_bake.caches.lightmapCount, grid.x * grid.y * grid.z},
-             groupsOf(std::size_t(list.end - list.begin) * m_coefficients));
+             {.begin = list.begin,
+              .end = list.end,
+              .lightmapCaches = m_bake.caches.lightmapCount,
+              .gridCells = grid.x * grid.y * grid.z,
+              .fieldScale = scale},
+             groupsOf(std::size_t(list.end - list.begin) * m_layers));
 }
 
-void RelightSteps::recordField(VkCommandBuffer cmd, CacheList list, bool grid) {
+void RelightSteps::recordField(VkCommandBuffer cmd, CacheList list, bool grid, float scale) {
     const VkImage lightmap = m_buffers.field->lightmap.handle;
     gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kFragmentRead, kStep);
     // Frames that were submitted before may still read the grid.
     gpu::memoryBarrier(cmd, gpu::kAllReads, kStep);
-    writeField(cmd, list);
+    writeField(cmd, list, scale);
     if (grid)
-        writeField(cmd, gridList());
+        writeField(cmd, gridList(), scale);
     gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, kStep, gpu::kFragmentRead);
     gpu::memoryBarrier(cmd, kStep, gpu::kAllReads);
 }

@@ -34,7 +34,8 @@ public:
     /// E_direct from lights with shadow maps, to which `kept` is assigned. No earlier recording of
     /// it may still run.
     void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights, const KeptLights& kept);
-    /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total).
+    /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total,
+    /// brightest).
     void recordSurfels(VkCommandBuffer cmd);
     void recordPull(VkCommandBuffer cmd);
     /// Those of a list of the lightmap's caches, in the bands of bounces, then all invalid ones.
@@ -44,8 +45,8 @@ public:
     /// The final bands: the list's caches lose the chrominance that only bounces need, those of the
     /// grid are lit where `grid` says so.
     void recordFinalCaches(VkCommandBuffer cmd, CacheList list, bool grid);
-    /// Lightmap and grid, ready for fragment shaders.
-    void recordField(VkCommandBuffer cmd, CacheList list, bool grid);
+    /// Lightmap and grid, their values times `scale`, ready for fragment shaders.
+    void recordField(VkCommandBuffer cmd, CacheList list, bool grid, float scale);
     bool dropsChroma() const { return m_dropsChroma; }
 
     std::uint64_t dispatches = 0; ///< recorded so far
@@ -58,13 +59,13 @@ private:
                   const shared::GpuRelightRange& range, std::size_t groups);
     CacheList gridList() const;
     void lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, CacheList list);
-    void writeField(VkCommandBuffer cmd, CacheList list);
+    void writeField(VkCommandBuffer cmd, CacheList list, float scale);
     void fill(VkCommandBuffer cmd, std::uint32_t begin, std::uint32_t end);
 
     gpu::Device& m_device;
     const Bake& m_bake;
     const RelightBuffers& m_buffers;
-    std::uint32_t m_coefficients;
+    std::uint32_t m_coefficients, m_layers;
     bool m_dropsChroma;
     gpu::DescriptorSetLayout m_setLayout, m_lightSetLayout;
     gpu::DescriptorPool m_pool, m_lightPool;

@@ -4,39 +4,41 @@
 #include "engine/bake/grid_depth.h"
 #include "engine/core/log.h"
 #include "engine/gpu/uploader.h"
+#include "engine/relight/field_packing.h"
 #include "engine/scene/reflection_lobe.h"
 
-#include <array>
+#include <algorithm>
 #include <cassert>
+#include <vector>
 
 #include <fmt/format.h>
 
 namespace limn::render {
 
-static std::span<const std::byte> bytesOf(std::span<const glm::vec4> v) {
-    return std::as_bytes(v);
-}
-
 static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
-                                 const IndirectField& field) {
-    const std::vector<glm::vec4> black(field.coefficients());
-    const bool any = !field.lightmap.empty();
+                                 const IndirectField& field, float scale) {
     assert(field.lightmap.size() ==
            std::size_t(field.lightmapWidth) * field.lightmapHeight * field.coefficients());
+    const std::uint32_t layers = fieldLayers(field.bands, field.chroma());
+    const std::vector<glm::u16vec4> texels =
+        field.lightmap.empty() ? std::vector<glm::u16vec4>(layers, glm::u16vec4(0))
+                               : packField(field.lightmap, field.bands, field.chroma(), scale);
     gpu::Image image = createFieldLightmap(device, field.lightmapWidth, field.lightmapHeight,
-                                           field.coefficients(), VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    uploader.image(image, any ? bytesOf(field.lightmap) : bytesOf(black));
+                                           layers, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    uploader.image(image, std::as_bytes(std::span(texels)));
     return image;
 }
 
 // A frame in flight may still sample the old field, so the new one is another.
 static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const IndirectField& field,
                                                    std::shared_ptr<const gpu::Buffer> depth) {
-    static constexpr std::array<glm::vec4, 1> kNone{};
     gpu::Uploader uploader(device);
     auto out = std::make_shared<GpuField>();
-    out->lightmap = uploadLightmap(device, uploader, field);
-    const std::size_t bytes = field.grid.size() * sizeof(glm::vec4);
+    out->scale = fieldScale(std::max(brightestOf(field.lightmap), brightestOf(field.grid)));
+    out->lightmap = uploadLightmap(device, uploader, field, out->scale);
+    std::vector<glm::u16vec4> cells =
+        packField(field.grid, field.bands, field.chroma(), out->scale);
+    const std::size_t bytes = cells.size() * sizeof(glm::u16vec4);
     const bool fits = bytes <= device.properties.limits.maxStorageBufferRange;
     if (!fits)
         logWarning(
@@ -44,9 +46,12 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
                         "light without lightmap",
                         bytes >> 20));
     const bool any = bytes > 0 && fits;
-    out->grid = uploader.buffer(any ? bytesOf(field.grid) : bytesOf(kNone),
-                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid");
+    if (!any)
+        cells.assign(1, glm::u16vec4(0));
+    out->grid = uploader.buffer(std::as_bytes(std::span(cells)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                "grid");
     out->bands = field.bands;
+    out->chroma = field.chroma();
     out->gridSize = any ? field.gridSize : glm::uvec3(0);
     out->gridBounds = field.gridBounds;
     if (any && field.gridDepth)
@@ -76,7 +81,8 @@ gpu::Image uploadReflectionTable(gpu::Device& device) {
     return image;
 }
 
-void describeGrid(const GpuField& field, shared::GpuFrame& frame) {
+void describeField(const GpuField& field, shared::GpuFrame& frame) {
+    frame.fieldUnit = 1 / field.scale;
     if (!field.hasGrid())
         return;
     const glm::vec3 size = glm::max(field.gridBounds.size(), glm::vec3(1e-20f));

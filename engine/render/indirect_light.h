@@ -23,7 +23,7 @@ IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& fiel
 /// limn::reflectionTable() as a sampled array of RGBA32F.
 gpu::Image uploadReflectionTable(gpu::Device& device);
 
-/// Fills the grid's rows of `frame`.
-void describeGrid(const GpuField& field, shared::GpuFrame& frame);
+/// Fills the grid's rows of `frame`, and the field's unit.
+void describeField(const GpuField& field, shared::GpuFrame& frame);
 
 } // namespace limn::render

@@ -14,14 +14,15 @@ class IndirectPass {
 public:
     IndirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
 
-    /// Into all of the bound linear image; `frameSet` holds the surface's images and the field.
+    /// Into all of the bound linear image; `frameSet` holds the surface's images and the
+    /// field, which has so many bands in colour.
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view,
-                const SurfacesDrawn& surfaces);
+                const SurfacesDrawn& surfaces, std::uint32_t chroma);
 
 private:
     struct Variant {
         View view;
-        std::uint32_t features, bands;
+        std::uint32_t features, bands, chroma;
         bool first;
         auto operator<=>(const Variant&) const = default;
     };

@@ -220,7 +220,7 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
     frame.lightCount = slot.lights.count;
     frame.normalBias = ShadowMaps::kNormalBias;
     frame.lightBias = ShadowMaps::kLightBias;
-    describeGrid(*indirect.field, frame);
+    describeField(*indirect.field, frame);
     const float aspect = float(options.width) / float(options.height);
     frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
     frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
@@ -288,7 +288,7 @@ void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
-    indirectPass.record(cmd, slot.set, options.view, surfaces.drawn());
+    indirectPass.record(cmd, slot.set, options.view, surfaces.drawn(), indirect.field->chroma);
     vkCmdEndRendering(cmd);
     if (options.view == View::Lit && sky.active()) {
         beginOnLinear(cmd, options);

@@ -29,7 +29,7 @@ struct GpuFrame {
     vec3 rayRight;  float depthOffset; // depthScale / (depth + depthOffset)
     vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m, 0: no depths
     vec2 pixelSize; vec2 pad1;         // 1 / picture's size in pixels
-    vec3 background; float pad2;       // nits, where no surface is
+    vec3 background; float fieldUnit;  // nits, where no surface is; what the field's halfs count
 };
 
 /// Push constants of the geometry passes.

@@ -21,7 +21,7 @@ using uint = std::uint32_t;
 #define RELIGHT_EMITTED 3u       // pi L_e per surfel [W m^-2]
 #define RELIGHT_INDIRECT 4u      // irradiance per surfel [W m^-2]
 #define RELIGHT_RADIOSITY 5u     // per node of the tree [W m^-2]
-#define RELIGHT_CHANGE 6u        // vec2 per group of surfels: change, total, times area [W]
+#define RELIGHT_CHANGE 6u        // vec4 per group of surfels: change, total, times area [W]; brightest [W m^-2]
 #define RELIGHT_INNER_NODES 7u   // GpuInnerNode, level after level
 #define RELIGHT_LEVELS 8u        // where each level begins among the inner nodes
 #define RELIGHT_CACHES 9u        // GpuCache per cache
@@ -63,7 +63,7 @@ struct GpuRelightRange {
     uint gridCells;
     uint lights; float normalBias, lightBias; // direct: as ShadowedLights
     uint keptLights, freshLights;             // direct: as KeptLights
-    uint workBegin, workEnd, pad; // direct: of fresh lights and then those without place, these; 0 begins, all ends
+    uint workBegin, workEnd; float fieldScale; // field: of its halfs; direct: of fresh lights and then those without place, these; 0 begins, all ends
 };
 // clang-format on
 

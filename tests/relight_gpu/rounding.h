@@ -62,4 +62,20 @@ inline void expectRounding(const char* what, const Distance& d, double terms, do
                 d.rms / (rms * unit));
 }
 
+/// Expects what the GPU keeps in halfs to be `expected` but for rounding to halfs and what
+/// expectRounding() allows.
+inline void expectHalves(const char* what, const std::vector<glm::vec4>& halves,
+                         const std::vector<glm::vec4>& expected, double terms, double scale) {
+    ASSERT_EQ(halves.size(), expected.size()) << what;
+    const double summed = 6 * 4 * (0.25 * std::sqrt(terms) + 0.5) * std::ldexp(scale, -24);
+    double worst = 0;
+    for (std::size_t i = 0; i < halves.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double e = double(expected[i][c]),
+                         allowed = std::ldexp(std::abs(e), -11) + summed;
+            worst = std::max(worst, std::abs(double(halves[i][c]) - e) / allowed);
+        }
+    EXPECT_LT(worst, 1.001) << what; // of a value that sums otherwise a half is another one, too
+}
+
 } // namespace limn

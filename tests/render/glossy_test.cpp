@@ -77,6 +77,27 @@ TEST_F(ViewportGlossy, ReadsMoreBandsAsSoonAsAMaterialIsPolished) {
     }
 }
 
+TEST_F(ViewportGlossy, GreyBandsAreReadFromFewerLayersAlike) {
+    options.camera.eye = {1, 3, 4};
+    simple::SceneBuilder b = plane({0.9f, 0.6f, 0.3f});
+    b.scene.materials[0].metallic = 1;
+    b.scene.materials[0].roughness = 0.2f;
+    for (const std::uint32_t bands : {4U, 8U})
+        for (const std::uint32_t chroma : {1U, 2U, 3U, 4U}) {
+            IndirectField f = field(bands);
+            for (std::size_t i = std::size_t(chroma * chroma) * 8; i < f.grid.size(); ++i)
+                f.grid[i] = glm::vec4(glm::vec3(f.grid[i].x), 0);
+            f.version = 10 * bands + chroma;
+            viewport->setIndirect(f);
+            const ImageF coloured = draw(b.build(), View::Lit);
+            f.chromaBands = chroma;
+            viewport->setIndirect(f);
+            const ImageF compressed = draw(b.build(), View::Lit);
+            for (std::size_t i = 0; i < coloured.rgb.size(); i += 37)
+                expectNear(compressed.rgb[i], coloured.rgb[i], 1e-5f);
+        }
+}
+
 // Light from all above a surface, in any number of bands: none of a lobe is lost below the horizon.
 TEST_F(ViewportGlossy, AWhiteHemisphereIsReflectedWhole) {
     constexpr float kHalf[] = {0.5f, 0.75f, 0, -7 / 16.f, 0, 11 / 32.f, 0, -75 / 256.f};

@@ -15,6 +15,8 @@
 namespace limn {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+/// Of itself, what rounding to halfs changes a coefficient of bounced light by at most.
+constexpr float kHalf = 0x1p-11f;
 
 /// A viewport on a validated device.
 class ViewportTest : public DeviceTest {
