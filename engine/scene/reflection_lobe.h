@@ -18,6 +18,16 @@ namespace limn {
 /// about that mean it is taken as round. Bands 0 and 1 are exact, the others have the factors of
 /// the round lobe that is nearest in the mean square. The shape is that of a white metal: Fresnel's
 /// term changes how much is reflected, and hardly to where.
+///
+/// Error of a metal wall in the sample "cornell" against path tracing with GGX (limn bench glossy,
+/// nRMSE, of which 0.02 to 0.05 is noise), and in brackets of the lobe cos^(2/alpha^2 - 2) about
+/// the mirrored direction:
+///
+///     bands            3              5              8
+///     roughness 0.3    2.13 (2.13)    1.89 (1.82)    1.15 (1.08)   the panel's mirror image,
+///     blurred roughness 0.5    0.64 (0.67)    0.33 (0.40)    0.10 (0.83) roughness 0.7    0.15
+///     (0.10)    0.07 (0.51)    0.06 (0.53) roughness 0.9    0.04 (0.30)    0.07 (0.31)    0.06
+///     (0.31)
 struct ReflectionLobe {
     /// Share of light from everywhere that is reflected: F0 share.x + share.y.
     glm::vec2 share{0};

@@ -15,13 +15,14 @@ using uint = std::uint32_t;
 #endif
 
 // Bindings of set 0. Colours are vec4 with w = 0.
-#define RELIGHT_SURFELS 0u       // GpuSurfel per surfel
-#define RELIGHT_DIRECT 1u        // irradiance per surfel [W m^-2]
-#define RELIGHT_ALBEDO 2u        // per surfel
-#define RELIGHT_EMITTED 3u       // pi L_e per surfel [W m^-2]
-#define RELIGHT_INDIRECT 4u      // irradiance per surfel [W m^-2]
-#define RELIGHT_RADIOSITY 5u     // per node of the tree [W m^-2]
-#define RELIGHT_CHANGE 6u        // vec4 per group of surfels: change, total, times area [W]; brightest [W m^-2]
+#define RELIGHT_SURFELS 0u   // GpuSurfel per surfel
+#define RELIGHT_DIRECT 1u    // irradiance per surfel [W m^-2]
+#define RELIGHT_ALBEDO 2u    // per surfel
+#define RELIGHT_EMITTED 3u   // pi L_e per surfel [W m^-2]
+#define RELIGHT_INDIRECT 4u  // irradiance per surfel [W m^-2]
+#define RELIGHT_RADIOSITY 5u // per node of the tree [W m^-2]
+#define RELIGHT_CHANGE                                                                             \
+    6u // vec4 per group of surfels: change, total, times area [W]; brightest [W m^-2]
 #define RELIGHT_INNER_NODES 7u   // GpuInnerNode, level after level
 #define RELIGHT_LEVELS 8u        // where each level begins among the inner nodes
 #define RELIGHT_CACHES 9u        // GpuCache per cache
