@@ -52,7 +52,7 @@ struct Buffer {
     }
 };
 
-Json primitive(const GltfMesh& mesh, Buffer& buffer) {
+Json primitive(const Mesh& mesh, Buffer& buffer) {
     assert(!mesh.indices.empty() && mesh.normals.size() == mesh.positions.size());
     glm::vec3 lower = mesh.positions[0], upper = mesh.positions[0];
     for (glm::vec3 p : mesh.positions) {
@@ -72,9 +72,9 @@ Json primitive(const GltfMesh& mesh, Buffer& buffer) {
     attributes["NORMAL"] =
         buffer.add(mesh.normals, kArrayBuffer,
                    {{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}});
-    if (!mesh.uvs.empty())
+    if (!mesh.uv0.empty())
         attributes["TEXCOORD_0"] =
-            buffer.add(mesh.uvs, kArrayBuffer,
+            buffer.add(mesh.uv0, kArrayBuffer,
                        {{"componentType", kFloat}, {"count", count}, {"type", "VEC2"}});
     Json indices = {{"componentType", kUint32}, {"count", mesh.indices.size()}, {"type", "SCALAR"}};
     int accessor = 0;
@@ -90,7 +90,7 @@ Json primitive(const GltfMesh& mesh, Buffer& buffer) {
 
 Json meshesJson(const GltfFile& file, Buffer& buffer) {
     Json out = Json::array();
-    for (const GltfMesh& mesh : file.meshes)
+    for (const Mesh& mesh : file.meshes)
         out.push_back(
             {{"name", mesh.name}, {"primitives", Json::array({primitive(mesh, buffer)})}});
     return out;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/mesh.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -11,16 +13,6 @@
 #include <glm/vec4.hpp>
 
 namespace limn {
-
-/// One primitive: indexed triangles, counter-clockwise seen from the front [m].
-struct GltfMesh {
-    std::string name{};
-    std::uint32_t material = 0; ///< index into GltfFile::materials
-    std::vector<glm::vec3> positions{};
-    std::vector<glm::vec3> normals{}; ///< unit, as long as positions
-    std::vector<glm::vec2> uvs{};     ///< TEXCOORD_0; empty or as long as positions
-    std::vector<std::uint32_t> indices{};
-};
 
 struct GltfMaterial {
     std::string name{};
@@ -60,7 +52,7 @@ struct GltfFile {
     std::string name{}; ///< of the scene; also the stem of the two files
     std::string copyright{};
     std::vector<GltfMaterial> materials{};
-    std::vector<GltfMesh> meshes{};
+    std::vector<Mesh> meshes{}; ///< their uv1, tangents and colours are not written
     std::vector<GltfSun> suns{};
     std::vector<GltfCamera> cameras{};
     std::vector<GltfNode> nodes{};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/gallery/mesh_builder.h"
 #include "projects/gltf_writer.h"
-#include "projects/mesh_builder.h"
 
 #include <string>
 
@@ -55,7 +55,7 @@ constexpr Side kSides[4] = {{"south", 0, 6, kColumns.y},
                             {"west", 3, 2, kColumns.x}};
 
 /// Adds `mesh` once; the result places it.
-int addMesh(GltfFile& file, GltfMesh mesh);
+int addMesh(GltfFile& file, Mesh mesh);
 
 /// A node without a mesh, for the outliner.
 int addGroup(GltfFile& file, const std::string& name);

@@ -12,8 +12,8 @@ using glm::dvec3;
 constexpr double kPi = 3.14159265358979323846;
 
 // The left half of a curtain under an arch, tied back to the column at half height.
-GltfMesh curtain(Material cloth, const char* name) {
-    GltfMesh mesh{.name = name, .material = cloth};
+Mesh curtain(Material cloth, const char* name) {
+    Mesh mesh{.name = name, .material = cloth};
     addSheet(mesh, 48, 24, false, [](double u, double v) {
         const double tied = std::exp(-std::pow((v - 0.58) / 0.2, 2));
         const double width = 1.02 * (1 - 0.68 * tied), folds = 0.055 * (1 - 0.45 * tied);
@@ -24,8 +24,8 @@ GltfMesh curtain(Material cloth, const char* name) {
     return mesh;
 }
 
-GltfMesh curtainRod() {
-    GltfMesh mesh{.name = "Curtain rod", .material = Bronze};
+Mesh curtainRod() {
+    Mesh mesh{.name = "Curtain rod", .material = Bronze};
     addBox(mesh, {-1.2, 2.88, 0.02}, {1.2, 2.93, 0.07},
            AllFaces & ~unsigned(NegativeX | PositiveX));
     return mesh;
@@ -37,20 +37,20 @@ dvec3 bannerPoint(double u, double y) {
     return {0.45 * (2 * u - 1), y, -0.4 - 0.05 * down * std::sin(2 * kPi * u + 2 * down)};
 }
 
-GltfMesh banner(Material cloth, const char* name) {
-    GltfMesh mesh{.name = name, .material = cloth};
+Mesh banner(Material cloth, const char* name) {
+    Mesh mesh{.name = name, .material = cloth};
     addSheet(mesh, 16, 24, false,
              [](double u, double v) { return bannerPoint(u, 5.98 - 2.5 * v); });
     return mesh;
 }
 
-GltfMesh fringe() {
-    GltfMesh mesh{.name = "Fringe", .material = Fringe};
+Mesh fringe() {
+    Mesh mesh{.name = "Fringe", .material = Fringe};
     addSheet(mesh, 16, 2, false,
              [](double u, double v) { return bannerPoint(u, 3.48 - 0.26 * v); });
     for (int j = 0; j <= 2; ++j)
         for (int i = 0; i <= 16; ++i)
-            mesh.uvs.push_back({float(i) / 4, float(j) / 2});
+            mesh.uv0.push_back({float(i) / 4, float(j) / 2});
     return mesh;
 }
 
@@ -81,7 +81,7 @@ void addCloth(GltfFile& file) {
 }
 
 void addFountain(GltfFile& file, int group) {
-    GltfMesh stone{.name = "Fountain", .material = Limestone};
+    Mesh stone{.name = "Fountain", .material = Limestone};
     const Profile basin = {{{1.2, 0}, {1.2, 0.1}},
                            {{1.2, 0.1}, {1.04, 0.1}},
                            curve({1.04, 0.1}, {1.04, 0.42}, 0.02, 6),
@@ -97,14 +97,14 @@ void addFountain(GltfFile& file, int group) {
                           {{0.46, 1.25}, {0.44, 1.19}}};
     addTurned(stone, dvec3(0), stem, 40);
     place(file, group, addMesh(file, std::move(stone)), dvec3(0));
-    GltfMesh water{.name = "Water", .material = Water};
+    Mesh water{.name = "Water", .material = Water};
     addTurned(water, dvec3(0), {{{0.9, 0.38}, {0, 0.38}}}, 40);
     addTurned(water, dvec3(0), {{{0.46, 1.215}, {0, 1.215}}}, 40);
     place(file, group, addMesh(file, std::move(water)), dvec3(0));
 }
 
 void addPlants(GltfFile& file, int group) {
-    GltfMesh pot{.name = "Pot", .material = Terracotta};
+    Mesh pot{.name = "Pot", .material = Terracotta};
     const Profile profile = {curve({0.22, 0}, {0.34, 0.5}, 0.03, 6),
                              {{0.37, 0.48}, {0.37, 0.56}},
                              {{0.37, 0.56}, {0.31, 0.56}},
@@ -112,7 +112,7 @@ void addPlants(GltfFile& file, int group) {
                              {{0.3, 0.47}, {0, 0.47}}};
     addTurned(pot, dvec3(0), profile, 28);
     addTurned(pot, dvec3(0), {{{0.04, 0.45}, {0.035, 0.9}}}, 8);
-    GltfMesh bush{.name = "Bush", .material = Leaf};
+    Mesh bush{.name = "Bush", .material = Leaf};
     addSheet(bush, 44, 26, true, [](double u, double v) {
         const double longitude = -2 * kPi * u, latitude = kPi * (v - 0.5);
         const double leaves =
@@ -130,8 +130,7 @@ void addPlants(GltfFile& file, int group) {
 }
 
 void addDoors(GltfFile& file, int group) {
-    GltfMesh frame{.name = "Door frame", .material = Limestone},
-        door{.name = "Door", .material = Wood};
+    Mesh frame{.name = "Door frame", .material = Limestone}, door{.name = "Door", .material = Wood};
     const double floor = kGroundFloor, wall = kGallery + 0.05, front = kGallery - 0.12;
     const unsigned seen = NegativeX | PositiveX | PositiveY | NegativeZ;
     addBox(frame, {-0.78, floor, front}, {-0.6, 2.42, wall}, seen);

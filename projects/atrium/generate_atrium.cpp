@@ -74,7 +74,7 @@ GltfFile atriumFile() {
 
 } // namespace
 
-int addMesh(GltfFile& file, GltfMesh mesh) {
+int addMesh(GltfFile& file, Mesh mesh) {
     file.meshes.push_back(std::move(mesh));
     return int(file.meshes.size()) - 1;
 }

@@ -15,8 +15,8 @@ constexpr double kVaultRise = 1.4;
 constexpr double kVaultReach = 1.85;  ///< half of a vault's span across the gallery
 constexpr double kVaultMiddle = 1.95; ///< its middle, from the column axes
 
-GltfMesh column() {
-    GltfMesh mesh{.name = "Column", .material = Limestone};
+Mesh column() {
+    Mesh mesh{.name = "Column", .material = Limestone};
     addBox(mesh, {-0.36, kGroundFloor, -0.36}, {0.36, 0.32, 0.36}, AllFaces & ~unsigned(NegativeY));
     const Profile base = {
         curve({0.33, 0.31}, {0.33, 0.43}, 0.04, 6), curve({0.3, 0.43}, {0.28, 0.5}, -0.02, 4),
@@ -33,8 +33,8 @@ GltfMesh column() {
     return mesh;
 }
 
-GltfMesh arcade() {
-    GltfMesh mesh{.name = "Arch", .material = Limestone};
+Mesh arcade() {
+    Mesh mesh{.name = "Arch", .material = Limestone};
     addArcadeWall(mesh, 1.3, kSpringing, kSlabLower + 0.02, 0.5, {{0, 1.1}}, 40);
     for (double side : {-1.0, 1.0}) {
         // Two fillets, listed so that they face away from the wall on either side of it.
@@ -54,8 +54,8 @@ GltfMesh arcade() {
 
 // A groin vault over the rectangle of half-sizes a (x) and b (z), seen from below: four webs of two
 // crossing half-cylinders, each between the diagonals. It springs from y = 0.
-GltfMesh vault(const char* name, double a, double b) {
-    GltfMesh mesh{.name = name, .material = Plaster};
+Mesh vault(const char* name, double a, double b) {
+    Mesh mesh{.name = name, .material = Plaster};
     for (int web = 0; web < 4; ++web) {
         const double across = web % 2 == 0 ? a : b, along = web % 2 == 0 ? b : a;
         addSheet(mesh, 28, 5, false, [=](double u, double v) {
@@ -78,8 +78,8 @@ GltfMesh vault(const char* name, double a, double b) {
 }
 
 // Across the gallery, from the column to the wall; the arch's plane is local x = 0.
-GltfMesh rib() {
-    GltfMesh arch{.name = "Rib", .material = Limestone};
+Mesh rib() {
+    Mesh arch{.name = "Rib", .material = Limestone};
     addArch(
         arch, dvec3(0, kSpringing - 0.03, 0), {kVaultReach, kVaultRise},
         {{0.12, 0.19}, {-0.17, 0.19}, {-0.22, 0.14}, {-0.22, -0.14}, {-0.17, -0.19}, {0.12, -0.19}},

@@ -11,8 +11,8 @@ constexpr double kRailTop = 6.1;
 constexpr unsigned kSidesOnly = NegativeX | PositiveX | NegativeZ | PositiveZ;
 
 // On a pedestal of half-width `half`; `radius` of the shaft.
-GltfMesh column(const char* name, double half, double radius, double abacus) {
-    GltfMesh mesh{.name = name, .material = Limestone};
+Mesh column(const char* name, double half, double radius, double abacus) {
+    Mesh mesh{.name = name, .material = Limestone};
     addBox(mesh, {-half, kUpperFloor, -half}, {half, kRailTop, half}, kSidesOnly);
     addBox(mesh, {-half - 0.04, kUpperFloor, -half - 0.04},
            {half + 0.04, kUpperFloor + 0.14, half + 0.04}, kSidesOnly | PositiveY);
@@ -30,14 +30,14 @@ GltfMesh column(const char* name, double half, double radius, double abacus) {
     return mesh;
 }
 
-GltfMesh mainColumn() {
-    GltfMesh mesh = column("Upper column", 0.24, 0.19, 0.29);
+Mesh mainColumn() {
+    Mesh mesh = column("Upper column", 0.24, 0.19, 0.29);
     addBox(mesh, {-0.24, kUpperSpringing, -0.24}, {0.24, kRoofLower + 0.02, 0.24}, kSidesOnly);
     return mesh;
 }
 
-GltfMesh arcade() {
-    GltfMesh mesh{.name = "Twin arch", .material = Limestone};
+Mesh arcade() {
+    Mesh mesh{.name = "Twin arch", .material = Limestone};
     addArcadeWall(mesh, 1.25, kUpperSpringing, kRoofLower + 0.02, 0.4, {{-0.7, 0.5}, {0.7, 0.5}},
                   28);
     for (double x : {-0.7, 0.7}) {
@@ -50,8 +50,8 @@ GltfMesh arcade() {
 }
 
 // Between two pedestals.
-GltfMesh balustrade() {
-    GltfMesh mesh{.name = "Balustrade", .material = Limestone};
+Mesh balustrade() {
+    Mesh mesh{.name = "Balustrade", .material = Limestone};
     const double half = 0.55, floor = kUpperFloor;
     addBox(mesh, {-half, floor, -0.13}, {half, floor + 0.12, 0.13},
            PositiveY | NegativeZ | PositiveZ);
@@ -68,16 +68,16 @@ GltfMesh balustrade() {
 }
 
 // Under the roof, across the gallery.
-GltfMesh beams() {
-    GltfMesh mesh{.name = "Beams", .material = Wood};
+Mesh beams() {
+    Mesh mesh{.name = "Beams", .material = Wood};
     for (double x : {-1.05, -0.35, 0.35, 1.05})
         addBox(mesh, {x - 0.09, kRoofLower - 0.22, 0.1},
                {x + 0.09, kRoofLower + 0.02, kGallery + 0.1}, NegativeX | PositiveX | NegativeY);
     return mesh;
 }
 
-GltfMesh cornerBeams() {
-    GltfMesh mesh{.name = "Corner beams", .material = Wood};
+Mesh cornerBeams() {
+    Mesh mesh{.name = "Corner beams", .material = Wood};
     for (double x = 0.35; x < kGallery; x += 0.7)
         addBox(mesh, {x - 0.09, kRoofLower - 0.22, -0.1},
                {x + 0.09, kRoofLower + 0.02, kGallery + 0.1},

@@ -26,7 +26,7 @@ dvec3 place(dvec3 measured) {
 }
 
 // The corners run counter-clockwise seen from the lit side.
-void addQuad(GltfMesh& mesh, const Quad& measured) {
+void addQuad(Mesh& mesh, const Quad& measured) {
     const std::array<dvec3, 4> p = {place(measured[0]), place(measured[1]), place(measured[2]),
                                     place(measured[3])};
     const dvec3 normal = glm::normalize(glm::cross(p[2] - p[0], p[3] - p[1]));
@@ -39,8 +39,8 @@ void addQuad(GltfMesh& mesh, const Quad& measured) {
         mesh.indices.push_back(first + corner);
 }
 
-GltfMesh wall(const char* name, Material material, const Quad& measured) {
-    GltfMesh mesh{.name = name, .material = material};
+Mesh wall(const char* name, Material material, const Quad& measured) {
+    Mesh mesh{.name = name, .material = material};
     addQuad(mesh, measured);
     return mesh;
 }
@@ -52,8 +52,8 @@ constexpr Quad kCeiling = {dvec3(556, 548.8, 0), dvec3(556, 548.8, 559.2), dvec3
 
 // The panel sits in a hole of the ceiling and shares the hole's corners: no crack, nothing
 // coplanar.
-GltfMesh ceiling() {
-    GltfMesh mesh{.name = "Ceiling", .material = White};
+Mesh ceiling() {
+    Mesh mesh{.name = "Ceiling", .material = White};
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t next = (i + 1) % 4;
         addQuad(mesh, {kCeiling[i], kCeiling[next], kPanel[next], kPanel[i]});
@@ -63,8 +63,8 @@ GltfMesh ceiling() {
 
 // Top and four sides. The side towards the floor is left out: nothing sees it, and it would lie in
 // the floor's plane.
-GltfMesh block(const char* name, const Quad& top) {
-    GltfMesh mesh{.name = name, .material = White};
+Mesh block(const char* name, const Quad& top) {
+    Mesh mesh{.name = name, .material = White};
     addQuad(mesh, top);
     for (std::size_t i = 0; i < 4; ++i) {
         const dvec3 a = top[i], b = top[(i + 1) % 4];

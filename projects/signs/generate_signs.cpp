@@ -3,7 +3,8 @@
 // light, four turning asterisks on the walls and a ring under the ceiling, round which a spark
 // runs. After Figure 7 of "Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed
 // Illuminance Composition with Chrominance Compression. 2016".
-#include "projects/mesh_builder.h"
+#include "engine/gallery/mesh_builder.h"
+#include "projects/gltf_writer.h"
 #include "projects/png_writer.h"
 
 #include <cmath>
@@ -65,17 +66,16 @@ bool writeFilm(const std::string& path, const std::function<double(dvec2, double
 
 // A square about `centre` with `right` and `up` half its edges, its front towards right x up, its
 // picture upright.
-GltfMesh panel(const std::string& name, std::uint32_t material, dvec3 centre, dvec3 right,
-               dvec3 up) {
-    GltfMesh mesh{.name = name, .material = material};
+Mesh panel(const std::string& name, std::uint32_t material, dvec3 centre, dvec3 right, dvec3 up) {
+    Mesh mesh{.name = name, .material = material};
     addQuad(mesh, centre - right - up, centre + right - up, centre + right + up,
             centre - right + up);
-    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     return mesh;
 }
 
-GltfMesh block(const char* name, dvec3 centre, dvec3 half, double turn) {
-    GltfMesh mesh{.name = name, .material = White};
+Mesh block(const char* name, dvec3 centre, dvec3 half, double turn) {
+    Mesh mesh{.name = name, .material = White};
     const dvec3 x(std::cos(turn) * half.x, 0, -std::sin(turn) * half.x), y(0, half.y, 0),
         z(std::sin(turn) * half.z, 0, std::cos(turn) * half.z);
     const auto face = [&](dvec3 out, dvec3 right, dvec3 up) {
@@ -86,9 +86,9 @@ GltfMesh block(const char* name, dvec3 centre, dvec3 half, double turn) {
     return mesh;
 }
 
-GltfMesh wall(const char* name, Material material, dvec3 centre, dvec3 right, dvec3 up) {
-    GltfMesh mesh = panel(name, material, centre, right, up);
-    mesh.uvs.clear();
+Mesh wall(const char* name, Material material, dvec3 centre, dvec3 right, dvec3 up) {
+    Mesh mesh = panel(name, material, centre, right, up);
+    mesh.uv0.clear();
     return mesh;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "projects/mesh_builder.h"
+#include "engine/gallery/mesh_builder.h"
 
 #include <cmath>
 
@@ -19,24 +19,24 @@ dvec3 rounded(dvec3 p) {
     return glm::floor(p * 8192.0 + 0.5) / 8192.0;
 }
 
-void addVertex(GltfMesh& mesh, dvec3 position, dvec3 normal) {
+void addVertex(Mesh& mesh, dvec3 position, dvec3 normal) {
     mesh.positions.push_back(glm::vec3(position));
     mesh.normals.push_back(glm::vec3(glm::normalize(normal)));
 }
 
-void addTriangles(GltfMesh& mesh, std::initializer_list<std::uint32_t> corners) {
+void addTriangles(Mesh& mesh, std::initializer_list<std::uint32_t> corners) {
     mesh.indices.insert(mesh.indices.end(), corners);
 }
 
 // A quad strip between two curves of equal length; each quad flat when `smooth` is false.
-void addStrip(GltfMesh& mesh, const std::vector<dvec3>& right, const std::vector<dvec3>& left) {
+void addStrip(Mesh& mesh, const std::vector<dvec3>& right, const std::vector<dvec3>& left) {
     for (std::size_t i = 0; i + 1 < right.size(); ++i)
         addQuad(mesh, right[i], right[i + 1], left[i + 1], left[i]);
 }
 
 } // namespace
 
-void addQuad(GltfMesh& mesh, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
+void addQuad(Mesh& mesh, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
     const dvec3 p[4] = {rounded(a), rounded(b), rounded(c), rounded(d)};
     const dvec3 normal = glm::cross(p[2] - p[0], p[3] - p[1]);
     if (glm::length(normal) < 1e-9)
@@ -50,7 +50,7 @@ void addQuad(GltfMesh& mesh, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
         addTriangles(mesh, {first, first + 2, first + 3});
 }
 
-void addBox(GltfMesh& mesh, dvec3 l, dvec3 u, unsigned faces) {
+void addBox(Mesh& mesh, dvec3 l, dvec3 u, unsigned faces) {
     if (faces & NegativeX)
         addQuad(mesh, {l.x, l.y, l.z}, {l.x, l.y, u.z}, {l.x, u.y, u.z}, {l.x, u.y, l.z});
     if (faces & PositiveX)
@@ -65,7 +65,7 @@ void addBox(GltfMesh& mesh, dvec3 l, dvec3 u, unsigned faces) {
         addQuad(mesh, {l.x, l.y, u.z}, {u.x, l.y, u.z}, {u.x, u.y, u.z}, {l.x, u.y, u.z});
 }
 
-void addRing(GltfMesh& mesh, dvec2 inner, dvec2 outer, double y0, double y1, unsigned faces) {
+void addRing(Mesh& mesh, dvec2 inner, dvec2 outer, double y0, double y1, unsigned faces) {
     // Corners counter-clockwise seen from above (+y), starting at (+x, +z).
     const dvec2 sign[4] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
     for (int i = 0; i < 4; ++i) {
@@ -83,7 +83,7 @@ void addRing(GltfMesh& mesh, dvec2 inner, dvec2 outer, double y0, double y1, uns
     }
 }
 
-void addSheet(GltfMesh& mesh, int nu, int nv, bool closed,
+void addSheet(Mesh& mesh, int nu, int nv, bool closed,
               const std::function<dvec3(double, double)>& point) {
     const int columns = nu + 1, rows = nv + 1;
     const auto at = [&](int i, int j) { return std::size_t(j * columns + i); };
@@ -117,7 +117,7 @@ void addSheet(GltfMesh& mesh, int nu, int nv, bool closed,
     }
 }
 
-void addTurned(GltfMesh& mesh, dvec3 centre, const Profile& profile, int sides, int flutes,
+void addTurned(Mesh& mesh, dvec3 centre, const Profile& profile, int sides, int flutes,
                double depth) {
     Profile whole; // the pieces, and between two that do not meet the flat that joins them
     for (const std::vector<dvec2>& piece : profile) {
@@ -137,7 +137,7 @@ void addTurned(GltfMesh& mesh, dvec3 centre, const Profile& profile, int sides, 
     }
 }
 
-void addArch(GltfMesh& mesh, dvec3 centre, dvec2 radii, const std::vector<dvec2>& section,
+void addArch(Mesh& mesh, dvec3 centre, dvec2 radii, const std::vector<dvec2>& section,
              int segments) {
     for (std::size_t k = 0; k + 1 < section.size(); ++k) {
         addSheet(mesh, segments, 1, false, [&](double u, double v) {
@@ -149,8 +149,8 @@ void addArch(GltfMesh& mesh, dvec3 centre, dvec2 radii, const std::vector<dvec2>
     }
 }
 
-void addArcadeWall(GltfMesh& mesh, double halfLength, double springing, double top,
-                   double thickness, const std::vector<Opening>& openings, int segments) {
+void addArcadeWall(Mesh& mesh, double halfLength, double springing, double top, double thickness,
+                   const std::vector<Opening>& openings, int segments) {
     const double z = thickness / 2;
     std::vector<dvec2> edge = {{-halfLength, springing}}; // the lower edge, left to right
     for (const Opening& opening : openings) {
@@ -182,14 +182,14 @@ void addArcadeWall(GltfMesh& mesh, double halfLength, double springing, double t
             addQuad(mesh, backLow[i], backLow[i + 1], frontLow[i + 1], frontLow[i]);
 }
 
-void projectUvs(GltfMesh& mesh, double size) {
-    mesh.uvs.clear();
+void projectUvs(Mesh& mesh, double size) {
+    mesh.uv0.clear();
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const dvec3 p = mesh.positions[i], n = glm::abs(dvec3(mesh.normals[i]));
         const dvec2 uv = n.y >= n.x && n.y >= n.z ? dvec2(p.x, p.z)
                          : n.x > n.z              ? dvec2(p.z, -p.y)
                                                   : dvec2(p.x, -p.y);
-        mesh.uvs.push_back(glm::vec2(uv / size));
+        mesh.uv0.push_back(glm::vec2(uv / size));
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "projects/gltf_writer.h"
+#include "engine/scene/mesh.h"
 
 #include <functional>
 #include <vector>
@@ -26,20 +26,20 @@ enum Face : unsigned {
 };
 
 /// The planar quad a b c d, counter-clockwise from its front.
-void addQuad(GltfMesh& mesh, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
+void addQuad(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
 
 /// Some faces of an axis-aligned box.
-void addBox(GltfMesh& mesh, glm::dvec3 lower, glm::dvec3 upper, unsigned faces = AllFaces);
+void addBox(Mesh& mesh, glm::dvec3 lower, glm::dvec3 upper, unsigned faces = AllFaces);
 
 /// A rectangular frame round the y axis: between half-sizes `inner` and `outer` (x, z), from y0 to
 /// y1. PositiveX and PositiveZ stand for all faces away from the axis, NegativeX and NegativeZ for
 /// all towards it.
-void addRing(GltfMesh& mesh, glm::dvec2 inner, glm::dvec2 outer, double y0, double y1,
+void addRing(Mesh& mesh, glm::dvec2 inner, glm::dvec2 outer, double y0, double y1,
              unsigned faces = AllFaces);
 
 /// A smooth sheet: point(u, v) for u, v in [0, 1] in nu x nv quads; its front is where u x v
 /// points. `closed`: u = 1 is u = 0, and the normals agree there.
-void addSheet(GltfMesh& mesh, int nu, int nv, bool closed,
+void addSheet(Mesh& mesh, int nu, int nv, bool closed,
               const std::function<glm::dvec3(double, double)>& point);
 
 /// Points (radius, y) of a turned shape, from the bottom up, in smooth pieces: an edge is left
@@ -48,13 +48,13 @@ using Profile = std::vector<std::vector<glm::dvec2>>;
 
 /// Turns `profile` round the y axis at `centre`. `flutes` > 0 carves that many grooves of `depth`
 /// [m].
-void addTurned(GltfMesh& mesh, glm::dvec3 centre, const Profile& profile, int sides, int flutes = 0,
+void addTurned(Mesh& mesh, glm::dvec3 centre, const Profile& profile, int sides, int flutes = 0,
                double depth = 0);
 
 /// An arch moulding in the plane z = 0: `section` (out from the curve, z) is swept along the upper
 /// half of the ellipse of `radii` round `centre`, from +x to -x. Consecutive points of the section
 /// are flat faces. Ends are open.
-void addArch(GltfMesh& mesh, glm::dvec3 centre, glm::dvec2 radii,
+void addArch(Mesh& mesh, glm::dvec3 centre, glm::dvec2 radii,
              const std::vector<glm::dvec2>& section, int segments);
 
 /// Round openings in a wall slab along x, z in [-thickness/2, thickness/2], y in [springing, top]:
@@ -63,12 +63,12 @@ void addArch(GltfMesh& mesh, glm::dvec3 centre, glm::dvec2 radii,
 struct Opening {
     double x = 0, radius = 1;
 };
-void addArcadeWall(GltfMesh& mesh, double halfLength, double springing, double top,
-                   double thickness, const std::vector<Opening>& openings, int segments);
+void addArcadeWall(Mesh& mesh, double halfLength, double springing, double top, double thickness,
+                   const std::vector<Opening>& openings, int segments);
 
 /// TEXCOORD_0 from the positions, as if the texture, `size` metres wide, were projected along the
 /// axis that each normal is nearest to. Only for meshes whose vertices are not shared between faces
 /// of different axes.
-void projectUvs(GltfMesh& mesh, double size);
+void projectUvs(Mesh& mesh, double size);
 
 } // namespace limn
