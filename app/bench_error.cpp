@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench.h"
+#include "app/bench_generated.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -27,11 +28,13 @@ struct ErrorBench {
     SceneOptions common; ///< lights and sky of every scene
     std::vector<std::string> scenes;
     std::string output;
+    GeneratedBench generated; ///< instead of scenes, where it has some
     std::vector<std::uint32_t> surfels = {16384, 32768, 131072}, links = {32, 64, 128, 256, 512};
     std::vector<std::string> linkers = {"gather"};
     std::vector<std::string> cuts = {"solid-angle", "detail"};
     std::vector<std::string> clusterings = {"kd", "agglomerative"};
-    std::uint32_t rays = 1024, bands = 3, lightmap = 10000;
+    std::vector<std::uint32_t> rays = {1024}, lightmaps = {10000};
+    std::uint32_t bands = 3;
     std::uint32_t caches = 1000, referenceRays = 16384;
     int threads = 0;
     bool json = false;
@@ -39,24 +42,41 @@ struct ErrorBench {
 
 /// The settings of every row, so that what is traced stays known from row to row.
 std::vector<BakeSettings> sweep(const ErrorBench& o) {
-    std::vector<BakeSettings> rows;
-    BakeSettings s;
-    s.rays = o.rays;
-    s.bands = o.bands;
-    s.lightmapCaches = o.lightmap;
-    for (const std::uint32_t surfels : o.surfels)
-        for (const std::string& linker : o.linkers)
-            for (const std::string& clustering : o.clusterings)
-                for (const std::string& cut : o.cuts)
-                    for (const std::uint32_t links : o.links) {
-                        s.surfels = surfels;
-                        s.linker = named<Linker>(kLinkerNames, linker);
-                        s.clustering = named<Clustering>(kClusteringNames, clustering);
-                        s.cut = named<CutCriterion>(kCutNames, cut);
-                        s.links = links;
-                        rows.push_back(s);
-                    }
+    std::vector<BakeSettings> rows = {BakeSettings{}};
+    rows.front().bands = o.bands;
+    const auto vary = [&](const auto& values, const auto& set) {
+        std::vector<BakeSettings> varied;
+        for (const BakeSettings& row : rows)
+            for (const auto& value : values)
+                set(varied.emplace_back(row), value);
+        rows = std::move(varied);
+    };
+    using S = BakeSettings;
+    vary(o.lightmaps, [](S& s, std::uint32_t n) { s.lightmapCaches = n; });
+    vary(o.rays, [](S& s, std::uint32_t n) { s.rays = n; });
+    vary(o.surfels, [](S& s, std::uint32_t n) { s.surfels = n; });
+    vary(o.linkers, [](S& s, const std::string& l) { s.linker = named<Linker>(kLinkerNames, l); });
+    vary(o.clusterings,
+         [](S& s, const std::string& c) { s.clustering = named<Clustering>(kClusteringNames, c); });
+    vary(o.cuts, [](S& s, const std::string& c) { s.cut = named<CutCriterion>(kCutNames, c); });
+    vary(o.links, [](S& s, std::uint32_t n) { s.links = n; });
     return rows;
+}
+
+/// What was not given on the command line has the document's default, not the sweep's.
+void useDefaults(const CLI::App& command, ErrorBench& o) {
+    const BakeSettings s;
+    const auto single = [&](const char* flag, auto& values, auto value) {
+        if (command.count(flag) == 0)
+            values = {std::move(value)};
+    };
+    single("--surfels", o.surfels, s.surfels);
+    single("--links", o.links, s.links);
+    single("--rays", o.rays, s.rays);
+    single("--lightmap", o.lightmaps, s.lightmapCaches);
+    single("--linker", o.linkers, std::string(kLinkerNames[std::size_t(s.linker)]));
+    single("--cut", o.cuts, std::string(kCutNames[std::size_t(s.cut)]));
+    single("--clustering", o.clusterings, std::string(kClusteringNames[std::size_t(s.clustering)]));
 }
 
 /// What the same bake gives with a link to every sender in sight, to tell the cut's own error.
@@ -174,6 +194,8 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
 
 Exit runErrorBench(const ErrorBench& o) {
     const ThreadLimit threads(o.threads);
+    if (o.generated.scenes > 0)
+        return runGeneratedBench(o.generated, sweep(o));
     if (!o.json)
         printTitles(kColumns);
     Json rows = Json::array();
@@ -189,8 +211,10 @@ void addErrorBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<ErrorBench>();
     CLI::App* command = bench.add_subcommand(
         "error", "Irradiance of caches against a converged gather, over a sweep of settings");
-    command->add_option("scenes", o->scenes, ".gltf, .glb or .limn files, or names of projects")
-        ->required();
+    command->add_option("scenes", o->scenes,
+                        ".gltf, .glb or .limn files, names of projects, or "
+                        "generated:SEED");
+    addGeneratedOptions(*command, o->generated);
     addLightOptions(*command, o->common);
     command->add_option("-o,--output", o->output, "folder of error.csv and error.json")->required();
     addList(*command, "--surfels", o->surfels, "n_S, a list", CLI::Range(64, 1 << 20));
@@ -199,16 +223,28 @@ void addErrorBench(CLI::App& bench, Run& run) {
     addList(*command, "--cut", o->cuts, "a list of cuts", oneOf(kCutNames));
     addList(*command, "--clustering", o->clusterings, "a list of clusterings",
             oneOf(kClusteringNames));
-    command->add_option("--rays", o->rays, "of a cache")->check(CLI::Range(16, 65536));
+    addList(*command, "--rays", o->rays, "of a cache, a list with --generated",
+            CLI::Range(16, 65536));
     command->add_option("--bands", o->bands, "SH bands")->check(CLI::Range(2, 8));
-    command->add_option("--lightmap", o->lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));
+    addList(*command, "--lightmap", o->lightmaps, "wanted caches, a list with --generated",
+            CLI::Range(1, 1 << 24));
     command->add_option("--caches", o->caches, "how many are compared")
         ->check(CLI::Range(1, 1 << 24));
     command->add_option("--reference-rays", o->referenceRays, "of a cache that is compared")
         ->check(CLI::Range(64, 1 << 24));
     command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
     command->add_flag("--json", o->json, "one JSON object on stdout");
-    command->callback([o, &run] { run = [o] { return runErrorBench(*o); }; });
+    command->callback([o, command, &run] {
+        if (o->scenes.empty() == (o->generated.scenes == 0))
+            throw CLI::ValidationError("scenes", "give either scenes or --generated");
+        if (o->generated.scenes > 0)
+            useDefaults(*command, *o);
+        else if (o->rays.size() != 1 || o->lightmaps.size() != 1)
+            throw CLI::ValidationError("--rays, --lightmap", "are lists with --generated only");
+        o->generated.output = o->output;
+        o->generated.json = o->json;
+        run = [o] { return runErrorBench(*o); };
+    });
 }
 
 } // namespace limn

@@ -36,6 +36,8 @@ static std::string padded(const std::string& text, int width) {
 }
 
 static std::string shown(const Json& value, const Column& column) {
+    if (value.is_null())
+        return "-";
     if (value.is_string())
         return value.get<std::string>();
     if (value.is_number_float() || column.scale != 1)

@@ -27,8 +27,11 @@ nlohmann::ordered_json report(const Comparison& c, bool twoReferences) {
     json["bias"] = c.bias;
     json["ssim"] = c.ssim;
     json["flip"] = c.flip;
-    if (twoReferences)
+    if (twoReferences) {
         json["reference_noise"] = c.referenceNoise;
+        json["nrmse_noise"] = c.nrmseNoise;
+        json["bias_noise"] = c.biasNoise;
+    }
     json["invalid_pixels"] = c.invalidPixels;
     return json;
 }

@@ -4,12 +4,15 @@
 #include "engine/core/log.h"
 #include "engine/files/project_file.h"
 #include "engine/files/sky_file.h"
+#include "engine/gallery/gallery.h"
 #include "engine/scene/dynamic_spec.h"
 #include "engine/scene/light_spec.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
@@ -18,7 +21,8 @@ namespace limn {
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command
-        .add_option("scene", options.scene, ".gltf, .glb or .limn file, or the name of a project")
+        .add_option("scene", options.scene,
+                    ".gltf, .glb or .limn file, the name of a project, or generated:SEED")
         ->required();
     addLightOptions(command, options);
     addDynamicOption(command, options);
@@ -74,6 +78,24 @@ static Sky& skyOf(Document& document) {
     return std::get<Sky>(document.objects.at(addObject(document, Sky{})));
 }
 
+static constexpr std::string_view kGenerated = "generated:";
+
+static Result<ImportedScene> openGenerated(const std::string& name) {
+    std::uint64_t seed = 0;
+    const char* const end = name.data() + name.size();
+    const auto [rest, error] = std::from_chars(name.data() + kGenerated.size(), end, seed);
+    if (error != std::errc() || rest != end)
+        return fail(name + ": a generated scene is named by a seed, as in generated:17");
+    return importedScene(generateScene(seed));
+}
+
+ImportedScene importedScene(const GeneratedScene& generated) {
+    ImportedScene scene{generated.document, generated.assets, {}};
+    if (generated.darkCamera)
+        addObject(scene.document, *generated.darkCamera);
+    return scene;
+}
+
 Result<ImportedScene> openScene(const SceneOptions& options) {
     std::vector<Light> lights; // before the import: a wrong flag should not cost seconds
     for (const std::string& spec : options.lights) {
@@ -89,7 +111,9 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
             return tl::make_unexpected(parsed.error());
         sky = *parsed;
     }
-    Result<ImportedScene> scene = openAny(options.scene, projectsFolder());
+    Result<ImportedScene> scene = options.scene.starts_with(kGenerated)
+                                      ? openGenerated(options.scene)
+                                      : openAny(options.scene, projectsFolder());
     if (!scene)
         return scene;
     for (Light& light : lights)

@@ -14,6 +14,8 @@
 
 namespace limn {
 
+struct GeneratedScene;
+
 /// SCENE|PROJECT and the flags that bake, render and reference share for lights, sky and objects.
 struct SceneOptions {
     std::string scene;
@@ -32,7 +34,11 @@ void addDynamicOption(CLI::App& command, SceneOptions& options);
 
 void addTimeOption(CLI::App& command, SceneOptions& options);
 
-/// Imports, adds the lights and the sky, logs the repairs.
+/// As if it had been imported; the dark room's camera is the second one.
+ImportedScene importedScene(const GeneratedScene& generated);
+
+/// Imports, or generates what is named generated:SEED; adds the lights and the sky, logs the
+/// repairs.
 Result<ImportedScene> openScene(const SceneOptions& options);
 
 struct CameraOptions {

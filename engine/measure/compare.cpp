@@ -164,6 +164,8 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference) {
 
 // With t = truth + e and r_k = truth + n_k, E[(t - r_1)(t - r_2)] = e^2 as long as n_1 and n_2 have
 // zero mean and are independent of each other; (t - r)^2 has an expectation of e^2 + var(n).
+// The product is (t - m)^2 - d^2 / 4 with m = (r_1 + r_2) / 2 and d = r_1 - r_2. Its variance,
+// 2 e^2 var(n) + var(n)^2, is the expectation of (t - m)^2 d^2 for normal noise.
 Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
                                  const ImageF& reference2) {
     for (const ImageF* r : {&reference, &reference2})
@@ -175,19 +177,26 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
         return c;
     const std::vector<bool> valid = validPixels(test, mean);
     std::vector<double> products;
-    double noise = 0;
+    double noise = 0, productVariance = 0, meanVariance = 0;
     for (std::size_t i = 0; i < valid.size(); ++i) {
         if (!valid[i])
             continue;
         const glm::dvec3 t(test.rgb[i]), r1(reference.rgb[i]), r2(reference2.rgb[i]);
+        const glm::dvec3 d = r1 - r2, m = (r1 + r2) / 2.0;
         products.push_back(channelMean((t - r1) * (t - r2)));
-        noise += channelMean((r1 - r2) * (r1 - r2)) / 4; // the variance of (r1 + r2) / 2
+        noise += channelMean(d * d) / 4;                          // the variance of m
+        const double spread = channelMean(glm::abs(d * (t - m))); // channels share their noise
+        productVariance += spread * spread;
+        meanVariance += channelMean(d) * channelMean(d) / 4;
     }
     if (products.empty())
         return c;
-    const double scale = meanOfValid(mean, valid);
-    c->referenceNoise = ratio(std::sqrt(noise / double(products.size())), std::abs(scale));
+    const double scale = std::abs(meanOfValid(mean, valid)), count = double(products.size());
+    c->referenceNoise = ratio(std::sqrt(noise / count), scale);
+    c->biasNoise = ratio(std::sqrt(meanVariance) / count, scale);
     rootMeanSquares(products, scale, *c);
+    const double squareNoise = ratio(std::sqrt(productVariance) / count, scale * scale);
+    c->nrmseNoise = std::min(std::sqrt(squareNoise), ratio(squareNoise, 2 * c->nrmse));
     return c;
 }
 

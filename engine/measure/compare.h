@@ -19,9 +19,11 @@ struct Comparison {
     double bias = 0;   ///< mean(test) / mean(ref) - 1
     double ssim = 0;   ///< on tone-mapped luminance; 1: equal
     double flip = 0;   ///< mean FLIP error on the tone-mapped image; 0: equal
-    /// Standard error of a pixel of the references' mean, rms / mean(ref); 0 with one reference,
-    /// which does not tell.
-    double referenceNoise = 0;
+    // With one reference, which does not tell, these are 0:
+    double referenceNoise =
+        0;                 ///< standard error of a pixel of the references' mean, rms / mean(ref)
+    double nrmseNoise = 0; ///< standard error of `nrmse`, from noise that pixels do not share
+    double biasNoise = 0;  ///< standard error of `bias`, likewise
     std::uint64_t invalidPixels = 0; ///< NaN, Inf in any; left out of the metrics
 };
 

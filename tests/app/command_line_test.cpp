@@ -219,6 +219,32 @@ TEST_F(CommandLine, ReferenceAndComparePrintOneJsonObject) {
     expectRefusal("compare " + b + " " + c + " --reference2 nowhere.exr", "nowhere.exr");
 }
 
+TEST_F(CommandLine, BenchErrorMeasuresGeneratedScenes) {
+    const std::string folder = path("generated");
+    const nlohmann::json out =
+        json("bench error --generated 2 --size 32x18 --spp 8 --surfels 256,512 --lightmap 400 "
+             "--rays 64 --json -o " +
+             folder);
+    ASSERT_EQ(out["rows"].size(), 4u); // 2 scenes, 2 settings
+    for (const nlohmann::json& row : out["rows"])
+        for (const char* key : {"nrmse", "bias", "seconds", "bytes", "reference_noise"})
+            EXPECT_TRUE(row[key].is_number()) << key;
+    EXPECT_EQ(out["rows"][0]["kind"], "room");
+    EXPECT_TRUE(out["rows"][0]["leak"].is_null());
+    EXPECT_EQ(out["rows"][2]["kind"], "two_rooms");
+    EXPECT_TRUE(out["rows"][2]["leak"].is_number());
+    ASSERT_EQ(out["distribution"].size(), 10u); // all, tuned, untuned, two kinds; 2 settings
+    EXPECT_EQ(out["distribution"][0]["scenes"], 2);
+    EXPECT_EQ(out["distribution"][1]["group"], "tuned"); // of one even seed
+    EXPECT_EQ(out["distribution"][1]["nrmse_worst"], out["rows"][0]["nrmse"]);
+    EXPECT_EQ(out["distribution"][2]["nrmse_median"], out["rows"][2]["nrmse"]);
+    for (const char* file : {"generated.csv", "generated.json", "generated-distribution.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder + "/" + file)) << file;
+    EXPECT_EQ(limn("bench error -o " + folder).exit, 2); // neither scenes nor seeds
+    EXPECT_EQ(limn("bench error cornell --generated 1 -o " + folder).exit, 2);
+    expectRefusal("bake generated:x -o " + path("x.limnbake"), "generated:x");
+}
+
 #ifdef LIMN_HAS_VIEWPORT
 TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     const std::string bake = path("box.limnbake"), picture = path("box.png"),

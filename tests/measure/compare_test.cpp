@@ -196,6 +196,32 @@ TEST(Compare, TwoReferencesOfRandomNoiseMeetAKnownError) {
     EXPECT_GT(compareImages(test, meanImage(first, second))->nrmse, 0.7);
 }
 
+TEST(Compare, SaysHowSureItsFiguresAre) {
+    // Many pairs of references of normal noise: the spread of what they give is what each says.
+    constexpr int kPairs = 60;
+    constexpr float kNoise = 0.3f;
+    ImageF test = constantImage(64, 64, glm::vec3(1.1f));
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal(0, kNoise);
+    double sum[2] = {}, squares[2] = {}, said[2] = {};
+    for (int k = 0; k < kPairs; ++k) {
+        ImageF r[2] = {test, test};
+        for (ImageF& image : r)
+            for (glm::vec3& p : image.rgb)
+                p = glm::vec3(1 + normal(random)); // grey: channels share their noise
+        const Result<Comparison> c = compareImages(test, r[0], r[1]);
+        const double value[2] = {c->nrmse, c->bias}, noise[2] = {c->nrmseNoise, c->biasNoise};
+        for (int i = 0; i < 2; ++i) {
+            sum[i] += value[i] / kPairs;
+            squares[i] += value[i] * value[i] / kPairs;
+            said[i] += noise[i] / kPairs;
+        }
+    }
+    for (int i = 0; i < 2; ++i) // a spread of 60 numbers is known to 9 %
+        EXPECT_NEAR(std::sqrt(squares[i] - sum[i] * sum[i]) / said[i], 1, 0.27);
+    EXPECT_NEAR(said[1], double(kNoise) / std::sqrt(2) / 64, 2e-4);
+}
+
 TEST(Compare, NoiseWithoutAnErrorIsNone) {
     OrthogonalNoise p(0, 0, 0.5f);
     EXPECT_EQ(compareImages(p.test, p.first, p.second)->nrmse, 0);
