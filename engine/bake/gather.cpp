@@ -2,6 +2,7 @@
 #include "engine/bake/gather.h"
 
 #include "engine/bake/cluster_tree.h"
+#include "engine/bake/input_hash.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -16,19 +17,16 @@ namespace limn {
 
 namespace {
 
-/// Surfels of instances whose material emits, or none where there are so many that rays meet enough
-/// of them.
-std::vector<std::uint32_t> emissiveSurfels(const Scene& scene, const SurfelSet& set,
-                                           std::uint32_t rays) {
+/// Surfels of instances whose material emits.
+std::vector<std::uint32_t> emissiveSurfels(const Scene& scene, const SurfelSet& set) {
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const glm::vec3 e = scene.materialOf(scene.instances[i]).emission;
-        if (!(e.x > 0 || e.y > 0 || e.z > 0))
+        if (!emits(scene.materialOf(scene.instances[i])))
             continue;
         for (std::uint32_t s = set.instanceBegin[i]; s < set.instanceBegin[i + 1]; ++s)
             result.push_back(s);
     }
-    return result.size() <= rays ? result : std::vector<std::uint32_t>();
+    return result;
 }
 
 /// Where a ray starts that leaves a cache's point.
@@ -87,12 +85,40 @@ struct Finisher {
         std::replace_if(sender, sender + rays, met, GatherHits::kAimed);
         if (aimedAlready)
             return 0;
-        for (std::size_t i = 0; i < targets.size(); ++i)
-            traced += aim(caches.kind[cache], {targets[i], open[i % open.size()]}, aimed) ? 1 : 0;
+        for (const AimedSample& sample : chooseSamples(cache, open))
+            traced += aim(caches.kind[cache], sample, aimed) ? 1 : 0;
         return traced;
     }
 
 private:
+    /// One sample of each target, or, of too many emissive ones, kMaxAimed at even steps of what
+    /// they would bring unhidden: each sample of the same worth, so that their sum has no bias.
+    std::vector<AimedSample> chooseSamples(std::uint32_t cache,
+                                           const std::vector<std::uint32_t>& open) const {
+        std::vector<AimedSample> all;
+        for (std::size_t i = 0; i < targets.size(); ++i)
+            all.push_back({targets[i], open[i % open.size()]});
+        if (linker == Linker::FormFactor || all.size() <= kMaxAimed)
+            return all;
+        std::vector<double> worth;
+        double sum = 0;
+        for (const AimedSample& sample : all)
+            worth.push_back(sum += double(viewOf(set.surfels, points, caches.kind[cache], sample)
+                                              .transport));
+        std::vector<AimedSample> chosen;
+        const double step = sum / kMaxAimed,
+                     start = double(unitFloat(mixBits(points.seed[cache] + 1))) * step;
+        for (std::size_t i = 0, k = 0; k < kMaxAimed && i < all.size(); ++i) {
+            std::uint32_t hits = 0;
+            for (; k < kMaxAimed && start + double(k) * step < worth[i]; ++k)
+                ++hits;
+            const double own = worth[i] - (i > 0 ? worth[i - 1] : 0);
+            if (hits > 0 && own > 0)
+                chosen.push_back({all[i].sender, all[i].point, float(hits * step / own)});
+        }
+        return chosen;
+    }
+
     /// False where the two do not face each other: no ray is traced.
     bool aim(CacheKind kind, const AimedSample& sample, std::vector<AimedSample>& aimed) const {
         const SenderView view = viewOf(set.surfels, points, kind, sample);
@@ -112,10 +138,9 @@ private:
 };
 
 /// What caches aim at.
-std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, Linker linker,
-                                      std::uint32_t rays) {
+std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, Linker linker) {
     if (linker == Linker::Gather)
-        return emissiveSurfels(scene, set, rays);
+        return emissiveSurfels(scene, set);
     std::vector<std::uint32_t> all(set.surfels.size() + kSkyCells);
     std::iota(all.begin(), all.end(), 0U);
     return all;
@@ -200,7 +225,7 @@ SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind k
     SenderView view;
     if (s >= surfels.size()) {
         view.direction = skyCellDirection(s - std::uint32_t(surfels.size()));
-        view.transport = 4 / float(kSkyCells);
+        view.transport = sample.scale * 4 / float(kSkyCells);
     } else {
         const glm::vec3 way = surfels.position[s] - points.position[sample.point];
         const float d2 = glm::dot(way, way);
@@ -210,15 +235,16 @@ SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind k
         const float cosSender = -glm::dot(view.direction, surfels.normal[s]);
         if (!(cosSender > 0))
             return {};
-        view.transport = surfels.area[s] * cosSender / (d2 + surfels.area[s] / (2 * kPi)) / kPi;
+        view.transport = sample.scale * surfels.area[s] * cosSender /
+                         (d2 + surfels.area[s] / (2 * kPi)) / kPi;
     }
     view.cosTheta = glm::dot(view.direction, points.normal[sample.point]);
     return kind == CacheKind::Hemisphere && !(view.cosTheta > 0) ? SenderView{} : view;
 }
 
-std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker,
-                        std::uint32_t rays) {
-    return std::uint32_t(aimTargets(scene, set, linker, rays).size());
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker) {
+    const auto targets = std::uint32_t(aimTargets(scene, set, linker).size());
+    return linker == Linker::Gather ? std::min(targets, kMaxAimed) : targets;
 }
 
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
@@ -229,7 +255,7 @@ bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& cac
                       caches,
                       points,
                       linker,
-                      aimTargets(trace.scene(), set, linker, hits.rays),
+                      aimTargets(trace.scene(), set, linker),
                       !hits.aimedBegin.empty(),
                       {}};
     if (!finisher.targets.empty())

@@ -16,6 +16,7 @@ namespace limn {
 struct AimedSample {
     std::uint32_t sender; ///< leaf of the ClusterTree
     std::uint32_t point;  ///< of CachePoints
+    float scale = 1;      ///< senders that it stands for, itself included [1]
 };
 
 /// How a sender would look from a point if nothing stood between.
@@ -25,7 +26,7 @@ struct SenderView {
     glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
 };
 
-/// Of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which tends to 2 pi at contact; of
+/// Times the sample's scale, of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which tends to 2 pi at contact; of
 /// a sky cell its own. A point of a Hemisphere cache sees nothing behind it.
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
                   const AimedSample& sample);
@@ -114,7 +115,9 @@ private:
 ///
 /// Linker::Gather: small bright lamps would be met by a handful of rays: blotches. A cache that
 /// meets the emissive surfels with fewer than a sixteenth of its rays aims one ray at each of them
-/// instead. Which materials emit only guides the sampling: any other sender is met by the rays.
+/// instead, or, where there are more than kMaxAimed, at a sample of them in proportion to what they
+/// would bring if nothing stood between. Which materials emit only guides the sampling: any other
+/// sender is met by the rays.
 ///
 /// Linker::FormFactor: every cache aims a ray at every surfel and sky cell that faces it, and the
 /// rays only tell which of its points are in walls.
@@ -125,8 +128,10 @@ bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& cac
                 const CachePoints& points, Linker linker, const Progress& progress,
                 GatherHits& hits, std::uint64_t& aimedRays);
 
+/// Greatest number of emissive surfels that one cache aims at.
+inline constexpr std::uint32_t kMaxAimed = 512;
+
 /// Greatest number of senders that one cache aims at.
-std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker,
-                        std::uint32_t rays);
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker);
 
 } // namespace limn

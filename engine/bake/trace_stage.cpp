@@ -36,7 +36,7 @@ std::uint64_t documentKey(const TraceInput& in) {
 }
 
 std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
-    std::uint64_t h = hashValue(std::uint32_t(in.linker), hashValue(trace, 14));
+    std::uint64_t h = hashValue(std::uint32_t(in.linker), hashValue(trace, 30));
     for (const Instance& i : in.trace.scene().instances)
         h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
     return h;
@@ -343,7 +343,7 @@ void Tracing::keepRecord(bool changed) {
 
 /// From raw hits to the cut's, aimed rays included.
 bool Tracing::finish() {
-    const bool aims = mostAimed(in.trace.scene(), in.set, in.linker, in.rays) > 0;
+    const bool aims = mostAimed(in.trace.scene(), in.set, in.linker) > 0;
     const std::uint64_t key = aimedKey(in, m_key);
     if (aims && m_store)
         if (const std::optional<std::string> bytes = m_store->find(key)) {
@@ -426,7 +426,7 @@ Result<TraceReport> Tracing::run() {
 Result<TraceReport> traceHits(const TraceInput& in, const Progress& progress, StageStore* store,
                               GatherHits& hits) {
     const std::uint64_t caches = in.caches.size(),
-                        aimed = mostAimed(in.trace.scene(), in.set, in.linker, in.rays),
+                        aimed = mostAimed(in.trace.scene(), in.set, in.linker),
                         bytes = caches * (in.rays * sizeof(RawHit) + aimed * sizeof(AimedSample)),
                         most = physicalBytes() / 2;
     if (bytes > most)
