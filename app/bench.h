@@ -14,6 +14,7 @@ namespace limn {
 
 using Json = nlohmann::ordered_json;
 
+void addEnergyBench(CLI::App& bench, Run& run);
 void addErrorBench(CLI::App& bench, Run& run);
 void addFrameBench(CLI::App& bench, Run& run);
 void addGlossyBench(CLI::App& bench, Run& run);

@@ -76,6 +76,7 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 void addBenchCommand(CLI::App& app, Run& run) {
     CLI::App* bench = app.add_subcommand("bench", "Measures, and writes tables");
     bench->require_subcommand(1);
+    addEnergyBench(*bench, run);
     addErrorBench(*bench, run);
     addGlossyBench(*bench, run);
     addRelightBench(*bench, run);
