@@ -13,6 +13,28 @@ layout(location = 0) out vec4 outEmitted; // nits, or what views without light s
 layout(location = 1) out uvec4 outSurface;
 layout(location = 2) out vec4 outReceiver; // lightmap coordinates, metallic, roughness
 
+layout(set = 0, binding = 12, std430) readonly buffer LookupSnaps { uint lookupSnaps[]; };
+
+/// snapLookup() of engine/bake/atlas.h.
+vec2 snapLookup(vec2 uv) {
+    const vec2 p = uv * frame.lookupSize - 0.5, base = floor(p);
+    if (any(lessThan(base, vec2(0))) || any(greaterThanEqual(base, frame.lookupSize)))
+        return uv; // without snaps lookupSize is 0
+    vec2 f = p - base;
+    const uvec2 cell = min(uvec2(f * 8.0), uvec2(7));
+    const uint rows = lookupSnaps[uint(base.y) * uint(frame.lookupSize.x) + uint(base.x)];
+    const uint snap = rows == 0u ? 0u : lookupSnaps[rows + cell.y] >> (4u * cell.x) & 15u;
+    if (snap == 0u)
+        return uv;
+    if (snap <= 2u)
+        f.x = float(snap - 1u);
+    else if (snap <= 4u)
+        f.y = float(snap - 3u);
+    else
+        f = vec2((snap - 5u) & 1u, (snap - 5u) >> 1);
+    return (base + f + 0.5) / frame.lookupSize;
+}
+
 vec3 unlit(Surface s) {
     if (kView == VIEW_ALBEDO)
         return s.albedo;
@@ -23,7 +45,8 @@ vec3 unlit(Surface s) {
 
 void main() {
     const Surface s = readSurface(baseColor());
-    outReceiver = vec4(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset), s.metallic, s.roughness);
+    outReceiver = vec4(snapLookup(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset)),
+                       s.metallic, s.roughness);
     if (isBlackBack()) { // two normals that no light meets both
         outEmitted = vec4(0);
         outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal);

@@ -204,17 +204,46 @@ Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv) {
             {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
 }
 
+glm::vec2 snappedUv(const LightmapLayout& layout, glm::vec2 base, glm::vec2 f, std::uint32_t snap) {
+    if (snap == 1 || snap == 2)
+        f.x = float(snap - 1);
+    else if (snap == 3 || snap == 4)
+        f.y = float(snap - 3);
+    else if (snap > 4)
+        f = glm::vec2(float((snap - 5) & 1), float((snap - 5) >> 1));
+    return (base + f + 0.5f) / glm::vec2(float(layout.width), float(layout.height));
+}
+
+glm::vec2 snapLookup(const LightmapLayout& layout, glm::vec2 uv) {
+    if (layout.snaps.empty())
+        return uv;
+    const glm::vec2 size(float(layout.width), float(layout.height)), p = uv * size - 0.5f;
+    const glm::vec2 base = glm::floor(p), f = p - base;
+    if (!(base.x >= 0 && base.y >= 0 && base.x < size.x && base.y < size.y))
+        return uv;
+    const glm::uvec2 cell = glm::min(glm::uvec2(f * float(kSnapCells)), kSnapCells - 1U);
+    const std::uint32_t rows =
+        layout.snaps[std::size_t(base.y) * layout.width + std::size_t(base.x)];
+    const std::uint32_t snap = rows == 0 ? 0 : layout.snaps[rows + cell.y] >> 4 * cell.x & 15U;
+    return snap == 0 ? uv : snappedUv(layout, base, f, snap);
+}
+
 float backOffset(const LightmapLayout& layout, std::uint32_t instance) {
     return float(layout.instances[instance].backRows) / float(layout.height);
 }
 
-glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
-                     std::uint32_t triangle, float u, float v, bool back) {
+glm::vec2 unsnappedUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
+                      std::uint32_t triangle, float u, float v, bool back) {
     const std::vector<glm::vec2>& uv = layout.instances[instance].uv;
     const std::vector<std::uint32_t>& indices = layout.meshes[mesh].indices;
     const glm::vec2 front = uv[indices[3 * triangle]] * (1 - u - v) +
                             uv[indices[3 * triangle + 1]] * u + uv[indices[3 * triangle + 2]] * v;
     return {front.x, front.y + (back ? backOffset(layout, instance) : 0.f)};
+}
+
+glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
+                     std::uint32_t triangle, float u, float v, bool back) {
+    return snapLookup(layout, unsnappedUv(layout, instance, mesh, triangle, u, v, back));
 }
 
 } // namespace limn

@@ -27,7 +27,9 @@ struct AtlasTexel {
 struct Atlas {
     LightmapLayout layout;
     std::vector<AtlasTexel> texels; ///< ordered by texel; each texel once
-    float texelsPerMetre = 0;       ///< world density used
+    /// Per texel, whether some point of it lies open; empty until findTexelSides() says.
+    std::vector<std::uint8_t> open;
+    float texelsPerMetre = 0; ///< world density used
 };
 
 /// Places every static instance's charts in one atlas. A chart of extent e metres gets round(e *
@@ -55,8 +57,21 @@ Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv);
 /// How far below an instance's front its back lies, in normalised atlas coordinates.
 float backOffset(const LightmapLayout& layout, std::uint32_t instance);
 
-/// Normalised atlas coordinate at barycentrics (u, v) of a triangle, of its back where `back`; on a
-/// one-sided surface both are its front. Precondition: the instance has a lightmap.
+/// Moves a lookup to the side of walls that it belongs to: LightmapLayout::snaps. Not to be applied
+/// twice.
+glm::vec2 snapLookup(const LightmapLayout& layout, glm::vec2 uv);
+
+/// The lookup at `f`, in [0, 1]^2, between texel `base`, whole, and the next ones, after one of the
+/// kSnaps.
+glm::vec2 snappedUv(const LightmapLayout& layout, glm::vec2 base, glm::vec2 f, std::uint32_t snap);
+
+/// lightmapUv() before it is snapped.
+glm::vec2 unsnappedUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
+                      std::uint32_t triangle, float u, float v, bool back);
+
+/// Normalised atlas coordinate of the lookup at barycentrics (u, v) of a triangle, of its back
+/// where `back`; on a one-sided surface both are its front. Snapped. Precondition: the instance has
+/// a lightmap.
 glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
                      std::uint32_t triangle, float u, float v, bool back);
 

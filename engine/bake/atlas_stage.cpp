@@ -3,9 +3,9 @@
 
 #include "engine/bake/charts.h"
 #include "engine/bake/input_hash.h"
-#include "engine/bake/open_points.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
+#include "engine/bake/texel_sides.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 
@@ -43,11 +43,11 @@ std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& mes
     return h;
 }
 
-/// Of all that withOpenPoints reads.
-std::uint64_t openPointsKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
+/// Of all that findTexelSides reads.
+std::uint64_t texelSidesKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
                             std::uint64_t atlas) {
     const Scene& scene = trace.scene();
-    std::uint64_t h = hashValue(trace.epsilonAt(glm::vec3(0)), hashValue(atlas, 25));
+    std::uint64_t h = hashValue(trace.epsilonAt(glm::vec3(0)), hashValue(atlas, 31));
     for (const Instance& i : scene.instances) {
         h = hashValue(std::uint32_t(i.dynamic), hashValue(i.node, hashValue(meshes[i.mesh], h)));
         h = hashSurface(scene, scene.materialOf(i), hashBytes(&i.toWorld, sizeof i.toWorld, h));
@@ -70,12 +70,19 @@ std::optional<Atlas> atlasStage(const TraceScene& trace, const Scene& scene,
     if (progress.cancelled())
         return {};
     atlas.layout.meshes = std::move(charts);
-    using Texels = std::vector<AtlasTexel>;
-    atlas.texels = keptOrMade<Texels>(
-        store, openPointsKey(trace, meshes, key), progress, [](auto& a, auto& t) { a(t); },
-        [&] { return withOpenPoints(trace, progress, atlas, rays); });
+    TexelSides sides = keptOrMade<TexelSides>(
+        store, texelSidesKey(trace, meshes, key), progress,
+        [](auto& a, auto& s) { a(s.texels), a(s.open), a(s.snaps); },
+        [&] {
+            TexelSides made = findTexelSides(trace, atlas, progress);
+            rays += made.rays;
+            return made;
+        });
     if (progress.cancelled())
         return {};
+    atlas.texels = std::move(sides.texels);
+    atlas.open = std::move(sides.open);
+    atlas.layout.snaps = std::move(sides.snaps);
     return atlas;
 }
 

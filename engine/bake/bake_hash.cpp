@@ -16,7 +16,7 @@ std::uint64_t hashLayout(const LightmapLayout& layout, std::uint64_t h) {
     }
     for (const InstanceLightmap& i : layout.instances)
         h = hashValue(i.backRows, hashVector(i.uv, h));
-    return h;
+    return hashVector(layout.snaps, h);
 }
 
 std::uint64_t hashSettings(const BakeSettings& s, std::uint64_t h) {

@@ -83,21 +83,44 @@ std::uint32_t raysForPatches(const BakeSettings& settings) {
     return settings.rays < 128 ? 0 : std::min(settings.rays / 16, 32U);
 }
 
+/// Which cells of patches walls part from their surfels.
+PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
+                           const std::vector<std::uint64_t>& meshes, const Progress& progress,
+                           StageStore* store, std::uint64_t& rays) {
+    const std::uint64_t key =
+        hashValue(32, hashRecord(describeTrace(trace, set, owners, {}, {{0}}, 1, meshes)));
+    return keptOrMade<PatchSides>(
+        store, key, progress,
+        [](auto& archive, auto& s) {
+            archive(s.changed);
+            archive.each(s.owner, [&](auto& o) { archive(o); });
+        },
+        [&] {
+            PatchSides made = findPatchSides(trace, set, owners, progress);
+            rays += made.rays;
+            return made;
+        });
+}
+
 /// The surfels' places and their own caches, as the surface's caches see them.
 SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
-                             const OwnerTables& owners, const LightmapLayout& layout,
-                             const Caches& caches, const CachePoints& points, std::uint32_t looks,
+                             const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
+                             const CachePoints& points, std::uint32_t looks,
                              const std::vector<std::uint64_t>& meshes, const Progress& progress,
                              StageStore* store, std::uint64_t& rays) {
     const std::uint64_t rayStarts =
-        hashRecord(describeTrace(trace, set, caches, points, std::max(looks, 1U), meshes));
-    const std::uint64_t key = hashValue(layout.width * layout.height, hashValue(rayStarts, 29));
+        hashRecord(describeTrace(trace, set, owners, caches, points, std::max(looks, 1U), meshes));
+    const std::uint64_t key =
+        hashValue(atlas.layout.width * atlas.layout.height, hashValue(rayStarts, 33));
     return keptOrMade<SeenPatches>(
         store, key, progress,
-        [](auto& archive, auto& s) { archive(s.place), archive(s.own), archive(s.ownCache); },
+        [](auto& archive, auto& s) {
+            archive(s.place), archive(s.cache), archive(s.cacheWeight), archive(s.own);
+            archive(s.ownCache);
+        },
         [&] {
             SeenPatches made =
-                findSeenPatches(trace, set, owners, layout, caches, points, looks, progress);
+                findSeenPatches(trace, set, owners, atlas, caches, points, looks, progress);
             rays += made.rays;
             return made;
         });
@@ -176,13 +199,13 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     owners.stopWith(progress);
     if (store)
         owners.keep(*store, ownerKeys(set, meshes));
+    owners.part(patchSidesStage(trace, set, owners, meshes, progress, store, rays));
     const SeenPatches seenPatches =
-        seenPatchesStage(trace, set, owners, atlas.layout, result.caches, points,
+        seenPatchesStage(trace, set, owners, atlas, result.caches, points,
                          raysForPatches(scene.bake), meshes, progress, store, rays);
     if (progress.cancelled())
         return cancelled();
-    moveSurfels(scene, seenPatches.place, set);
-    connectSurfels(scene, atlas.layout, result.caches, set.surfels);
+    placeSeen(scene, seenPatches, set);
     addOwnCaches(scene, atlas.layout, seenPatches, set.surfels, result.caches, points);
     addGridCaches(result.gridSize, result.gridBounds, result.caches, points);
     clock.finish("caches");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cache_points.h"
 
+#include "engine/bake/texel_sides.h"
 #include "engine/math/sampling.h"
 
 #include <algorithm>
@@ -110,8 +111,8 @@ glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,
     return glm::clamp(glm::uvec3(glm::round(size / cell)), glm::uvec3(2), glm::uvec3(32));
 }
 
-void connectSurfels(const Scene& scene, const LightmapLayout& layout, const Caches& caches,
-                    Surfels& surfels) {
+void connectSurfels(const SideLookup& lookups, const Scene& scene, const LightmapLayout& layout,
+                    const Caches& caches, Surfels& surfels) {
     std::vector<std::uint32_t> cacheOfTexel(std::size_t(layout.width) * layout.height, ~0U);
     for (std::uint32_t i = 0; i < caches.lightmapCount; ++i)
         cacheOfTexel[caches.texel[i]] = i;
@@ -123,9 +124,7 @@ void connectSurfels(const Scene& scene, const LightmapLayout& layout, const Cach
         const Instance& instance = scene.instances[surfels.instance[s]];
         const MeshPoint at{surfels.triangle[s], surfels.barycentric[s]};
         const bool back = glm::dot(worldPoint(scene, instance, at).normal, surfels.normal[s]) < 0;
-        const glm::vec2 uv = lightmapUv(layout, surfels.instance[s], instance.mesh, at.triangle,
-                                        at.barycentric.x, at.barycentric.y, back);
-        const Bilinear lookup = bilinearAt(layout, uv);
+        const Bilinear lookup = bilinearAt(layout, lookups.uvOf(surfels.instance[s], at, back));
         float sum = 0;
         for (int k = 0; k < 4; ++k) {
             const std::uint32_t cache = cacheOfTexel[lookup.texel[k]];

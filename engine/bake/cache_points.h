@@ -6,6 +6,8 @@
 
 namespace limn {
 
+class SideLookup;
+
 /// Where a cache's rays start: ray r leaves points[r mod count], about that point's normal. A cache
 /// so gathers over the whole surface its texel stands for, folds and edges included, and the points
 /// that lie in a wall can be left out.
@@ -48,8 +50,9 @@ glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,
 /// and reads the nearest cells there.
 Bounds gridBoundsOf(const Scene& scene);
 
-/// Gives every surfel its four caches: the bilinear lookup at its side's place in the lightmap.
-void connectSurfels(const Scene& scene, const LightmapLayout& layout, const Caches& caches,
-                    Surfels& surfels);
+/// Gives every surfel its four caches: the bilinear lookup at its side's place in the lightmap,
+/// snapped by rays of its own.
+void connectSurfels(const SideLookup& lookup, const Scene& scene, const LightmapLayout& layout,
+                    const Caches& caches, Surfels& surfels);
 
 } // namespace limn

@@ -103,8 +103,8 @@ private:
         std::vector<double> worth;
         double sum = 0;
         for (const AimedSample& sample : all)
-            worth.push_back(sum += double(viewOf(set.surfels, points, caches.kind[cache], sample)
-                                              .transport));
+            worth.push_back(
+                sum += double(viewOf(set.surfels, points, caches.kind[cache], sample).transport));
         std::vector<AimedSample> chosen;
         const double step = sum / kMaxAimed,
                      start = double(unitFloat(mixBits(points.seed[cache] + 1))) * step;
@@ -187,8 +187,7 @@ RawHit RayGatherer::credit(const Hit& hit, glm::vec3 direction) const {
     const Instance& instance = scene.instances[hit.instance];
     const bool back = !hit.frontFace, passes = back && !isTwoSided(scene.materialOf(instance));
     const std::uint32_t surfel =
-        m_set.instanceBegin[hit.instance] +
-        m_owners.of(instance.mesh).at(hit.triangle, hit.u, hit.v, back && !passes);
+        m_owners.at(hit.instance, hit.triangle, hit.u, hit.v, back && !passes);
     return passes ? surfel | kBack : surfel;
 }
 
@@ -235,8 +234,8 @@ SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind k
         const float cosSender = -glm::dot(view.direction, surfels.normal[s]);
         if (!(cosSender > 0))
             return {};
-        view.transport = sample.scale * surfels.area[s] * cosSender /
-                         (d2 + surfels.area[s] / (2 * kPi)) / kPi;
+        view.transport =
+            sample.scale * surfels.area[s] * cosSender / (d2 + surfels.area[s] / (2 * kPi)) / kPi;
     }
     view.cosTheta = glm::dot(view.direction, points.normal[sample.point]);
     return kind == CacheKind::Hemisphere && !(view.cosTheta > 0) ? SenderView{} : view;

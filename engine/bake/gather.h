@@ -26,8 +26,9 @@ struct SenderView {
     glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
 };
 
-/// Times the sample's scale, of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which tends to 2 pi at contact; of
-/// a sky cell its own. A point of a Hemisphere cache sees nothing behind it.
+/// Times the sample's scale, of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which
+/// tends to 2 pi at contact; of a sky cell its own. A point of a Hemisphere cache sees nothing
+/// behind it.
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
                   const AimedSample& sample);
 

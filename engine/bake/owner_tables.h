@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/bake/patch_sides.h"
 #include "engine/bake/stage_store.h"
 #include "engine/bake/surfels.h"
 #include "engine/core/progress.h"
@@ -30,8 +31,23 @@ public:
         m_progress = {.report = {}, .cancel = progress.cancel};
     }
 
+    /// Tables of instances that walls part, from now on. Not while threads ask.
+    void part(PatchSides sides) { m_sides = std::move(sides); }
+    const PatchSides& sides() const { return m_sides; }
+
     /// Any thread may ask. Precondition: the mesh has surfels.
     const SurfelOwners& of(std::uint32_t mesh) const;
+
+    /// The surfel of the scene that stands for a point; `back` only on two-sided instances.
+    std::uint32_t at(std::uint32_t instance, std::uint32_t triangle, float u, float v,
+                     bool back) const {
+        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+        const std::uint32_t first = m_set.instanceBegin[instance];
+        if (m_sides.owner.empty() || m_sides.owner[instance].empty())
+            return first + owners.at(triangle, u, v, back);
+        return first +
+               m_sides.owner[instance][owners.cellAt(triangle, u, v) + (back ? owners.cells() : 0)];
+    }
 
 private:
     struct Lazy {
@@ -45,6 +61,7 @@ private:
     StageStore* m_store = nullptr;
     std::vector<std::uint64_t> m_keys;
     mutable std::vector<Lazy> m_tables; ///< per mesh
+    PatchSides m_sides;
 };
 
 } // namespace limn

@@ -2,6 +2,7 @@
 #include "engine/bake/seen_patches.h"
 
 #include "engine/bake/gather.h"
+#include "engine/bake/texel_sides.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 
@@ -258,8 +259,8 @@ OwnCache ownCache(const Sight& sight, const Surfels& moved,
 } // namespace
 
 SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
-                            const OwnerTables& owners, const LightmapLayout& layout,
-                            const Caches& caches, const CachePoints& points, std::uint32_t rays,
+                            const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
+                            const CachePoints& points, std::uint32_t rays,
                             const Progress& progress) {
     SeenPatches result;
     Sight sight{trace, set, owners, caches, points, rays};
@@ -274,7 +275,10 @@ SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
     });
     SurfelSet moved = set;
     moveSurfels(trace.scene(), result.place, moved);
-    connectSurfels(trace.scene(), layout, caches, moved.surfels);
+    const SideLookup lookup(trace, atlas);
+    connectSurfels(lookup, trace.scene(), atlas.layout, caches, moved.surfels);
+    result.cache = moved.surfels.cache;
+    result.cacheWeight = moved.surfels.cacheWeight;
     std::vector<float> wrong(count);
     parallelRanges(count, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t s = first; s < last; ++s)
@@ -284,15 +288,21 @@ SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
     for (const WrongGroup& group :
          worstGroups(moved.surfels, wrong,
                      std::min(std::size_t(caches.lightmapCount / kCachesPerOwn),
-                              freeTexels(layout, caches).size()))) {
+                              freeTexels(atlas.layout, caches).size()))) {
         for (const std::uint32_t s : group.surfels)
             result.ownCache[s] = std::uint32_t(result.own.size());
         result.own.push_back(ownCache(sight, moved.surfels, group.surfels));
     }
-    result.rays = std::uint64_t(caches.lightmapCount) * rays;
+    result.rays = std::uint64_t(caches.lightmapCount) * rays + lookup.rays();
     for (std::size_t s = 0; s < count; ++s)
         result.rays += sight.begin[s] < sight.begin[s + 1] ? rays : 0;
     return result;
+}
+
+void placeSeen(const Scene& scene, const SeenPatches& seen, SurfelSet& set) {
+    moveSurfels(scene, seen.place, set);
+    set.surfels.cache = seen.cache;
+    set.surfels.cacheWeight = seen.cacheWeight;
 }
 
 void moveSurfels(const Scene& scene, const std::vector<MeshPoint>& place, SurfelSet& set) {

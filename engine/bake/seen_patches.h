@@ -26,6 +26,9 @@ struct OwnCache {
 /// wall, on other sides of a bar, out of doors.
 struct SeenPatches {
     std::vector<MeshPoint> place; ///< per surfel: where on its patch it stands
+    /// Per surfel, Surfels::cache and cacheWeight before it reads one of its own.
+    std::vector<glm::uvec4> cache;
+    std::vector<glm::vec4> cacheWeight;
     std::vector<OwnCache> own;
     std::vector<std::uint32_t> ownCache; ///< per surfel: which of `own` it reads; ~0: none
     std::uint64_t rays = 0;              ///< traced for it
@@ -40,11 +43,14 @@ struct SeenPatches {
 /// largest: one for every kCachesPerOwn at most, and no more than the atlas has texels that no
 /// lookup needs. `caches`: the lightmap's. When cancelled, of no use.
 SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
-                            const OwnerTables& owners, const LightmapLayout& layout,
-                            const Caches& caches, const CachePoints& points, std::uint32_t rays,
+                            const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
+                            const CachePoints& points, std::uint32_t rays,
                             const Progress& progress);
 
-/// Puts surfels at their places. Those that stay keep every bit.
+/// Puts surfels at their places, where they read the lightmap. Those that stay keep every bit.
+void placeSeen(const Scene& scene, const SeenPatches& seen, SurfelSet& set);
+
+/// Puts surfels at `place`. Those that stay keep every bit.
 void moveSurfels(const Scene& scene, const std::vector<MeshPoint>& place, SurfelSet& set);
 
 /// Appends the caches, in texels that no lookup needs, and lets their surfels read them.

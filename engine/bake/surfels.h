@@ -59,11 +59,21 @@ public:
     /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
     /// ones.
     std::uint32_t at(std::uint32_t triangle, float u, float v, bool back) const {
+        return m_owner[cellAt(triangle, u, v)] + (back ? m_frontCount : 0);
+    }
+
+    /// The table's cell at barycentrics (u, v) of a triangle, < cells().
+    std::uint32_t cellAt(std::uint32_t triangle, float u, float v) const {
         const std::uint32_t n = m_resolution[triangle];
         const std::uint32_t i = std::min(std::uint32_t(u * float(n)), n - 1);
         const std::uint32_t j = std::min(std::uint32_t(v * float(n)), n - 1);
-        return m_owner[m_begin[triangle] + j * n + i] + (back ? m_frontCount : 0);
+        return m_begin[triangle] + j * n + i;
     }
+    std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
+    /// Cells along u and v of a triangle.
+    std::uint32_t resolution(std::uint32_t triangle) const { return m_resolution[triangle]; }
+    /// The surfel on the front of a cell.
+    std::uint32_t front(std::uint32_t cell) const { return m_owner[cell]; }
 
     /// Lists the tables for an archive.
     template <class A, class T>

@@ -29,7 +29,8 @@ std::uint64_t hashCache(const Caches& caches, const CachePoints& points, std::si
 
 template <class A, class R>
 void recordFields(A& a, R& r) {
-    a(r.rays), a(r.cachesPerBlock), a(r.clearance), a(r.instances), a(r.caches), a(r.blocks);
+    a(r.rays), a(r.cachesPerBlock), a(r.clearance), a(r.instances), a(r.parted), a(r.caches),
+        a(r.blocks);
 }
 
 } // namespace
@@ -41,8 +42,8 @@ std::uint32_t TraceRecord::surfels() const {
     return sum;
 }
 
-TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                          const CachePoints& points, std::uint32_t rays,
+TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
+                          const Caches& caches, const CachePoints& points, std::uint32_t rays,
                           const std::vector<std::uint64_t>& meshes) {
     const Scene& scene = trace.scene();
     TraceRecord record;
@@ -62,6 +63,7 @@ TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const C
                 {hashValue(surface[instance.material], meshes[instance.mesh]),
                  surfels[instance.mesh], instance.toWorld, count, i});
     }
+    record.parted = owners.sides().changed;
     record.caches.resize(caches.size());
     parallelRanges(caches.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
@@ -84,7 +86,7 @@ std::uint64_t hashRecord(const TraceRecord& r) {
         h = hashValue(i.shape, hashValue(i.surfels, hashValue(i.surfelCount, h)));
         h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
     }
-    return hashVector(r.caches, h);
+    return hashVector(r.caches, hashVector(r.parted, h));
 }
 
 std::string recordBytes(const TraceRecord& record) {
@@ -97,7 +99,8 @@ bool readRecord(const std::string& bytes, TraceRecord& record) {
     ByteReader reader(bytes);
     recordFields(reader, record);
     return reader.ok && reader.atEnd() && record.rays > 0 && record.cachesPerBlock > 0 &&
-           record.blocks.size() == record.blockCount();
+           record.blocks.size() == record.blockCount() &&
+           (record.parted.empty() || record.parted.size() == record.surfels());
 }
 
 InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) {
@@ -143,6 +146,14 @@ InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) 
     }
     for (const auto& [shape, count] : left)
         match.removed += count;
+    // A patch that another wall parts has other hits, though its surfel is where it was.
+    const auto partedAt = [](const TraceRecord& r, std::uint32_t s) {
+        return r.parted.empty() ? 0 : r.parted[s];
+    };
+    for (std::uint32_t s = 0; s < match.surfelNow.size(); ++s)
+        if (std::uint32_t& to = match.surfelNow[s];
+            to != InstanceMatch::kGone && partedAt(before, s) != partedAt(now, to))
+            to = InstanceMatch::kGone;
     for (std::uint32_t s = 0; s < match.surfelNow.size(); ++s)
         match.identity = match.identity &&
                          (match.surfelNow[s] == s || match.surfelNow[s] == InstanceMatch::kGone);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bake/cache_points.h"
+#include "engine/bake/owner_tables.h"
 #include "engine/bake/surfels.h"
 
 #include <cstdint>
@@ -29,6 +30,7 @@ struct TraceRecord {
     std::uint32_t cachesPerBlock = 1; ///< hits are stored in blocks of that many caches
     float clearance = 0;              ///< TraceScene::epsilonAt(0) [m]
     std::vector<TracedInstance> instances;
+    std::vector<std::uint64_t> parted; ///< PatchSides::changed of the surfels
     std::vector<std::uint64_t> caches; ///< hash of each cache's points and seed
     std::vector<std::uint64_t> blocks; ///< where each block's hits are kept; filled last
 
@@ -39,8 +41,8 @@ struct TraceRecord {
 };
 
 /// `meshes`: hashMeshes of the scene. Without `blocks`.
-TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                          const CachePoints& points, std::uint32_t rays,
+TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
+                          const Caches& caches, const CachePoints& points, std::uint32_t rays,
                           const std::vector<std::uint64_t>& meshes);
 
 /// Per mesh, of what its SurfelOwners follow from.

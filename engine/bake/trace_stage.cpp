@@ -82,7 +82,8 @@ public:
     Tracing(const TraceInput& input, const Progress& progress, StageStore* store, GatherHits& hits)
         : in(input), m_progress(progress), m_store(store), m_hits(hits),
           m_gatherer(in.trace, in.set, in.caches, in.points, in.rays, in.owners),
-          m_record(describeTrace(in.trace, in.set, in.caches, in.points, in.rays, in.meshes)),
+          m_record(
+              describeTrace(in.trace, in.set, in.owners, in.caches, in.points, in.rays, in.meshes)),
           m_key(hashRecord(m_record)), m_done(m_record.blockCount()), m_changed(in.caches.size()),
           m_left(m_done.size()) {}
 

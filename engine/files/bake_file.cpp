@@ -28,7 +28,7 @@ namespace limn {
 namespace {
 
 constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 36; // per chunk, unpacked: more is damage
 
 template <class A, class B>
@@ -54,6 +54,7 @@ void lightmapFields(A& a, B& b) {
     a(l.width), a(l.height);
     a.each(l.meshes, [&](auto& m) { chartFields(a, m); });
     a.each(l.instances, [&](auto& i) { a(i.uv), a(i.backRows); });
+    a(l.snaps);
 }
 
 template <class A, class B>
@@ -126,6 +127,22 @@ std::string linkDefect(const Bake& b) {
     return {};
 }
 
+/// Places lead to rows, and rows hold snaps that there are.
+std::string snapDefect(const std::vector<std::uint32_t>& snaps, std::uint64_t texels) {
+    if (snaps.empty())
+        return {};
+    if (snaps.size() < texels)
+        return "LIGHTMAP: snaps do not cover the texels";
+    for (std::uint64_t t = 0; t < texels; ++t)
+        if (snaps[t] != 0 && (snaps[t] < texels || snaps[t] > snaps.size() - kSnapCells))
+            return "LIGHTMAP: snaps out of range";
+    for (std::size_t row = texels; row < snaps.size(); ++row)
+        for (std::uint32_t cell = 0; cell < kSnapCells; ++cell)
+            if ((snaps[row] >> 4 * cell & 15) >= kSnaps)
+                return "LIGHTMAP: unknown snap";
+    return {};
+}
+
 /// Every index that relighting follows lies within its array.
 std::string indexDefect(const Bake& b) {
     const Surfels& s = b.surfels;
@@ -171,6 +188,8 @@ std::string indexDefect(const Bake& b) {
         if (c.linkBegin[i] > c.linkBegin[i + 1] || c.fillBegin[i] > c.fillBegin[i + 1])
             return "CACHES: offsets run backwards";
     }
+    if (const std::string defect = snapDefect(b.lightmap.snaps, texels); !defect.empty())
+        return defect;
     if (b.gridDepth.size() != cells * kGridDepthTexels)
         return "GRIDDEEP: not one map per cell";
     if (c.fillBegin.front() != 0 || c.fillBegin.back() != c.fillSource.size())

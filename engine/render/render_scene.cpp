@@ -112,6 +112,17 @@ static gpu::Buffer uploadLightmapUv(gpu::Uploader& uploader, const RenderScene& 
     return uploader.buffer(bytesOf(uv), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "lightmap uv");
 }
 
+static void uploadSnaps(gpu::Uploader& uploader, RenderScene& target) {
+    target.lookupSnaps = {};
+    target.lookupSize = glm::vec2(0);
+    const LightmapLayout* layout = target.layout.get();
+    if (!layout || layout->snaps.empty())
+        return;
+    target.lookupSnaps = uploader.buffer(std::as_bytes(std::span(layout->snaps)),
+                                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "lookup snaps");
+    target.lookupSize = glm::vec2(float(layout->width), float(layout->height));
+}
+
 // Whether the instances are those of last time but for transforms and materials.
 static bool sameInstances(const RenderScene& target, const Scene& scene) {
     if (target.instances.size() != scene.instances.size())
@@ -131,6 +142,7 @@ void updateRenderScene(gpu::Device& device, RenderScene& target, const Scene& sc
         target.assets = scene.assets;
         target.layout = std::move(layout);
         target.meshes.clear();
+        uploadSnaps(uploader, target);
         for (std::size_t i = 0; scene.assets && i < scene.assets->meshes.size(); ++i)
             target.meshes.push_back(uploadMesh(uploader, meshSource(target, i)));
     }

@@ -51,6 +51,8 @@ struct RenderScene {
     std::shared_ptr<const LightmapLayout> layout;
     std::vector<GpuMesh> meshes; ///< as Assets::meshes
     std::vector<GpuInstance> instances;
+    gpu::Buffer lookupSnaps; ///< LightmapLayout::snaps; empty: none
+    glm::vec2 lookupSize{0}; ///< the lightmap's size in texels; 0: no snaps
     Bounds bounds;
     /// Grows when anything that casts a shadow changed: meshes, instances, transforms, masks.
     std::uint64_t version = 0;

@@ -44,7 +44,8 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -225,6 +226,7 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
     frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
     frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
     frame.rayUp = rayDirection(options.camera, aspect, 0, 1) - frame.rayCentre;
+    frame.lookupSize = scene.lookupSize;
     frame.pixelSize = 1.f / glm::vec2(options.width, options.height);
     // Depth is (a + b / distance) with a, b of the projection's third row.
     const DepthRange range = depthRange(options, scene.bounds);
@@ -251,6 +253,8 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
     gpu::writeTexture(device, slot.set, 9, surfaces.emitted.view, texelSampler.handle);
     gpu::writeTexture(device, slot.set, 10, surfaces.receiver.view, texelSampler.handle);
     gpu::writeTexture(device, slot.set, 11, reflectionTable.view, lightmapSampler.handle);
+    gpu::writeBuffer(device, slot.set, 12, kFrameTypes[12],
+                     scene.lookupSnaps ? scene.lookupSnaps.handle : indirect.field->grid.handle);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,

@@ -22,6 +22,8 @@ glm::vec3 triangleNormal(const Mesh& mesh, std::size_t triangle);
 struct MeshPoint {
     std::uint32_t triangle;
     glm::vec2 barycentric; ///< (u, v), weights (1-u-v, u, v)
+
+    bool operator==(const MeshPoint&) const = default;
 };
 
 /// The point of weights (1-u-v, u, v), object space.

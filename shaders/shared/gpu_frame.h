@@ -28,7 +28,7 @@ struct GpuFrame {
     vec3 rayCentre; float depthScale;  // ray of the picture's middle, 1 m deep; distance along it is
     vec3 rayRight;  float depthOffset; // depthScale / (depth + depthOffset)
     vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m, 0: no depths
-    vec2 pixelSize; vec2 pad1;         // 1 / picture's size in pixels
+    vec2 pixelSize; vec2 lookupSize;   // 1 / picture's size in pixels; texels of the lightmap, 0: no snaps
     vec3 background; float fieldUnit;  // nits, where no surface is; what the field's halfs count
 };
 

@@ -45,7 +45,7 @@ struct Prepared {
         std::uint64_t rays = 0;
         atlas = *atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
         caches = placeCaches(scene, atlas, points);
-        seen = findSeenPatches(trace, set, owners, atlas.layout, caches, points, 32, {});
+        seen = findSeenPatches(trace, set, owners, atlas, caches, points, 32, {});
     }
 };
 
@@ -95,9 +95,8 @@ TEST(SeenPatches, CachesOfTheirOwnTakeTexelsThatNoLookupNeeds) {
     const std::size_t own = p.seen.own.size();
     ASSERT_GT(own, 0U);
     EXPECT_LE(own, texels / 20);
-    moveSurfels(p.trace.scene(), p.seen.place, p.set);
+    placeSeen(p.trace.scene(), p.seen, p.set);
     Surfels& s = p.set.surfels;
-    connectSurfels(p.trace.scene(), p.atlas.layout, p.caches, s);
     const Surfels before = s;
     addOwnCaches(p.trace.scene(), p.atlas.layout, p.seen, s, p.caches, p.points);
     ASSERT_EQ(p.caches.lightmapCount, texels + own);

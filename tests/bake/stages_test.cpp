@@ -68,8 +68,8 @@ Bake baked(const Scene& scene, StageStore* store = nullptr) {
     return result ? std::move(*result) : Bake{};
 }
 
-/// Rays that look which points of the texels are open, and where the surfels' patches are seen;
-/// anew whenever anything moves.
+/// Rays that look which points of the texels are open and on which side of walls they and the
+/// surfels' patches lie, and where patches are seen; again whenever anything moves.
 std::uint64_t looksOf(const Scene& scene) {
     const TraceScene trace(scene);
     std::uint64_t rays = 0;
@@ -77,9 +77,13 @@ std::uint64_t looksOf(const Scene& scene) {
     const SurfelSet set = placeSurfels(scene, scene.bake.surfels);
     CachePoints points;
     const Caches caches = placeCaches(scene, *atlas, points);
-    return rays + findSeenPatches(trace, set, OwnerTables(scene, set), atlas->layout, caches,
-                                  points, scene.bake.rays / 16, {})
-                      .rays;
+    OwnerTables owners(scene, set);
+    PatchSides sides = findPatchSides(trace, set, owners, {});
+    rays += sides.rays;
+    owners.part(std::move(sides));
+    return rays +
+           findSeenPatches(trace, set, owners, *atlas, caches, points, scene.bake.rays / 16, {})
+               .rays;
 }
 
 std::string notesOf(const Bake& bake) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/trace/trace_scene.h"
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+/// Whether nothing static stands between two points above a surface but the surface itself, which
+/// may bend between them: hits for which own(hit) is true do not count.
+template <class Own>
+bool clearAlong(const TraceScene& trace, glm::vec3 from, glm::vec3 to, Own own) {
+    constexpr int kMaxOwn = 4; ///< times that a segment passes the surface
+    const glm::vec3 way = to - from;
+    const float distance = glm::length(way);
+    if (!(distance > 0))
+        return true;
+    Ray ray{from, way / distance, 0, distance};
+    for (int i = 0; i < kMaxOwn && ray.tNear < distance; ++i) {
+        const Hit hit = trace.closestHit(ray, TraceMask::Static);
+        if (!hit)
+            return true;
+        if (!own(hit))
+            return false;
+        ray.tNear = hit.t + trace.epsilonAt(hit.position);
+    }
+    return true;
+}
+
+} // namespace limn

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "engine/math/sampling.h"
+#include "tests/relight/relit.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+/// A hall of 8 x 3 x 4 m and a wall across it at x = 3.7 m that leaves nothing open: a sheet that
+/// shows both sides, or a solid. The hall's floor, ceiling and long walls are one surface each on
+/// both sides of it. One lamp hangs in the larger part.
+Scene partedHall(float wall, std::uint32_t texels) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.7f)));
+    Material sheet = lambert(glm::vec3(0.7f));
+    sheet.doubleSided = true;
+    b.addMaterial(sheet);
+    b.add(box(glm::vec3(0), glm::vec3(8, 3, 4), true));
+    if (wall > 0)
+        b.add(box({3.7f, -0.1f, -0.1f}, {3.7f + wall, 3.1f, 4.1f}, false));
+    else
+        b.add(quad({3.7f, -0.1f, -0.1f}, {0, 3.2f, 0}, {0, 0, 4.2f}, 1));
+    b.scene.lights.resize(1);
+    b.scene.lights[0].position = {6, 2, 2};
+    b.scene.lights[0].strength = 10;
+    Scene scene = b.build();
+    scene.bake.lightmapCaches = texels;
+    scene.bake.surfels = 4 * texels;
+    scene.bake.rays = 256;
+    return scene;
+}
+
+/// Mean bounced irradiance where rays from a few points of either part meet surfaces: the dark
+/// part's over the other's. 0 in truth.
+double leak(const Scene& scene, float wall) {
+    const Relit hall(scene);
+    std::array<double, 2> sum{};
+    constexpr std::uint32_t kRays = 4096;
+    const DirectionSet directions(kRays, true, 1);
+    for (const std::size_t part : {0U, 1U})
+        for (std::uint32_t r = 0; r < kRays; ++r) {
+            const glm::vec3 eye(part == 0 ? 1.9f : (3.7f + wall + 8) / 2, 1.4f, 2.1f);
+            const Hit hit = hall.trace.closestHit({eye, directions[r]});
+            if (!hit)
+                continue; // never, in a closed hall
+            const glm::vec3 normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal;
+            sum[part] += double(sampleIrradiance({hall.relighter.field(), hall.baked->lightmap,
+                                                  scene, hit.instance, hit.triangle, hit.u, hit.v,
+                                                  hit.position, normal, !hit.frontFace})
+                                    .x);
+        }
+    EXPECT_GT(sum[1], 0);
+    return sum[0] / sum[1];
+}
+
+class WallLeak : public testing::TestWithParam<std::tuple<float, std::uint32_t>> {};
+
+// A texel is 20, 40 and 80 cm wide.
+TEST_P(WallLeak, IsBelowOnePerCentForWallsOfAnyThickness) {
+    const auto [wall, texels] = GetParam();
+    const double share = leak(partedHall(wall, texels), wall);
+    RecordProperty("leak", std::to_string(share));
+    EXPECT_LT(share, 0.01) << wall << " m, " << texels << " texels";
+}
+
+INSTANTIATE_TEST_SUITE_P(Walls, WallLeak,
+                         testing::Combine(testing::Values(0.f, 0.001f, 0.01f, 0.1f, 1.f),
+                                          testing::Values(250U, 1000U, 4000U)));
+
+} // namespace
+} // namespace limn
