@@ -8,6 +8,7 @@
 #include "engine/bake/fill_invalid.h"
 #include "engine/bake/grid_depth.h"
 #include "engine/bake/input_hash.h"
+#include "engine/bake/rooms.h"
 #include "engine/bake/seen_patches.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
@@ -222,15 +223,18 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     clock.finish("trace");
     const std::vector<float> seen =
         seenByCaches(set.surfels, hits, points, result.caches, result.tree);
-    weighBySight(seen, result.tree);
     rays += traced->rays;
     TrainingLight training; // read by the detail cut alone
     if (scene.bake.cut == CutCriterion::Detail) {
         const TracedTraining light = trainingStage(trace, set.surfels, *traced, progress, store);
         if (progress.cancelled())
             return cancelled();
+        result.tree = splitByRoom(result.tree, set.surfels, findRooms(light));
+        weighBySight(seen, result.tree);
         training = trainingLight(scene, set.surfels, result.tree, seen, light);
         rays += light.rays;
+    } else {
+        weighBySight(seen, result.tree);
     }
     clock.finish("training");
     if (!buildLinks(set.surfels, result.tree, hits, points, training,

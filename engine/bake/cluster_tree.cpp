@@ -107,6 +107,8 @@ std::uint32_t appendSky(ClusterTree& tree) {
         tree);
 }
 
+} // namespace
+
 void fillWeightsAndParents(const Surfels& surfels, ClusterTree& tree) {
     // Sky cells have no area. Any equal weight serves: nothing but the root joins them with
     // surfels.
@@ -121,8 +123,6 @@ void fillWeightsAndParents(const Surfels& surfels, ClusterTree& tree) {
         tree.parent[l] = tree.parent[r] = node;
     }
 }
-
-} // namespace
 
 std::uint32_t skyCellOf(glm::vec3 d) {
     const float turn = std::atan2(d.z, d.x) / (2 * std::numbers::pi_v<float>)+0.5f;

@@ -22,6 +22,9 @@ glm::vec3 skyCellDirection(std::uint32_t cell);
 ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set,
                              const Progress& progress = {}, StageStore* store = nullptr);
 
+/// Fills leftWeight by area, and parent, from the children.
+void fillWeightsAndParents(const Surfels& surfels, ClusterTree& tree);
+
 /// Per node whether nothing but sky is below it: a link to it brings nothing while the sky is
 /// black.
 std::vector<bool> skyNodes(const ClusterTree& tree);

@@ -19,8 +19,9 @@ public:
     /// Compression. 2016
     void bySolidAngle(const VisibleTree& seen);
 
-    /// By how much the squared error of irradiance falls, per link spent; the mean over the
-    /// training lightings, plus a prior for what they do not show. The error of a link is what its
+    /// By how much the squared error of irradiance falls, per link spent, in proportion to the
+    /// irradiance that the cache has in each training lighting; the mean over those lightings, plus
+    /// a prior for what they do not show. The error of a link is what its
     /// senders truly bring less what its mean radiosity would; errors of different links count as
     /// independent. A node whose own refinement gains little but opens the way to better ones is
     /// worth the mean gain of the best group of refinements that it heads: so every bound on the
@@ -45,12 +46,14 @@ private:
         float worth() const { return gain / float(count); }
     };
 
+    void weighLightings(const VisibleTree& seen, const TrainingLight& training);
     void measureGains(const VisibleTree& seen, const TrainingLight& training);
     void joinGroups(const VisibleTree& seen);
     std::uint32_t rankOf(std::uint32_t heap) const;
     std::uint32_t merge(std::uint32_t a, std::uint32_t b);
 
     std::vector<float> m_worth;
+    std::vector<float> m_weight;  ///< of squared errors, per lighting and, last, of the prior
     std::vector<float> m_brought; ///< what senders of nodes truly bring in each lighting; a stack
     std::vector<float> m_error;   ///< squared, of one link to the node
     std::vector<Group> m_groups;

@@ -14,8 +14,8 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kSuns = 20, kLamps = 32, kSkies = 4, kEmitters = 8;
-static_assert(kSuns + kLamps == TracedTraining::kCount);
+constexpr std::uint32_t kSuns = TracedTraining::kSuns, kLamps = TracedTraining::kLamps, kSkies = 4,
+                        kEmitters = 8;
 static_assert(kSuns + kLamps + kSkies + kEmitters == TrainingLight::kCount);
 
 /// Suns and lamps may be anywhere, emitters are where they are: so their light counts for more. At
@@ -144,10 +144,8 @@ void normalise(const std::vector<float>& seen, TrainingLight& out) {
     }
     float scale[TrainingLight::kCount];
     for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
-        const float weight = t < kSuns + kLamps            ? 1
-                             : t < kSuns + kLamps + kSkies ? kSkyWeight
-                                                           : kEmitterWeight;
-        scale[t] = squares[t] > 0 ? float(std::sqrt(total / squares[t])) * weight : 0;
+        scale[t] =
+            squares[t] > 0 ? float(std::sqrt(total / squares[t])) * TrainingLight::strength(t) : 0;
     }
     for (std::size_t i = 0; i < seen.size() * TrainingLight::kCount; ++i)
         out.radiosity[i] *= scale[i % TrainingLight::kCount];
@@ -164,6 +162,10 @@ void pull(const ClusterTree& tree, TrainingLight& out) {
 }
 
 } // namespace
+
+float TrainingLight::strength(std::uint32_t t) {
+    return t < kSuns + kLamps ? 1 : t < kSuns + kLamps + kSkies ? kSkyWeight : kEmitterWeight;
+}
 
 TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                              const EarlierTraining* earlier, const Progress& progress) {

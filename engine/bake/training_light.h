@@ -24,6 +24,9 @@ struct TrainingLight {
     /// everywhere.
     std::vector<float> radiosity;
 
+    /// Root mean square of lighting `t` over what the caches see.
+    static float strength(std::uint32_t t);
+
     const float* row(std::uint32_t node) const {
         return radiosity.data() + std::size_t(node) * kCount;
     }
@@ -31,7 +34,10 @@ struct TrainingLight {
 
 /// Irradiance of the training suns and lamps at the surfels: all that rays are needed for.
 struct TracedTraining {
-    static constexpr std::uint32_t kCount = 52;
+    static constexpr std::uint32_t kSuns = 20, kLamps = 32, kCount = kSuns + kLamps;
+
+    /// Irradiance of lamp `k` at surfel `s`.
+    float lamp(std::size_t s, std::uint32_t k) const { return irradiance[s * kCount + kSuns + k]; }
 
     std::vector<float> irradiance;   ///< [surfel * kCount + light]; empty when cancelled
     std::vector<glm::vec3> lamps;    ///< where they hang
