@@ -29,14 +29,15 @@ enum class CutCriterion : std::uint8_t { Detail, SolidAngle };
 enum class LinkStorage : std::uint8_t { Rtp, Sh };
 
 /// What a bake depends on besides the scene. Part of the document. Defaults suit a room or a small
-/// building.
+/// building: what a texel misses weighs more there than what a link or a ray does, so texels come
+/// first, and links and rays share what is left of the time.
 struct BakeSettings {
-    std::uint32_t surfels = 16384; ///< n_S, target over the scene; [64, 1 << 20]
-    std::uint32_t links = 256;     ///< n_L per cache, a mean with CutCriterion::Detail; [1, 4096]
+    std::uint32_t surfels = 32768; ///< n_S, target over the scene; [64, 1 << 20]
+    std::uint32_t links = 128;     ///< n_L per cache, a mean with CutCriterion::Detail; [1, 4096]
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
-    std::uint32_t rays = 1024;     ///< R per cache; [16, 65536]
+    std::uint32_t rays = 512;      ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
-        10000;                     ///< target count of lightmap caches; 0 with texelsPerMetre > 0
+        24000;                     ///< target count of lightmap caches; 0 with texelsPerMetre > 0
     float texelsPerMetre = 0;      ///< > 0: fixes the texel density instead
     glm::uvec3 grid{0};            ///< cells of the grid caches; 0: chosen from the bounds
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
