@@ -133,6 +133,23 @@ double bestCut(const VisibleTree& seen, const std::vector<double>& gain, std::ui
     return std::max(0.0, gain[node] - bound + below);
 }
 
+/// By the definition: 1 / (r^2 + 0.01^2), r being the irradiance of a lighting over what is usual
+/// in it; the last one is the prior's, whose senders are of radiosity 1.
+std::array<double, TrainingLight::kCount + 1> errorWeights(const VisibleTree& seen,
+                                                           const TrainingLight& training) {
+    std::array<double, TrainingLight::kCount + 1> E{}, weight;
+    for (std::uint32_t n = 0; n < seen.leaves(); ++n) {
+        const double share = double(seen.sight[n].irradiance);
+        for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
+            E[t] +=
+                share * double(training.row(seen.node[n])[t]) / double(TrainingLight::strength(t));
+        E.back() += share;
+    }
+    for (std::size_t t = 0; t < E.size(); ++t)
+        weight[t] = 1 / (E[t] * E[t] + 1e-4);
+    return weight;
+}
+
 TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
     const Fixture& f = fixture();
     const SenderOrder order(f.tree);
@@ -142,6 +159,7 @@ TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
     for (int i = 0; i < 30; ++i) {
         look(rng, f.tree, 80, seen);
         worth.byDetail(seen, f.training);
+        const auto weight = errorWeights(seen, f.training);
         // Gains by the definition, in doubles.
         std::vector<std::array<double, TrainingLight::kCount>> brought(seen.size());
         std::vector<double> error(seen.size()), gain(seen.size());
@@ -152,14 +170,15 @@ TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
                 brought[n][t] = n < seen.leaves()
                                     ? linked
                                     : brought[seen.child(n, 0)][t] + brought[seen.child(n, 1)][t];
-                error[n] +=
-                    (brought[n][t] - linked) * (brought[n][t] - linked) / TrainingLight::kCount;
+                error[n] += weight[t] * (brought[n][t] - linked) * (brought[n][t] - linked) /
+                            TrainingLight::kCount;
             }
         double all = 0;
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
             gain[n] = error[n] - error[l] - error[r] +
-                      0.03 * double(seen.sight[l].irradiance) * double(seen.sight[r].irradiance);
+                      0.03 * weight.back() * double(seen.sight[l].irradiance) *
+                          double(seen.sight[r].irradiance);
             all += std::abs(gain[n]);
         }
         for (const float bound : worth.worth()) {
