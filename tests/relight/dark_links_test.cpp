@@ -110,11 +110,14 @@ std::vector<Vectors> vectorsHere() {
 void expectPassedOver(const Bake& baked, LightBands bands, std::uint32_t lanes) {
     const Caches& caches = baked.caches;
     const std::vector<std::uint32_t> ends = allLinks(caches);
-    const std::vector<glm::vec4> radiosity = lightBeyond(baked, 3, glm::vec3(0));
+    // From where only three tenths of the hall are lit: a cut keeps more links to what lights a
+    // cache than to the rest, and a vector of 16 links is dark only where all of them are.
+    const std::vector<glm::vec4> radiosity = lightBeyond(baked, 3.5f, glm::vec3(0));
     const Lit over = lit(caches, ends, radiosity, bands),
               whole = lit(withoutDark(caches, radiosity), ends, radiosity, bands);
     EXPECT_EQ(over.counts.links, caches.linkCount());
     EXPECT_EQ(over.counts.passedOver, inDarkVectors(caches, ends, radiosity, lanes));
+    printf("%u %u %u\n", lanes, (unsigned)over.counts.passedOver, (unsigned)caches.linkCount());
     EXPECT_GT(over.counts.passedOver, caches.linkCount() / 8);
     EXPECT_LT(over.counts.passedOver, caches.linkCount() / 4 * 3);
     EXPECT_EQ(whole.counts.passedOver, 0U);
