@@ -117,7 +117,6 @@ void expectPassedOver(const Bake& baked, LightBands bands, std::uint32_t lanes) 
               whole = lit(withoutDark(caches, radiosity), ends, radiosity, bands);
     EXPECT_EQ(over.counts.links, caches.linkCount());
     EXPECT_EQ(over.counts.passedOver, inDarkVectors(caches, ends, radiosity, lanes));
-    printf("%u %u %u\n", lanes, (unsigned)over.counts.passedOver, (unsigned)caches.linkCount());
     EXPECT_GT(over.counts.passedOver, caches.linkCount() / 8);
     EXPECT_LT(over.counts.passedOver, caches.linkCount() / 4 * 3);
     EXPECT_EQ(whole.counts.passedOver, 0U);
