@@ -44,7 +44,7 @@ Figures measure(std::uint64_t seed) {
     drawn.view = View::Irradiance;
     drawn.width = 64;
     drawn.height = 36;
-    drawn.samplesPerPixel = 4;
+    drawn.samplesPerPixel = 32;
     const auto picture = [&](const Camera& camera) {
         drawn.camera = camera;
         return renderField(trace, relighter.field(), shared->lightmap, drawn);
@@ -73,24 +73,26 @@ struct Ceiling {
 /// No scene may get worse. Each ceiling is what the bake's method gave when the test was written,
 /// measured with eight times the samples, and about a tenth more (0.003 where that is more), so
 /// that nothing but a change of the method meets it; what makes a scene better may lower it. Errors
-/// are those of a coarse bake, and no promise of what default settings give. Doors ajar and houses
-/// on large planes are missing: their errors are so large that a ceiling would guard nothing.
+/// are those of a coarse bake, and no promise of what default settings give. Houses on large planes
+/// and a narrower door are missing: their errors, or the noise of so few paths, are so large that a
+/// ceiling would guard nothing.
 constexpr Ceiling kCeilings[] = {
-    {0, 0.005, 0.022},        // room without thickness, ten times as large
-    {1, 0.036, 0.19, 0.0075}, // two rooms: the light in the dark one is a leak
-    {3, 0.008, 0.106},        // colonnade at a hundredth of its size, textured
+    {0, 0.005, 0.013},        // room without thickness, ten times as large
+    {1, 0.056, 0.19, 0.0075}, // two rooms: the light in the dark one is a leak
+    {3, 0.008, 0.1},          // colonnade at a hundredth of its size, textured
     {5, 0.017, 0.019},        // cave, curved, a hundred times as large
     {7, 0.043, 0.160},        // blinds: bright stripes from thin slats
-    {9, 0.056, 0.080},        // lamps, which caches aim at
-    {13, 0.003, 0.028},       // court
-    {15, 0.046, 0.079},       // street, textured
-    {20, 0.030, 0.245},       // lamps in a solid double-sided room
-    {39, 0.024, 0.140},       // furnished box: many thin double-sided pieces
+    {9, 0.019, 0.026},        // lamps, which caches aim at
+    {13, 0.003, 0.016},       // court
+    {15, 0.045, 0.072},       // street, textured
+    {19, 0.187, 0.98},        // door ajar: nearly all light comes through its gap
+    {20, 0.030, 0.119},       // lamps in a solid double-sided room
+    {39, 0.005, 0.110},       // furnished box: many thin double-sided pieces
 };
 
 } // namespace
 
-TEST(GalleryError, TenSmallScenesAreNoWorseThanTheyWere) {
+TEST(GalleryError, ElevenSmallScenesAreNoWorseThanTheyWere) {
     for (const Ceiling& ceiling : kCeilings) {
         const Figures f = measure(ceiling.seed);
         SCOPED_TRACE("generated:" + std::to_string(ceiling.seed));
