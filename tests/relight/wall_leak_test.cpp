@@ -50,10 +50,10 @@ double leak(const Scene& scene, float wall) {
             if (!hit)
                 continue; // never, in a closed hall
             const glm::vec3 normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal;
-            sum[part] += double(sampleIrradiance({hall.relighter.field(), hall.baked->lightmap,
-                                                  scene, hit.instance, hit.triangle, hit.u, hit.v,
-                                                  hit.position, normal, !hit.frontFace})
-                                    .x);
+            sum[part] += double(
+                sampleIrradiance({hall.relighter.field(), hall.baked->lightmap, scene, hit.instance,
+                                  hit.triangle, hit.u, hit.v, hit.position, normal, !hit.frontFace})
+                    .x);
         }
     EXPECT_GT(sum[1], 0);
     return sum[0] / sum[1];
