@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/sampling.h"
+#include "tests/bake/parted_hall.h"
 #include "tests/relight/relit.h"
-#include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -9,32 +9,6 @@
 
 namespace limn {
 namespace {
-
-using namespace simple;
-
-/// A hall of 8 x 3 x 4 m and a wall across it at x = 3.7 m that leaves nothing open: a sheet that
-/// shows both sides, or a solid. The hall's floor, ceiling and long walls are one surface each on
-/// both sides of it. One lamp hangs in the larger part.
-Scene partedHall(float wall, std::uint32_t texels) {
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.7f)));
-    Material sheet = lambert(glm::vec3(0.7f));
-    sheet.doubleSided = true;
-    b.addMaterial(sheet);
-    b.add(box(glm::vec3(0), glm::vec3(8, 3, 4), true));
-    if (wall > 0)
-        b.add(box({3.7f, -0.1f, -0.1f}, {3.7f + wall, 3.1f, 4.1f}, false));
-    else
-        b.add(quad({3.7f, -0.1f, -0.1f}, {0, 3.2f, 0}, {0, 0, 4.2f}, 1));
-    b.scene.lights.resize(1);
-    b.scene.lights[0].position = {6, 2, 2};
-    b.scene.lights[0].strength = 10;
-    Scene scene = b.build();
-    scene.bake.lightmapCaches = texels;
-    scene.bake.surfels = 4 * texels;
-    scene.bake.rays = 256;
-    return scene;
-}
 
 /// Mean bounced irradiance where rays from a few points of either part meet surfaces: the dark
 /// part's over the other's. 0 in truth.

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/trace/simple_scene.h"
+
+namespace limn {
+
+/// A hall of 8 x 3 x 4 m and a wall across it at x = 3.7 m that leaves nothing open: a sheet that
+/// shows both sides, or a solid. The hall's floor, ceiling and long walls are one surface each on
+/// both sides of it. One lamp hangs in the larger part.
+inline Scene partedHall(float wall, std::uint32_t texels) {
+    using namespace simple;
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.7f)));
+    Material sheet = lambert(glm::vec3(0.7f));
+    sheet.doubleSided = true;
+    b.addMaterial(sheet);
+    b.add(box(glm::vec3(0), glm::vec3(8, 3, 4), true));
+    if (wall > 0)
+        b.add(box({3.7f, -0.1f, -0.1f}, {3.7f + wall, 3.1f, 4.1f}, false));
+    else
+        b.add(quad({3.7f, -0.1f, -0.1f}, {0, 3.2f, 0}, {0, 0, 4.2f}, 1));
+    b.scene.lights.resize(1);
+    b.scene.lights[0].position = {6, 2, 2};
+    b.scene.lights[0].strength = 10;
+    Scene scene = b.build();
+    scene.bake.lightmapCaches = texels;
+    scene.bake.surfels = 4 * texels;
+    scene.bake.rays = 256;
+    return scene;
+}
+
+} // namespace limn
