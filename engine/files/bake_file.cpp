@@ -134,7 +134,8 @@ std::string snapDefect(const std::vector<std::uint32_t>& snaps, std::uint64_t te
     if (snaps.size() < texels)
         return "LIGHTMAP: snaps do not cover the texels";
     for (std::uint64_t t = 0; t < texels; ++t)
-        if (snaps[t] != 0 && (snaps[t] < texels || snaps[t] > snaps.size() - kSnapCells))
+        if (snaps[t] != 0 &&
+            (snaps[t] < texels || std::uint64_t(snaps[t]) + kSnapCells > snaps.size()))
             return "LIGHTMAP: snaps out of range";
     for (std::size_t row = texels; row < snaps.size(); ++row)
         for (std::uint32_t cell = 0; cell < kSnapCells; ++cell)

@@ -2,6 +2,7 @@
 #include "engine/files/bake_file.h"
 
 #include "engine/relight/relight.h"
+#include "tests/bake/parted_hall.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -168,6 +169,61 @@ TEST_F(BakeFile, WhatIsNoNumberOrBringsLightFromNowhereIsRefusedEvenWithRightChe
     const Bake harmonics = *bake(TraceScene(scene));
     refuses(harmonics, "CACHES", [&](Bake& b) { b.caches.shCoefficients[40] = 0xfc00; });
     refuses(harmonics, "CACHES", [&](Bake& b) { b.caches.linkExponent[2] = 3; });
+}
+
+TEST_F(BakeFile, SnapsOfLookupsLoadBackAndAreRefusedWhereTheyLeadNowhere) {
+    Scene hall = partedHall(0, 150);
+    hall.bake.surfels = 200;
+    hall.bake.rays = 32;
+    hall.bake.links = 8;
+    const Bake parted = *bake(TraceScene(hall));
+    const std::size_t texels = std::size_t(parted.lightmap.width) * parted.lightmap.height;
+    ASSERT_GT(parted.lightmap.snaps.size(), texels);
+    ASSERT_TRUE(writeBake(path, parted));
+    const Result<Bake> loaded = readBake(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->lightmap, parted.lightmap);
+    EXPECT_EQ(loaded->hash(), parted.hash());
+
+    const auto refusal = [&](auto damage) {
+        Bake broken = parted;
+        damage(broken.lightmap.snaps);
+        EXPECT_TRUE(writeBake(path, broken));
+        const Result<Bake> read = readBake(path);
+        return read ? "nothing" : read.error().message;
+    };
+    using Snaps = std::vector<std::uint32_t>;
+    const auto expectRefused = [&](const char* message, auto damage) {
+        const std::string said = refusal(damage);
+        EXPECT_NE(said.find(std::string("LIGHTMAP: ") + message), std::string::npos) << said;
+        EXPECT_NE(said.find(path), std::string::npos) << said;
+    };
+    EXPECT_EQ(refusal([&](Snaps& s) { s[0] = std::uint32_t(texels); }), "nothing");
+    EXPECT_EQ(refusal([&](Snaps& s) { s[0] = std::uint32_t(s.size()) - kSnapCells; }), "nothing");
+    expectRefused("snaps out of range", [&](Snaps& s) { s[0] = std::uint32_t(texels) - 1; });
+    expectRefused("snaps out of range", [](Snaps& s) { s[0] = std::uint32_t(s.size()) - 7; });
+    expectRefused("snaps out of range", [](Snaps& s) { s[0] = ~0U; });
+    expectRefused("snaps do not cover the texels", [&](Snaps& s) { s.resize(texels - 1); });
+    expectRefused("unknown snap", [&](Snaps& s) { s[texels] = kSnaps; });
+    expectRefused("unknown snap", [](Snaps& s) { s.back() = 0xf0000000; });
+}
+
+TEST_F(BakeFile, SnapsOfFewerTexelsThanARowHasAreRefusedToo) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(1)));
+    b.add(quad(glm::vec3(0), {1, 0, 0}, {0, 1, 0}));
+    Scene small = b.build();
+    small.bake.surfels = 64;
+    small.bake.lightmapCaches = 1;
+    small.bake.rays = 16;
+    Bake broken = *bake(TraceScene(small));
+    const std::size_t texels = std::size_t(broken.lightmap.width) * broken.lightmap.height;
+    broken.lightmap.snaps.assign(texels, 0);
+    ASSERT_TRUE(writeBake(path, broken));
+    EXPECT_TRUE(readBake(path));
+    broken.lightmap.snaps[0] = std::uint32_t(texels);
+    ASSERT_TRUE(writeBake(path, broken));
+    EXPECT_FALSE(readBake(path)) << texels;
 }
 
 TEST_F(BakeFile, ANewerVersionSaysSo) {
