@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "engine/relight/relight.h"
+#include "tests/bake/parted_hall.h"
+#include "tests/render/viewport_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace limn {
+namespace {
+
+using ViewportPartedHall = ViewportTest;
+
+/// Irradiance at the middles of the pixels, each looked up by itself.
+std::vector<float> lookedUp(const TraceScene& trace, const IndirectField& field,
+                            const LightmapLayout& layout, const ViewportOptions& o) {
+    std::vector<float> result;
+    for (std::uint32_t y = 0; y < o.height; ++y)
+        for (std::uint32_t x = 0; x < o.width; ++x) {
+            const glm::vec3 d = rayDirection(o.camera, float(o.width) / float(o.height),
+                                             2 * (float(x) + 0.5f) / float(o.width) - 1,
+                                             1 - 2 * (float(y) + 0.5f) / float(o.height));
+            const Hit hit = trace.closestHit({o.camera.eye, d});
+            const glm::vec3 n = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal;
+            result.push_back(
+                sampleIrradiance({field, layout, trace.scene(), hit.instance, hit.triangle, hit.u,
+                                  hit.v, hit.position, n, !hit.frontFace})
+                    .x);
+        }
+    return result;
+}
+
+/// Share of pixels that differ by more than `bound`.
+double shareOff(const std::vector<float>& a, const std::vector<float>& b, float bound) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        off += std::abs(a[i] - b[i]) > bound;
+    return double(off) / double(a.size());
+}
+
+TEST_F(ViewportPartedHall, LookupsSnapAsTheyDoOnTheCpu) {
+    Scene scene = partedHall(0, 470);
+    scene.bake.surfels = 500;
+    scene.bake.rays = 64;
+    const auto baked = std::make_shared<const Bake>(*bake(TraceScene(scene)));
+    ASSERT_FALSE(baked->lightmap.snaps.empty());
+    Relighter relighter(baked);
+    relighter.relight(scene, TraceScene(scene), 16);
+    scene.lights.clear(); // the pictures show bounced light alone, which the field keeps
+    const TraceScene trace(scene);
+    layout = std::make_shared<LightmapLayout>(baked->lightmap);
+    LightmapLayout plain = baked->lightmap;
+    plain.snaps.clear();
+    viewport->setIndirect(relighter.field());
+    options.width = 96;
+    options.height = 64;
+    // From the dark part and from the bright one, along the floor to the wall.
+    for (const float eye : {1.2f, 6.2f}) {
+        options.camera = {.eye = {eye, 1.6f, 2}, .target = {3.7f, 0.4f, 1.9f}, .fovY = 1.2f};
+        const std::vector<float> truth = lookedUp(trace, relighter.field(), *layout, options);
+        const ImageF image = draw(scene, View::Irradiance);
+        std::vector<float> drawn;
+        for (const glm::vec3 p : image.rgb)
+            drawn.push_back(p.x);
+        const std::vector<float> unsnapped = lookedUp(trace, relighter.field(), plain, options);
+        // Texture units interpolate with 8 bits of weight, along both sides of a texel.
+        const float bound = *std::ranges::max_element(unsnapped) / 64;
+        // Where the wall meets the hall the two may disagree on what lies at a pixel's middle, or
+        // in which cell.
+        EXPECT_LT(shareOff(drawn, truth, bound), 0.003) << eye;
+        EXPECT_GT(shareOff(unsnapped, truth, bound), 0.03) << "nothing to snap";
+    }
+}
+
+} // namespace
+} // namespace limn
