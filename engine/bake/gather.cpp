@@ -73,7 +73,7 @@ struct Finisher {
         const auto met = [&](std::uint32_t s) { return s < isTarget.size() && isTarget[s]; };
         if (targets.empty() ||
             (linker == Linker::Gather &&
-             std::uint32_t(std::count_if(sender, sender + rays, met)) * 16 >= rays))
+             std::uint32_t(std::count_if(sender, sender + rays, met)) * 8 >= rays))
             return 0;
         std::vector<std::uint32_t> open; // points that are not buried
         for (std::uint32_t k = 0; k < points.begin[cache + 1] - points.begin[cache]; ++k)

@@ -115,7 +115,7 @@ private:
 /// the cache is invalid.
 ///
 /// Linker::Gather: small bright lamps would be met by a handful of rays: blotches. A cache that
-/// meets the emissive surfels with fewer than a sixteenth of its rays aims one ray at each of them
+/// meets the emissive surfels with fewer than an eighth of its rays aims one ray at each of them
 /// instead, or, where there are more than kMaxAimed, at a sample of them in proportion to what they
 /// would bring if nothing stood between. Which materials emit only guides the sampling: any other
 /// sender is met by the rays.

@@ -63,8 +63,8 @@ std::uint32_t countPieces(const Mesh& mesh) {
 
 /// The least surfels of each mesh. Those of emissive meshes stand for lamps, which by their area
 /// alone would get one surfel, with one normal, or none. Caches that see a lamp of side w under
-/// less than a sixteenth of their rays, so from d > 1.6 w, sum over its surfels: with n of them on
-/// the side in sight the midpoint rule is off by (w / d)^2 / (12 n) or less in distance, 0.1 % for
+/// less than an eighth of their rays, so from d > 1.1 w, sum over its surfels: with n of them on
+/// the side in sight the midpoint rule is off by (w / d)^2 / (12 n) or less in distance, 0.2 % for
 /// n = 32. Of a closed lamp half of the surfels look away: 64. All lamps together get a quarter of
 /// `target` at most.
 std::vector<std::uint32_t> leastSurfels(const Scene& scene, const std::vector<double>& area,
