@@ -81,7 +81,8 @@ float findDensity(const AtlasInput& in, std::uint32_t wanted, const Progress& pr
         const double guess = k - excess / std::max(slope, 1e-9);
         next = above ? int(std::floor(guess)) : int(std::ceil(guess));
         next = above ? std::min(next, k - beyond) : std::max(next, k + beyond);
-        beyond *= 2;
+        // More would leave the range.
+        beyond = std::min(2 * beyond, high - low + kSteps);
     }
     return density(low);
 }
