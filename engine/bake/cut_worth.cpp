@@ -21,11 +21,11 @@ constexpr std::uint32_t kLightings = TrainingLight::kCount;
 /// sealed room, as a share of the paper's: 1/12, 1/5.3, 1/3.1.
 constexpr float kPrior = 0.03f;
 
-/// Where a cache gets less light than this share of what is usual in a lighting, errors count in
-/// proportion to that share instead. Errors count in proportion to the light that is there, so that
-/// a dark room beyond a door keeps as many digits as the bright one: whoever looks at it sees
-/// nothing but it. Counted alike everywhere, a room lit through the gap of a door came out 2.7
-/// times too bright at 128 links, by clusters with surfels in both rooms.
+/// Errors are weighted relative to the cache's own irradiance in each lighting, so that a dark room
+/// is as accurate in proportion as a bright one: a viewer inside it sees only the dark room. Below
+/// this share of the lighting's usual irradiance they are weighted relative to the share instead.
+/// With absolute weights, a room lit through the gap of a door came out 2.7 times too bright at 128
+/// links, because its links led to clusters that had surfels in both rooms.
 constexpr float kDarkest = 0.01f;
 
 /// Radiosities as one cache receives them: share * radiosity[t].

@@ -91,8 +91,9 @@ struct Finisher {
     }
 
 private:
-    /// One sample of each target, or, of too many emissive ones, kMaxAimed at even steps of what
-    /// they would bring unhidden: each sample of the same worth, so that their sum has no bias.
+    /// One sample of each target. Of more than kMaxAimed emissive ones, systematic sampling chooses
+    /// kMaxAimed with probability in proportion to their unoccluded transport; each sample is
+    /// scaled by the inverse of its probability, so the sum is unbiased.
     std::vector<AimedSample> chooseSamples(std::uint32_t cache,
                                            const std::vector<std::uint32_t>& open) const {
         std::vector<AimedSample> all;

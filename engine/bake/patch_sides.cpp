@@ -42,15 +42,13 @@ bool Patches::together(const WorldPoint& cell, std::uint32_t surfel) const {
     const std::uint32_t s = set.instanceBegin[instance] + surfel;
     const glm::vec3 normal = set.surfels.normal[s];
     const float height = kHeight * std::sqrt(set.surfels.area[s]);
-    const Scene& scene = trace.scene();
     ++rays;
-    return clearAlong(
-        trace, trace.clearOf(cell.position, cell.normal) + cell.normal * height,
-        trace.clearOf(set.surfels.position[s], normal) + normal * height, [&](const Hit& hit) {
-            return hit.instance == instance &&
-                   std::abs(glm::dot(hit.geometricNormal, cell.normal)) > kAlike &&
-                   scene.instances[hit.instance].mesh == scene.instances[instance].mesh;
-        });
+    return clearAlong(trace, trace.clearOf(cell.position, cell.normal) + cell.normal * height,
+                      trace.clearOf(set.surfels.position[s], normal) + normal * height,
+                      [&](const Hit& hit) {
+                          return hit.instance == instance &&
+                                 std::abs(glm::dot(hit.geometricNormal, cell.normal)) > kAlike;
+                      });
 }
 
 std::uint32_t Patches::ownerOf(std::uint32_t triangle, glm::vec2 uv, std::uint32_t nearestOwner,

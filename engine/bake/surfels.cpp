@@ -74,7 +74,8 @@ std::vector<std::uint32_t> leastSurfels(const Scene& scene, const std::vector<do
     for (std::size_t i = 0; i < area.size(); ++i)
         if (area[i] > 0) {
             ++users[scene.instances[i].mesh];
-            least[scene.instances[i].mesh] |= emits(scene.materialOf(scene.instances[i])) ? 2 : 1;
+            std::uint32_t& n = least[scene.instances[i].mesh]; // 2 marks a lamp
+            n = std::max(n, emits(scene.materialOf(scene.instances[i])) ? 2U : 1U);
         }
     std::uint64_t all = 0;
     for (std::size_t m = 0; m < least.size(); ++m)
