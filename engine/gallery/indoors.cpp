@@ -206,6 +206,14 @@ Box standing(Box room, bool onGround) {
     return room;
 }
 
+/// Through its openings, or from inside where it has none.
+void lightRoom(SceneMaker& m, const Box& room, const std::vector<WallHole>& openings) {
+    if (openings.empty())
+        lightFromInside(m, room);
+    else
+        lightThrough(m, room, openings);
+}
+
 } // namespace
 
 void makeRoom(SceneMaker& m) {
@@ -218,10 +226,7 @@ void makeRoom(SceneMaker& m) {
     const auto openings = addWindows(m, house, room, windows, {true, true, true, true});
     addHouse(m, house, room, 1 + m.traits.thickness);
     addFurniture(m, room, m.random.whole(0, 5), 0);
-    if (openings.empty())
-        lightFromInside(m, room);
-    else
-        lightThrough(m, room, openings);
+    lightRoom(m, room, openings);
     lookAlong(m, room);
 }
 
@@ -245,10 +250,7 @@ void makeTwoRooms(SceneMaker& m) {
     addHouse(m, house, {lit.lower, dark.upper}, 1 + m.traits.thickness);
     addFurniture(m, lit, m.random.whole(0, 3), 0);
     addFurniture(m, dark, m.random.whole(0, 3), 0);
-    if (openings.empty())
-        lightFromInside(m, lit);
-    else
-        lightThrough(m, lit, openings);
+    lightRoom(m, lit, openings);
     lookAlong(m, lit);
     lookAlong(m, dark, true);
 }
@@ -306,10 +308,7 @@ void makeFurnishedBox(SceneMaker& m) {
         addFrame(m, room);
     for (int n = m.random.whole(1, 5); n > 0; --n)
         addTable(m, room);
-    if (openings.empty())
-        lightFromInside(m, room);
-    else
-        lightThrough(m, room, openings);
+    lightRoom(m, room, openings);
     lookAlong(m, room);
 }
 
