@@ -39,7 +39,7 @@ CachePoints pointsOf(const TraceScene& trace, const Scene& scene, StageStore& st
     std::uint64_t rays = 0;
     const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, &store, rays);
     CachePoints points;
-    placeCaches(scene, *atlas, points);
+    placeCaches(scene, atlas->atlas, points);
     return points;
 }
 

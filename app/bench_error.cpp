@@ -153,7 +153,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
             std::uint64_t rays = 0;
             const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, &store, rays);
             CachePoints points;
-            const Caches caches = placeCaches(scene, *atlas, points);
+            const Caches caches = placeCaches(scene, atlas->atlas, points);
             reference = referenceIrradiance(trace, caches, points, o.caches, o.referenceRays,
                                             progressOnStderr());
             endProgressLine();

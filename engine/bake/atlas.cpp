@@ -20,17 +20,16 @@ namespace {
 
 /// Summed area [m^2], from the scales that the charts get.
 double lightmappedArea(const AtlasInput& in) {
-    std::vector<double> area(in.charts.size(), -1);
     double sum = 0;
     for (std::size_t i = 0; i < in.scene.instances.size(); ++i) {
         const Instance& instance = in.scene.instances[i];
         if (!hasLightmap(in, instance))
             continue;
-        double& mesh = area[instance.mesh];
-        if (mesh < 0) {
-            mesh = 0;
-            for (std::size_t t = 0; t < in.scene.meshOf(instance).triangleCount(); ++t)
-                mesh += double(triangleArea(in.scene.meshOf(instance), t));
+        double mesh = 0;
+        for (std::size_t t = 0; t < in.scene.meshOf(instance).triangleCount(); ++t) {
+            const float f =
+                in.factorOf(std::uint32_t(i), in.charts[instance.mesh].chartOfTriangle[t]);
+            mesh += double(triangleArea(in.scene.meshOf(instance), t) * f * f);
         }
         sum += mesh * double(in.scale[i]) * double(in.scale[i]) * sidesOf(in, instance);
     }
@@ -153,8 +152,8 @@ float atlasScale(const Instance& instance) {
 }
 
 Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
-                 const Progress& progress) {
-    AtlasInput in{scene, charts, {}, {}};
+                 std::vector<std::vector<float>> factors, const Progress& progress) {
+    AtlasInput in{scene, charts, {}, {}, std::move(factors)};
     for (const Instance& i : scene.instances)
         in.scale.push_back(atlasScale(i));
     for (std::size_t m = 0; m < charts.size(); ++m)
@@ -182,8 +181,9 @@ Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeS
             for (std::uint32_t back = 0; back < places[p].sides; ++back) {
                 const glm::uvec2 at = glm::uvec2(places[p].offset) + t.at;
                 const std::uint32_t y = at.y + back * layout.instances[instance].backRows;
-                atlas.texels.push_back(
-                    {y * layout.width + at.x, instance, back, t.count, t.points});
+                atlas.texels.push_back({y * layout.width + at.x, instance, back,
+                                        1 / (atlas.texelsPerMetre * places[p].factor), t.count,
+                                        t.points});
             }
     }
     std::sort(atlas.texels.begin(), atlas.texels.end(),

@@ -20,6 +20,7 @@ struct AtlasTexel {
     std::uint32_t texel;     ///< y * width + x
     std::uint32_t instance;  ///< index into Scene::instances
     std::uint32_t back;      ///< 1: it stands for the back of a two-sided surface
+    float width = 0;         ///< [m]
     std::uint32_t count = 0; ///< of points, [1, kMostPoints]
     std::array<MeshPoint, kMostPoints> points;
 };
@@ -41,7 +42,7 @@ struct Atlas {
 /// met. `charts` per mesh, as Assets::meshes. Of the instances it reads only mesh, dynamic,
 /// atlasScale and whether they are two-sided. Unfinished when cancelled.
 Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
-                 const Progress& progress = {});
+                 std::vector<std::vector<float>> factors = {}, const Progress& progress = {});
 
 /// Mean length scale of the instance's transform, rounded to 12 bits.
 float atlasScale(const Instance& instance);

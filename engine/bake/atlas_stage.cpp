@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/atlas_stage.h"
 
+#include "engine/bake/bake_bytes.h"
 #include "engine/bake/charts.h"
+#include "engine/bake/density.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/texel_sides.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
+
+#include <algorithm>
 
 namespace limn {
 
@@ -32,22 +36,25 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
 }
 
 /// Of all that buildAtlas reads.
-std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes) {
-    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 26);
+std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes,
+                       const BakeDensity& density) {
+    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 34);
     h = hashValue(scene.bake.texelsPerMetre, h);
     for (const Instance& i : scene.instances) {
         h = hashValue(atlasScale(i), hashValue(meshes[i.mesh], h));
         h = hashValue(std::uint32_t(i.dynamic),
                       hashValue(std::uint32_t(isTwoSided(scene.materialOf(i))), h));
     }
+    for (const std::vector<float>& factors : density.texels)
+        h = hashVector(factors, h);
     return h;
 }
 
-/// Of all that findTexelSides reads.
-std::uint64_t texelSidesKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
-                            std::uint64_t atlas) {
+/// Of what rays meet, and `seed`.
+std::uint64_t surfacesKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
+                          std::uint64_t seed) {
     const Scene& scene = trace.scene();
-    std::uint64_t h = hashValue(trace.epsilonAt(glm::vec3(0)), hashValue(atlas, 31));
+    std::uint64_t h = hashValue(trace.epsilonAt(glm::vec3(0)), seed);
     for (const Instance& i : scene.instances) {
         h = hashValue(std::uint32_t(i.dynamic), hashValue(i.node, hashValue(meshes[i.mesh], h)));
         h = hashSurface(scene, scene.materialOf(i), hashBytes(&i.toWorld, sizeof i.toWorld, h));
@@ -55,23 +62,58 @@ std::uint64_t texelSidesKey(const TraceScene& trace, const std::vector<std::uint
     return h;
 }
 
+/// Lamps have one density: caches aim at their surfels by areas, which are exact only then. (Which
+/// materials emit may change without tracing anything again.)
+void evenLamps(const Scene& scene, std::vector<SurfelDensity>& surfels) {
+    for (const Instance& i : scene.instances)
+        if (!surfels.empty() && emits(scene.materialOf(i)))
+            surfels[i.mesh] = {};
+}
+
+BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
+                         const std::vector<MeshCharts>& charts, std::uint32_t texels,
+                         const Progress& progress, StageStore* store, std::uint64_t& rays) {
+    return keptOrMade<BakeDensity>(
+        store, surfacesKey(trace, meshes, hashValue(texels, 35)), progress,
+        [](auto& a, auto& d) {
+            a.each(d.texels, [&](auto& factors) { a(factors); });
+            a.each(d.surfels, [&](auto& s) { a(s.level), a(s.begin), a(s.density); });
+        },
+        [&] {
+            BakeDensity made = findDensity(trace, charts, texels, progress);
+            rays += made.rays;
+            return made;
+        });
+}
+
 } // namespace
 
-std::optional<Atlas> atlasStage(const TraceScene& trace, const Scene& scene,
-                                const std::vector<std::uint64_t>& meshes, const Progress& progress,
-                                StageStore* store, std::uint64_t& rays) {
+std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
+                                      const std::vector<std::uint64_t>& meshes,
+                                      const Progress& progress, StageStore* store,
+                                      std::uint64_t& rays) {
     std::vector<MeshCharts> charts;
     if (!chartMeshes(scene, meshes, progress, store, charts))
         return {};
-    const std::uint64_t key = atlasKey(scene, meshes);
+    const auto texels =
+        scene.bake.texelsPerMetre > 0
+            ? std::uint32_t(std::clamp<std::uint64_t>(expectedCaches(scene), 1, 1U << 24))
+            : scene.bake.lightmapCaches;
+    BakeDensity density = densityStage(trace, meshes, charts, texels, progress, store, rays);
+    if (progress.cancelled())
+        return {};
+    if (scene.bake.texelsPerMetre > 0)
+        density.texels.clear();
+    evenLamps(scene, density.surfels);
+    const std::uint64_t key = atlasKey(scene, meshes, density);
     Atlas atlas = keptOrMade<Atlas>(
         store, key, progress, [](auto& a, auto& t) { atlasFields(a, t); },
-        [&] { return buildAtlas(scene, charts, scene.bake, progress); });
+        [&] { return buildAtlas(scene, charts, scene.bake, density.texels, progress); });
     if (progress.cancelled())
         return {};
     atlas.layout.meshes = std::move(charts);
     TexelSides sides = keptOrMade<TexelSides>(
-        store, texelSidesKey(trace, meshes, key), progress,
+        store, surfacesKey(trace, meshes, hashValue(key, 31)), progress,
         [](auto& a, auto& s) { a(s.texels), a(s.open), a(s.snaps); },
         [&] {
             TexelSides made = findTexelSides(trace, atlas, progress);
@@ -83,7 +125,7 @@ std::optional<Atlas> atlasStage(const TraceScene& trace, const Scene& scene,
     atlas.texels = std::move(sides.texels);
     atlas.open = std::move(sides.open);
     atlas.layout.snaps = std::move(sides.snaps);
-    return atlas;
+    return PlacedAtlas{std::move(atlas), std::move(density.surfels)};
 }
 
 } // namespace limn

@@ -3,6 +3,7 @@
 
 #include "engine/bake/atlas.h"
 #include "engine/bake/stage_store.h"
+#include "engine/bake/surfel_density.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
@@ -11,11 +12,17 @@
 
 namespace limn {
 
-/// The stages charts and atlas, by the scene's bake settings, each texel's points the open ones:
-/// what `store` (may be null) knows of them, else made anew. `meshes`: hashMeshes(scene). `rays`
-/// grows by the rays traced. Nothing when cancelled.
-std::optional<Atlas> atlasStage(const TraceScene& trace, const Scene& scene,
-                                const std::vector<std::uint64_t>& meshes, const Progress& progress,
-                                StageStore* store, std::uint64_t& rays);
+struct PlacedAtlas {
+    Atlas atlas;                        ///< each texel's points are the open ones
+    std::vector<SurfelDensity> surfels; ///< per mesh
+};
+
+/// The stages charts, density and atlas, by the scene's bake settings: what `store` (may be null)
+/// knows of them, else made anew. Texels are equally dense all over where the settings say how
+/// dense. `meshes`: hashMeshes(scene). `rays` grows by the rays traced. Nothing when cancelled.
+std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
+                                      const std::vector<std::uint64_t>& meshes,
+                                      const Progress& progress, StageStore* store,
+                                      std::uint64_t& rays);
 
 } // namespace limn

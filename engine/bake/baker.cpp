@@ -172,14 +172,14 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
 
     const std::vector<std::uint64_t> meshes = hashMeshes(scene);
     std::uint64_t rays = 0;
-    std::optional<Atlas> made = atlasStage(trace, scene, meshes, progress, store, rays);
-    if (!made)
+    std::optional<PlacedAtlas> placed = atlasStage(trace, scene, meshes, progress, store, rays);
+    if (!placed)
         return cancelled();
-    Atlas& atlas = *made;
+    Atlas& atlas = placed->atlas;
     clock.finish("charts");
 
     progress.at("surfels", 0);
-    SurfelSet set = placeSurfels(scene, scene.bake.surfels, progress, store);
+    SurfelSet set = placeSurfels(scene, scene.bake.surfels, placed->surfels, progress, store);
     if (progress.cancelled())
         return cancelled();
     if (set.surfels.size() == 0)

@@ -130,7 +130,7 @@ DisjointSets joinTouching(const std::vector<CellUse>& uses, std::size_t pieces) 
 }
 
 /// One place per set of pieces that touch.
-void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit,
+void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit, float factor,
                  std::span<const Piece> pieces, std::vector<ChartPlace>& out) {
     const std::uint32_t mesh = in.scene.instances[instance].mesh;
     const MeshChartShapes& shapes = in.shapes[mesh];
@@ -142,7 +142,8 @@ void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUn
         const std::uint32_t set = sets.find(i); // <= i
         if (set == i) {
             placeOf[i] = std::uint32_t(out.size());
-            out.push_back({instance, sides, {}, shapes.side[pieces[i].chart] / 2, {}, {}, {}, {}});
+            out.push_back(
+                {instance, sides, factor, {}, shapes.side[pieces[i].chart] / 2, {}, {}, {}, {}});
         }
         out[placeOf[set]].charts.push_back(pieces[i].chart);
     }
@@ -163,15 +164,18 @@ void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUn
     }
 }
 
-void placeInstance(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit,
-                   std::vector<ChartPlace>& out) {
+/// The charts of an instance that have this factor.
+void placeAlike(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit, float factor,
+                std::vector<ChartPlace>& out) {
     const std::uint32_t mesh = in.scene.instances[instance].mesh;
     const MeshChartShapes& shapes = in.shapes[mesh];
     const std::uint32_t sides = sidesOf(in, in.scene.instances[instance]);
     std::vector<Piece> pieces;
     for (std::uint32_t c = 0; c < in.charts[mesh].chartSize.size(); ++c) {
+        if (in.factorOf(instance, c) != factor)
+            continue;
         if (standsAlone(shapes, in.charts[mesh], c, texelsPerUnit)) {
-            out.push_back({instance, sides, {c}, -1, {}, {}, {}, {}});
+            out.push_back({instance, sides, factor, {c}, -1, {}, {}, {}, {}});
             fitSize(out.back(), in.charts[mesh].chartSize[c], texelsPerUnit);
             continue;
         }
@@ -181,7 +185,18 @@ void placeInstance(const AtlasInput& in, std::uint32_t instance, float texelsPer
         };
         pieces.push_back({c, cell(shapes.lower[c]), cell(shapes.upper[c])});
     }
-    placePieces(in, instance, texelsPerUnit, pieces, out);
+    placePieces(in, instance, texelsPerUnit, factor, pieces, out);
+}
+
+void placeInstance(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit,
+                   std::vector<ChartPlace>& out) {
+    std::vector<float> factors = {1};
+    if (!in.factor.empty() && !in.factor[instance].empty())
+        factors = in.factor[instance];
+    std::ranges::sort(factors);
+    factors.erase(std::ranges::unique(factors).begin(), factors.end());
+    for (const float factor : factors)
+        placeAlike(in, instance, texelsPerUnit * factor, factor, out);
 }
 
 } // namespace

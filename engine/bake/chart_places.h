@@ -30,6 +30,12 @@ struct AtlasInput {
     const std::vector<MeshCharts>& charts; ///< per mesh
     std::vector<MeshChartShapes> shapes;   ///< per mesh
     std::vector<float> scale;              ///< per instance
+    /// Per instance and chart, times the density [texels per metre]; empty, also per instance: 1.
+    std::vector<std::vector<float>> factor;
+
+    float factorOf(std::uint32_t instance, std::uint32_t chart) const {
+        return factor.empty() || factor[instance].empty() ? 1 : factor[instance][chart];
+    }
 };
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance);
@@ -42,6 +48,7 @@ std::uint32_t sidesOf(const AtlasInput& in, const Instance& instance);
 struct ChartPlace {
     std::uint32_t instance;
     std::uint32_t sides; ///< that need such a rectangle each
+    float factor = 1;    ///< AtlasInput::factor of its charts
     std::vector<std::uint32_t> charts;
     /// The charts' plane: -1, that of its only chart (MeshCharts::chartUv); else the plane of the
     /// object's axes (axis + 1) mod 3 and (axis + 2) mod 3.

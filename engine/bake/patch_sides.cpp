@@ -79,26 +79,20 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
     const SurfelOwners& owners = patches.owners;
     const std::uint32_t sides = isTwoSided(scene.materialOf(instance)) ? 2 : 1;
     std::vector<std::uint32_t> result(std::size_t(owners.cells()) * sides);
+    // Cells that no place lies in stay with the first surfel of their side.
+    std::fill(result.begin() + owners.cells(), result.end(), patches.surfels().frontCount);
     std::atomic<bool> differs = false;
     parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
         for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
-            const std::uint32_t n = owners.resolution(t), cell = owners.cellAt(t, 0, 0);
             for (std::uint32_t side = 0; side < sides; ++side) {
-                std::uint32_t* out = result.data() + side * owners.cells() + cell;
                 const std::uint32_t first = side * patches.surfels().frontCount;
-                for (std::uint32_t j = 0; j < n; ++j)
-                    for (std::uint32_t i = 0; i + j < n; ++i) {
-                        const glm::vec2 uv =
-                            (glm::vec2(float(i), float(j)) + 0.5f) / float(n) * 0.999f;
-                        const std::uint32_t near = owners.front(cell + j * n + i),
-                                            own = patches.ownerOf(t, uv, near, side == 1);
-                        out[j * n + i] = own;
-                        if (own != first + near)
-                            differs = true;
-                    }
-                for (std::uint32_t j = 0; j < n; ++j) // outside: only rounding asks here
-                    for (std::uint32_t i = n - j; i < n; ++i)
-                        out[j * n + i] = out[(n - 1 - i) * n + i];
+                owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv) {
+                    const std::uint32_t near = owners.front(cell),
+                                        own = patches.ownerOf(t, uv * 0.999f, near, side == 1);
+                    result[side * owners.cells() + cell] = own;
+                    if (own != first + near)
+                        differs = true;
+                });
             }
         }
     });

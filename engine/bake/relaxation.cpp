@@ -86,24 +86,39 @@ struct Relaxation {
 
 } // namespace
 
-void relax(const Mesh& mesh, float spacing, std::vector<MeshPoint>& points,
-           const Progress& progress) {
+void relax(const Mesh& mesh, float spacing, const SurfelDensity& density,
+           std::vector<MeshPoint>& points, const Progress& progress) {
     if (points.size() < 2 || !(spacing > 0) || !std::isfinite(spacing))
         return;
     const SurfaceWalk walk(mesh, progress);
-    const float reach = kReach * spacing;
+    std::vector<float> densities = density.density;
+    std::ranges::sort(densities);
+    densities.erase(std::ranges::unique(densities).begin(), densities.end());
     std::vector<glm::vec3> position(points.size());
     std::vector<MeshPoint> next(points.size());
+    std::vector<std::vector<std::uint32_t>> alike(densities.size()); // points per density
     PointGrid grid;
     for (int round = 0; round < kRounds && !progress.cancelled(); ++round) {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            position[i] = trianglePoint(mesh, points[i].triangle, points[i].barycentric);
-        grid.build(position, reach);
-        const Relaxation step{walk, mesh, reach, grid, points, position};
-        parallelRanges(points.size(), 256, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                next[i] = step.moved(std::uint32_t(i));
-        });
+        for (std::vector<std::uint32_t>& list : alike)
+            list.clear();
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            const MeshPoint& p = points[i];
+            position[i] = trianglePoint(mesh, p.triangle, p.barycentric);
+            const auto own =
+                std::ranges::lower_bound(densities, density.at(p.triangle, p.barycentric));
+            alike[std::size_t(own - densities.begin())].push_back(i);
+        }
+        for (std::size_t d = 0; d < densities.size(); ++d) {
+            if (alike[d].empty())
+                continue;
+            const float reach = kReach * spacing / std::sqrt(densities[d]);
+            grid.build(position, reach);
+            const Relaxation step{walk, mesh, reach, grid, points, position};
+            parallelRanges(alike[d].size(), 256, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    next[alike[d][i]] = step.moved(alike[d][i]);
+            });
+        }
         points.swap(next);
     }
 }

@@ -324,8 +324,8 @@ void addOwnCaches(const Scene& scene, const LightmapLayout& layout, const SeenPa
     const std::uint32_t first = caches.lightmapCount;
     for (std::size_t i = 0; i < seen.own.size(); ++i) {
         const OwnCache& own = seen.own[i];
-        addSurfaceCache(scene, {texels[i], own.instance, own.back, own.count, own.points}, caches,
-                        points);
+        addSurfaceCache(scene, {texels[i], own.instance, own.back, 0, own.count, own.points},
+                        caches, points);
     }
     for (std::size_t s = 0; s < surfels.size(); ++s)
         if (seen.ownCache[s] != ~0U) {

@@ -89,15 +89,47 @@ std::vector<std::uint32_t> leastSurfels(const Scene& scene, const std::vector<do
     return least;
 }
 
-/// Counts per mesh from the areas of its instances, and no fewer than leastSurfels(): those that
-/// need more than their area gives take it from the others.
+/// What a cell deserves: its area times its density.
+double worthOf(const Mesh& mesh, const SurfelDensity& density, std::uint32_t triangle,
+               glm::uvec2 at) {
+    return triangleArea(mesh, triangle) * density.share(triangle, at) *
+           double(density.density[density.cell(triangle, at)]);
+}
+
+/// Of all cells of a mesh.
+double summedWorth(const Mesh& mesh, const SurfelDensity& density) {
+    double sum = 0;
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        forCells(density.side(t), [&](glm::uvec2 at) { sum += worthOf(mesh, density, t, at); });
+    return sum;
+}
+
+double summedArea(const Mesh& mesh) {
+    double sum = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
+        sum += triangleArea(mesh, t);
+    return sum;
+}
+
+/// Per mesh, over its area.
+std::vector<double> meanDensities(const Scene& scene, std::span<const SurfelDensity> density) {
+    std::vector<double> mean(scene.assets->meshes.size(), 1);
+    for (std::size_t m = 0; m < density.size(); ++m)
+        if (const double area = summedArea(scene.assets->meshes[m]); area > 0)
+            mean[m] = summedWorth(scene.assets->meshes[m], density[m]) / area;
+    return mean;
+}
+
+/// Counts per mesh from the areas of its instances times its mean density, and no fewer than
+/// leastSurfels(): those that need more than that gives take it from the others.
 std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<double>& area,
+                                          const std::vector<double>& density,
                                           std::uint32_t target) {
     std::vector<double> sum(scene.assets->meshes.size());
     std::vector<std::uint32_t> users(sum.size()), counts(sum.size());
     for (std::size_t i = 0; i < area.size(); ++i)
         if (area[i] > 0) {
-            sum[scene.instances[i].mesh] += area[i];
+            sum[scene.instances[i].mesh] += area[i] * density[scene.instances[i].mesh];
             ++users[scene.instances[i].mesh];
         }
     const std::vector<std::uint32_t> least = leastSurfels(scene, area, target);
@@ -126,6 +158,10 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<
     return counts;
 }
 
+std::uint64_t hashDensity(const SurfelDensity& d, std::uint64_t seed) {
+    return hashVector(d.level, hashVector(d.density, hashValue(seed, 24)));
+}
+
 /// Marsaglia. Xorshift RNGs. 2003: period 2^32 - 1, the triple 13, 17, 5.
 class Xorshift {
 public:
@@ -140,25 +176,53 @@ private:
     std::uint32_t m_state = 2463534242U;
 };
 
-/// Point i lies in the triangle at (i + 1/2)/count of the summed area.
-std::vector<MeshPoint> pointsByArea(const Mesh& mesh, std::uint32_t count, double total,
-                                    SurfelPlacement placement) {
+/// Point of cell `at` from a point of the unit square: barycentrics of the triangle.
+glm::vec2 sampleCell(std::uint32_t side, glm::uvec2 at, glm::vec2 square) {
+    if (at.x + at.y + 1 == side)
+        square = sampleTriangle(square);
+    return (glm::vec2(at) + square) / float(side);
+}
+
+/// Point i lies in the cell at (i + 1/2)/count of the summed worth.
+std::vector<MeshPoint> pointsByWorth(const Mesh& mesh, std::uint32_t count,
+                                     const SurfelDensity& density, SurfelPlacement placement) {
+    const double total = summedWorth(mesh, density);
     std::vector<MeshPoint> points;
     Xorshift random;
-    double passed = triangleArea(mesh, 0);
-    std::uint32_t t = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double wanted = (i + 0.5) / count * total;
-        while (passed < wanted && t + 1 < mesh.triangleCount())
-            passed += triangleArea(mesh, ++t);
-        glm::vec2 square(radicalInverse(i + 1, 2), radicalInverse(i + 1, 3));
-        if (placement == SurfelPlacement::Random) {
-            square.x = random.next();
-            square.y = random.next();
-        }
-        points.push_back({t, sampleTriangle(square)});
+    double passed = 0;
+    const auto lastTriangle = std::uint32_t(mesh.triangleCount() - 1);
+    for (std::uint32_t t = 0; t <= lastTriangle; ++t) {
+        const std::uint32_t side = density.side(t);
+        forCells(side, [&](glm::uvec2 at) {
+            passed += worthOf(mesh, density, t, at);
+            const bool last = t == lastTriangle && at.y + 1 == side;
+            while (points.size() < count &&
+                   (last || double(points.size()) + 0.5 <= passed / total * count)) {
+                const auto i = std::uint32_t(points.size());
+                glm::vec2 square(radicalInverse(i + 1, 2), radicalInverse(i + 1, 3));
+                if (placement == SurfelPlacement::Random) {
+                    square.x = random.next();
+                    square.y = random.next();
+                }
+                points.push_back({t, sampleCell(side, at, square)});
+            }
+        });
     }
     return points;
+}
+
+/// Areas that go with the density at each point and sum to `total`.
+std::vector<float> areasOf(const std::vector<MeshPoint>& points, const SurfelDensity& density,
+                           double total) {
+    std::vector<float> areas;
+    double sum = 0;
+    for (const MeshPoint& p : points) {
+        areas.push_back(1 / density.at(p.triangle, p.barycentric));
+        sum += double(areas.back());
+    }
+    for (float& a : areas)
+        a = float(double(a) * total / sum);
+    return areas;
 }
 
 /// The cofactor matrix stretches a unit patch; the average over the surfels need not meet the
@@ -166,16 +230,19 @@ std::vector<MeshPoint> pointsByArea(const Mesh& mesh, std::uint32_t count, doubl
 void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& local, double area,
                     Surfels& out) {
     const Instance& instance = scene.instances[index];
+    const auto areaOf = [&](std::size_t i) {
+        return local.areas.empty() ? local.area : local.areas[i];
+    };
     double sum = 0;
-    for (const glm::vec3 n : local.normal)
-        sum += double(local.area * glm::length(instance.normalToWorld * n));
+    for (std::size_t i = 0; i < local.size(); ++i)
+        sum += double(areaOf(i) * glm::length(instance.normalToWorld * local.normal[i]));
     const double exact = sum > 0 ? area / sum : 1;
     for (std::size_t i = 0; i < local.size(); ++i) {
         const glm::vec3 n = instance.normalToWorld * local.normal[i];
         const float stretch = glm::length(n);
         out.position.push_back(instance.toWorld * glm::vec4(local.position[i], 1));
         out.normal.push_back(stretch > 0 ? n / stretch : glm::vec3(0, 1, 0));
-        out.area.push_back(std::max(float(double(local.area * stretch) * exact), 1e-30f));
+        out.area.push_back(std::max(float(double(areaOf(i) * stretch) * exact), 1e-30f));
         out.instance.push_back(index);
         out.triangle.push_back(local.triangle[i]);
         out.barycentric.push_back(local.barycentric[i]);
@@ -189,17 +256,20 @@ bool isTwoSided(const Material& material) {
 }
 
 MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
-                         SurfelPlacement placement, const Progress& progress) {
+                         SurfelPlacement placement, SurfelDensity density,
+                         const Progress& progress) {
     assert(count >= 1 && mesh.triangleCount() >= 1);
-    double total = 0;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
-        total += triangleArea(mesh, t);
+    const double total = summedArea(mesh);
     MeshSurfels result;
     result.frontCount = count;
     result.area = float(total / count);
-    std::vector<MeshPoint> points = pointsByArea(mesh, count, total, placement);
+    std::vector<MeshPoint> points = pointsByWorth(mesh, count, density, placement);
     if (placement == SurfelPlacement::Relaxed)
-        relax(mesh, hexagonalSpacing(result.area), points, progress);
+        relax(mesh, hexagonalSpacing(float(summedWorth(mesh, density) / count)), density, points,
+              progress);
+    if (!density.uniform())
+        result.areas = areasOf(points, density, total);
+    result.density = std::move(density);
     for (std::uint32_t side = 0; side < (twoSided ? 2 : 1); ++side)
         for (const MeshPoint& p : points) {
             const glm::vec3 normal = triangleNormal(mesh, p.triangle);
@@ -208,35 +278,45 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
             result.triangle.push_back(p.triangle);
             result.barycentric.push_back(p.barycentric);
         }
+    if (twoSided && !result.areas.empty())
+        result.areas.insert(result.areas.end(), result.areas.begin(), result.areas.end());
     return result;
 }
 
 static MeshSurfels meshSurfels(const Scene& scene, std::size_t m, std::uint32_t count,
-                               const Progress& progress, StageStore* store) {
+                               const SurfelDensity& density, const Progress& progress,
+                               StageStore* store) {
     const Mesh& mesh = scene.assets->meshes[m];
     const bool twoSided = isTwoSided(scene.materials[mesh.material]);
     const SurfelPlacement placement = scene.bake.placement;
     const std::uint64_t key = hashValue(std::uint32_t(placement) << 1 | std::uint32_t(twoSided),
-                                        hashValue(count, hashValue(hashMesh(mesh), 24)));
+                                        hashValue(count, hashDensity(density, hashMesh(mesh))));
     constexpr std::uint32_t kWorthKeeping = 64; // fewer are as fast to place
     return keptOrMade<MeshSurfels>(
         count < kWorthKeeping ? nullptr : store, key, progress,
         [](auto& a, auto& s) {
             a(s.position), a(s.normal), a(s.triangle), a(s.barycentric), a(s.frontCount), a(s.area);
+            a(s.areas), a(s.density.level), a(s.density.begin), a(s.density.density);
         },
-        [&] { return placeSurfels(mesh, count, twoSided, placement, progress); });
+        [&] { return placeSurfels(mesh, count, twoSided, placement, density, progress); });
 }
 
-SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress,
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
+                       std::span<const SurfelDensity> density, const Progress& progress,
                        StageStore* store) {
     SurfelSet result;
+    const SurfelDensity even;
+    const auto densityOf = [&](std::size_t m) -> const SurfelDensity& {
+        return density.empty() ? even : density[m];
+    };
     const std::vector<double> area = litAreas(scene);
-    const std::vector<std::uint32_t> counts = surfelsPerMesh(scene, area, target);
+    const std::vector<std::uint32_t> counts =
+        surfelsPerMesh(scene, area, meanDensities(scene, density), target);
     result.meshes.resize(counts.size());
     parallelRanges(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m)
             if (counts[m] > 0 && !progress.cancelled())
-                result.meshes[m] = meshSurfels(scene, m, counts[m], progress, store);
+                result.meshes[m] = meshSurfels(scene, m, counts[m], densityOf(m), progress, store);
     });
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
@@ -248,52 +328,59 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress&
     return result;
 }
 
-SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
-    : m_frontCount(surfels.frontCount) {
+void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     // Cells of a third of the surfels' spacing: the border between two owners is off by a sixth of
     // it at most.
-    const float spacing = std::sqrt(std::max(surfels.area, 1e-30f));
     constexpr float kCellsPerSpacing = 3, kMostCells = 1024;
+    const SurfelDensity& density = surfels.density;
+    const double worth = summedWorth(mesh, density) / surfels.frontCount; // of a surfel
+    m_density = {density.level, density.begin, {}};
+    m_blocks.resize(density.uniform() ? mesh.triangleCount() : density.density.size());
     // Needles have long sides and no area. Their cells must not outnumber all else.
     const double mostInAll =
         256.0 * double(surfels.frontCount) + 4.0 * double(mesh.triangleCount());
     double inAll = 0;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    const auto forBlocks = [&](const auto& visit) {
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+            forCells(density.side(t), [&](glm::uvec2 at) { visit(t, at); });
+    };
+    forBlocks([&](std::uint32_t t, glm::uvec2 at) {
         const auto [a, b, c] = mesh.triangle(t);
         const float longest = std::max(glm::length(mesh.positions[b] - mesh.positions[a]),
-                                       glm::length(mesh.positions[c] - mesh.positions[a]));
+                                       glm::length(mesh.positions[c] - mesh.positions[a])),
+                    area = float(worth / double(density.density[density.cell(t, at)])),
+                    spacing = std::sqrt(std::max(area, 1e-30f)) * float(density.side(t));
         const float n =
             std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMostCells);
-        m_resolution.push_back(std::uint16_t(n));
+        m_blocks[blockOf(t, at)].resolution = std::uint32_t(n);
         inAll += double(n) * double(n);
-    }
+    });
     std::uint32_t cells = 0;
-    for (std::uint16_t& n : m_resolution) {
+    forBlocks([&](std::uint32_t t, glm::uvec2 at) {
+        Block& block = m_blocks[blockOf(t, at)];
         if (inAll > mostInAll)
-            n = std::uint16_t(std::max(1.0, n * std::sqrt(mostInAll / inAll)));
-        m_begin.push_back(cells);
-        cells += std::uint32_t(n) * n;
-    }
+            block.resolution =
+                std::uint32_t(std::max(1.0, block.resolution * std::sqrt(mostInAll / inAll)));
+        block.begin = cells;
+        cells += block.resolution * block.resolution;
+    });
     m_owner.resize(cells);
+}
+
+SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
+    : m_frontCount(surfels.frontCount) {
+    sizeBlocks(mesh, surfels);
     const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);
     const NearestPoint nearest(points, std::span(surfels.normal.data(), surfels.frontCount),
-                               spacing);
+                               std::sqrt(std::max(surfels.area, 1e-30f)));
     parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-            const std::uint32_t n = m_resolution[t];
+        for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
             const glm::vec3 normal = triangleNormal(mesh, t);
-            for (std::uint32_t j = 0; j < n && !progress.cancelled(); ++j)
-                for (std::uint32_t i = 0; i < n; ++i) {
-                    glm::vec2 uv = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
-                    if (i + j >= n) { // outside: only rounding asks here
-                        m_owner[m_begin[t] + j * n + i] = m_owner[m_begin[t] + (n - 1 - i) * n + i];
-                        continue;
-                    }
-                    if (uv.x + uv.y > 1)
-                        uv /= uv.x + uv.y;
-                    m_owner[m_begin[t] + j * n + i] =
-                        nearest.find(trianglePoint(mesh, t, uv), normal);
-                }
+            forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv) {
+                if (uv.x + uv.y > 1)
+                    uv /= uv.x + uv.y;
+                m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
+            });
         }
     });
 }

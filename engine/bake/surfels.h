@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/bake/bake.h"
+#include "engine/bake/surfel_density.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace limn {
@@ -18,17 +20,21 @@ struct MeshSurfels {
     std::vector<std::uint32_t> triangle;
     std::vector<glm::vec2> barycentric;
     std::uint32_t frontCount = 0; ///< size() or, two-sided, half of it
-    float area = 0; ///< of each surfel in object space; frontCount * area is the mesh's area
+    float area = 0; ///< mean of a surfel in object space; frontCount * area is the mesh's area
+    std::vector<float> areas; ///< of each; empty: all alike
+    SurfelDensity density;
 
     std::size_t size() const { return position.size(); }
 };
 
-/// `count` >= 1 points, area-proportional: point i starts in the triangle at (i + 1/2)/count of the
-/// mesh's summed area, so the areas of small triangles carry over to their neighbours, at a Halton
-/// point (bases 2, 3) of that triangle, or a random one. Halton. On the Efficiency of Certain
-/// Quasi-Random Sequences of Points in Evaluating Multi-Dimensional Integrals. 1960
+/// `count` >= 1 points, in proportion to area times density: point i starts in the cell at
+/// (i + 1/2)/count of the mesh's sum of those, so what small triangles deserve carries over to
+/// their neighbours, at a Halton point (bases 2, 3) of that cell, or a random one. Halton. On the
+/// Efficiency of Certain Quasi-Random Sequences of Points in Evaluating Multi-Dimensional
+/// Integrals. 1960
 MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
-                         SurfelPlacement placement, const Progress& progress = {});
+                         SurfelPlacement placement, SurfelDensity density = {},
+                         const Progress& progress = {});
 
 /// Surfels of every static instance of a scene.
 struct SurfelSet {
@@ -38,11 +44,13 @@ struct SurfelSet {
     Surfels surfels;   ///< world space; cache links not filled yet
 };
 
-/// About `target` surfels spread over the static instances by world area, at least one per mesh
-/// side. Instances of a mesh share its points. World areas include the local stretch of the
-/// transform; those of an instance sum to the area of its lit sides.
+/// About `target` surfels spread over the static instances by world area times `density` (per mesh;
+/// empty: the same all over), at least one per mesh side. Instances of a mesh share its points.
+/// World areas include the local stretch of the transform; those of an instance sum to the area of
+/// its lit sides.
 /// When cancelled, of no use. Points of meshes that `store` knows are not placed again.
-SurfelSet placeSurfels(const Scene& scene, std::uint32_t target, const Progress& progress = {},
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
+                       std::span<const SurfelDensity> density = {}, const Progress& progress = {},
                        StageStore* store = nullptr);
 
 /// Light leaves both sides of such a surface.
@@ -64,27 +72,60 @@ public:
 
     /// The table's cell at barycentrics (u, v) of a triangle, < cells().
     std::uint32_t cellAt(std::uint32_t triangle, float u, float v) const {
-        const std::uint32_t n = m_resolution[triangle];
-        const std::uint32_t i = std::min(std::uint32_t(u * float(n)), n - 1);
-        const std::uint32_t j = std::min(std::uint32_t(v * float(n)), n - 1);
-        return m_begin[triangle] + j * n + i;
+        const glm::uvec2 at = m_density.cellAt(triangle, {u, v});
+        const auto side = float(m_density.side(triangle));
+        const Block& block = m_blocks[blockOf(triangle, at)];
+        const std::uint32_t n = block.resolution;
+        const auto along = [n](float x) { // rounding may leave [0, 1)
+            return std::min(std::uint32_t(std::max(x * float(n), 0.f)), n - 1);
+        };
+        const std::uint32_t i = along(u * side - float(at.x)), j = along(v * side - float(at.y));
+        return block.begin + std::min(j, last(at, side, n, i)) * n + i;
     }
     std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
-    /// Cells along u and v of a triangle.
-    std::uint32_t resolution(std::uint32_t triangle) const { return m_resolution[triangle]; }
+
+    /// Calls visit(cell, uv of its middle) for the cells that meet a triangle.
+    template <class Visit>
+    void forCellsOf(std::uint32_t triangle, const Visit& visit) const {
+        const auto side = float(m_density.side(triangle));
+        forCells(m_density.side(triangle), [&](glm::uvec2 at) {
+            const Block& block = m_blocks[blockOf(triangle, at)];
+            const std::uint32_t n = block.resolution;
+            for (std::uint32_t j = 0; j < n; ++j)
+                for (std::uint32_t i = 0; i < n && j <= last(at, side, n, i); ++i) {
+                    const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
+                    visit(block.begin + j * n + i, (glm::vec2(at) + middle) / side);
+                }
+        });
+    }
     /// The surfel on the front of a cell.
     std::uint32_t front(std::uint32_t cell) const { return m_owner[cell]; }
 
     /// Lists the tables for an archive.
     template <class A, class T>
     static void fields(A& a, T& o) {
-        a(o.m_frontCount), a(o.m_resolution), a(o.m_begin), a(o.m_owner);
+        a(o.m_frontCount), a(o.m_density.level), a(o.m_density.begin), a(o.m_blocks), a(o.m_owner);
     }
 
 private:
+    /// The cells in one cell of the density.
+    struct Block {
+        std::uint32_t begin;
+        std::uint32_t resolution; ///< cells along u and v
+    };
+
+    std::uint32_t blockOf(std::uint32_t triangle, glm::uvec2 at) const {
+        return m_density.uniform() ? triangle : m_density.cell(triangle, at);
+    }
+    /// The last cell of column i that meets the triangle.
+    static std::uint32_t last(glm::uvec2 at, float side, std::uint32_t n, std::uint32_t i) {
+        return float(at.x + at.y + 1) < side ? n - 1 : n - 1 - i;
+    }
+    void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);
+
     std::uint32_t m_frontCount = 0;
-    std::vector<std::uint16_t> m_resolution; ///< per triangle: cells along u and v
-    std::vector<std::uint32_t> m_begin;
+    SurfelDensity m_density;     ///< its cells alone
+    std::vector<Block> m_blocks; ///< per cell of the density, or triangle where that is uniform
     std::vector<std::uint32_t> m_owner; ///< front surfel per cell
 };
 

@@ -42,7 +42,6 @@ struct Side {
 struct Sides {
     const TraceScene& trace;
     const Atlas& atlas;
-    float reach; ///< a texel's width [m]
     std::atomic<std::uint64_t>& rays;
 
     std::uint32_t chartOf(std::uint32_t instance, std::uint32_t triangle) const {
@@ -50,10 +49,10 @@ struct Sides {
         return atlas.layout.meshes[mesh].chartOfTriangle[triangle];
     }
     std::uint32_t chartOf(const AtlasTexel& texel) const;
-    std::uint32_t countOpen(const WorldPoint& point, std::uint32_t seed) const;
-    Lifted lift(const WorldPoint& point, std::uint32_t instance, std::uint32_t chart) const;
-    Lifted lift(const MeshPoint& point, std::uint32_t instance, bool back,
+    std::uint32_t countOpen(const WorldPoint& point, float reach, std::uint32_t seed) const;
+    Lifted lift(const WorldPoint& point, float reach, std::uint32_t instance,
                 std::uint32_t chart) const;
+    Lifted lift(const MeshPoint& point, const AtlasTexel& texel, std::uint32_t chart) const;
     bool sees(const Lifted& a, const Lifted& b) const;
     Side choose(AtlasTexel& texel) const;
 };
@@ -67,7 +66,7 @@ std::uint32_t Sides::chartOf(const AtlasTexel& texel) const {
 }
 
 /// Of kProbesPerPoint directions.
-std::uint32_t Sides::countOpen(const WorldPoint& point, std::uint32_t seed) const {
+std::uint32_t Sides::countOpen(const WorldPoint& point, float reach, std::uint32_t seed) const {
     const DirectionSet directions(kProbesPerPoint, false, seed);
     const glm::mat3 toWorld = basisAround(point.normal);
     const glm::vec3 from = trace.clearOf(point.position, point.normal);
@@ -82,7 +81,8 @@ std::uint32_t Sides::countOpen(const WorldPoint& point, std::uint32_t seed) cons
     return open;
 }
 
-Lifted Sides::lift(const WorldPoint& point, std::uint32_t instance, std::uint32_t chart) const {
+Lifted Sides::lift(const WorldPoint& point, float reach, std::uint32_t instance,
+                   std::uint32_t chart) const {
     constexpr float kHeight = 0.25f; // [texels]
     ++rays;
     const glm::vec3 from = trace.clearOf(point.position, point.normal);
@@ -91,12 +91,11 @@ Lifted Sides::lift(const WorldPoint& point, std::uint32_t instance, std::uint32_
     return {from + point.normal * (above ? above.t / 2 : height), instance, chart};
 }
 
-Lifted Sides::lift(const MeshPoint& point, std::uint32_t instance, bool back,
-                   std::uint32_t chart) const {
-    WorldPoint p = worldPoint(trace.scene(), trace.scene().instances[instance], point);
-    if (back)
+Lifted Sides::lift(const MeshPoint& point, const AtlasTexel& texel, std::uint32_t chart) const {
+    WorldPoint p = worldPoint(trace.scene(), trace.scene().instances[texel.instance], point);
+    if (texel.back)
         p.normal = -p.normal;
-    return lift(p, instance, chart);
+    return lift(p, texel.width, texel.instance, chart);
 }
 
 /// Nothing stands between, but for their own chart, which bends by less than a wall.
@@ -116,8 +115,8 @@ Side Sides::choose(AtlasTexel& texel) const {
     std::uint32_t first = 0;
     for (std::uint32_t k = 0; k < texel.count; ++k) {
         const WorldPoint p = texelPoint(scene, texel, k);
-        open[k] = countOpen(p, seed + k);
-        lifted[k] = lift(p, texel.instance, side.chart);
+        open[k] = countOpen(p, texel.width, seed + k);
+        lifted[k] = lift(p, texel.width, texel.instance, side.chart);
         first = open[k] > open[first] ? k : first;
     }
     side.open = open[first] > 0;
@@ -347,8 +346,8 @@ std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     if (!(quad.found >> cell & 1))
         return kSnaps;
     const AtlasTexel& owner = m_texels[quad.texel[0]];
-    const Lifted from = m_sides.lift(quad.points[std::size_t(cell)], owner.instance,
-                                     owner.back != 0, m_side[quad.texel[0]].chart);
+    const Lifted from =
+        m_sides.lift(quad.points[std::size_t(cell)], owner, m_side[quad.texel[0]].chart);
     const glm::vec2 f =
         (glm::vec2(float(cell % kCells), float(cell / kCells)) + 0.5f) / float(kCells);
     return chooseSnap(m_sides, m_side, quad.texel, from, f);
@@ -417,7 +416,7 @@ std::vector<std::uint32_t> Snapper::run(const Progress& progress) {
 TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas, const Progress& progress) {
     TexelSides result{.texels = atlas.texels};
     std::atomic<std::uint64_t> rays = 0;
-    const Sides sides{trace, atlas, 1 / atlas.texelsPerMetre, rays};
+    const Sides sides{trace, atlas, rays};
     std::vector<Side> side(result.texels.size());
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     const bool done = parallelRanges(result.texels.size(), 64, quiet, "charts",
@@ -435,8 +434,8 @@ TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas, const Pro
 
 struct SideLookup::State {
     State(const TraceScene& trace, const Atlas& a)
-        : atlas(a), sides{trace, a, 1 / a.texelsPerMetre, rays},
-          at(std::size_t(a.layout.width) * a.layout.height, ~0U), side(a.texels.size()) {}
+        : atlas(a), sides{trace, a, rays}, at(std::size_t(a.layout.width) * a.layout.height, ~0U),
+          side(a.texels.size()) {}
 
     const Atlas& atlas;
     mutable std::atomic<std::uint64_t> rays = 0;
@@ -458,7 +457,7 @@ void SideLookup::State::know(std::uint32_t texel) {
     s.open = atlas.open[texel] != 0;
     for (std::uint32_t k = 0; k < t.count; ++k)
         if (std::find(t.points.begin(), t.points.begin() + k, t.points[k]) == t.points.begin() + k)
-            s.points[s.count++] = sides.lift(t.points[k], t.instance, t.back != 0, s.chart);
+            s.points[s.count++] = sides.lift(t.points[k], t, s.chart);
 }
 
 std::array<std::uint32_t, 4> SideLookup::State::texelsAt(std::uint32_t place) const {
@@ -504,8 +503,11 @@ glm::vec2 SideLookup::uvOf(std::uint32_t instance, const MeshPoint& point, bool 
     for (std::uint32_t& t : texel)
         if (t != ~0U && (s.side[t].chart != chart || s.atlas.texels[t].instance != instance))
             t = ~0U;
-    const std::uint32_t snap =
-        chooseSnap(s.sides, s.side, texel, s.sides.lift(point, instance, back, chart), p - base);
+    const auto* owner = std::ranges::find_if(texel, [](std::uint32_t t) { return t != ~0U; });
+    if (owner == texel.end())
+        return snapLookup(layout, uv);
+    const Lifted from = s.sides.lift(point, s.atlas.texels[*owner], chart);
+    const std::uint32_t snap = chooseSnap(s.sides, s.side, texel, from, p - base);
     return snap == kSnaps ? snapLookup(layout, uv) : snappedUv(layout, base, p - base, snap);
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 std::uint64_t hashSurfels(const MeshSurfels& s) {
     const std::uint64_t h = hashVector(s.position, hashVector(s.normal, s.frontCount));
-    return hashValue(s.area, hashVector(s.triangle, h));
+    return hashVector(s.density.density,
+                      hashVector(s.areas, hashValue(s.area, hashVector(s.triangle, h))));
 }
 
 std::uint64_t hashCache(const Caches& caches, const CachePoints& points, std::size_t c) {

@@ -86,7 +86,7 @@ PlacedCaches placed(const TraceScene& trace, std::uint32_t grid) {
     std::uint64_t rays = 0;
     const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
     PlacedCaches result;
-    result.caches = placeCaches(scene, *atlas, result.points);
+    result.caches = placeCaches(scene, atlas->atlas, result.points);
     addGridCaches(glm::uvec3(grid), gridBoundsOf(scene), result.caches, result.points);
     return result;
 }

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <vector>
 
 namespace limn {
 namespace {
@@ -23,11 +25,17 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
     std::uniform_real_distribution<float> unit(0, 1);
     const Mesh& mesh = scene.assets->meshes[0];
     int beyond = 0;
+    std::vector<float> side; // cells along a triangle's sides: of n, n (n + 1) / 2 meet it
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+        float cells = 0;
+        owners.of(0).forCellsOf(t, [&](std::uint32_t, glm::vec2) { ++cells; });
+        side.push_back(std::floor(std::sqrt(2 * cells)));
+    }
     for (int i = 0; i < 20000; ++i) {
         const auto t = std::uint32_t(rng() % mesh.triangleCount());
         const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
         const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x,
-                    cell = 8 / float(owners.of(0).resolution(t));
+                    cell = 8 / side[t];
         if (x > kWall - cell && x < kWall + wall + cell)
             continue;
         const std::uint32_t owner = owners.at(0, t, uv.x, uv.y, false);

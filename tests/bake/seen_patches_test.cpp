@@ -43,7 +43,7 @@ struct Prepared {
         : trace(scene), set(placeSurfels(trace.scene(), scene.bake.surfels)),
           owners(trace.scene(), set) {
         std::uint64_t rays = 0;
-        atlas = *atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
+        atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays)->atlas;
         caches = placeCaches(scene, atlas, points);
         seen = findSeenPatches(trace, set, owners, atlas, caches, points, 32, {});
     }

@@ -74,15 +74,15 @@ std::uint64_t looksOf(const Scene& scene) {
     const TraceScene trace(scene);
     std::uint64_t rays = 0;
     const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
-    const SurfelSet set = placeSurfels(scene, scene.bake.surfels);
+    const SurfelSet set = placeSurfels(scene, scene.bake.surfels, atlas->surfels);
     CachePoints points;
-    const Caches caches = placeCaches(scene, *atlas, points);
+    const Caches caches = placeCaches(scene, atlas->atlas, points);
     OwnerTables owners(scene, set);
     PatchSides sides = findPatchSides(trace, set, owners, {});
     rays += sides.rays;
     owners.part(std::move(sides));
     return rays +
-           findSeenPatches(trace, set, owners, *atlas, caches, points, scene.bake.rays / 16, {})
+           findSeenPatches(trace, set, owners, atlas->atlas, caches, points, scene.bake.rays / 16, {})
                .rays;
 }
 
@@ -220,7 +220,7 @@ TEST(Stages, TrainingShadowsAreTracedAgainOnlyNearWhatMoved) {
         std::uint64_t rays = 0;
         const auto atlas = atlasStage(trace, scene, meshes, {}, &store, rays);
         CachePoints points;
-        Caches caches = placeCaches(scene, *atlas, points);
+        Caches caches = placeCaches(scene, atlas->atlas, points);
         const OwnerTables owners(scene, set);
         GatherHits hits;
         return traceHits({trace, set, owners, caches, points, Linker::Gather, 128, meshes}, {},

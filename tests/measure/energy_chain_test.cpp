@@ -40,7 +40,7 @@ struct Measured {
     Measured() {
         std::uint64_t rays = 0;
         const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
-        placeCaches(scene, *atlas, points);
+        placeCaches(scene, atlas->atlas, points);
     }
     Bake baked(CutCriterion cut, std::uint32_t links) const {
         BakeSettings settings = scene.bake;

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/density.h"
+
+#include "engine/bake/atlas.h"
+#include "engine/bake/cache_points.h"
+#include "engine/bake/chart_places.h"
+#include "engine/bake/surfels.h"
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+#include "engine/scene/triangle_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr double kTexelsPerProbe = 4, kMaxProbes = 8192;
+constexpr double kRaysPerTexel = 16, kMaxRays = double(1 << 19); ///< of all probes together
+/// What lies within so many texels counts alike: no texel resolves the light about it.
+constexpr double kAlike = 8;
+/// Charts that deserve less than this share of all texels have the density of their instance.
+constexpr double kOwnDensity = 0.01;
+
+/// A chart of an instance.
+struct Chart {
+    std::uint32_t instance, chart;
+    double area;                      ///< of one side in the world [m^2]
+    std::uint32_t sides;              ///< that are lit
+    std::uint32_t begin = 0, end = 0; ///< its probes; none: too small for one of its own
+    double detail = 0;                ///< texels per area that it deserves, relative
+    int fours = 0;                    ///< its texels per metre go with 4 to this
+};
+
+/// A point on one side of a surface.
+struct Probe {
+    MeshPoint point;
+    std::uint32_t instance, back, seed;
+    bool inSolid = false; ///< most rays meet backs
+};
+
+/// What a probe's ray met.
+struct Met {
+    std::uint32_t mesh = ~0U; ///< ~0: nothing that sends light
+    MeshPoint point{};
+    float perMetre = 0; ///< 1 / distance; 0 for the sky [1/m]
+};
+
+class DensityFinder {
+public:
+    DensityFinder(const TraceScene& trace, const std::vector<MeshCharts>& charts,
+                  std::uint32_t texels)
+        : m_trace(trace), m_scene(trace.scene()), m_charts(charts), m_texels(texels) {
+        for (std::size_t m = 0; m < charts.size(); ++m)
+            m_shapes.push_back(shapesOf(m_scene.assets->meshes[m], charts[m]));
+    }
+
+    BakeDensity run(const Progress& progress);
+
+private:
+    void listCharts();
+    void addProbes();
+    void addProbes(Chart& chart, std::uint32_t count);
+    void look(Probe& probe, Met* met) const;
+    double fourthPower(std::uint32_t probe, float nearest) const;
+    void findDetail(float nearest);
+    void chooseDensities();
+    std::vector<std::vector<float>> factors() const;
+    std::vector<MeshHits> hits() const;
+
+    const TraceScene& m_trace;
+    const Scene& m_scene;
+    const std::vector<MeshCharts>& m_charts;
+    std::uint32_t m_texels;
+    std::vector<MeshChartShapes> m_shapes;
+    std::vector<Chart> m_all; ///< by instance
+    double m_area = 0;        ///< [m^2], of all sides
+    std::vector<Probe> m_probes;
+    std::uint32_t m_rays = 0; ///< per probe
+    std::vector<Met> m_met;
+};
+
+/// Areas from the scale that the atlas uses, which turning an object leaves alone.
+void DensityFinder::listCharts() {
+    for (std::uint32_t i = 0; i < m_scene.instances.size(); ++i) {
+        const Instance& instance = m_scene.instances[i];
+        if (instance.dynamic || m_charts[instance.mesh].indices.empty())
+            continue;
+        const MeshChartShapes& shapes = m_shapes[instance.mesh];
+        const double scale = double(atlasScale(instance));
+        for (std::uint32_t c = 0; c + 1 < shapes.begin.size(); ++c) {
+            Chart chart{i, c, 0, isTwoSided(m_scene.materialOf(instance)) ? 2U : 1U};
+            for (const std::uint32_t t : shapes.trianglesOf(c))
+                chart.area += double(triangleArea(m_scene.meshOf(instance), t)) * scale * scale;
+            m_area += chart.area * chart.sides;
+            m_all.push_back(chart);
+        }
+    }
+}
+
+/// In proportion to the root of each chart's area; what charts without a probe deserve carries over
+/// to the next chart of the instance, and each instance has one.
+void DensityFinder::addProbes() {
+    const double probes = std::min(m_texels / kTexelsPerProbe, kMaxProbes);
+    double roots = 0, carried = 0;
+    for (const Chart& c : m_all)
+        roots += std::sqrt(c.area) * c.sides;
+    for (std::size_t i = 0; i < m_all.size() && roots > 0; ++i) {
+        if (i == 0 || m_all[i].instance != m_all[i - 1].instance)
+            carried = 1;
+        carried += std::sqrt(m_all[i].area) * probes / roots;
+        const double count = m_all[i].area > 0 ? std::floor(carried) : 0;
+        carried -= count;
+        addProbes(m_all[i], std::uint32_t(count));
+    }
+}
+
+/// Point k of n lies in the triangle at (k + 1/2) / n of the chart's area.
+void DensityFinder::addProbes(Chart& chart, std::uint32_t count) {
+    const Instance& instance = m_scene.instances[chart.instance];
+    const Mesh& mesh = m_scene.meshOf(instance);
+    const auto triangles = m_shapes[instance.mesh].trianglesOf(chart.chart);
+    double area = 0, passed = 0;
+    for (const std::uint32_t t : triangles)
+        area += double(triangleArea(mesh, t));
+    chart.begin = std::uint32_t(m_probes.size());
+    std::size_t next = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        while (next == 0 || (passed < (k + 0.5) / count * area && next < triangles.size()))
+            passed += double(triangleArea(mesh, triangles[next++]));
+        const glm::vec2 square(radicalInverse(k + 1, 2), radicalInverse(k + 1, 3));
+        for (std::uint32_t back = 0; back < chart.sides; ++back)
+            m_probes.push_back({{triangles[next - 1], sampleTriangle(square)},
+                                chart.instance,
+                                back,
+                                mixBits(chart.chart + mixBits(2 * k + back))});
+    }
+    chart.end = std::uint32_t(m_probes.size());
+}
+
+/// Cosine-weighted rays.
+void DensityFinder::look(Probe& probe, Met* met) const {
+    WorldPoint at = worldPoint(m_scene, m_scene.instances[probe.instance], probe.point);
+    if (probe.back)
+        at.normal = -at.normal;
+    const glm::mat3 toWorld = basisAround(at.normal);
+    const glm::vec3 from = m_trace.clearOf(at.position, at.normal);
+    const DirectionSet directions(m_rays, false, probe.seed);
+    std::uint32_t backs = 0;
+    for (std::uint32_t r = 0; r < m_rays; ++r) {
+        // Heights are uniform in the set, and their squares where rays are cosine-weighted.
+        const glm::vec3 d = directions[r];
+        const float z2 = directions.height(r), flat = std::max(d.x * d.x + d.y * d.y, 1e-12f);
+        const glm::vec2 disc = glm::vec2(d.x, d.y) * std::sqrt((1 - z2) / flat);
+        const Hit hit =
+            m_trace.closestHit({from, toWorld * glm::vec3(disc, std::sqrt(z2))}, TraceMask::Static);
+        if (!hit)
+            continue;
+        const Instance& other = m_scene.instances[hit.instance];
+        if (!hit.frontFace && !isTwoSided(m_scene.materialOf(other)))
+            ++backs;
+        else
+            met[r] = {other.mesh, {hit.triangle, {hit.u, hit.v}}, 1 / std::max(hit.t, 1e-30f)};
+    }
+    probe.inSolid = 2 * backs > m_rays;
+}
+
+/// Of the harmonic mean nearness, in units of the scene's size; no distance counts as less than
+/// `nearest` [m].
+double DensityFinder::fourthPower(std::uint32_t probe, float nearest) const {
+    double sum = 0;
+    for (std::uint32_t r = 0; r < m_rays; ++r)
+        sum += double(std::min(m_met[std::size_t(probe) * m_rays + r].perMetre, 1 / nearest));
+    return std::pow(sum / m_rays * std::sqrt(m_area), 4);
+}
+
+/// The cubic root of each chart's mean fourth power; of small ones, and those without probes
+/// outside of solids, their instance's: an object that stands on a floor keeps its texels when it
+/// is lifted.
+void DensityFinder::findDetail(float nearest) {
+    std::vector<double> sum(m_scene.instances.size()), open(sum.size());
+    double texels = 0; // relative
+    for (Chart& c : m_all) {
+        double own = 0, count = 0;
+        for (std::uint32_t p = c.begin; p < c.end; ++p)
+            if (!m_probes[p].inSolid) {
+                own += fourthPower(p, nearest);
+                ++count;
+            }
+        c.detail = count > 0 ? std::cbrt(own / count) : -1;
+        sum[c.instance] += own;
+        open[c.instance] += count;
+        texels += c.area * c.sides * std::max(c.detail, 0.);
+    }
+    for (Chart& c : m_all) {
+        const double ofInstance =
+            open[c.instance] > 0 ? std::cbrt(sum[c.instance] / open[c.instance]) : 0;
+        if (c.detail < 0 || c.area * c.sides * ofInstance < kOwnDensity * texels)
+            c.detail = ofInstance;
+    }
+}
+
+/// The width of texels decides what they can resolve, and that their number and so their width.
+void DensityFinder::chooseDensities() {
+    double width = std::sqrt(m_area / m_texels); // where `fours` is 0 [m]
+    for (int round = 0; round < 4; ++round) {
+        findDetail(float(kAlike * width));
+        double sum = 0, squares = 0, worth = 0;
+        for (const Chart& c : m_all) {
+            sum += c.area * c.sides * c.detail;
+            squares += c.area * c.sides * c.detail * c.detail;
+        }
+        for (Chart& c : m_all) {
+            c.fours = sum > 0 ? densityClass(std::max(c.detail, 1e-30), squares / sum) : 0;
+            worth += c.area * c.sides * std::exp2(4 * c.fours);
+        }
+        width = std::sqrt(worth / m_texels);
+    }
+}
+
+std::vector<std::vector<float>> DensityFinder::factors() const {
+    std::vector<std::vector<float>> result(m_scene.instances.size());
+    for (const Chart& c : m_all)
+        result[c.instance].push_back(float(std::exp2(2 * c.fours)));
+    return result;
+}
+
+/// Each weighs as much as the texels that its probe stands for.
+std::vector<MeshHits> DensityFinder::hits() const {
+    std::vector<MeshHits> result(m_charts.size());
+    for (const Chart& c : m_all) {
+        const double texels = c.area * c.sides * std::exp2(4 * c.fours);
+        for (std::uint32_t p = c.begin; p < c.end; ++p)
+            for (std::uint32_t r = 0; r < m_rays && !m_probes[p].inSolid; ++r)
+                if (const Met& met = m_met[std::size_t(p) * m_rays + r]; met.mesh != ~0U) {
+                    result[met.mesh].at.push_back(met.point);
+                    result[met.mesh].weight.push_back(float(texels / (c.end - c.begin)));
+                }
+        result[m_scene.instances[c.instance].mesh].area += c.area * c.sides;
+    }
+    return result;
+}
+
+BakeDensity DensityFinder::run(const Progress& progress) {
+    BakeDensity result;
+    listCharts();
+    addProbes();
+    if (m_probes.empty())
+        return result;
+    const double rays = std::min(m_texels * kRaysPerTexel, kMaxRays);
+    m_rays = std::uint32_t(std::clamp(rays / double(m_probes.size()), 8.0, 64.0));
+    m_met.resize(m_probes.size() * m_rays);
+    const Progress quiet{.report = {}, .cancel = progress.cancel};
+    if (!parallelRanges(m_probes.size(), 16, quiet, "charts",
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t p = begin; p < end; ++p)
+                                look(m_probes[p], &m_met[p * m_rays]);
+                        }))
+        return result;
+    chooseDensities();
+    result.texels = factors();
+    result.surfels = surfelDensities(m_scene, m_charts, m_shapes, hits());
+    result.rays = m_met.size();
+    return result;
+}
+
+} // namespace
+
+BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,
+                        std::uint32_t texels, const Progress& progress) {
+    return DensityFinder(trace, charts, texels).run(progress);
+}
+
+} // namespace limn

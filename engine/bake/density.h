@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/bake/lightmap_layout.h"
+#include "engine/bake/surfel_density.h"
+#include "engine/core/progress.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Where a scene deserves texels and surfels.
+struct BakeDensity {
+    /// Times the texels per metre, per instance and chart: a power of four. Empty, also for an
+    /// instance: 1.
+    std::vector<std::vector<float>> texels;
+    std::vector<SurfelDensity> surfels; ///< per mesh; empty: one density
+    std::uint64_t rays = 0;             ///< traced to find it
+};
+
+/// Looks round from points all over the static surfaces.
+///
+/// Irradiance varies over distances like R, the harmonic mean of those to what is seen (Ward,
+/// Heckbert. Irradiance Gradients. 1992; the sky is infinitely far), and so is off by about
+/// E / (R^2 n) where it is interpolated linearly between n texels per area. Summed over all
+/// surfaces, the squares of that are least where each chart has n in proportion to the cubic root
+/// of its mean 1 / R^4. So a ground that reaches to the horizon leaves its texels to the house on
+/// it.
+///
+/// Surfels follow what rays from the texels meet: each stands for the same share of all that light
+/// comes from, so surfaces that no cache sees, or that lie far off, get few.
+///
+/// Both densities come in powers of sixteen about what most texels or hits have, so in a room whose
+/// walls are all near each other there is one density, and small moves of objects rarely change
+/// any. `texels`: how many there will be. Of no use when cancelled.
+BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,
+                        std::uint32_t texels, const Progress& progress = {});
+
+} // namespace limn

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bake/surfel_density.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace limn {
+
+namespace {
+
+double sumOf(std::span<const float> values) {
+    double sum = 0;
+    for (const float v : values)
+        sum += double(v);
+    return sum;
+}
+
+/// Hits per area of a part of a surface, drawn towards `before`, that of the larger part which it
+/// lies in, as if kHits more had been met at that density.
+double drawn(double weight, double area, double perHit, double before) {
+    constexpr double kHits = 8;
+    return (weight + kHits * perHit) / (area + kHits * perHit / before);
+}
+
+/// Cells of so many hits each tell of their own density.
+std::uint8_t levelFor(std::size_t hits) {
+    constexpr double kHitsPerCell = 16;
+    const double level = std::log2(std::max(double(hits) / kHitsPerCell, 1.0)) / 2;
+    return std::uint8_t(std::min(level, double(SurfelDensity::kMaxLevel)));
+}
+
+/// Of one mesh, hits per square metre of its instances.
+SurfelDensity cellDensities(const Mesh& mesh, const MeshCharts& charts,
+                            const MeshChartShapes& shapes, const MeshHits& hits, double perHit,
+                            double all) {
+    const std::size_t triangles = mesh.triangleCount();
+    double inObject = 0;
+    for (std::size_t t = 0; t < triangles; ++t)
+        inObject += double(triangleArea(mesh, t));
+    if (!(hits.area > 0 && inObject > 0))
+        return {};
+    const double toWorld = hits.area / inObject; // of all instances
+    const double ofMesh = std::max(drawn(sumOf(hits.weight), hits.area, perHit, all), all / 2);
+    SurfelDensity result;
+    std::vector<std::size_t> count(triangles);
+    std::vector<double> chartSum(charts.chartSize.size()), chartArea(chartSum.size());
+    for (std::size_t i = 0; i < hits.at.size(); ++i) {
+        ++count[hits.at[i].triangle];
+        chartSum[charts.chartOfTriangle[hits.at[i].triangle]] += double(hits.weight[i]);
+    }
+    for (std::uint32_t c = 0; c < chartArea.size(); ++c)
+        for (const std::uint32_t t : shapes.trianglesOf(c))
+            chartArea[c] += double(triangleArea(mesh, t)) * toWorld;
+    std::uint32_t cells = 0;
+    for (std::size_t t = 0; t < triangles; ++t) {
+        result.level.push_back(levelFor(count[t]));
+        result.begin.push_back(cells);
+        cells += 1U << 2 * result.level.back();
+    }
+    result.density.assign(cells, 0);
+    for (std::size_t i = 0; i < hits.at.size(); ++i) {
+        const MeshPoint& p = hits.at[i];
+        result.density[result.cell(p.triangle, result.cellAt(p.triangle, p.barycentric))] +=
+            hits.weight[i];
+    }
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+        const std::uint32_t c = charts.chartOfTriangle[t];
+        const double ofChart = drawn(chartSum[c], chartArea[c], perHit, ofMesh);
+        const double area = double(triangleArea(mesh, t)) * toWorld;
+        forCells(result.side(t), [&](glm::uvec2 at) {
+            float& d = result.density[result.cell(t, at)];
+            d = float(std::max(drawn(double(d), area * result.share(t, at), perHit, ofChart),
+                               ofMesh / 2));
+        });
+    }
+    return result;
+}
+
+/// One number where all cells agree.
+void simplify(SurfelDensity& d) {
+    const float first = d.density.front();
+    for (std::uint32_t t = 0; t < d.level.size(); ++t) {
+        bool same = true;
+        forCells(d.side(t),
+                 [&](glm::uvec2 at) { same = same && d.density[d.cell(t, at)] == first; });
+        if (!same)
+            return;
+    }
+    d = {{}, {}, {first}};
+}
+
+} // namespace
+
+int densityClass(double value, double centre) {
+    const double middle = std::exp2(std::round(2 * std::log2(centre)) / 2);
+    constexpr double kLeast = -3, kMost = 2;
+    const double exact = std::log2(value / middle) / 4;
+    constexpr double kUp = 0.5, kDown = 0.1;
+    return int(std::clamp(std::floor(exact + (exact > 0 ? kUp : 1 - kDown)), kLeast, kMost));
+}
+
+std::vector<SurfelDensity> surfelDensities(const Scene& scene, std::span<const MeshCharts> charts,
+                                           std::span<const MeshChartShapes> shapes,
+                                           std::span<const MeshHits> hits) {
+    std::vector<SurfelDensity> result(hits.size());
+    double sum = 0, count = 0, area = 0, squares = 0;
+    for (const MeshHits& h : hits) {
+        sum += sumOf(h.weight);
+        count += double(h.weight.size());
+        area += h.area;
+    }
+    if (!(sum > 0 && area > 0))
+        return result;
+    for (std::size_t m = 0; m < hits.size(); ++m) {
+        result[m] = cellDensities(scene.assets->meshes[m], charts[m], shapes[m], hits[m],
+                                  sum / count, sum / area);
+        for (std::size_t i = 0; i < hits[m].at.size(); ++i) {
+            const MeshPoint& p = hits[m].at[i];
+            squares += double(hits[m].weight[i]) * double(result[m].at(p.triangle, p.barycentric));
+        }
+    }
+    for (SurfelDensity& d : result) {
+        for (float& x : d.density)
+            x = float(std::exp2(4 * std::min(densityClass(double(x), squares / sum), 0)));
+        simplify(d);
+    }
+    return result;
+}
+
+} // namespace limn
