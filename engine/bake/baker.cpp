@@ -237,10 +237,12 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         weighBySight(seen, result.tree);
     }
     clock.finish("training");
+    std::vector<double> linked;
     if (!buildLinks(set.surfels, result.tree, hits, points, training,
                     {scene.bake.cut, scene.bake.links, int(scene.bake.bands), scene.bake.storage},
-                    progress, result.caches))
+                    progress, result.caches, &linked))
         return cancelled();
+    weighByLinks(seen, linked, result.tree);
     const std::uint32_t invalid = fillInvalid(result.caches, 1 / atlas.texelsPerMetre);
     clock.finish("cut");
 

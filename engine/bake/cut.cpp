@@ -135,7 +135,10 @@ public:
         if (caches.kind[cache] == CacheKind::Hemisphere)
             matchIrradiance(std::min(in.settings.bands, kIrradianceBands), caches.normal[cache],
                             m_cones);
-        return packLinks(in.settings.storage, in.settings.bands, m_cones);
+        PackedLinks packed = packLinks(in.settings.storage, in.settings.bands, m_cones);
+        for (const Cone& cone : m_cones)
+            packed.irradiance.push_back({cone.node, cone.irradiance});
+        return packed;
     }
 
 private:
@@ -264,12 +267,13 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
         const CacheKind kind = caches.kind[c];
         const bool sphere = kind != CacheKind::Hemisphere;
         const DirectionSet rays(hits.rays, sphere, 0); // its turn changes no height
-        for (std::uint32_t r = 0; r < hits.rays; ++r) {
-            const std::uint32_t sender = hits.sender[std::size_t(c) * hits.rays + r];
-            if (sender < GatherHits::kFirstMark)
-                seen[sender] += double((sphere ? 4.f : 2.f) / float(hits.rays) *
-                                       irradianceShare(kind, rays.height(r)));
-        }
+        const std::uint32_t* sender = hits.sender.data() + std::size_t(c) * hits.rays;
+        const auto kept =
+            hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
+        for (std::uint32_t r = 0; r < hits.rays; ++r)
+            if (sender[r] < GatherHits::kFirstMark)
+                seen[sender[r]] += double((sphere ? 4.f : 2.f) / float(kept) *
+                                          irradianceShare(kind, rays.height(r)));
         for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
             const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
             seen[hits.aimed[k].sender] += double(v.transport * irradianceShare(kind, v.cosTheta));
@@ -289,9 +293,28 @@ void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
     }
 }
 
+void weighByLinks(const std::vector<float>& seen, const std::vector<double>& linked,
+                  ClusterTree& tree) {
+    // Links at a node or below it come out of what is seen of it: the rest reads it from above.
+    std::vector<double> all(seen.begin(), seen.end()), below = linked;
+    all.resize(tree.size());
+    for (std::size_t k = 0; k < tree.left.size(); ++k) {
+        const std::uint32_t l = tree.left[k], r = tree.right[k],
+                            node = tree.leaves() + std::uint32_t(k);
+        all[node] = all[l] + all[r];
+        const double left = std::max(all[l] - below[l], 0.),
+                     right = std::max(all[r] - below[r], 0.);
+        constexpr double kLeast = 1e-4; // less is rounding
+        if (left + right > kLeast * all[node])
+            tree.leftWeight[k] = float(left / (left + right));
+        below[node] += below[l] + below[r];
+    }
+}
+
 bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
                 const CachePoints& points, const TrainingLight& training,
-                const CutSettings& settings, const Progress& progress, Caches& caches) {
+                const CutSettings& settings, const Progress& progress, Caches& caches,
+                std::vector<double>* linked) {
     constexpr std::uint32_t kMostOfBudget = 16; // a cache may have this many times n_L
     const LinkInput input{surfels,
                           hits,
@@ -333,6 +356,12 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
     if (!done)
         return false;
     joinLinks(links, caches);
+    if (linked) {
+        linked->assign(tree.size(), 0);
+        for (const PackedLinks& packed : links)
+            for (const LinkIrradiance& l : packed.irradiance)
+                (*linked)[l.node] += double(l.irradiance);
+    }
     return true;
 }
 

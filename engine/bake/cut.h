@@ -18,6 +18,13 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
 /// walls. Nodes that no ray met keep their weights.
 void weighBySight(const std::vector<float>& seen, ClusterTree& tree);
 
+/// Weighs the children of each cluster by what those caches see of them that are linked to it or to
+/// one above it. Caches near what differs within a cluster link its parts instead; were they
+/// counted, the mean that the others read would be too dark or too bright. `seen`: seenByCaches;
+/// `linked`: of buildLinks. Clusters that no cache reads keep their weights.
+void weighByLinks(const std::vector<float>& seen, const std::vector<double>& linked,
+                  ClusterTree& tree);
+
 struct CutSettings {
     CutCriterion criterion = CutCriterion::Detail;
     std::uint32_t links = 256; ///< n_L
@@ -35,9 +42,11 @@ struct CutSettings {
 /// of them, up to 16 n_L, and easy ones fewer.
 ///
 /// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
-/// irradiance of its rays at the surface's own normal, whatever shines.
+/// irradiance of its rays at the surface's own normal, whatever shines. `linked`, if not null:
+/// per node of the tree, what a radiosity of 1 brings through all links to it, summed.
 bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
                 const CachePoints& points, const TrainingLight& training,
-                const CutSettings& settings, const Progress& progress, Caches& caches);
+                const CutSettings& settings, const Progress& progress, Caches& caches,
+                std::vector<double>* linked = nullptr);
 
 } // namespace limn

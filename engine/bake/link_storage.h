@@ -19,12 +19,18 @@ struct Cone {
     float irradiance; ///< exact, at unit radiosity: the rays' sum of solid angle / pi times cosine
 };
 
+struct LinkIrradiance {
+    std::uint32_t node;
+    float irradiance; ///< at unit radiosity
+};
+
 /// The packed links of one cache, as the fields of Caches of the same names.
 struct PackedLinks {
     std::int8_t linkExponent = 0;
     std::vector<Link> links;
     std::vector<std::uint32_t> shNode;
     std::vector<std::uint16_t> shCoefficients;
+    std::vector<LinkIrradiance> irradiance; ///< of each link
 };
 
 /// Packs what a cache is linked to. Sh keeps the spherical harmonics of the very cone that Rtp

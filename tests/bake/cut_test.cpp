@@ -299,5 +299,67 @@ TEST(TrainingLight, HasAMeanSquareOfOneOverWhatIsSeen) {
     EXPECT_GE(lit, 32); // a closed room: every lamp, no sun, no sky
 }
 
+TEST(WeighByLinks, CountsThoseAloneThatReadTheMean) {
+    ClusterTree tree; // leaves 0 to 2; 3 = (0, 1), 4 = (3, 2)
+    tree.surfels = 3;
+    tree.left = {0, 3};
+    tree.right = {1, 2};
+    tree.leftWeight = {0.9f, 0.9f};
+    ASSERT_EQ(tree.leaves(), 3U);
+    // One cache is linked to leaf 0, 2 of the 3 that are seen of it, one to all of the tree, one to
+    // leaf 2 and the cluster of the others.
+    const std::vector<float> seen = {3, 4, 7};
+    const std::vector<double> linked = {2, 0, 5, 2, 5};
+    weighByLinks(seen, linked, tree);
+    EXPECT_FLOAT_EQ(tree.leftWeight[0], 1 / 5.f);
+    EXPECT_FLOAT_EQ(tree.leftWeight[1], 3 / 5.f);
+    weighByLinks(seen, {3, 4, 7, 0, 0}, tree); // nobody reads a mean
+    EXPECT_FLOAT_EQ(tree.leftWeight[0], 1 / 5.f);
+    EXPECT_FLOAT_EQ(tree.leftWeight[1], 3 / 5.f);
+}
+
+TEST(WeighByLinks, LinksKeepTheEnergyOfWhatTheyStandFor) {
+    const Fixture& f = fixture();
+    const std::vector<float> seen = seenByCaches(f.set.surfels, f.hits, f.points, f.caches, f.tree);
+    for (const std::uint32_t links : {8U, 16U, 32U}) {
+        Caches caches = f.caches;
+        std::vector<double> linked;
+        buildLinks(f.set.surfels, f.tree, f.hits, f.points, f.training,
+                   {CutCriterion::Detail, links, 3}, {}, caches, &linked);
+        ClusterTree tree = f.tree;
+        weighByLinks(seen, linked, tree);
+        // Over all caches, bright towards one side.
+        double before = 0, after = 0;
+        for (int axis = 0; axis < 6; ++axis) {
+            std::vector<double> was(f.tree.size()), is;
+            double exact = 0;
+            for (std::uint32_t s = 0; s < f.tree.surfels; ++s) {
+                const float x = f.set.surfels.position[s][axis / 2];
+                was[s] = std::exp(axis % 2 ? -3.0 * double(x) : 3.0 * double(x) - 6);
+                exact += was[s] * double(seen[s]);
+            }
+            is = was;
+            double sumWas = 0, sumIs = 0;
+            for (std::uint32_t n = 0; n < f.tree.size(); ++n) {
+                if (n >= f.tree.leaves()) {
+                    const std::uint32_t k = n - f.tree.leaves();
+                    const auto pull = [&](const ClusterTree& t, std::vector<double>& v) {
+                        const double w = double(t.leftWeight[k]);
+                        v[n] = w * v[t.left[k]] + (1 - w) * v[t.right[k]];
+                    };
+                    pull(f.tree, was);
+                    pull(tree, is);
+                }
+                sumWas += linked[n] * was[n];
+                sumIs += linked[n] * is[n];
+            }
+            before += std::abs(sumWas / exact - 1);
+            after += std::abs(sumIs / exact - 1);
+        }
+        EXPECT_LT(after, before / 2) << links;
+        EXPECT_LT(after / 6, 0.01) << links;
+    }
+}
+
 } // namespace
 } // namespace limn
