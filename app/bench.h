@@ -18,6 +18,7 @@ void addEnergyBench(CLI::App& bench, Run& run);
 void addErrorBench(CLI::App& bench, Run& run);
 void addFrameBench(CLI::App& bench, Run& run);
 void addGlossyBench(CLI::App& bench, Run& run);
+void addLinksBench(CLI::App& bench, Run& run);
 void addRelightBench(CLI::App& bench, Run& run);
 void addStressBench(CLI::App& bench, Run& run);
 

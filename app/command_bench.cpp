@@ -79,6 +79,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
     addEnergyBench(*bench, run);
     addErrorBench(*bench, run);
     addGlossyBench(*bench, run);
+    addLinksBench(*bench, run);
     addRelightBench(*bench, run);
 #ifdef LIMN_HAS_VIEWPORT
     addFrameBench(*bench, run);

@@ -3,6 +3,7 @@
 
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut_worth.h"
+#include "engine/bake/link_harmonics.h"
 #include "engine/bake/link_storage.h"
 #include "engine/bake/visible_tree.h"
 #include "engine/core/parallel.h"
@@ -16,6 +17,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -51,9 +53,9 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
                 band += y[i] * axis[i];
             series += factors[std::size_t(l)] * g[l] * band;
         }
-        constexpr float kMostGain = 2; // where the series is near zero along the surface
-        cone.transport *=
-            series > 0 ? std::min(cone.irradiance / (cone.transport * series), kMostGain) : 1;
+        cone.transport *= series > 0 ? std::min(cone.irradiance / (cone.transport * series),
+                                                IrradianceAxis::kMaxGain)
+                                     : 1;
     }
 }
 
@@ -98,9 +100,9 @@ public:
 
     /// Joins what a cache sees. False for a cache that sees nothing.
     bool look(const Caches& caches, std::uint32_t cache) {
-        addRays(caches, cache);
-        for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
-            addAimed(caches.kind[cache], in.hits.aimed[k]);
+        forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float) {
+            m_seen.add(sender, sight);
+        });
         m_seen.build();
         return m_seen.size() > 0;
     }
@@ -132,17 +134,25 @@ public:
         std::sort(m_cones.begin(), m_cones.end(), [&](const Cone& a, const Cone& b) {
             return std::pair(in.sky[a.node], a.node) < std::pair(in.sky[b.node], b.node);
         });
-        if (caches.kind[cache] == CacheKind::Hemisphere)
-            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), caches.normal[cache],
-                            m_cones);
-        PackedLinks packed = packLinks(in.settings.storage, in.settings.bands, m_cones);
+        PackedLinks packed = in.settings.storage == LinkStorage::Sh ? projectSamples(caches, cache)
+                                                                    : packOwnCones(caches, cache);
         for (const Cone& cone : m_cones)
             packed.irradiance.push_back({cone.node, cone.irradiance});
         return packed;
     }
 
 private:
-    void addRays(const Caches& caches, std::uint32_t cache) {
+    /// Calls visit(sender, what the sample sees of it, u of the cone that it stands for), of rays
+    /// and aimed samples.
+    template <class Visit>
+    void forEachSample(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
+        forEachRay(caches, cache, visit);
+        for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
+            visitAimed(caches.kind[cache], in.hits.aimed[k], visit);
+    }
+
+    template <class Visit>
+    void forEachRay(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         const std::uint32_t count = in.hits.rays;
         const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * count;
         const auto kept =
@@ -160,16 +170,72 @@ private:
             toMoment[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * weight;
         for (std::uint32_t r = 0, k = 0; r < count; ++r) {
             if (sender[r] < GatherHits::kFirstMark)
-                m_seen.add(sender[r],
-                           {weight, sphere ? half : weight * local[r].z, toMoment[k] * local[r]});
+                visit(sender[r],
+                      Sight{weight, sphere ? half : weight * local[r].z, toMoment[k] * local[r]},
+                      0.f);
             k = k + 1 == rays.points ? 0 : k + 1;
         }
     }
 
-    void addAimed(CacheKind kind, const AimedSample& sample) {
+    /// Its ray meets the middle of a sender whose solid angle it stands for: pi transport / scale
+    /// = 2 pi u.
+    template <class Visit>
+    void visitAimed(CacheKind kind, const AimedSample& sample, const Visit& visit) const {
         const SenderView v = viewOf(in.surfels, in.points, kind, sample);
-        m_seen.add(sample.sender, {v.transport, v.transport * irradianceShare(kind, v.cosTheta),
-                                   v.direction * v.transport});
+        visit(sample.sender,
+              Sight{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
+                    v.direction * v.transport},
+              v.transport / (2 * sample.scale));
+    }
+
+    PackedLinks packOwnCones(const Caches& caches, std::uint32_t cache) {
+        if (caches.kind[cache] == CacheKind::Hemisphere)
+            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), caches.normal[cache],
+                            m_cones);
+        return packCones(m_cones);
+    }
+
+    /// The harmonics of the samples under each of m_cones' nodes.
+    PackedLinks projectSamples(const Caches& caches, std::uint32_t cache) {
+        const int bands = in.settings.bands;
+        const auto stride = std::size_t(bands * bands);
+        findLinksOfLeaves();
+        m_harmonics.assign(m_cones.size() * stride, 0);
+        forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float u) {
+            addHarmonics(bands, sight.moment / sight.weight, u, sight.weight,
+                         m_harmonics.data() + m_linkOf[sender] * stride);
+        });
+        if (caches.kind[cache] == CacheKind::Hemisphere) {
+            const IrradianceAxis axis(std::min(bands, kIrradianceBands), caches.normal[cache]);
+            for (std::size_t k = 0; k < m_cones.size(); ++k) {
+                float* own = m_harmonics.data() + k * stride;
+                const float gain = axis.gainTo(m_cones[k].irradiance, own);
+                std::transform(own, own + stride, own, [&](float c) { return c * gain; });
+            }
+        }
+        std::vector<std::uint32_t> nodes;
+        nodes.reserve(m_cones.size());
+        for (const Cone& cone : m_cones)
+            nodes.push_back(cone.node);
+        return packHarmonics(bands, std::move(nodes), m_harmonics);
+    }
+
+    /// After put(): m_linkOf of the leaves in sight.
+    void findLinksOfLeaves() {
+        constexpr std::uint32_t kNone = ~0U;
+        m_linkOf.resize(in.sky.size());
+        for (std::uint32_t k = 0; k < m_cones.size(); ++k)
+            m_linkOf[m_cones[k].node] = k;
+        m_linkAbove.assign(m_seen.size(), kNone);
+        for (std::uint32_t i = m_seen.size(); i-- > 0;) { // children come before their parents
+            if (m_linkAbove[i] == kNone && !m_refined[i])
+                m_linkAbove[i] = m_linkOf[m_seen.node[i]];
+            if (i < m_seen.leaves())
+                m_linkOf[m_seen.node[i]] = m_linkAbove[i];
+            else
+                for (const int side : {0, 1})
+                    m_linkAbove[m_seen.child(i, side)] = m_linkAbove[i];
+        }
     }
 
     void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t mostLinks) {
@@ -197,6 +263,10 @@ private:
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
     std::vector<Cone> m_cones;
+    // Of LinkStorage::Sh alone:
+    std::vector<float> m_harmonics;         ///< bands^2 for each of m_cones
+    std::vector<std::uint32_t> m_linkOf;    ///< per node of the ClusterTree
+    std::vector<std::uint32_t> m_linkAbove; ///< per node of m_seen
 };
 
 /// How many refinements of all caches are worth how much, in steps of less than 1 % of the worth:

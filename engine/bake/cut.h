@@ -41,6 +41,9 @@ struct CutSettings {
 /// per link (CutWorth::byDetail), as many links in all as SolidAngle has; so hard caches get more
 /// of them, up to 16 n_L, and easy ones fewer.
 ///
+/// Rtp keeps the cone of a node's rays: their sum of weights and mean direction. Sh keeps the
+/// harmonics of the rays themselves, which are nearer to the truth (`limn bench links`).
+///
 /// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
 /// irradiance of its rays at the surface's own normal, whatever shines. `linked`, if not null:
 /// per node of the tree, what a radiosity of 1 brings through all links to it, summed.

@@ -6,8 +6,10 @@
 #include "engine/math/sh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace limn {
 
@@ -18,7 +20,8 @@ static std::int8_t exponentFor(float largest) {
     return std::int8_t(std::clamp(14 - std::ilogb(largest), -126, 126));
 }
 
-static void packCones(std::span<const Cone> cones, PackedLinks& out) {
+PackedLinks packCones(std::span<const Cone> cones) {
+    PackedLinks out;
     float largest = 0;
     for (const Cone& cone : cones)
         largest = std::max(largest, cone.transport);
@@ -29,39 +32,21 @@ static void packCones(std::span<const Cone> cones, PackedLinks& out) {
         out.links.push_back({cone.node, d.x, d.y, floatToHalf(cone.u),
                              floatToHalf(std::ldexp(cone.transport, out.linkExponent))});
     }
+    return out;
 }
 
-static void packHarmonics(int bands, std::span<const Cone> cones, PackedLinks& out) {
-    const auto coefficients = std::size_t(bands * bands);
-    std::vector<float> values(cones.size() * coefficients);
-    float g[kMaxBands], largest = 0, *y = values.data();
-    for (const Cone& cone : cones) {
-        shBasis(bands, cone.direction, y);
-        coneFactors(bands, cone.u, g);
-        for (int l = 0, i = 0; l < bands; ++l)
-            for (; i < (l + 1) * (l + 1); ++i) {
-                y[i] *= cone.transport * g[l];
-                largest = std::max(largest, std::abs(y[i]));
-            }
-        out.shNode.push_back(cone.node);
-        y += coefficients;
-    }
-    out.linkExponent = exponentFor(largest);
-    out.shCoefficients.reserve(values.size());
-    for (const float v : values)
-        out.shCoefficients.push_back(floatToHalf(std::ldexp(v, out.linkExponent)));
-}
-
-PackedLinks packLinks(LinkStorage storage, int bands, std::span<const Cone> cones) {
+PackedLinks packHarmonics([[maybe_unused]] int bands, std::vector<std::uint32_t> nodes,
+                          std::span<const float> coefficients) {
+    assert(coefficients.size() == nodes.size() * std::size_t(bands * bands));
     PackedLinks out;
-    switch (storage) {
-    case LinkStorage::Rtp:
-        packCones(cones, out);
-        break;
-    case LinkStorage::Sh:
-        packHarmonics(bands, cones, out);
-        break;
-    }
+    float largest = 0;
+    for (const float c : coefficients)
+        largest = std::max(largest, std::abs(c));
+    out.linkExponent = exponentFor(largest);
+    out.shNode = std::move(nodes);
+    out.shCoefficients.reserve(coefficients.size());
+    for (const float c : coefficients)
+        out.shCoefficients.push_back(floatToHalf(std::ldexp(c, out.linkExponent)));
     return out;
 }
 
@@ -102,6 +87,25 @@ LinkWeight linkWeight(const Caches& caches, std::uint32_t c, std::uint32_t k) {
     constexpr float kOverY00 = float(2 / std::numbers::inv_sqrtpi);
     return {caches.shNode[k],
             halfToFloat(caches.shCoefficients[k * coefficients]) * kOverY00 * scale};
+}
+
+void expandLink(const Caches& caches, std::uint32_t c, std::uint32_t k, int bands,
+                float* coefficients) {
+    const float scale = std::ldexp(1.f, -caches.linkExponent[c]);
+    const auto count = std::size_t(bands * bands);
+    if (!caches.shNode.empty()) {
+        const std::size_t stored = caches.shCoefficients.size() / caches.shNode.size();
+        for (std::size_t i = 0; i < count; ++i)
+            coefficients[i] = halfToFloat(caches.shCoefficients[k * stored + i]) * scale;
+        return;
+    }
+    const Link& link = caches.links[k];
+    float g[kMaxBands];
+    shBasis(bands, unpackOct(link.octX, link.octY), coefficients);
+    coneFactors(bands, halfToFloat(link.u), g);
+    for (int l = 0, i = 0; l < bands; ++l)
+        for (; i < (l + 1) * (l + 1); ++i)
+            coefficients[i] *= halfToFloat(link.transport) * scale * g[l];
 }
 
 } // namespace limn

@@ -33,10 +33,13 @@ struct PackedLinks {
     std::vector<LinkIrradiance> irradiance; ///< of each link
 };
 
-/// Packs what a cache is linked to. Sh keeps the spherical harmonics of the very cone that Rtp
-/// expands at run time, before its rounding; not those of the rays behind it, which are gone by
-/// then: a cone knows their sum of weights and mean direction.
-PackedLinks packLinks(LinkStorage storage, int bands, std::span<const Cone> cones);
+/// Packs a cache's links as LinkStorage::Rtp keeps them.
+PackedLinks packCones(std::span<const Cone> cones);
+
+/// Packs a cache's links as LinkStorage::Sh keeps them: `coefficients` has bands^2 values for each
+/// of `nodes`, link after link, which are what a radiosity of 1 adds to the cache's SH.
+PackedLinks packHarmonics(int bands, std::vector<std::uint32_t> nodes,
+                          std::span<const float> coefficients);
 
 /// Replaces the links of `caches` by these, one entry per cache.
 void joinLinks(std::span<const PackedLinks> packed, Caches& caches);
@@ -52,5 +55,10 @@ struct LinkWeight {
 
 /// Link k of those of cache c, k in [linkBegin[c], linkBegin[c + 1]).
 LinkWeight linkWeight(const Caches& caches, std::uint32_t c, std::uint32_t k);
+
+/// Writes what a radiosity of 1 at that link's node adds to the cache's SH: bands^2 coefficients.
+/// bands: no more than links of LinkStorage::Sh have.
+void expandLink(const Caches& caches, std::uint32_t c, std::uint32_t k, int bands,
+                float* coefficients);
 
 } // namespace limn

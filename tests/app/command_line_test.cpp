@@ -391,6 +391,27 @@ TEST_F(CommandLine, BenchRelightMovesDynamicObjectsAndTimesTheirDimming) {
     EXPECT_GT(both[1]["dimming_median_ms"], 0);
 }
 
+TEST_F(CommandLine, BenchLinksMeasuresBothStorages) {
+    const std::string folder = path("links");
+    const std::string start = "bench links cornell --surfels 256 --links 16 --rays 32 --lightmap "
+                              "200 --grid 2x2x2 --caches 20 --reference-rays 4 --json -o " +
+                              folder;
+    const nlohmann::json rows = json(start + " --bands 4")["rows"];
+    ASSERT_EQ(rows.size(), 4u); // lightmap and grid
+    for (const nlohmann::json& row : rows)
+        for (const char* key : {"link_band_0", "link_band_3", "lit_band_3", "irradiance_60"})
+            EXPECT_GT(row[key], 0) << key;
+    EXPECT_EQ(rows[0]["storage"], "rtp");
+    EXPECT_EQ(rows[1]["storage"], "sh");
+    EXPECT_EQ(rows[0]["links"], rows[1]["links"]);
+    EXPECT_EQ(rows[2]["caches"], "grid");
+    EXPECT_NE(contents(folder + "/links.csv").find("irradiance_30"), std::string::npos);
+    const nlohmann::json few = json(start + " --bands 2 --storage sh")["rows"];
+    ASSERT_EQ(few.size(), 2u);
+    EXPECT_TRUE(few[0]["lit_band_2"].is_null());
+    EXPECT_EQ(limn("bench links -o " + folder).exit, 2);
+}
+
 TEST_F(CommandLine, BenchRelightCountsLinksThatArePassedOver) {
     const std::string start = "bench relight cornell --surfels 2048 --links 64 --rays 64 "
                               "--lightmap 400 --storage rtp --runs 9 --json -o " +

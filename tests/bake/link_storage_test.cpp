@@ -26,36 +26,52 @@ std::vector<Cone> randomCones(std::size_t count, float transport) {
     return cones;
 }
 
+/// The same links in either storage.
+PackedLinks packed(LinkStorage storage, int bands, std::span<const Cone> cones) {
+    if (storage == LinkStorage::Rtp)
+        return packCones(cones);
+    std::vector<std::uint32_t> nodes;
+    std::vector<float> coefficients;
+    float y[kMaxCoefficients], g[kMaxBands];
+    for (const Cone& cone : cones) {
+        nodes.push_back(cone.node);
+        shBasis(bands, cone.direction, y);
+        coneFactors(bands, cone.u, g);
+        for (int i = 0; i < bands * bands; ++i)
+            coefficients.push_back(cone.transport * g[int(std::sqrt(i))] * y[i]);
+    }
+    return packHarmonics(bands, nodes, coefficients);
+}
+
 Caches cachesOf(LinkStorage storage, int bands, const std::vector<Cone>& cones) {
-    const PackedLinks packed[] = {packLinks(storage, bands, cones)};
+    const PackedLinks links[] = {packed(storage, bands, cones)};
     Caches caches;
-    joinLinks(packed, caches);
+    joinLinks(links, caches);
     return caches;
 }
 
-TEST(LinkStorage, ShLinksHoldWhatTheirConesExpandTo) {
+TEST(LinkStorage, EitherStorageExpandsToTheHarmonicsOfItsCones) {
     const std::vector<Cone> cones = randomCones(40, 1e-3f);
-    for (int bands = 2; bands <= kMaxBands; ++bands) {
-        const PackedLinks packed = packLinks(LinkStorage::Sh, bands, cones);
-        ASSERT_EQ(packed.shCoefficients.size(), cones.size() * std::size_t(bands * bands));
-        EXPECT_TRUE(packed.links.empty());
-        float y[kMaxCoefficients], g[kMaxBands];
-        for (std::size_t k = 0; k < cones.size(); ++k) {
-            shBasis(bands, cones[k].direction, y);
-            coneFactors(bands, cones[k].u, g);
-            EXPECT_EQ(packed.shNode[k], cones[k].node);
-            for (int i = 0; i < bands * bands; ++i) {
-                const double exact =
-                    double(cones[k].transport * g[int(std::sqrt(i))]) * double(y[i]);
-                const double kept = std::ldexp(
-                    double(halfToFloat(
-                        packed.shCoefficients[k * std::size_t(bands * bands) + std::size_t(i)])),
-                    -packed.linkExponent);
-                EXPECT_NEAR(kept, exact, 0x1p-11 * std::abs(exact) + 1e-12)
-                    << bands << " bands, coefficient " << i;
+    for (int bands = 2; bands <= kMaxBands; ++bands)
+        for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
+            const Caches caches = cachesOf(storage, bands, cones);
+            EXPECT_EQ(caches.links.empty(), storage == LinkStorage::Sh);
+            float y[kMaxCoefficients], g[kMaxBands], is[kMaxCoefficients];
+            for (std::uint32_t k = 0; k < cones.size(); ++k) {
+                shBasis(bands, cones[k].direction, y);
+                coneFactors(bands, cones[k].u, g);
+                expandLink(caches, 0, k, bands, is);
+                for (int i = 0; i < bands * bands; ++i) {
+                    const int l = int(std::sqrt(i));
+                    const float exact = cones[k].transport * g[l] * y[i];
+                    // A cone's halfs and direction move each band by so much of the transport.
+                    const float near = storage == LinkStorage::Sh
+                                           ? 0x1p-11f * std::abs(exact) + 1e-12f
+                                           : 2e-3f * float(l + 1) * cones[k].transport;
+                    EXPECT_NEAR(is[i], exact, near) << bands << " bands, coefficient " << i;
+                }
             }
         }
-    }
 }
 
 TEST(LinkStorage, NoTransportIsTooSmallOrTooLargeForHalfs) {
@@ -76,17 +92,17 @@ TEST(LinkStorage, NoTransportIsTooSmallOrTooLargeForHalfs) {
 TEST(LinkStorage, ScalesByPowersOfTwoAlone) {
     const std::vector<Cone> one = {{7, {0, 0, 1}, 0.5f, 0.25f, 0}};
     EXPECT_EQ(linkWeight(cachesOf(LinkStorage::Rtp, 3, one), 0, 0).transport, 0.25f);
-    EXPECT_EQ(packLinks(LinkStorage::Rtp, 3, {}).linkExponent, 0);
+    EXPECT_EQ(packCones({}).linkExponent, 0);
 }
 
 TEST(LinkStorage, JoinsTheLinksOfAllCachesInTheirOrder) {
     const std::vector<Cone> cones = randomCones(5, 1);
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
-        const PackedLinks whole = packLinks(storage, 3, cones),
-                          part = packLinks(storage, 3, std::span(cones).first(2));
-        const PackedLinks packed[] = {part, {}, whole};
+        const PackedLinks whole = packed(storage, 3, cones),
+                          part = packed(storage, 3, std::span(cones).first(2));
+        const PackedLinks all[] = {part, {}, whole};
         Caches caches;
-        joinLinks(packed, caches);
+        joinLinks(all, caches);
         EXPECT_EQ(caches.linkBegin, (std::vector<std::uint32_t>{0, 2, 2, 7}));
         EXPECT_EQ(caches.linkCount(), 7U);
         EXPECT_EQ(caches.linkExponent,
