@@ -3,6 +3,7 @@
 
 #include "engine/core/hash.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -25,7 +26,32 @@ static std::optional<glm::uvec3> gridOf(const std::string& text) {
     return cells;
 }
 
+/// "draft, medium or high".
+static std::string presetNames() {
+    std::string names;
+    for (const BakePreset& p : kBakePresets)
+        names += fmt::format("{}{}",
+                             names.empty()                ? ""
+                             : &p == &kBakePresets.back() ? " or "
+                                                          : ", ",
+                             p.name);
+    return names;
+}
+
+static const BakePreset* presetNamed(const std::string& name) {
+    const auto* at = std::ranges::find(kBakePresets, name, &BakePreset::name);
+    return at == kBakePresets.end() ? nullptr : at;
+}
+
 void addBakeOptions(CLI::App& command, BakeOptions& o) {
+    command
+        .add_option_function<std::string>(
+            "--preset", [&o](const std::string& name) { o.preset = presetNamed(name); },
+            "Surfels, links, rays and lightmap caches that go together: " + presetNames() +
+                "; other options replace single ones")
+        ->check([](const std::string& name) {
+            return presetNamed(name) ? "" : fmt::format("\"{}\" is not {}", name, presetNames());
+        });
     command.add_option("--surfels", o.surfels, "Surfels n_S")->check(CLI::Range(64, 1 << 20));
     command.add_option("--links", o.links, "Links per cache n_L")->check(CLI::Range(1, 4096));
     command.add_option("--bands", o.bands, "SH bands of the caches")->check(CLI::Range(2, 8));
@@ -79,6 +105,8 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
 }
 
 void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
+    if (o.preset)
+        o.preset->applyTo(s);
     s.surfels = o.surfels.value_or(s.surfels);
     s.links = o.links.value_or(s.links);
     s.bands = o.bands.value_or(s.bands);

@@ -22,6 +22,7 @@ struct BakeOptions {
     std::optional<CutCriterion> cut;
     std::optional<LinkStorage> storage;
     std::optional<Clustering> clustering;
+    const BakePreset* preset = nullptr;
     std::string grid; ///< XxYxZ, checked; empty: the document's
     int threads = 0;  ///< 0: all
 };

@@ -164,7 +164,26 @@ static void bakeStateLine(EditorState& state) {
     ImGui::EndDisabled();
 }
 
+static void presetRow(FieldEdit& edit, BakeSettings& s) {
+    constexpr const char* kLabels[] = {"Draft", "Medium", "High"};
+    static_assert(std::size(kLabels) == kBakePresets.size());
+    const auto* preset =
+        std::ranges::find_if(kBakePresets, [&](const BakePreset& p) { return p.describes(s); });
+    const auto current = std::size_t(preset - kBakePresets.begin());
+    fieldLabel("Quality", "Surfels, links, rays and lightmap texels that go together. Each step "
+                          "takes three to five times as long to bake as the one before; Medium is "
+                          "the default. Custom: counts of your own");
+    if (ImGui::BeginCombo("##preset", preset == kBakePresets.end() ? "Custom" : kLabels[current])) {
+        for (std::size_t i = 0; i < kBakePresets.size(); ++i)
+            if (ImGui::Selectable(kLabels[i], i == current))
+                kBakePresets[i].applyTo(s);
+        ImGui::EndCombo();
+    }
+    fieldEdited(edit, "Quality");
+}
+
 void bakeSection(FieldEdit& edit, BakeSettings& s) {
+    presetRow(edit, s);
     countRow(edit, "Surfels (n_S)",
              "Sample points of the surfaces that stand for all bounced light, over the whole "
              "scene. More: finer light, longer bake, more memory",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -33,11 +34,11 @@ enum class LinkStorage : std::uint8_t { Rtp, Sh };
 /// first, and links and rays share what is left of the time.
 struct BakeSettings {
     std::uint32_t surfels = 32768; ///< n_S, target over the scene; [64, 1 << 20]
-    std::uint32_t links = 128;     ///< n_L per cache, a mean with CutCriterion::Detail; [1, 4096]
+    std::uint32_t links = 64;      ///< n_L per cache, a mean with CutCriterion::Detail; [1, 4096]
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
-    std::uint32_t rays = 512;      ///< R per cache; [16, 65536]
+    std::uint32_t rays = 256;      ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
-        24000;                     ///< target count of lightmap caches; 0 with texelsPerMetre > 0
+        36000;                     ///< target count of lightmap caches; 0 with texelsPerMetre > 0
     float texelsPerMetre = 0;      ///< > 0: fixes the texel density instead
     glm::uvec3 grid{0};            ///< cells of the grid caches; 0: chosen from the bounds
     std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
@@ -63,5 +64,27 @@ struct BakeSettings {
 inline std::uint32_t chromaBandsOf(const BakeSettings& s) {
     return s.chromaBands == 0 || s.chromaBands > s.bands ? s.bands : s.chromaBands;
 }
+
+/// Counts that go together.
+struct BakePreset {
+    const char* name; ///< as on the command line
+    std::uint32_t surfels, links, rays, lightmapCaches;
+
+    /// Its counts are those of the settings.
+    bool describes(const BakeSettings& s) const {
+        return s.surfels == surfels && s.links == links && s.rays == rays &&
+               s.lightmapCaches == lightmapCaches && s.texelsPerMetre == 0;
+    }
+    void applyTo(BakeSettings& s) const {
+        s.surfels = surfels;
+        s.links = links;
+        s.rays = rays;
+        s.lightmapCaches = lightmapCaches;
+        s.texelsPerMetre = 0;
+    }
+};
+inline constexpr std::array<BakePreset, 3> kBakePresets = {{{"draft", 16384, 64, 128, 10000},
+                                                            {"medium", 32768, 64, 256, 36000},
+                                                            {"high", 131072, 128, 256, 160000}}};
 
 } // namespace limn

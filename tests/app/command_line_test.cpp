@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The contract that scripts rely on: exit codes, one line for a failure, one JSON object on stdout.
+#include "engine/scene/bake_settings.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -95,9 +97,9 @@ TEST_F(CommandLine, ExitsWith2OnBadUsage) {
           "bake cornell -o x --surfels many", "bake cornell -o x --surfels -5",
           "bake cornell -o x --grid 3x3", "bake cornell -o x --grid -1x3x3",
           "bake cornell -o x --bands 9", "bake cornell -o x --storage zip",
-          "bake cornell -o x --chroma-bands 9", "reference cornell",
-          "reference cornell -o x.exr --spp none", "reference cornell -o x.exr --view nonsense",
-          "compare one.exr", "info"}) {
+          "bake cornell -o x --chroma-bands 9", "bake cornell -o x --preset finest",
+          "reference cornell", "reference cornell -o x.exr --spp none",
+          "reference cornell -o x.exr --view nonsense", "compare one.exr", "info"}) {
         const Outcome run = limn(arguments);
         EXPECT_EQ(run.exit, 2) << "limn " << arguments << "\n" << run.err;
         EXPECT_EQ(run.out, "") << "limn " << arguments;
@@ -217,6 +219,16 @@ TEST_F(CommandLine, ReferenceAndComparePrintOneJsonObject) {
     EXPECT_NEAR(two["nrmse"].get<double>() / one, std::sqrt(0.5), 0.1);
     EXPECT_NEAR(two["reference_noise"].get<double>() / one, 0.5, 0.1);
     expectRefusal("compare " + b + " " + c + " --reference2 nowhere.exr", "nowhere.exr");
+}
+
+TEST_F(CommandLine, APresetSetsCountsAndOtherOptionsReplaceSingleOnes) {
+    const std::string bake = path("draft.limnbake");
+    json("bake cornell --preset draft --surfels 512 --json -o " + bake);
+    const nlohmann::json settings = json("info --json " + bake)["settings"];
+    EXPECT_EQ(settings["surfels"], 512);
+    EXPECT_EQ(settings["links"], limn::kBakePresets[0].links);
+    EXPECT_EQ(settings["rays"], limn::kBakePresets[0].rays);
+    EXPECT_TRUE(limn::kBakePresets[1].describes(limn::BakeSettings{})); // medium is the default
 }
 
 TEST_F(CommandLine, BenchErrorMeasuresGeneratedScenes) {

@@ -34,6 +34,7 @@ Figures measure(std::uint64_t seed) {
     BakeSettings settings;
     settings.surfels = 4096;
     settings.lightmapCaches = 3000;
+    settings.links = 128;
     settings.rays = 256;
     Result<Bake> baked = bake(trace, {}, nullptr, &settings);
     EXPECT_TRUE(baked);

@@ -74,7 +74,7 @@ TEST(Leak, OfTheCutIntoASealedRoomIsAtMostAQuarterOfThePapers) {
         const double detail = leak(CutCriterion::Detail, links) - uncut;
         RecordProperty("paper_" + std::to_string(links), std::to_string(paper));
         RecordProperty("detail_" + std::to_string(links), std::to_string(detail));
-        EXPECT_GT(paper, 0.01);
+        EXPECT_GT(paper, 0.005);
         EXPECT_LT(detail, paper / 4) << links << " links; without a cut " << uncut;
     }
 }
