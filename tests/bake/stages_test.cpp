@@ -81,9 +81,9 @@ std::uint64_t looksOf(const Scene& scene) {
     PatchSides sides = findPatchSides(trace, set, owners, {});
     rays += sides.rays;
     owners.part(std::move(sides));
-    return rays +
-           findSeenPatches(trace, set, owners, atlas->atlas, caches, points, scene.bake.rays / 16, {})
-               .rays;
+    return rays + findSeenPatches(trace, set, owners, atlas->atlas, caches, points,
+                                  scene.bake.rays / 16, {})
+                      .rays;
 }
 
 std::string notesOf(const Bake& bake) {
