@@ -3,7 +3,6 @@
 
 #include "engine/bake/texel_cover.h"
 #include "engine/core/parallel.h"
-#include "engine/scene/triangle_geometry.h"
 
 #include <algorithm>
 #include <atomic>
@@ -25,12 +24,10 @@ double lightmappedArea(const AtlasInput& in) {
         const Instance& instance = in.scene.instances[i];
         if (!hasLightmap(in, instance))
             continue;
+        const std::vector<double>& area = in.shapes[instance.mesh].area;
         double mesh = 0;
-        for (std::size_t t = 0; t < in.scene.meshOf(instance).triangleCount(); ++t) {
-            const float f =
-                in.factorOf(std::uint32_t(i), in.charts[instance.mesh].chartOfTriangle[t]);
-            mesh += double(triangleArea(in.scene.meshOf(instance), t) * f * f);
-        }
+        for (std::uint32_t c = 0; c < area.size(); ++c)
+            mesh += area[c] * std::pow(double(in.factorOf(std::uint32_t(i), c)), 2);
         sum += mesh * double(in.scale[i]) * double(in.scale[i]) * sidesOf(in, instance);
     }
     return sum;
@@ -153,11 +150,8 @@ float atlasScale(const Instance& instance) {
 
 Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
                  std::vector<std::vector<float>> factors, const Progress& progress) {
-    AtlasInput in{scene, charts, {}, {}, std::move(factors)};
-    for (const Instance& i : scene.instances)
-        in.scale.push_back(atlasScale(i));
-    for (std::size_t m = 0; m < charts.size(); ++m)
-        in.shapes.push_back(shapesOf(scene.assets->meshes[m], charts[m]));
+    AtlasInput in = atlasInput(scene, charts);
+    in.factor = std::move(factors);
     Atlas atlas;
     atlas.texelsPerMetre = settings.texelsPerMetre > 0
                                ? settings.texelsPerMetre

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/chart_places.h"
 
+#include "engine/bake/atlas.h"
 #include "engine/bake/surfels.h"
 #include "engine/scene/triangle_geometry.h"
 
@@ -209,6 +210,7 @@ MeshChartShapes shapesOf(const Mesh& mesh, const MeshCharts& charts) {
         ++result.begin[c + 1];
     std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
     result.triangles.resize(charts.chartOfTriangle.size());
+    result.area.assign(count, 0);
     result.lower.assign(count, glm::vec3(1e30f));
     result.upper.assign(count, glm::vec3(-1e30f));
     std::vector<glm::vec3> facing(count, glm::vec3(0));
@@ -216,7 +218,9 @@ MeshChartShapes shapesOf(const Mesh& mesh, const MeshCharts& charts) {
     for (std::uint32_t t = 0; t < charts.chartOfTriangle.size(); ++t) {
         const std::uint32_t c = charts.chartOfTriangle[t];
         result.triangles[next[c]++] = t;
-        facing[c] += triangleNormal(mesh, t) * triangleArea(mesh, t);
+        const float area = triangleArea(mesh, t);
+        facing[c] += triangleNormal(mesh, t) * area;
+        result.area[c] += double(area);
         for (const std::uint32_t v : mesh.triangle(t)) {
             result.lower[c] = glm::min(result.lower[c], mesh.positions[v]);
             result.upper[c] = glm::max(result.upper[c], mesh.positions[v]);
@@ -225,6 +229,15 @@ MeshChartShapes shapesOf(const Mesh& mesh, const MeshCharts& charts) {
     for (const glm::vec3 n : facing)
         result.side.push_back(sideOf(n));
     return result;
+}
+
+AtlasInput atlasInput(const Scene& scene, const std::vector<MeshCharts>& charts) {
+    AtlasInput in{scene, charts, {}, {}, {}};
+    for (const Instance& i : scene.instances)
+        in.scale.push_back(atlasScale(i));
+    for (std::size_t m = 0; m < charts.size(); ++m)
+        in.shapes.push_back(shapesOf(scene.assets->meshes[m], charts[m]));
+    return in;
 }
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance) {

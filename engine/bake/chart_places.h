@@ -16,6 +16,7 @@ namespace limn {
 struct MeshChartShapes {
     std::vector<std::uint32_t> begin, triangles; ///< of chart c: triangles[begin[c] … begin[c+1])
     std::vector<std::uint8_t> side;      ///< that most of its area faces: +x, -x, +y, -y, +z, -z
+    std::vector<double> area;            ///< of one side in object space [m^2]
     std::vector<glm::vec3> lower, upper; ///< bounds in object space
 
     std::span<const std::uint32_t> trianglesOf(std::uint32_t chart) const {
@@ -37,6 +38,9 @@ struct AtlasInput {
         return factor.empty() || factor[instance].empty() ? 1 : factor[instance][chart];
     }
 };
+
+/// With every factor 1.
+AtlasInput atlasInput(const Scene& scene, const std::vector<MeshCharts>& charts);
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance);
 

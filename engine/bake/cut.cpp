@@ -137,7 +137,7 @@ public:
         PackedLinks packed = in.settings.storage == LinkStorage::Sh ? projectSamples(caches, cache)
                                                                     : packOwnCones(caches, cache);
         for (const Cone& cone : m_cones)
-            packed.irradiance.push_back({cone.node, cone.irradiance});
+            packed.irradiance.push_back(cone.irradiance);
         return packed;
     }
 
@@ -428,9 +428,10 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
     joinLinks(links, caches);
     if (linked) {
         linked->assign(tree.size(), 0);
-        for (const PackedLinks& packed : links)
-            for (const LinkIrradiance& l : packed.irradiance)
-                (*linked)[l.node] += double(l.irradiance);
+        for (std::uint32_t c = 0; c < links.size(); ++c)
+            for (std::uint32_t k = 0; k < links[c].irradiance.size(); ++k)
+                (*linked)[linkWeight(caches, c, caches.linkBegin[c] + k).node] +=
+                    double(links[c].irradiance[k]);
     }
     return true;
 }

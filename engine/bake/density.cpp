@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/density.h"
 
-#include "engine/bake/atlas.h"
 #include "engine/bake/cache_points.h"
 #include "engine/bake/chart_places.h"
 #include "engine/bake/surfels.h"
@@ -32,7 +31,7 @@ struct Chart {
     std::uint32_t sides;              ///< that are lit
     std::uint32_t begin = 0, end = 0; ///< its probes; none: too small for one of its own
     double detail = 0;                ///< texels per area that it deserves, relative
-    int fours = 0;                    ///< its texels per metre go with 4 to this
+    int fours = 0;                    ///< its texels per metre are multiplied by 4^fours
 };
 
 /// A point on one side of a surface.
@@ -53,10 +52,8 @@ class DensityFinder {
 public:
     DensityFinder(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                   std::uint32_t texels)
-        : m_trace(trace), m_scene(trace.scene()), m_charts(charts), m_texels(texels) {
-        for (std::size_t m = 0; m < charts.size(); ++m)
-            m_shapes.push_back(shapesOf(m_scene.assets->meshes[m], charts[m]));
-    }
+        : m_trace(trace), m_scene(trace.scene()), m_in(atlasInput(trace.scene(), charts)),
+          m_texels(texels) {}
 
     BakeDensity run(const Progress& progress);
 
@@ -73,11 +70,11 @@ private:
 
     const TraceScene& m_trace;
     const Scene& m_scene;
-    const std::vector<MeshCharts>& m_charts;
+    AtlasInput m_in;
     std::uint32_t m_texels;
-    std::vector<MeshChartShapes> m_shapes;
     std::vector<Chart> m_all; ///< by instance
     double m_area = 0;        ///< [m^2], of all sides
+    double m_size = 0;        ///< [m], the root of that
     std::vector<Probe> m_probes;
     std::uint32_t m_rays = 0; ///< per probe
     std::vector<Met> m_met;
@@ -87,18 +84,16 @@ private:
 void DensityFinder::listCharts() {
     for (std::uint32_t i = 0; i < m_scene.instances.size(); ++i) {
         const Instance& instance = m_scene.instances[i];
-        if (instance.dynamic || m_charts[instance.mesh].indices.empty())
+        if (!hasLightmap(m_in, instance))
             continue;
-        const MeshChartShapes& shapes = m_shapes[instance.mesh];
-        const double scale = double(atlasScale(instance));
-        for (std::uint32_t c = 0; c + 1 < shapes.begin.size(); ++c) {
-            Chart chart{i, c, 0, isTwoSided(m_scene.materialOf(instance)) ? 2U : 1U};
-            for (const std::uint32_t t : shapes.trianglesOf(c))
-                chart.area += double(triangleArea(m_scene.meshOf(instance), t)) * scale * scale;
-            m_area += chart.area * chart.sides;
-            m_all.push_back(chart);
+        const std::vector<double>& area = m_in.shapes[instance.mesh].area;
+        const double scale = double(m_in.scale[i]);
+        for (std::uint32_t c = 0; c < area.size(); ++c) {
+            m_all.push_back({i, c, area[c] * scale * scale, sidesOf(m_in, instance)});
+            m_area += m_all.back().area * m_all.back().sides;
         }
     }
+    m_size = std::sqrt(m_area);
 }
 
 /// In proportion to the root of each chart's area; what charts without a probe deserve carries over
@@ -122,10 +117,9 @@ void DensityFinder::addProbes() {
 void DensityFinder::addProbes(Chart& chart, std::uint32_t count) {
     const Instance& instance = m_scene.instances[chart.instance];
     const Mesh& mesh = m_scene.meshOf(instance);
-    const auto triangles = m_shapes[instance.mesh].trianglesOf(chart.chart);
-    double area = 0, passed = 0;
-    for (const std::uint32_t t : triangles)
-        area += double(triangleArea(mesh, t));
+    const auto triangles = m_in.shapes[instance.mesh].trianglesOf(chart.chart);
+    const double area = m_in.shapes[instance.mesh].area[chart.chart];
+    double passed = 0;
     chart.begin = std::uint32_t(m_probes.size());
     std::size_t next = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -174,7 +168,7 @@ double DensityFinder::fourthPower(std::uint32_t probe, float nearest) const {
     double sum = 0;
     for (std::uint32_t r = 0; r < m_rays; ++r)
         sum += double(std::min(m_met[std::size_t(probe) * m_rays + r].perMetre, 1 / nearest));
-    return std::pow(sum / m_rays * std::sqrt(m_area), 4);
+    return std::pow(sum / m_rays * m_size, 4);
 }
 
 /// The cubic root of each chart's mean fourth power; of small ones, and those without probes
@@ -230,7 +224,7 @@ std::vector<std::vector<float>> DensityFinder::factors() const {
 
 /// Each weighs as much as the texels that its probe stands for.
 std::vector<MeshHits> DensityFinder::hits() const {
-    std::vector<MeshHits> result(m_charts.size());
+    std::vector<MeshHits> result(m_in.charts.size());
     for (const Chart& c : m_all) {
         const double texels = c.area * c.sides * std::exp2(4 * c.fours);
         for (std::uint32_t p = c.begin; p < c.end; ++p)
@@ -262,7 +256,7 @@ BakeDensity DensityFinder::run(const Progress& progress) {
         return result;
     chooseDensities();
     result.texels = factors();
-    result.surfels = surfelDensities(m_scene, m_charts, m_shapes, hits());
+    result.surfels = surfelDensities(m_scene, m_in.charts, m_in.shapes, hits());
     result.rays = m_met.size();
     return result;
 }

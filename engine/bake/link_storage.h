@@ -19,18 +19,13 @@ struct Cone {
     float irradiance; ///< exact, at unit radiosity: the rays' sum of solid angle / pi times cosine
 };
 
-struct LinkIrradiance {
-    std::uint32_t node;
-    float irradiance; ///< at unit radiosity
-};
-
 /// The packed links of one cache, as the fields of Caches of the same names.
 struct PackedLinks {
     std::int8_t linkExponent = 0;
     std::vector<Link> links;
     std::vector<std::uint32_t> shNode;
     std::vector<std::uint16_t> shCoefficients;
-    std::vector<LinkIrradiance> irradiance; ///< of each link
+    std::vector<float> irradiance; ///< of each link, at unit radiosity
 };
 
 /// Packs a cache's links as LinkStorage::Rtp keeps them.

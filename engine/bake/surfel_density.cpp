@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace limn {
 
@@ -34,23 +35,18 @@ SurfelDensity cellDensities(const Mesh& mesh, const MeshCharts& charts,
                             const MeshChartShapes& shapes, const MeshHits& hits, double perHit,
                             double all) {
     const std::size_t triangles = mesh.triangleCount();
-    double inObject = 0;
-    for (std::size_t t = 0; t < triangles; ++t)
-        inObject += double(triangleArea(mesh, t));
+    const double inObject = std::accumulate(shapes.area.begin(), shapes.area.end(), 0.);
     if (!(hits.area > 0 && inObject > 0))
         return {};
     const double toWorld = hits.area / inObject; // of all instances
     const double ofMesh = std::max(drawn(sumOf(hits.weight), hits.area, perHit, all), all / 2);
     SurfelDensity result;
     std::vector<std::size_t> count(triangles);
-    std::vector<double> chartSum(charts.chartSize.size()), chartArea(chartSum.size());
+    std::vector<double> chartSum(charts.chartSize.size());
     for (std::size_t i = 0; i < hits.at.size(); ++i) {
         ++count[hits.at[i].triangle];
         chartSum[charts.chartOfTriangle[hits.at[i].triangle]] += double(hits.weight[i]);
     }
-    for (std::uint32_t c = 0; c < chartArea.size(); ++c)
-        for (const std::uint32_t t : shapes.trianglesOf(c))
-            chartArea[c] += double(triangleArea(mesh, t)) * toWorld;
     std::uint32_t cells = 0;
     for (std::size_t t = 0; t < triangles; ++t) {
         result.level.push_back(levelFor(count[t]));
@@ -65,7 +61,7 @@ SurfelDensity cellDensities(const Mesh& mesh, const MeshCharts& charts,
     }
     for (std::uint32_t t = 0; t < triangles; ++t) {
         const std::uint32_t c = charts.chartOfTriangle[t];
-        const double ofChart = drawn(chartSum[c], chartArea[c], perHit, ofMesh);
+        const double ofChart = drawn(chartSum[c], shapes.area[c] * toWorld, perHit, ofMesh);
         const double area = double(triangleArea(mesh, t)) * toWorld;
         forCells(result.side(t), [&](glm::uvec2 at) {
             float& d = result.density[result.cell(t, at)];

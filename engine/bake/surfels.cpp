@@ -183,10 +183,10 @@ glm::vec2 sampleCell(std::uint32_t side, glm::uvec2 at, glm::vec2 square) {
     return (glm::vec2(at) + square) / float(side);
 }
 
-/// Point i lies in the cell at (i + 1/2)/count of the summed worth.
+/// Point i lies in the cell at (i + 1/2)/count of the summed worth, `total`.
 std::vector<MeshPoint> pointsByWorth(const Mesh& mesh, std::uint32_t count,
-                                     const SurfelDensity& density, SurfelPlacement placement) {
-    const double total = summedWorth(mesh, density);
+                                     const SurfelDensity& density, double total,
+                                     SurfelPlacement placement) {
     std::vector<MeshPoint> points;
     Xorshift random;
     double passed = 0;
@@ -263,10 +263,10 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
     MeshSurfels result;
     result.frontCount = count;
     result.area = float(total / count);
-    std::vector<MeshPoint> points = pointsByWorth(mesh, count, density, placement);
+    const double worth = summedWorth(mesh, density);
+    std::vector<MeshPoint> points = pointsByWorth(mesh, count, density, worth, placement);
     if (placement == SurfelPlacement::Relaxed)
-        relax(mesh, hexagonalSpacing(float(summedWorth(mesh, density) / count)), density, points,
-              progress);
+        relax(mesh, hexagonalSpacing(float(worth / count)), density, points, progress);
     if (!density.uniform())
         result.areas = areasOf(points, density, total);
     result.density = std::move(density);

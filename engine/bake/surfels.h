@@ -124,7 +124,7 @@ private:
     void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);
 
     std::uint32_t m_frontCount = 0;
-    SurfelDensity m_density;     ///< its cells alone
+    SurfelDensity m_density;     ///< without its densities: only how triangles are parted
     std::vector<Block> m_blocks; ///< per cell of the density, or triangle where that is uniform
     std::vector<std::uint32_t> m_owner; ///< front surfel per cell
 };

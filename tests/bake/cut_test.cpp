@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cut.h"
 
-#include "engine/bake/atlas.h"
-#include "engine/bake/charts.h"
-#include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut_worth.h"
-#include "engine/bake/input_hash.h"
 #include "engine/bake/link_storage.h"
-#include "engine/bake/trace_stage.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/bake/traced_room.h"
 
 #include <gtest/gtest.h>
 
@@ -29,28 +24,10 @@ Scene roomWithBlock() {
 }
 
 /// A bake up to its links.
-struct Fixture {
-    Scene scene = roomWithBlock();
-    TraceScene trace{scene};
-    SurfelSet set = placeSurfels(scene, 1500);
-    ClusterTree tree = buildClusterTree(scene, set);
-    CachePoints points;
-    Caches caches;
-    GatherHits hits;
+struct Fixture : TracedRoom {
     TrainingLight training;
 
-    Fixture() {
-        scene.bake.lightmapCaches = 300;
-        std::vector<MeshCharts> charts;
-        for (const Mesh& m : scene.assets->meshes)
-            charts.push_back(buildCharts(m));
-        const Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
-        caches = placeCaches(scene, atlas, points);
-        addGridCaches(glm::uvec3(2), gridBoundsOf(scene), caches, points);
-        const OwnerTables owners(scene, set);
-        EXPECT_TRUE(
-            traceHits({trace, set, owners, caches, points, Linker::Gather, 256, hashMeshes(scene)},
-                      {}, nullptr, hits));
+    Fixture() : TracedRoom(roomWithBlock()) {
         const std::vector<float> seen = seenByCaches(set.surfels, hits, points, caches, tree);
         weighBySight(seen, tree);
         training = trainingLight(scene, set.surfels, tree, seen,

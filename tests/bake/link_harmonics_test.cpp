@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/link_harmonics.h"
 
-#include "engine/bake/atlas.h"
-#include "engine/bake/charts.h"
-#include "engine/bake/cluster_tree.h"
 #include "engine/bake/cut.h"
-#include "engine/bake/input_hash.h"
 #include "engine/bake/link_storage.h"
-#include "engine/bake/trace_stage.h"
 #include "engine/core/parallel.h"
 #include "engine/math/cone.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/bake/traced_room.h"
 
 #include <gtest/gtest.h>
 
@@ -94,48 +89,23 @@ TEST(IrradianceAxis, ScalesToTheIrradianceWithinBounds) {
 }
 
 /// A bake of a closed room up to its links, without or with a lamp so small that caches aim at it.
-struct Room {
-    Scene scene;
-    TraceScene trace;
-    SurfelSet set;
-    ClusterTree tree;
-    CachePoints points;
-    Caches caches;
-    GatherHits hits;
-
+struct Room : TracedRoom {
     static Scene build(bool lit) {
         SceneBuilder b;
         b.addMaterial(lambert(glm::vec3(0.5f)));
         b.add(box(glm::vec3(0), glm::vec3(2, 2, 3), true));
-        if (!lit) {
-            Scene dark = b.build();
-            dark.bake.lightmapCaches = 300;
-            return dark;
-        }
+        if (!lit)
+            return b.build();
         Material lamp = lambert(glm::vec3(0));
         lamp.emission = glm::vec3(10);
         b.addMaterial(lamp);
         b.add(box(glm::vec3(0.9f, 1.7f, 1.4f), glm::vec3(1.1f, 1.8f, 1.6f), false));
         Scene scene = b.build();
         scene.instances.back().material = 1;
-        scene.bake.lightmapCaches = 300;
         return scene;
     }
 
-    explicit Room(bool lit)
-        : scene(build(lit)), trace(scene), set(placeSurfels(scene, 1500)),
-          tree(buildClusterTree(scene, set)) {
-        std::vector<MeshCharts> charts;
-        for (const Mesh& m : scene.assets->meshes)
-            charts.push_back(buildCharts(m));
-        const Atlas atlas = buildAtlas(scene, std::move(charts), scene.bake);
-        caches = placeCaches(scene, atlas, points);
-        addGridCaches(glm::uvec3(2), gridBoundsOf(scene), caches, points);
-        const OwnerTables owners(scene, set);
-        EXPECT_TRUE(
-            traceHits({trace, set, owners, caches, points, Linker::Gather, 256, hashMeshes(scene)},
-                      {}, nullptr, hits));
-    }
+    explicit Room(bool lit) : TracedRoom(build(lit)) {}
 
     Caches linked(std::uint32_t links, int bands) const {
         Caches result = caches;
