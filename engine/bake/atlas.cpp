@@ -209,18 +209,34 @@ glm::vec2 snappedUv(const LightmapLayout& layout, glm::vec2 base, glm::vec2 f, s
     return (base + f + 0.5f) / glm::vec2(float(layout.width), float(layout.height));
 }
 
+AtlasLookup lookupAt(const LightmapLayout& layout, glm::vec2 uv) {
+    const glm::vec2 size(float(layout.width), float(layout.height));
+    const auto at = [&](glm::vec2 p) {
+        AtlasLookup l{glm::floor(p), p - glm::floor(p), 0, false};
+        l.inside = l.base.x >= 0 && l.base.y >= 0 && l.base.x < size.x && l.base.y < size.y;
+        if (l.inside && !layout.snaps.empty())
+            l.snaps = layout.snaps[std::size_t(l.base.y) * layout.width + std::size_t(l.base.x)];
+        return l;
+    };
+    AtlasLookup l = at(uv * size - 0.5f);
+    for (int level = 0; level < kFineLevels && (l.snaps & kFineLookup); ++level) {
+        const std::uint32_t block = l.snaps & ~kFineLookup;
+        l = at(glm::vec2(float(block % layout.width), float(block / layout.width)) +
+               l.f * float(kFineCells));
+    }
+    return l;
+}
+
 glm::vec2 snapLookup(const LightmapLayout& layout, glm::vec2 uv) {
     if (layout.snaps.empty())
         return uv;
-    const glm::vec2 size(float(layout.width), float(layout.height)), p = uv * size - 0.5f;
-    const glm::vec2 base = glm::floor(p), f = p - base;
-    if (!(base.x >= 0 && base.y >= 0 && base.x < size.x && base.y < size.y))
+    const AtlasLookup l = lookupAt(layout, uv);
+    if (!l.inside)
         return uv;
-    const glm::uvec2 cell = glm::min(glm::uvec2(f * float(kSnapCells)), kSnapCells - 1U);
-    const std::uint32_t rows =
-        layout.snaps[std::size_t(base.y) * layout.width + std::size_t(base.x)];
-    const std::uint32_t snap = rows == 0 ? 0 : layout.snaps[rows + cell.y] >> 4 * cell.x & 15U;
-    return snap == 0 ? uv : snappedUv(layout, base, f, snap);
+    const glm::uvec2 cell = glm::min(glm::uvec2(l.f * float(kSnapCells)), kSnapCells - 1U);
+    const bool rows = l.snaps != 0 && !(l.snaps & kFineLookup);
+    const std::uint32_t snap = rows ? layout.snaps[l.snaps + cell.y] >> 4 * cell.x & 15U : 0;
+    return snappedUv(layout, l.base, l.f, snap);
 }
 
 float backOffset(const LightmapLayout& layout, std::uint32_t instance) {

@@ -58,7 +58,17 @@ Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv);
 /// How far below an instance's front its back lies, in normalised atlas coordinates.
 float backOffset(const LightmapLayout& layout, std::uint32_t instance);
 
-/// Moves a lookup to the side of walls that it belongs to: LightmapLayout::snaps. Not to be applied
+/// A lookup between four texels, the finest ones there are.
+struct AtlasLookup {
+    glm::vec2 base;      ///< the first of them
+    glm::vec2 f;         ///< between it and the next ones, in [0, 1)^2
+    std::uint32_t snaps; ///< LightmapLayout::snaps of that place
+    bool inside;         ///< the atlas; else no snap
+};
+AtlasLookup lookupAt(const LightmapLayout& layout, glm::vec2 uv);
+
+/// Moves a lookup to the finest texels and to the side of walls that it belongs to:
+/// LightmapLayout::snaps. Not to be applied
 /// twice.
 glm::vec2 snapLookup(const LightmapLayout& layout, glm::vec2 uv);
 

@@ -4,6 +4,7 @@
 #include "engine/bake/bake_bytes.h"
 #include "engine/bake/charts.h"
 #include "engine/bake/density.h"
+#include "engine/bake/fine_texels.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/surfels.h"
@@ -12,6 +13,7 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace limn {
 
@@ -37,9 +39,9 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
 
 /// Of all that buildAtlas reads.
 std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes,
-                       const BakeDensity& density) {
-    std::uint64_t h = hashValue(scene.bake.lightmapCaches, 34);
-    h = hashValue(scene.bake.texelsPerMetre, h);
+                       const BakeSettings& settings, const BakeDensity& density) {
+    std::uint64_t h = hashValue(settings.lightmapCaches, 34);
+    h = hashValue(settings.texelsPerMetre, h);
     for (const Instance& i : scene.instances) {
         h = hashValue(atlasScale(i), hashValue(meshes[i.mesh], h));
         h = hashValue(std::uint32_t(i.dynamic),
@@ -78,12 +80,89 @@ BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_
         [](auto& a, auto& d) {
             a.each(d.texels, [&](auto& factors) { a(factors); });
             a.each(d.surfels, [&](auto& s) { a(s.level), a(s.begin), a(s.density); });
+            a.each(d.varied,
+                   [&](auto& v) { a(v.instance), a(v.chart), a(v.at), a(v.back), a(v.fours); });
+            a(d.baseShare), a(d.centre), a(d.size), a(d.nearest);
         },
         [&] {
             BakeDensity made = findDensity(trace, charts, texels, progress);
             rays += made.rays;
             return made;
         });
+}
+
+/// An atlas before its finer texels are added.
+struct LaidTexels {
+    Atlas atlas;
+    FineLookups fine;
+    std::uint64_t key = 0; ///< of both
+};
+
+/// What the texels of a bake follow from, and where they are kept.
+struct TexelInput {
+    const TraceScene& trace;
+    const Scene& scene;
+    const std::vector<std::uint64_t>& meshes;
+    const std::vector<MeshCharts>& charts;
+    const BakeDensity& density;
+    const Progress& progress;
+    StageStore* store;
+    std::uint64_t& rays;
+
+    LaidTexels lay(std::uint32_t base, std::uint64_t most) const;
+};
+
+/// About `base` texels, and finer ones up to `most` in all. Unfinished when cancelled.
+LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
+    BakeSettings settings = scene.bake;
+    settings.lightmapCaches = std::max(base, 1U);
+    LaidTexels result;
+    result.key = atlasKey(scene, meshes, settings, density);
+    result.atlas = keptOrMade<Atlas>(
+        store, result.key, progress, [](auto& a, auto& t) { atlasFields(a, t); },
+        [&] { return buildAtlas(scene, charts, settings, density.texels, progress); });
+    result.atlas.layout.meshes = charts;
+    if (density.varied.empty() || progress.cancelled())
+        return result;
+    const std::uint64_t laid = result.atlas.texels.size();
+    result.fine = keptOrMade<FineLookups>(
+        store, surfacesKey(trace, meshes, hashValue(result.key, hashValue(most, 36))), progress,
+        [](auto& a, auto& f) { a.each(f.places, [&](auto& places) { a(places); }); },
+        [&] {
+            FineLookups made = findFineLookups(
+                trace, result.atlas, density, std::uint32_t(most - std::min(most, laid)), progress);
+            rays += made.rays;
+            return made;
+        });
+    for (const std::vector<std::uint32_t>& places : result.fine.places)
+        result.key = hashVector(places, result.key);
+    return result;
+}
+
+/// As many texels as the settings ask for. How many finer ones a scene deserves is not known before
+/// they are laid; both kinds then give way alike.
+LaidTexels layTexels(const TexelInput& in) {
+    const std::uint64_t wanted = in.scene.bake.lightmapCaches;
+    if (in.density.varied.empty())
+        return in.lay(std::uint32_t(wanted), 0);
+    const auto share = [&](double part) {
+        return std::uint32_t(std::lround(double(wanted) * part));
+    };
+    constexpr std::uint64_t kTrial = 4; // times those wanted
+    const LaidTexels trial = in.lay(share(in.density.baseShare), kTrial * wanted);
+    const double base = double(trial.atlas.texels.size()), all = base + double(trial.fine.texels());
+    constexpr double kLeastBase = 0.25;
+    return in.lay(share(std::max(base / std::max(all, 1.), kLeastBase)), wanted);
+}
+
+/// To those that lead to finer texels.
+void addSnaps(std::vector<std::uint32_t> snaps, LightmapLayout& layout) {
+    if (snaps.empty())
+        return;
+    for (std::size_t i = 0; i < layout.snaps.size(); ++i)
+        if (layout.snaps[i] & kFineLookup)
+            snaps[i] = layout.snaps[i];
+    layout.snaps = std::move(snaps);
 }
 
 } // namespace
@@ -103,20 +182,18 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
     if (progress.cancelled())
         return {};
     if (scene.bake.texelsPerMetre > 0)
-        density.texels.clear();
+        density.texels.clear(), density.varied.clear();
     evenLamps(scene, density.surfels);
-    const std::uint64_t key = atlasKey(scene, meshes, density);
-    Atlas atlas = keptOrMade<Atlas>(
-        store, key, progress, [](auto& a, auto& t) { atlasFields(a, t); },
-        [&] { return buildAtlas(scene, charts, scene.bake, density.texels, progress); });
+    LaidTexels laid = layTexels({trace, scene, meshes, charts, density, progress, store, rays});
     if (progress.cancelled())
         return {};
-    atlas.layout.meshes = std::move(charts);
+    Atlas& atlas = laid.atlas;
+    const std::vector<PlacedTriangle> placed = addFineTexels(scene, density, laid.fine, atlas);
     TexelSides sides = keptOrMade<TexelSides>(
-        store, surfacesKey(trace, meshes, hashValue(key, 31)), progress,
+        store, surfacesKey(trace, meshes, hashValue(laid.key, 31)), progress,
         [](auto& a, auto& s) { a(s.texels), a(s.open), a(s.snaps); },
         [&] {
-            TexelSides made = findTexelSides(trace, atlas, progress);
+            TexelSides made = findTexelSides(trace, atlas, placed, progress);
             rays += made.rays;
             return made;
         });
@@ -124,7 +201,7 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
         return {};
     atlas.texels = std::move(sides.texels);
     atlas.open = std::move(sides.open);
-    atlas.layout.snaps = std::move(sides.snaps);
+    addSnaps(std::move(sides.snaps), atlas.layout);
     return PlacedAtlas{std::move(atlas), std::move(density.surfels)};
 }
 

@@ -23,6 +23,8 @@ constexpr double kRaysPerTexel = 16, kMaxRays = double(1 << 19); ///< of all pro
 constexpr double kAlike = 8;
 /// Charts that deserve less than this share of all texels have the density of their instance.
 constexpr double kOwnDensity = 0.01;
+/// A part of a chart is near if it deserves 4 to this times the texels per metre of most of it.
+constexpr int kFar = 2;
 
 /// A chart of an instance.
 struct Chart {
@@ -32,6 +34,7 @@ struct Chart {
     std::uint32_t begin = 0, end = 0; ///< its probes; none: too small for one of its own
     double detail = 0;                ///< texels per area that it deserves, relative
     int fours = 0;                    ///< its texels per metre are multiplied by 4^fours
+    bool varied = false;              ///< some of its probes deserve far more
 };
 
 /// A point on one side of a surface.
@@ -39,12 +42,14 @@ struct Probe {
     MeshPoint point;
     std::uint32_t instance, back, seed;
     bool inSolid = false; ///< most rays meet backs
+    int fours = 0;        ///< as Chart::fours, of the texels about it
 };
 
 /// What a probe's ray met.
 struct Met {
-    std::uint32_t mesh = ~0U; ///< ~0: nothing that sends light
+    std::uint32_t instance = ~0U; ///< ~0: nothing that sends light
     MeshPoint point{};
+    std::uint32_t back = 0;
     float perMetre = 0; ///< 1 / distance; 0 for the sky [1/m]
 };
 
@@ -62,8 +67,17 @@ private:
     void addProbes();
     void addProbes(Chart& chart, std::uint32_t count);
     void look(Probe& probe, Met* met) const;
-    double fourthPower(std::uint32_t probe, float nearest) const;
+    double nearness(std::uint32_t probe, float nearest) const;
     void findDetail(float nearest);
+    int classAt(double nearness) const {
+        return densityClass(std::max(detailOf(nearness), 1e-30), m_result.centre);
+    }
+    template <class Visit>
+    void forArrived(const Visit& visit) const;
+    int usualClass(const Chart& chart) const;
+    std::vector<double> nearWorth() const;
+    std::vector<VariedChart> varied() const;
+    double chooseChart(Chart& chart, double near);
     void chooseDensities();
     std::vector<std::vector<float>> factors() const;
     std::vector<MeshHits> hits() const;
@@ -72,20 +86,25 @@ private:
     const Scene& m_scene;
     AtlasInput m_in;
     std::uint32_t m_texels;
-    std::vector<Chart> m_all; ///< by instance
-    double m_area = 0;        ///< [m^2], of all sides
-    double m_size = 0;        ///< [m], the root of that
+    std::vector<Chart> m_all;           ///< by instance
+    std::vector<std::uint32_t> m_first; ///< per instance: of m_all; ~0: none
+    double m_area = 0;                  ///< [m^2], of all sides
+    double m_worth = 0; ///< of all texels: their number times the area of those with fours 0 [m^2]
+    double m_size = 0;  ///< [m], the root of that
     std::vector<Probe> m_probes;
     std::uint32_t m_rays = 0; ///< per probe
     std::vector<Met> m_met;
+    BakeDensity m_result;
 };
 
 /// Areas from the scale that the atlas uses, which turning an object leaves alone.
 void DensityFinder::listCharts() {
+    m_first.assign(m_scene.instances.size(), ~0U);
     for (std::uint32_t i = 0; i < m_scene.instances.size(); ++i) {
         const Instance& instance = m_scene.instances[i];
         if (!hasLightmap(m_in, instance))
             continue;
+        m_first[i] = std::uint32_t(m_all.size());
         const std::vector<double>& area = m_in.shapes[instance.mesh].area;
         const double scale = double(m_in.scale[i]);
         for (std::uint32_t c = 0; c < area.size(); ++c) {
@@ -157,18 +176,21 @@ void DensityFinder::look(Probe& probe, Met* met) const {
         if (!hit.frontFace && !isTwoSided(m_scene.materialOf(other)))
             ++backs;
         else
-            met[r] = {other.mesh, {hit.triangle, {hit.u, hit.v}}, 1 / std::max(hit.t, 1e-30f)};
+            met[r] = {hit.instance,
+                      {hit.triangle, {hit.u, hit.v}},
+                      hit.frontFace ? 0U : 1U,
+                      1 / std::max(hit.t, 1e-30f)};
     }
     probe.inSolid = 2 * backs > m_rays;
 }
 
 /// Of the harmonic mean nearness, in units of the scene's size; no distance counts as less than
 /// `nearest` [m].
-double DensityFinder::fourthPower(std::uint32_t probe, float nearest) const {
+double DensityFinder::nearness(std::uint32_t probe, float nearest) const {
     double sum = 0;
     for (std::uint32_t r = 0; r < m_rays; ++r)
         sum += double(std::min(m_met[std::size_t(probe) * m_rays + r].perMetre, 1 / nearest));
-    return std::pow(sum / m_rays * m_size, 4);
+    return sum / m_rays * m_size;
 }
 
 /// The cubic root of each chart's mean fourth power; of small ones, and those without probes
@@ -181,7 +203,7 @@ void DensityFinder::findDetail(float nearest) {
         double own = 0, count = 0;
         for (std::uint32_t p = c.begin; p < c.end; ++p)
             if (!m_probes[p].inSolid) {
-                own += fourthPower(p, nearest);
+                own += std::pow(nearness(p, nearest), 4);
                 ++count;
             }
         c.detail = count > 0 ? std::cbrt(own / count) : -1;
@@ -197,20 +219,106 @@ void DensityFinder::findDetail(float nearest) {
     }
 }
 
+/// The class that most probes of a chart deserve.
+int DensityFinder::usualClass(const Chart& chart) const {
+    std::vector<int> all;
+    for (std::uint32_t p = chart.begin; p < chart.end; ++p)
+        if (!m_probes[p].inSolid)
+            all.push_back(classAt(nearness(p, m_result.nearest)));
+    if (all.empty())
+        return densityClass(std::max(chart.detail, 1e-30), m_result.centre);
+    const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
+    std::ranges::nth_element(all, middle);
+    return *middle;
+}
+
+/// Calls visit(chart in m_all, what arrived there, fours it deserves for that, the area that it
+/// stands for) for rays that met something on a chart.
+template <class Visit>
+void DensityFinder::forArrived(const Visit& visit) const {
+    for (const Chart& c : m_all)
+        for (std::size_t i = std::size_t(c.begin) * m_rays; i < std::size_t(c.end) * m_rays; ++i) {
+            const Met& met = m_met[i];
+            if (met.instance == ~0U || m_first[met.instance] == ~0U || m_probes[i / m_rays].inSolid)
+                continue;
+            const MeshCharts& charts = m_in.charts[m_scene.instances[met.instance].mesh];
+            visit(m_first[met.instance] + charts.chartOfTriangle[met.point.triangle], met,
+                  classAt(std::min(double(met.perMetre), 1. / m_result.nearest) * m_size),
+                  c.area * c.sides / (c.end - c.begin) / m_rays);
+        }
+}
+
+/// Of each chart, how many texels its near parts need, where `fours` is 0 times their area. A part
+/// too small for probes of its own is found by the rays that arrive there: as many, per area and
+/// length, as would leave it.
+std::vector<double> DensityFinder::nearWorth() const {
+    // A block of texels has 25 where 16 would do, once on each level, and reaches beyond the part.
+    constexpr double kBlocks = 2.5;
+    std::vector<int> usual;
+    for (const Chart& c : m_all)
+        usual.push_back(usualClass(c));
+    std::vector<double> worth(m_all.size());
+    forArrived([&](std::uint32_t chart, const Met&, int fours, double area) {
+        if (fours >= usual[chart] + kFar)
+            worth[chart] += kBlocks * area * std::exp2(4 * fours);
+    });
+    return worth;
+}
+
+/// The varied ones, and what arrived in their near parts.
+std::vector<VariedChart> DensityFinder::varied() const {
+    std::vector<VariedChart> result;
+    std::vector<std::uint32_t> numbers(m_all.size(), ~0U);
+    for (std::size_t i = 0; i < m_all.size(); ++i)
+        if (m_all[i].varied) {
+            numbers[i] = std::uint32_t(result.size());
+            result.push_back({m_all[i].instance, m_all[i].chart, {}, {}, {}});
+        }
+    forArrived([&](std::uint32_t chart, const Met& met, int fours, double) {
+        if (numbers[chart] == ~0U || fours < m_all[chart].fours + kFar)
+            return;
+        VariedChart& v = result[numbers[chart]];
+        v.at.push_back(met.point);
+        v.back.push_back(m_all[chart].sides > 1 ? met.back : 0);
+        v.fours.push_back(fours);
+    });
+    return result;
+}
+
+/// Sets the densities of a chart and of its probes. Returns what its texels are worth.
+double DensityFinder::chooseChart(Chart& chart, double near) {
+    chart.varied = near >= kOwnDensity * m_worth;
+    chart.fours = chart.varied ? usualClass(chart)
+                               : densityClass(std::max(chart.detail, 1e-30), m_result.centre);
+    for (std::uint32_t p = chart.begin; p < chart.end; ++p)
+        m_probes[p].fours = chart.varied
+                                ? std::max(classAt(nearness(p, m_result.nearest)), chart.fours)
+                                : chart.fours;
+    return chart.area * chart.sides * std::exp2(4 * chart.fours) + (chart.varied ? near : 0);
+}
+
 /// The width of texels decides what they can resolve, and that their number and so their width.
 void DensityFinder::chooseDensities() {
+    m_worth = m_area;
     double width = std::sqrt(m_area / m_texels); // where `fours` is 0 [m]
     for (int round = 0; round < 4; ++round) {
-        findDetail(float(kAlike * width));
-        double sum = 0, squares = 0, worth = 0;
+        m_result.nearest = float(kAlike * width);
+        findDetail(m_result.nearest);
+        double sum = 0, squares = 0, worth = 0, base = 0;
         for (const Chart& c : m_all) {
             sum += c.area * c.sides * c.detail;
             squares += c.area * c.sides * c.detail * c.detail;
         }
-        for (Chart& c : m_all) {
-            c.fours = sum > 0 ? densityClass(std::max(c.detail, 1e-30), squares / sum) : 0;
-            worth += c.area * c.sides * std::exp2(4 * c.fours);
+        if (!(sum > 0)) // nothing is near anything
+            return;
+        m_result.centre = squares / sum;
+        const std::vector<double> near = nearWorth();
+        for (std::size_t i = 0; i < m_all.size(); ++i) {
+            worth += chooseChart(m_all[i], near[i]);
+            base += m_all[i].area * m_all[i].sides * std::exp2(4 * m_all[i].fours);
         }
+        m_result.baseShare = worth > 0 ? base / worth : 1;
+        m_worth = worth;
         width = std::sqrt(worth / m_texels);
     }
 }
@@ -226,24 +334,25 @@ std::vector<std::vector<float>> DensityFinder::factors() const {
 std::vector<MeshHits> DensityFinder::hits() const {
     std::vector<MeshHits> result(m_in.charts.size());
     for (const Chart& c : m_all) {
-        const double texels = c.area * c.sides * std::exp2(4 * c.fours);
-        for (std::uint32_t p = c.begin; p < c.end; ++p)
+        for (std::uint32_t p = c.begin; p < c.end; ++p) {
+            const double texels = c.area * c.sides * std::exp2(4 * m_probes[p].fours);
             for (std::uint32_t r = 0; r < m_rays && !m_probes[p].inSolid; ++r)
-                if (const Met& met = m_met[std::size_t(p) * m_rays + r]; met.mesh != ~0U) {
-                    result[met.mesh].at.push_back(met.point);
-                    result[met.mesh].weight.push_back(float(texels / (c.end - c.begin)));
+                if (const Met& met = m_met[std::size_t(p) * m_rays + r]; met.instance != ~0U) {
+                    MeshHits& hits = result[m_scene.instances[met.instance].mesh];
+                    hits.at.push_back(met.point);
+                    hits.weight.push_back(float(texels / (c.end - c.begin)));
                 }
+        }
         result[m_scene.instances[c.instance].mesh].area += c.area * c.sides;
     }
     return result;
 }
 
 BakeDensity DensityFinder::run(const Progress& progress) {
-    BakeDensity result;
     listCharts();
     addProbes();
     if (m_probes.empty())
-        return result;
+        return {};
     const double rays = std::min(m_texels * kRaysPerTexel, kMaxRays);
     m_rays = std::uint32_t(std::clamp(rays / double(m_probes.size()), 8.0, 64.0));
     m_met.resize(m_probes.size() * m_rays);
@@ -253,15 +362,21 @@ BakeDensity DensityFinder::run(const Progress& progress) {
                             for (std::size_t p = begin; p < end; ++p)
                                 look(m_probes[p], &m_met[p * m_rays]);
                         }))
-        return result;
+        return {};
     chooseDensities();
-    result.texels = factors();
-    result.surfels = surfelDensities(m_scene, m_in.charts, m_in.shapes, hits());
-    result.rays = m_met.size();
-    return result;
+    m_result.texels = factors();
+    m_result.surfels = surfelDensities(m_scene, m_in.charts, m_in.shapes, hits());
+    m_result.varied = varied();
+    m_result.size = m_size;
+    m_result.rays = m_met.size();
+    return std::move(m_result);
 }
 
 } // namespace
+
+double detailOf(double nearness) {
+    return std::cbrt(std::pow(nearness, 4));
+}
 
 BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                         std::uint32_t texels, const Progress& progress) {

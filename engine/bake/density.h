@@ -11,14 +11,34 @@
 
 namespace limn {
 
+/// A chart whose parts deserve densities far apart.
+struct VariedChart {
+    std::uint32_t instance, chart;
+    /// Where rays from near by met it: parts that may be too small to be found otherwise.
+    std::vector<MeshPoint> at;
+    std::vector<std::uint32_t> back; ///< of each: 1: on the back
+    /// Of each: texels per metre are to be multiplied by 4 to this, as those of charts are.
+    std::vector<std::int32_t> fours;
+};
+
 /// Where a scene deserves texels and surfels.
 struct BakeDensity {
     /// Times the texels per metre, per instance and chart: a power of four. Empty, also for an
     /// instance: 1.
     std::vector<std::vector<float>> texels;
     std::vector<SurfelDensity> surfels; ///< per mesh; empty: one density
-    std::uint64_t rays = 0;             ///< traced to find it
+    /// Charts that have the density which most of their area deserves: findFineLookups() adds
+    /// texels where a part deserves more.
+    std::vector<VariedChart> varied;
+    double baseShare = 1;   ///< of all texels, that are left if those parts have theirs
+    double centre = 1;      ///< of densityClass(), for detailOf()
+    double size = 1;        ///< [m] that nearness is relative to
+    float nearest = 0;      ///< no distance counts as less [m]
+    std::uint64_t rays = 0; ///< traced to find it
 };
+
+/// Texels per area, relative, that a place deserves where R is size / nearness.
+double detailOf(double nearness);
 
 /// Looks round from points all over the static surfaces.
 ///
@@ -34,7 +54,8 @@ struct BakeDensity {
 ///
 /// Both densities come in powers of sixteen about what most texels or hits have, so in a room whose
 /// walls are all near each other there is one density, and small moves of objects rarely change
-/// any. `texels`: how many there will be. Of no use when cancelled.
+/// any. A chart some of whose parts deserve 256 times the texels that most of its area does varies:
+/// it has that of most of its area. `texels`: how many there will be. Of no use when cancelled.
 BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                         std::uint32_t texels, const Progress& progress = {});
 

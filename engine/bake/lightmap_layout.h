@@ -37,6 +37,10 @@ struct InstanceLightmap {
 inline constexpr std::uint32_t kSnapCells =
     8; ///< along each side of a place of LightmapLayout::snaps
 inline constexpr std::uint32_t kSnaps = 9;
+/// Along each side of a place of LightmapLayout::snaps that finer texels stand for.
+inline constexpr std::uint32_t kFineCells = 4;
+inline constexpr std::uint32_t kFineLookup = 1U << 31; ///< marks such a place
+inline constexpr int kFineLevels = 5;                  ///< of finer and finer texels, at most
 
 /// The lightmap's geometry: charts per mesh, places per instance.
 struct LightmapLayout {
@@ -44,11 +48,14 @@ struct LightmapLayout {
     std::vector<MeshCharts>
         meshes; ///< as Assets::meshes; empty entries for meshes without lightmap
     std::vector<InstanceLightmap> instances; ///< as Scene::instances
-    /// How bilinear lookups keep to one side of walls; empty: they need not. Element y * width + x
-    /// belongs to lookups between the centres of the texels (x, y) and (x+1, y+1): 0, or the index
-    /// in this very vector of kSnapCells elements, one for each row of cells there, 4 bits a cell:
-    /// 0 interpolates between all four texels; 1, 2 read the left or right two, 3, 4 the upper or
-    /// lower two; 5 to 8 read one: upper left, upper right, lower left, lower right.
+    /// How bilinear lookups keep to one side of walls, and where they find finer texels; empty:
+    /// they need neither. Element y * width + x belongs to lookups between the centres of the
+    /// texels (x, y) and (x+1, y+1). kFineLookup + i: a block of finer texels, kFineCells a side,
+    /// whose first one is texel i, stands for these four, and its lookups have elements of their
+    /// own. Else 0, or the index in this very vector of kSnapCells elements, one for each row of
+    /// cells there, 4 bits a cell: 0 interpolates between all four texels; 1, 2 read the left or
+    /// right two, 3, 4 the upper or lower two; 5 to 8 read one: upper left, upper right, lower
+    /// left, lower right.
     std::vector<std::uint32_t> snaps;
 
     bool operator==(const LightmapLayout&) const = default;

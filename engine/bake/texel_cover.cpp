@@ -209,6 +209,31 @@ void sampleByArea(const AtlasInput& in, const ChartPlace& place, Cover& cover) {
         }
 }
 
+/// What the texels that a triangle reaches find on it.
+void searchTriangle(std::uint32_t triangle, const Corners& flat, bool lattice, Cover& cover) {
+    forReached(flat, cover.size, [&](std::size_t k) {
+        const glm::vec2 centre(float(k % cover.size.x) + 0.5f, float(k / cover.size.x) + 0.5f);
+        TexelSearch& texel = cover.at(k);
+        if (lattice)
+            searchLattice(centre, triangle, flat, texel);
+        if (texel.found == 0)
+            searchClosest(centre, triangle, flat, texel);
+    });
+}
+
+std::vector<LocalTexel> texelsOf(const Cover& cover) {
+    std::vector<LocalTexel> result;
+    for (std::size_t i = 0; i < cover.found.size(); ++i) {
+        const TexelSearch& f = cover.found[i];
+        LocalTexel local{
+            {cover.texel[i] % cover.size.x, cover.texel[i] / cover.size.x}, f.found, f.points};
+        if (f.found == 0)
+            local.points[local.count++] = f.closest;
+        result.push_back(local);
+    }
+    return result;
+}
+
 } // namespace
 
 std::uint32_t countTexels(const AtlasInput& in, const ChartPlace& place,
@@ -224,35 +249,24 @@ std::uint32_t countTexels(const AtlasInput& in, const ChartPlace& place,
     return std::uint32_t(std::count(scratch.begin(), scratch.end(), 1));
 }
 
+std::vector<LocalTexel> coverTriangles(const std::vector<FlatTriangle>& triangles,
+                                       glm::uvec2 size) {
+    Cover cover(size);
+    for (const FlatTriangle& t : triangles)
+        searchTriangle(t.triangle, t.corner, true, cover);
+    return texelsOf(cover);
+}
+
 std::vector<LocalTexel> coverTexels(const AtlasInput& in, const ChartPlace& place) {
     Cover cover(place.size);
     const MeshChartShapes& shapes = in.shapes[in.scene.instances[place.instance].mesh];
     const bool layered = place.axis >= 0 || place.size == glm::uvec2(1);
     for (const std::uint32_t c : place.charts)
-        for (const std::uint32_t t : shapes.trianglesOf(c)) {
-            const Corners flat = cornersInPlace(in, place, t);
-            forReached(flat, place.size, [&](std::size_t k) {
-                const glm::vec2 centre(float(k % place.size.x) + 0.5f,
-                                       float(k / place.size.x) + 0.5f);
-                TexelSearch& texel = cover.at(k);
-                if (!layered)
-                    searchLattice(centre, t, flat, texel);
-                if (texel.found == 0)
-                    searchClosest(centre, t, flat, texel);
-            });
-        }
+        for (const std::uint32_t t : shapes.trianglesOf(c))
+            searchTriangle(t, cornersInPlace(in, place, t), !layered, cover);
     if (layered)
         sampleByArea(in, place, cover);
-    std::vector<LocalTexel> result;
-    for (std::size_t i = 0; i < cover.found.size(); ++i) {
-        const TexelSearch& f = cover.found[i];
-        LocalTexel local{
-            {cover.texel[i] % place.size.x, cover.texel[i] / place.size.x}, f.found, f.points};
-        if (f.found == 0)
-            local.points[local.count++] = f.closest;
-        result.push_back(local);
-    }
-    return result;
+    return texelsOf(cover);
 }
 
 } // namespace limn

@@ -16,6 +16,15 @@ struct LocalTexel {
     std::array<MeshPoint, AtlasTexel::kMostPoints> points;
 };
 
+/// A triangle and its corners in texels, the first one's middle at (1/2, 1/2).
+struct FlatTriangle {
+    std::uint32_t triangle;
+    std::array<glm::vec2, 3> corner;
+};
+
+/// Texels of `size` that a bilinear lookup on the triangles, which do not overlap, can meet.
+std::vector<LocalTexel> coverTriangles(const std::vector<FlatTriangle>& triangles, glm::uvec2 size);
+
 /// Texels of `place` that a bilinear lookup on its triangles can meet.
 std::vector<LocalTexel> coverTexels(const AtlasInput& in, const ChartPlace& place);
 

@@ -172,8 +172,9 @@ struct Quad {
 class Snapper {
 public:
     Snapper(const Sides& sides, const std::vector<AtlasTexel>& texels,
-            const std::vector<Side>& side)
-        : m_sides(sides), m_layout(sides.atlas.layout), m_texels(texels), m_side(side) {
+            const std::vector<Side>& side, const std::vector<PlacedTriangle>& placed)
+        : m_sides(sides), m_layout(sides.atlas.layout), m_texels(texels), m_side(side),
+          m_placed(placed) {
         m_at.assign(std::size_t(m_layout.width) * m_layout.height, kNone);
         for (std::uint32_t i = 0; i < texels.size(); ++i)
             m_at[texels[i].texel] = i;
@@ -188,7 +189,8 @@ private:
     bool apart(std::uint32_t a, std::uint32_t b) const;
     void findQuads(const Progress& progress);
     void findPoints();
-    void addTriangle(std::uint32_t instance, std::uint32_t back, std::uint32_t triangle);
+    void addTriangles(std::uint32_t instance, std::uint32_t back);
+    void addTriangle(const PlacedTriangle& placed);
     std::uint32_t snapAt(const Quad& quad, int cell) const;
     std::array<std::uint32_t, kSnapCells> snapsOf(const Quad& quad) const;
 
@@ -196,6 +198,7 @@ private:
     const LightmapLayout& m_layout;
     const std::vector<AtlasTexel>& m_texels;
     const std::vector<Side>& m_side;
+    const std::vector<PlacedTriangle>& m_placed;
     std::vector<std::uint32_t> m_at;     ///< per place: into m_texels
     std::vector<std::uint32_t> m_quadAt; ///< per place: into m_quads
     std::vector<Quad> m_quads;
@@ -254,16 +257,11 @@ void Snapper::findQuads(const Progress& progress) {
 }
 
 /// The middles of the quads' cells on one triangle.
-void Snapper::addTriangle(std::uint32_t instance, std::uint32_t back, std::uint32_t triangle) {
-    const std::uint32_t mesh = m_sides.trace.scene().instances[instance].mesh;
-    const MeshCharts& charts = m_layout.meshes[mesh];
-    const InstanceLightmap& map = m_layout.instances[instance];
-    const glm::vec2 size(float(m_layout.width), float(m_layout.height));
-    std::array<glm::vec2, 3> p; // in cells from the middle of the atlas' first texel
-    for (std::uint32_t k = 0; k < 3; ++k)
-        p[k] = (map.uv[charts.indices[3 * triangle + k]] * size +
-                glm::vec2(0, float(back * map.backRows)) - 0.5f) *
-               float(kCells);
+void Snapper::addTriangle(const PlacedTriangle& placed) {
+    std::array<glm::vec2, 3> p; // in cells
+    for (std::size_t k = 0; k < 3; ++k)
+        p[k] = placed.corner[k] * float(kCells);
+    const glm::ivec2 first = placed.lower * kCells, end = placed.upper * kCells;
     const glm::vec2 lower = glm::min(p[0], glm::min(p[1], p[2])),
                     upper = glm::max(p[0], glm::max(p[1], p[2])), e1 = p[1] - p[0],
                     e2 = p[2] - p[0];
@@ -271,11 +269,11 @@ void Snapper::addTriangle(std::uint32_t instance, std::uint32_t back, std::uint3
     if (!(std::abs(area) > 1e-12f))
         return;
     constexpr float kSlack = 1e-4f;
-    for (int y = std::max(int(std::ceil(lower.y - 0.5f)), 0); float(y) + 0.5f <= upper.y; ++y)
-        for (int x = std::max(int(std::ceil(lower.x - 0.5f)), 0); float(x) + 0.5f <= upper.x; ++x) {
+    for (int y = std::max(int(std::ceil(lower.y - 0.5f)), first.y);
+         float(y) + 0.5f <= upper.y && y < end.y; ++y)
+        for (int x = std::max(int(std::ceil(lower.x - 0.5f)), first.x);
+             float(x) + 0.5f <= upper.x && x < end.x; ++x) {
             const glm::ivec2 at(x / kCells, y / kCells);
-            if (at.x >= int(m_layout.width) || at.y >= int(m_layout.height))
-                break;
             const std::uint32_t quad =
                 m_quadAt[std::size_t(at.y) * m_layout.width + std::size_t(at.x)];
             const std::uint32_t cell = std::uint32_t((y % kCells) * kCells + x % kCells);
@@ -286,19 +284,33 @@ void Snapper::addTriangle(std::uint32_t instance, std::uint32_t back, std::uint3
             if (u < -kSlack || v < -kSlack || u + v > 1 + kSlack)
                 continue;
             m_quads[quad].found |= std::uint64_t(1) << cell;
-            m_quads[quad].points[cell] = {triangle, {u, v}};
+            m_quads[quad].points[cell] = {placed.triangle, {u, v}};
         }
 }
 
+/// Those of one side of an instance.
+void Snapper::addTriangles(std::uint32_t instance, std::uint32_t back) {
+    const MeshCharts& charts = m_layout.meshes[m_sides.trace.scene().instances[instance].mesh];
+    const InstanceLightmap& map = m_layout.instances[instance];
+    const glm::ivec2 size(int(m_layout.width), int(m_layout.height));
+    for (std::uint32_t t = 0; t < charts.chartOfTriangle.size(); ++t) {
+        PlacedTriangle placed{instance, back, t, {}, glm::ivec2(0), size};
+        for (std::uint32_t k = 0; k < 3; ++k)
+            placed.corner[k] = map.uv[charts.indices[3 * t + k]] * glm::vec2(size) +
+                               glm::vec2(0, float(back * map.backRows)) - 0.5f;
+        addTriangle(placed);
+    }
+}
+
 void Snapper::findPoints() {
-    const Scene& scene = m_sides.trace.scene();
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    for (const PlacedTriangle& placed : m_placed)
+        addTriangle(placed);
+    for (std::uint32_t i = 0; i < m_layout.instances.size(); ++i) {
         if (m_layout.instances[i].uv.empty())
             continue;
-        const std::uint32_t sides = m_layout.instances[i].backRows > 0 ? 2 : 1;
-        for (std::uint32_t back = 0; back < sides; ++back)
-            for (std::uint32_t t = 0; t < scene.meshOf(scene.instances[i]).triangleCount(); ++t)
-                addTriangle(i, back, t);
+        addTriangles(i, 0);
+        if (m_layout.instances[i].backRows > 0)
+            addTriangles(i, 1);
     }
 }
 
@@ -413,7 +425,8 @@ std::vector<std::uint32_t> Snapper::run(const Progress& progress) {
 
 } // namespace
 
-TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas, const Progress& progress) {
+TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas,
+                          const std::vector<PlacedTriangle>& placed, const Progress& progress) {
     TexelSides result{.texels = atlas.texels};
     std::atomic<std::uint64_t> rays = 0;
     const Sides sides{trace, atlas, rays};
@@ -427,7 +440,7 @@ TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas, const Pro
     for (const Side& s : side)
         result.open.push_back(s.open ? 1 : 0);
     if (done)
-        result.snaps = Snapper(sides, result.texels, side).run(progress);
+        result.snaps = Snapper(sides, result.texels, side, placed).run(progress);
     result.rays = rays;
     return result;
 }
@@ -491,13 +504,11 @@ glm::vec2 SideLookup::uvOf(std::uint32_t instance, const MeshPoint& point, bool 
     const LightmapLayout& layout = s.atlas.layout;
     const std::uint32_t mesh = s.sides.trace.scene().instances[instance].mesh;
     const glm::vec2 uv = unsnappedUv(layout, instance, mesh, point.triangle, point.barycentric.x,
-                                     point.barycentric.y, back),
-                    size(float(layout.width), float(layout.height)), p = uv * size - 0.5f,
-                    base = glm::floor(p);
-    const auto place = std::size_t(base.y) * layout.width + std::size_t(base.x);
-    if (layout.snaps.empty() || !(base.x >= 0 && base.y >= 0) || place >= s.at.size() ||
-        layout.snaps[place] == 0)
-        return uv;
+                                     point.barycentric.y, back);
+    const AtlasLookup l = lookupAt(layout, uv);
+    if (!l.inside || l.snaps == 0)
+        return snapLookup(layout, uv);
+    const auto place = std::size_t(l.base.y) * layout.width + std::size_t(l.base.x);
     const std::uint32_t chart = s.sides.chartOf(instance, point.triangle);
     std::array<std::uint32_t, 4> texel = s.texelsAt(std::uint32_t(place));
     for (std::uint32_t& t : texel)
@@ -507,8 +518,8 @@ glm::vec2 SideLookup::uvOf(std::uint32_t instance, const MeshPoint& point, bool 
     if (owner == texel.end())
         return snapLookup(layout, uv);
     const Lifted from = s.sides.lift(point, s.atlas.texels[*owner], chart);
-    const std::uint32_t snap = chooseSnap(s.sides, s.side, texel, from, p - base);
-    return snap == kSnaps ? snapLookup(layout, uv) : snappedUv(layout, base, p - base, snap);
+    const std::uint32_t snap = chooseSnap(s.sides, s.side, texel, from, l.f);
+    return snap == kSnaps ? snapLookup(layout, uv) : snappedUv(layout, l.base, l.f, snap);
 }
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/trace/trace_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -21,6 +22,14 @@ struct TexelSides {
     std::uint64_t rays = 0;           ///< traced for it
 };
 
+/// A triangle as it lies in some of an atlas' lookups.
+struct PlacedTriangle {
+    std::uint32_t instance, back; ///< as AtlasTexel
+    std::uint32_t triangle;
+    std::array<glm::vec2, 3> corner; ///< in texels from the middle of the atlas' first texel
+    glm::ivec2 lower, upper;         ///< the lookups that it lies in, [lower, upper)
+};
+
 /// A point is open in the share of a few directions in which nothing lies within a texel's width,
 /// nor the back of a one-sided surface anywhere. So much of a point is seen from further off than
 /// the texel is wide: folds and corners count for little in it, as they do in a picture, and what
@@ -34,8 +43,9 @@ struct TexelSides {
 /// keep all their open points. A texel without any open point keeps all; lookups avoid it where
 /// they can.
 ///
-/// Of no use when cancelled.
-TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas, const Progress& progress);
+/// `placed`: how triangles lie in the lookups of addFineTexels(). Of no use when cancelled.
+TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas,
+                          const std::vector<PlacedTriangle>& placed, const Progress& progress);
 
 /// Snapped lookups of single points, by rays of their own instead of those of the cell that they
 /// lie in: for surfels, which stand for more than a pixel.

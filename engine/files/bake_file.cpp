@@ -127,15 +127,25 @@ std::string linkDefect(const Bake& b) {
     return {};
 }
 
-/// Places lead to rows, and rows hold snaps that there are.
-std::string snapDefect(const std::vector<std::uint32_t>& snaps, std::uint64_t texels) {
+/// Places lead to rows of snaps that there are, or to blocks of finer texels within the atlas.
+std::string snapDefect(const LightmapLayout& layout) {
+    const std::vector<std::uint32_t>& snaps = layout.snaps;
+    const std::uint64_t texels = std::uint64_t(layout.width) * layout.height;
+    const auto outside = [&](std::uint32_t lookup) {
+        if (lookup == 0)
+            return false;
+        if (!(lookup & kFineLookup))
+            return lookup < texels || std::uint64_t(lookup) + kSnapCells > snaps.size();
+        const std::uint32_t first = lookup & ~kFineLookup;
+        return std::uint64_t(first % layout.width) + kFineCells >= layout.width ||
+               std::uint64_t(first / layout.width) + kFineCells >= layout.height;
+    };
     if (snaps.empty())
         return {};
     if (snaps.size() < texels)
         return "LIGHTMAP: snaps do not cover the texels";
     for (std::uint64_t t = 0; t < texels; ++t)
-        if (snaps[t] != 0 &&
-            (snaps[t] < texels || std::uint64_t(snaps[t]) + kSnapCells > snaps.size()))
+        if (outside(snaps[t]))
             return "LIGHTMAP: snaps out of range";
     for (std::size_t row = texels; row < snaps.size(); ++row)
         for (std::uint32_t cell = 0; cell < kSnapCells; ++cell)
@@ -189,7 +199,7 @@ std::string indexDefect(const Bake& b) {
         if (c.linkBegin[i] > c.linkBegin[i + 1] || c.fillBegin[i] > c.fillBegin[i + 1])
             return "CACHES: offsets run backwards";
     }
-    if (const std::string defect = snapDefect(b.lightmap.snaps, texels); !defect.empty())
+    if (const std::string defect = snapDefect(b.lightmap); !defect.empty())
         return defect;
     if (b.gridDepth.size() != cells * kGridDepthTexels)
         return "GRIDDEEP: not one map per cell";

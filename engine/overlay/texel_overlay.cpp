@@ -187,6 +187,30 @@ static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
     raster.use.charts += std::uint32_t(extents.size());
 }
 
+/// Finer texels belong to the chart of those that they stand for, which show the finest density.
+static void showFineTexels(const LightmapLayout& layout, TexelUse& use) {
+    const std::size_t count = use.kind.size();
+    const auto blockOf = [&](std::size_t place) {
+        return std::size_t(layout.snaps[place] & ~kFineLookup);
+    };
+    const auto isFine = [&](std::size_t place) {
+        return place < layout.snaps.size() && (layout.snaps[place] & kFineLookup);
+    };
+    for (std::size_t place = 0; place < count; ++place) // blocks come after what they stand for
+        for (std::size_t k = 0; isFine(place) && k < (kFineCells + 1) * (kFineCells + 1); ++k) {
+            const std::size_t at =
+                blockOf(place) + k / (kFineCells + 1) * layout.width + k % (kFineCells + 1);
+            use.kind[at] = use.kind[place];
+            use.chart[at] = use.chart[place];
+            use.density[at] = use.density[place] * float(kFineCells);
+        }
+    for (std::size_t place = count; place-- > 0;)
+        for (std::size_t k = 0; isFine(place) && k < kFineCells * kFineCells; ++k)
+            use.density[place] = std::max(
+                use.density[place],
+                use.density[blockOf(place) + k / kFineCells * layout.width + k % kFineCells]);
+}
+
 TexelUse texelUse(const LightmapLayout& layout, const Scene& scene) {
     const std::size_t count = std::size_t(layout.width) * layout.height;
     Raster raster{layout, {}, std::vector<std::uint16_t>(count), std::vector<float>(count)};
@@ -199,6 +223,7 @@ TexelUse texelUse(const LightmapLayout& layout, const Scene& scene) {
     for (std::size_t k = 0; k < count; ++k)
         if (raster.weight[k] > 0)
             raster.use.density[k] /= raster.weight[k];
+    showFineTexels(layout, raster.use);
     return std::move(raster.use);
 }
 

@@ -7,10 +7,11 @@
 #include "engine/bake/stage_store.h"
 #include "engine/bake/training_light.h"
 #include "engine/core/parallel.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/bake/house_on_ground.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -145,6 +146,32 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
         EXPECT_EQ(back.hash(), start.hash());
         EXPECT_EQ(back.counts.rays, 0U);
     }
+}
+
+// The ground's finer texels follow what stands on it.
+TEST(Stages, MovingAChestInAHouseOnAWideGroundEqualsAFullBake) {
+    const auto withChest = [](glm::vec3 at) {
+        SceneBuilder b = houseOnGround(1, false);
+        b.add(box(glm::vec3(0), glm::vec3(1, 0.6f, 0.5f), false), glm::translate(glm::mat4(1), at));
+        Scene scene = b.build();
+        scene.bake.surfels = 900;
+        scene.bake.lightmapCaches = 2000;
+        scene.bake.rays = 64;
+        scene.bake.links = 24;
+        return scene;
+    };
+    StageStore store;
+    const Bake start = baked(withChest({2, 0, 2}), &store);
+    EXPECT_TRUE(std::ranges::any_of(start.lightmap.snaps,
+                                    [](std::uint32_t s) { return (s & kFineLookup) != 0; }));
+    for (const glm::vec3 at : {glm::vec3(2.2f, 0, 2), glm::vec3(4, 1, 3), glm::vec3(40, 0, 30)}) {
+        const Bake moved = baked(withChest(at), &store);
+        const ThreadLimit limit(1);
+        EXPECT_EQ(moved.hash(), baked(withChest(at)).hash()) << at.x;
+    }
+    const Bake back = baked(withChest({2, 0, 2}), &store);
+    EXPECT_EQ(back.hash(), start.hash());
+    EXPECT_EQ(back.counts.rays, 0U);
 }
 
 TEST(Stages, ABakeIsTheSameWhereverADynamicObjectIs) {

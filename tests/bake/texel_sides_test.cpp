@@ -57,7 +57,7 @@ TEST(TexelSides, NoTexelHasPointsOnBothSidesOfAWall) {
         const Scene scene = partedHall(wall, texels);
         const TraceScene trace(scene);
         const Atlas atlas = atlasOf(scene);
-        const TexelSides sides = findTexelSides(trace, atlas, {});
+        const TexelSides sides = findTexelSides(trace, atlas, {}, {});
         ASSERT_EQ(sides.texels.size(), atlas.texels.size());
         for (std::size_t i = 0; i < atlas.texels.size(); ++i) {
             if (atlas.texels[i].instance != 0)
@@ -106,7 +106,7 @@ TEST(TexelSides, SnappedLookupsReadNothingBeyondAWall) {
         const Scene scene = partedHall(wall, texels);
         const TraceScene trace(scene);
         Atlas atlas = atlasOf(scene);
-        TexelSides sides = findTexelSides(trace, atlas, {});
+        TexelSides sides = findTexelSides(trace, atlas, {}, {});
         atlas.texels = std::move(sides.texels);
         EXPECT_GT(readsBeyond(scene, atlas, wall), 100) << "nothing to snap";
         atlas.layout.snaps = std::move(sides.snaps);
@@ -118,7 +118,7 @@ TEST(TexelSides, ASceneWithoutWallsHasNoSnaps) {
     Scene scene = partedHall(0, 500);
     scene.instances.resize(1);
     const TraceScene trace(scene);
-    const TexelSides sides = findTexelSides(trace, atlasOf(scene), {});
+    const TexelSides sides = findTexelSides(trace, atlasOf(scene), {}, {});
     EXPECT_TRUE(sides.snaps.empty());
     EXPECT_EQ(std::ranges::count(sides.open, 0), 0);
 }
@@ -129,7 +129,7 @@ TEST(TexelSides, AreAlikeForAnyNumberOfThreads) {
     const Atlas atlas = atlasOf(scene);
     const auto found = [&](int threads) {
         const ThreadLimit limit(threads);
-        return findTexelSides(trace, atlas, {});
+        return findTexelSides(trace, atlas, {}, {});
     };
     const TexelSides one = found(1), two = found(2);
     EXPECT_EQ(one.snaps, two.snaps);

@@ -203,6 +203,15 @@ TEST_F(BakeFile, SnapsOfLookupsLoadBackAndAreRefusedWhereTheyLeadNowhere) {
     expectRefused("snaps out of range", [&](Snaps& s) { s[0] = std::uint32_t(texels) - 1; });
     expectRefused("snaps out of range", [](Snaps& s) { s[0] = std::uint32_t(s.size()) - 7; });
     expectRefused("snaps out of range", [](Snaps& s) { s[0] = ~0U; });
+    const auto block = [&](std::uint32_t fromRight, std::uint32_t fromBottom) {
+        return kFineLookup | ((parted.lightmap.height - fromBottom) * parted.lightmap.width +
+                              parted.lightmap.width - fromRight);
+    };
+    EXPECT_EQ(refusal([&](Snaps& s) { s[0] = block(kFineCells + 1, kFineCells + 1); }), "nothing");
+    expectRefused("snaps out of range",
+                  [&](Snaps& s) { s[0] = block(kFineCells, kFineCells + 1); });
+    expectRefused("snaps out of range",
+                  [&](Snaps& s) { s[0] = block(kFineCells + 1, kFineCells); });
     expectRefused("snaps do not cover the texels", [&](Snaps& s) { s.resize(texels - 1); });
     expectRefused("unknown snap", [&](Snaps& s) { s[texels] = kSnaps; });
     expectRefused("unknown snap", [](Snaps& s) { s.back() = 0xf0000000; });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relight/relight.h"
+#include "tests/bake/house_on_ground.h"
 #include "tests/bake/parted_hall.h"
 #include "tests/render/viewport_fixture.h"
 
@@ -71,6 +72,36 @@ TEST_F(ViewportPartedHall, LookupsSnapAsTheyDoOnTheCpu) {
         EXPECT_LT(shareOff(drawn, truth, bound), 0.003) << eye;
         EXPECT_GT(shareOff(unsnapped, truth, bound), 0.03) << "nothing to snap";
     }
+}
+
+TEST_F(ViewportPartedHall, FinerTexelsAreReadAsOnTheCpu) {
+    Scene scene = houseOnGround(1, false).build();
+    scene.bake.surfels = 1000;
+    scene.bake.rays = 64;
+    scene.bake.lightmapCaches = 6000;
+    const auto baked = std::make_shared<const Bake>(*bake(TraceScene(scene)));
+    ASSERT_TRUE(std::ranges::any_of(baked->lightmap.snaps,
+                                    [](std::uint32_t s) { return (s & kFineLookup) != 0; }));
+    Relighter relighter(baked);
+    relighter.relight(scene, TraceScene(scene), 16);
+    const TraceScene trace(scene);
+    layout = std::make_shared<LightmapLayout>(baked->lightmap);
+    LightmapLayout plain = baked->lightmap;
+    for (std::uint32_t& s : plain.snaps)
+        s = (s & kFineLookup) != 0 ? 0 : s;
+    viewport->setIndirect(relighter.field());
+    options.width = 96;
+    options.height = 64;
+    options.camera = {.eye = {5, 2, 2.5f}, .target = {2, 0, 2.4f}, .fovY = 1.2f};
+    const std::vector<float> truth = lookedUp(trace, relighter.field(), *layout, options);
+    const ImageF image = draw(scene, View::Irradiance);
+    std::vector<float> drawn;
+    for (const glm::vec3 p : image.rgb)
+        drawn.push_back(p.x);
+    const std::vector<float> coarse = lookedUp(trace, relighter.field(), plain, options);
+    const float bound = *std::ranges::max_element(coarse) / 64;
+    EXPECT_LT(shareOff(drawn, truth, bound), 0.003);
+    EXPECT_GT(shareOff(coarse, truth, bound), 0.2) << "nothing is finer";
 }
 
 } // namespace
