@@ -8,8 +8,11 @@ layout(push_constant) uniform Draw { GpuOverlaySurface draw; };
 
 layout(set = 0, binding = 0, std430) readonly buffer Texels {
     uint width, height;
-    uint texel[]; // bytes R, G, B, A, sRGB-encoded; A = 0: not painted
+    uint texel[]; // bytes R, G, B, A, sRGB-encoded; A = 0: not painted; then OverlayData::finer, if there are any
 };
+// Of engine/bake/lightmap_layout.h.
+const float kFineCells = 4.0;
+const int kFineLevels = 5;
 
 layout(location = 0) in vec3 fragPosition;
 layout(location = 1) in vec2 fragLightmapUv;
@@ -18,11 +21,20 @@ layout(location = 0) out vec4 outColor;
 
 void main() {
     const bool back = gl_FrontFacing == (draw.sideOffset < 0.0);
-    const vec2 x = (fragLightmapUv + vec2(0, back ? abs(draw.sideOffset) : 0.0)) * vec2(width, height);
+    vec2 x = (fragLightmapUv + vec2(0, back ? abs(draw.sideOffset) : 0.0)) * vec2(width, height);
     // Not of x: helper invocations need not read buffers.
-    const vec2 texelsPerPixel = fwidth(fragLightmapUv) * vec2(width, height);
+    vec2 texelsPerPixel = fwidth(fragLightmapUv) * vec2(width, height);
     const vec3 g = cross(dFdx(fragPosition), dFdy(fragPosition));
-    const uvec2 i = min(uvec2(max(x, 0.0)), uvec2(width, height) - 1u);
+    const uvec2 last = uvec2(width, height) - 1u;
+    for (int level = 0; level < kFineLevels && texel.length() > width * height; ++level) {
+        const uvec2 base = min(uvec2(max(x - 0.5, 0.0)), last);
+        const uint block = texel[width * height + base.y * width + base.x];
+        if (block == ~0u)
+            break;
+        x = vec2(block % width, block / width) + (x - 0.5 - vec2(base)) * kFineCells + 0.5;
+        texelsPerPixel *= kFineCells;
+    }
+    const uvec2 i = min(uvec2(max(x, 0.0)), last);
     const vec4 c = unpackUnorm4x8(texel[i.y * width + i.x]);
     if (c.a == 0.0)
         discard;

@@ -187,28 +187,30 @@ static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
     raster.use.charts += std::uint32_t(extents.size());
 }
 
-/// Finer texels belong to the chart of those that they stand for, which show the finest density.
-static void showFineTexels(const LightmapLayout& layout, TexelUse& use) {
-    const std::size_t count = use.kind.size();
-    const auto blockOf = [&](std::size_t place) {
-        return std::size_t(layout.snaps[place] & ~kFineLookup);
-    };
-    const auto isFine = [&](std::size_t place) {
-        return place < layout.snaps.size() && (layout.snaps[place] & kFineLookup);
-    };
-    for (std::size_t place = 0; place < count; ++place) // blocks come after what they stand for
-        for (std::size_t k = 0; isFine(place) && k < (kFineCells + 1) * (kFineCells + 1); ++k) {
-            const std::size_t at =
-                blockOf(place) + k / (kFineCells + 1) * layout.width + k % (kFineCells + 1);
+/// Finer texels belong to the charts of those that they stand for.
+static void addFineTexels(const LightmapLayout& layout, TexelUse& use) {
+    constexpr std::uint32_t kBlock = kFineCells + 1;
+    // Blocks come after what they stand for.
+    for (std::size_t place = 0; place < use.kind.size() && place < layout.snaps.size(); ++place)
+        for (std::uint32_t k = 0; (layout.snaps[place] & kFineLookup) && k < kBlock * kBlock; ++k) {
+            const std::size_t at = std::size_t(layout.snaps[place] & ~kFineLookup) +
+                                   std::size_t(k / kBlock) * layout.width + k % kBlock;
             use.kind[at] = use.kind[place];
             use.chart[at] = use.chart[place];
             use.density[at] = use.density[place] * float(kFineCells);
         }
-    for (std::size_t place = count; place-- > 0;)
-        for (std::size_t k = 0; isFine(place) && k < kFineCells * kFineCells; ++k)
-            use.density[place] = std::max(
-                use.density[place],
-                use.density[blockOf(place) + k / kFineCells * layout.width + k % kFineCells]);
+}
+
+static std::vector<std::uint32_t> finerTexels(const LightmapLayout& layout) {
+    std::vector<std::uint32_t> finer;
+    bool any = false;
+    const std::size_t count = std::size_t(layout.width) * layout.height;
+    for (std::size_t place = 0; place < count && place < layout.snaps.size(); ++place) {
+        const bool fine = (layout.snaps[place] & kFineLookup) != 0;
+        finer.push_back(fine ? layout.snaps[place] & ~kFineLookup : ~0U);
+        any = any || fine;
+    }
+    return any ? finer : std::vector<std::uint32_t>();
 }
 
 TexelUse texelUse(const LightmapLayout& layout, const Scene& scene) {
@@ -223,7 +225,7 @@ TexelUse texelUse(const LightmapLayout& layout, const Scene& scene) {
     for (std::size_t k = 0; k < count; ++k)
         if (raster.weight[k] > 0)
             raster.use.density[k] /= raster.weight[k];
-    showFineTexels(layout, raster.use);
+    addFineTexels(layout, raster.use);
     return std::move(raster.use);
 }
 
@@ -301,6 +303,7 @@ OverlayData texelOverlay(const Bake& bake, const Scene& scene, Overlay kind) {
     out.width = bake.lightmap.width;
     out.height = bake.lightmap.height;
     out.texels.resize(use.kind.size());
+    out.finer = finerTexels(bake.lightmap);
     if (kind == Overlay::Charts)
         paintCharts(use, out);
     else if (kind == Overlay::Density)

@@ -44,6 +44,7 @@ void OverlayPass::set(std::shared_ptr<const OverlayData> data) {
         return;
     std::vector<std::uint32_t> words = {m_data->width, m_data->height};
     words.insert(words.end(), m_data->texels.begin(), m_data->texels.end());
+    words.insert(words.end(), m_data->finer.begin(), m_data->finer.end());
     if (words.size() * sizeof words[0] > m_device.properties.limits.maxStorageBufferRange)
         logWarning("the lightmap has more texels than this device can show as an overlay");
     else

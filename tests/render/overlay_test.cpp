@@ -87,6 +87,49 @@ TEST_F(ViewportOverlays, TexelsColourTheSurfaceWhereTheirUvSaysAndLeaveOutUnpain
     }
 }
 
+// Finer texels stand for the four green ones at the plane's corners: red where their number in the
+// row is even, else blue.
+TEST_F(ViewportOverlays, FinerTexelsAreShownWhereLookupsReadThem) {
+    Scene scene = plane().build();
+    constexpr float kScale = 0.15f;
+    scene.instances[0].toWorld = glm::scale(glm::mat4(1), glm::vec3(kScale));
+    layout = std::make_shared<LightmapLayout>();
+    layout->width = 5;
+    layout->height = 7;
+    layout->meshes = {{{0, 1, 2, 3}, {0, 1, 2, 0, 2, 3}, {0, 0}, {}, {{1, 1}}}};
+    std::vector<glm::vec2> uv;
+    const std::vector<glm::vec3>& corners = scene.meshOf(scene.instances[0]).positions;
+    float half = 0;
+    for (const glm::vec3 p : corners)
+        half = std::max(half, p.x);
+    const auto along = [&](float x) { return (x / half + 1) / 2; };
+    glm::uvec2 seen(0); // red, blue
+    for (const glm::vec3 p : corners)
+        uv.emplace_back((0.5f + along(p.x)) / 5, (0.5f + along(p.z)) / 7);
+    layout->instances = {{uv}};
+    auto data = std::make_shared<OverlayData>();
+    data->width = 5;
+    data->height = 7;
+    data->texels.assign(35, packColor({0, 1, 0}));
+    for (std::size_t i = 10; i < 35; ++i)
+        data->texels[i] = i % 5 % 2 == 0 ? packColor({1, 0, 0}) : packColor({0, 0, 1});
+    data->finer.assign(35, ~0U);
+    data->finer[0] = 10;
+    const Image image = drawOver(scene, data);
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+        const float column = along(planePoint(options, x, 16).x / kScale) * float(kFineCells);
+        const glm::uvec3 c = pixelOf(image, x, 16);
+        if (column < 0 || column > float(kFineCells) ||
+            std::abs(column - std::floor(column) - 0.5f) < 0.1f)
+            continue;
+        ++seen[c.r > c.b ? 0 : 1];
+        EXPECT_EQ(c.g, 0U) << x;
+        EXPECT_EQ(c.r > c.b, std::lround(column) % 2 == 0) << x << ' ' << column;
+    }
+    EXPECT_GT(seen.x, 5U);
+    EXPECT_GT(seen.y, 5U);
+}
+
 TEST_F(ViewportOverlays, TexelsColourEachSideOfATwoSidedSurfaceMirroredOrNot) {
     simple::SceneBuilder b = plane();
     b.scene.materials[0].doubleSided = true;
