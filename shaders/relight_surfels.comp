@@ -12,25 +12,29 @@ layout(std430, binding = RELIGHT_INDIRECT) readonly buffer Indirect { vec4 indir
 layout(std430, binding = RELIGHT_RADIOSITY) buffer Radiosity { vec4 radiosity[]; };
 layout(std430, binding = RELIGHT_CHANGE) writeonly buffer Change { vec4 change[]; };
 
-shared vec3 changes[kLanes];
+shared vec4 changes[kLanes];
 
 void main() {
     const uint lane = gl_LocalInvocationIndex, i = itemIndex();
-    changes[lane] = vec3(0);
+    changes[lane] = vec4(0);
     if (i < range.end) {
         const vec3 B = albedo[i].rgb * (direct[i].rgb + indirect[i].rgb) + emitted[i].rgb;
         const vec3 d = abs(B - radiosity[i].rgb);
-        changes[lane] = vec3(vec2(d.r + d.g + d.b, B.r + B.g + B.b) * surfels[i].area, max(B.r, max(B.g, B.b)));
+        const float change = d.r + d.g + d.b, share = surfels[i].seenShare;
+        // relativeChange() of engine/relight/bouncing.h
+        const float all = B.r + B.g + B.b;
+        const float relative = change > 0.0 ? min(change / max(all, 1.1755e-38), 1.0) : 0.0;
+        changes[lane] = vec4(vec2(change, all) * surfels[i].area, relative * share, max(B.r, max(B.g, B.b)));
         radiosity[i] = vec4(B, 0);
     }
     barrier();
     if (lane == 0 && i < range.end) { // in one order, so that the same light gives the same bits
-        vec2 sum = vec2(0);
+        vec3 sum = vec3(0);
         float brightest = 0.0;
         for (uint k = 0; k < kLanes; ++k) {
-            sum += changes[k].xy;
-            brightest = max(brightest, changes[k].z);
+            sum += changes[k].xyz;
+            brightest = max(brightest, changes[k].w);
         }
-        change[groupIndex()] = vec4(sum, brightest, 0);
+        change[groupIndex()] = vec4(sum, brightest);
     }
 }

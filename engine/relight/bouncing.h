@@ -1,25 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/bake/bake.h"
 #include "engine/relight/light_links.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace limn {
 
-/// What a round did to the light that surfels send: their radiosity times area, all colours [W].
+/// What a round did to the light that surfels send, all colours.
 struct RoundChange {
-    double change = 0; ///< sum of what each surfel sends more or less
-    double total = 0;
+    double change = 0;   ///< summed radiosity times area that each sends more or less [W]
+    double total = 0;    ///< summed radiosity times area [W]
+    double relative = 0; ///< relativeChange() of each, summed times its seenShares()
 
-    double relative() const { return total > 0 ? change / total : (change > 0 ? 1 : 0); }
+    double ofAll() const { return total > 0 ? change / total : (change > 0 ? 1 : 0); }
 };
+
+/// Of a surfel that sends b, and did |b - d| or b + d before; 1 where it sends nothing any more.
+inline float relativeChange(float d, float b) {
+    return d > 0 ? std::min(d / std::max(b, std::numeric_limits<float>::min()), 1.f) : 0.f;
+}
+
+/// Per surfel, how much of all that caches see it is; 1 in all, with the sky.
+std::vector<float> seenShares(const ClusterTree& tree);
 
 /// When bounces may end, on whichever device they run.
 class Convergence {
 public:
-    /// Of the total radiosity, by one bounce.
+    /// Of all light, and of each surfel's own in the mean over what caches see, by one bounce. Of
+    /// all light alone, a sunlit ground of 200 m would hide what bounces do in the house on it,
+    /// whose walls were up to a fourth too dark for that.
     static constexpr double kChange = 1e-4;
 
     bool reached() const { return m_reached; }
@@ -49,9 +63,9 @@ public:
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         m_passedOn = reflects ? round.change / m_before : 0;
         m_before = round.change;
-        const bool converged = round.relative() < kChange;
+        const bool converged = round.ofAll() < kChange && round.relative < kChange;
         m_growing = m_passedOn > kRounding && !converged ? m_growing + 1 : 0;
-        m_reached = (converged && m_unseenRounds == 0) || grows();
+        m_reached = (converged && m_unseenRounds == 0 && m_rounds >= kBringing) || grows();
         m_unseenRounds -= m_unseenRounds > 0;
     }
 

@@ -60,6 +60,7 @@ struct Relighter::State {
     Convergence convergence;
 
     std::vector<Material> materials; ///< that albedo and emitted belong to
+    std::vector<float> seenShare;    ///< per surfel
     std::vector<glm::vec3> albedo;   ///< per surfel
     std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
     Sky sky;
@@ -104,6 +105,7 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     State& s = *m_state;
     s.bake = std::move(bake);
     s.lit = lit;
+    s.seenShare = seenShares(s.bake->tree);
     s.everyLink = allLinks(s.bake->caches);
     s.beforeSky = linksBeforeSky(s.bake->caches, s.bake->tree);
     s.read = cachesRead(s.bake->surfels, s.bake->caches);
@@ -252,6 +254,7 @@ RoundChange Relighter::State::lightSurfels() {
         const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
         round.change += double(d.x + d.y + d.z) * s.area[i];
         round.total += double(b.x + b.y + b.z) * s.area[i];
+        round.relative += double(relativeChange(d.x + d.y + d.z, b.x + b.y + b.z) * seenShare[i]);
         radiosity[i] = withLuma(b);
     }
     return round;

@@ -291,9 +291,10 @@ RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
     const auto* groups = static_cast<const glm::vec4*>(buffers.change.mapped);
     brightest = 0;
     for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec4); ++g) {
-        brightest = std::max(brightest, groups[g].z);
+        brightest = std::max(brightest, groups[g].w);
         round.change += double(groups[g].x);
         round.total += double(groups[g].y);
+        round.relative += double(groups[g].z);
     }
     return round;
 }

@@ -3,6 +3,7 @@
 
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/uploader.h"
+#include "engine/relight/bouncing.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/field_packing.h"
 #include "engine/relight/indirect_field.h"
@@ -71,11 +72,13 @@ private:
 
 } // namespace
 
-static std::vector<GpuSurfel> packSurfels(const Surfels& surfels) {
+static std::vector<GpuSurfel> packSurfels(const Bake& bake) {
+    const Surfels& surfels = bake.surfels;
+    const std::vector<float> share = seenShares(bake.tree);
     std::vector<GpuSurfel> out(surfels.size());
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = {surfels.position[i],   0, surfels.normal[i], surfels.area[i], surfels.cache[i],
-                  surfels.cacheWeight[i]};
+        out[i] = {surfels.position[i], share[i],         surfels.normal[i],
+                  surfels.area[i],     surfels.cache[i], surfels.cacheWeight[i]};
     return out;
 }
 
@@ -157,7 +160,7 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
     std::string error;
     {
         StorageMaker make(device);
-        out.surfels = make.filled(packSurfels(bake.surfels), "surfels");
+        out.surfels = make.filled(packSurfels(bake), "surfels");
         out.innerNodes = make.filled(levels.nodes, "inner nodes");
         out.levels = make.filled(levels.begin, "tree levels");
         out.caches = make.filled(packCaches(bake.caches, allLinks(bake.caches)), "caches");

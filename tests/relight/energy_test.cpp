@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What bounces pass on: less than they receive, or they are stopped.
 #include "engine/relight/bouncing.h"
+#include "tests/bake/house_on_ground.h"
 #include "tests/relight/lit_room.h"
 #include "tests/relight/relit.h"
 
@@ -74,11 +75,57 @@ TEST(Energy, LightThatGrowsIsStoppedWhileItIsFinite) {
     }
 }
 
+TEST(Energy, SeenSharesAreThoseOfTheTreeAndSumToAllButTheSky) {
+    const Scene scene = roomOf(0.6f);
+    const ClusterTree tree = bakeOf(TraceScene(scene))->tree;
+    const std::vector<float> shares = seenShares(tree);
+    ASSERT_EQ(shares.size(), tree.surfels);
+    double sum = 0;
+    for (const float share : shares) {
+        EXPECT_GE(share, 0);
+        sum += double(share);
+    }
+    EXPECT_NEAR(sum, 1, 0.02); // the room is closed
+}
+
+// When rounds ended by the share of all light alone that they changed, the walls of the house were
+// 21 % too dark.
+TEST(Energy, BouncesInAHouseGoOnBesideAGroundThatIsFarBrighter) {
+    Scene scene = houseOnGround(1).build();
+    scene.materials[0].baseColor = glm::vec4(glm::vec3(0.8f), 1);
+    scene.sky.radiance = glm::vec3(0);
+    scene.bake.surfels = 4000;
+    scene.bake.lightmapCaches = 3000;
+    scene.bake.maxBounces = 64;
+    const auto lamp = [&](glm::vec3 position, float candela) {
+        Light light;
+        light.kind = LightKind::Point;
+        light.position = position;
+        light.strength = candela;
+        scene.lights.push_back(light);
+    };
+    lamp({3, 1.5f, 2.5f}, 100);
+    const TraceScene trace(scene);
+    const auto baked = bakeOf(trace);
+    const auto wallLight = [&] {
+        Relighter relighter(baked);
+        relighter.relight(scene, trace, 400);
+        double sum = 0;
+        const Surfels& s = baked->surfels;
+        for (std::size_t i = 0; i < s.size(); ++i)
+            sum += s.instance[i] == 1 ? double(relighter.radiosity()[i].x * s.area[i]) : 0;
+        return sum;
+    };
+    const double alone = wallLight();
+    lamp({40, 30, 40}, 1e6f);
+    EXPECT_NEAR(wallLight() / alone, 1, 0.005);
+}
+
 TEST(Energy, ALittleMoreThanAllIsGrowthAndRoundingIsNot) {
     Convergence steady, growing;
     for (int k = 0; k < 9; ++k) {
-        steady.addRound({1 + 1e-6 * k, 10});
-        growing.addRound({std::pow(1.01, k), 10});
+        steady.addRound({1 + 1e-6 * k, 10, 0.5});
+        growing.addRound({std::pow(1.01, k), 10, 0.5});
     }
     EXPECT_FALSE(steady.grows());
     EXPECT_FALSE(steady.reached());
