@@ -85,12 +85,27 @@ void simplify(SurfelDensity& d) {
     d = {{}, {}, {first}};
 }
 
+/// What changes the centre little leaves it as it is.
+double rounded(double centre) {
+    return std::exp2(std::round(2 * std::log2(centre)) / 2);
+}
+
+/// A power of sixteen as densityClass() says, 1 at most; of four where that is below 1/16: a ground
+/// that reaches to the horizon has so much area that the next power of sixteen above what it
+/// deserves would take most surfels from the house on it.
+float surfelClass(double value, double centre) {
+    constexpr int kLeast = -10;
+    const int sixteens = densityClass(value, centre);
+    const double fours = std::round(std::log2(value / rounded(centre)) / 2);
+    return float(sixteens >= -1 ? std::exp2(4 * std::min(sixteens, 0))
+                                : std::exp2(2 * std::clamp(fours, double(kLeast), -2.)));
+}
+
 } // namespace
 
 int densityClass(double value, double centre) {
-    const double middle = std::exp2(std::round(2 * std::log2(centre)) / 2);
     constexpr double kLeast = -3, kMost = 2;
-    const double exact = std::log2(value / middle) / 4;
+    const double exact = std::log2(value / rounded(centre)) / 4;
     constexpr double kUp = 0.5, kDown = 0.1;
     return int(std::clamp(std::floor(exact + (exact > 0 ? kUp : 1 - kDown)), kLeast, kMost));
 }
@@ -117,7 +132,7 @@ std::vector<SurfelDensity> surfelDensities(const Scene& scene, std::span<const M
     }
     for (SurfelDensity& d : result) {
         for (float& x : d.density)
-            x = float(std::exp2(4 * std::min(densityClass(double(x), squares / sum), 0)));
+            x = surfelClass(double(x), squares / sum);
         simplify(d);
     }
     return result;

@@ -65,11 +65,12 @@ struct MeshHits {
     double area = 0;           ///< of its instances' lit sides in the world [m^2]
 };
 
-/// Per mesh the hits' summed weight per area, in powers of sixteen below what most hits meet. The
-/// density of a cell with few hits is drawn towards its chart's, that towards the mesh's, and that
-/// towards the scene's. No mesh has less than half of the scene's density and no cell less than
-/// half of its mesh's, so what an object hides stays as it is when the object moves. One density
-/// where no mesh was met. `charts` and `shapes` per mesh, as Assets::meshes.
+/// Per mesh the hits' summed weight per area, in powers of sixteen below what most hits meet, and
+/// of four below a sixteenth. The density of a cell with few hits is drawn towards its chart's,
+/// that towards the mesh's, and that towards the scene's. No mesh has less than half of the scene's
+/// density and no cell less than half of its mesh's, so what an object hides stays as it is when
+/// the object moves. One density where no mesh was met. `charts` and `shapes` per mesh, as
+/// Assets::meshes.
 std::vector<SurfelDensity> surfelDensities(const Scene& scene, std::span<const MeshCharts> charts,
                                            std::span<const MeshChartShapes> shapes,
                                            std::span<const MeshHits> hits);
