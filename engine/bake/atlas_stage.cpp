@@ -91,7 +91,7 @@ BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_
         });
 }
 
-/// An atlas before its finer texels are added.
+/// An atlas of coarse texels, and where finer ones are to be added to it.
 struct LaidTexels {
     Atlas atlas;
     FineLookups fine;
@@ -140,7 +140,7 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
 }
 
 /// As many texels as the settings ask for. How many finer ones a scene deserves is not known before
-/// they are laid; both kinds then give way alike.
+/// they are laid once; then both kinds are reduced by the same factor.
 LaidTexels layTexels(const TexelInput& in) {
     const std::uint64_t wanted = in.scene.bake.lightmapCaches;
     if (in.density.varied.empty())

@@ -34,7 +34,8 @@ struct Chart {
     std::uint32_t begin = 0, end = 0; ///< its probes; none: too small for one of its own
     double detail = 0;                ///< texels per area that it deserves, relative
     int fours = 0;                    ///< its texels per metre are multiplied by 4^fours
-    bool varied = false;              ///< some of its probes deserve far more
+    int usual = 0;                    ///< the class that most of its probes deserve
+    bool varied = false;              ///< parts of it deserve far more
 };
 
 /// A point on one side of a surface.
@@ -232,8 +233,8 @@ int DensityFinder::usualClass(const Chart& chart) const {
     return *middle;
 }
 
-/// Calls visit(chart in m_all, what arrived there, fours it deserves for that, the area that it
-/// stands for) for rays that met something on a chart.
+/// Calls visit(chart, hit, fours, area) for each ray that hit a chart: its index in m_all, the hit,
+/// the density class that the hit's distance calls for, and the area that the ray stands for [m^2].
 template <class Visit>
 void DensityFinder::forArrived(const Visit& visit) const {
     for (const Chart& c : m_all)
@@ -254,12 +255,9 @@ void DensityFinder::forArrived(const Visit& visit) const {
 std::vector<double> DensityFinder::nearWorth() const {
     // A block of texels has 25 where 16 would do, once on each level, and reaches beyond the part.
     constexpr double kBlocks = 2.5;
-    std::vector<int> usual;
-    for (const Chart& c : m_all)
-        usual.push_back(usualClass(c));
     std::vector<double> worth(m_all.size());
     forArrived([&](std::uint32_t chart, const Met&, int fours, double area) {
-        if (fours >= usual[chart] + kFar)
+        if (fours >= m_all[chart].usual + kFar)
             worth[chart] += kBlocks * area * std::exp2(4 * fours);
     });
     return worth;
@@ -288,8 +286,8 @@ std::vector<VariedChart> DensityFinder::varied() const {
 /// Sets the densities of a chart and of its probes. Returns what its texels are worth.
 double DensityFinder::chooseChart(Chart& chart, double near) {
     chart.varied = near >= kOwnDensity * m_worth;
-    chart.fours = chart.varied ? usualClass(chart)
-                               : densityClass(std::max(chart.detail, 1e-30), m_result.centre);
+    chart.fours =
+        chart.varied ? chart.usual : densityClass(std::max(chart.detail, 1e-30), m_result.centre);
     for (std::uint32_t p = chart.begin; p < chart.end; ++p)
         m_probes[p].fours = chart.varied
                                 ? std::max(classAt(nearness(p, m_result.nearest)), chart.fours)
@@ -312,6 +310,8 @@ void DensityFinder::chooseDensities() {
         if (!(sum > 0)) // nothing is near anything
             return;
         m_result.centre = squares / sum;
+        for (Chart& c : m_all)
+            c.usual = usualClass(c);
         const std::vector<double> near = nearWorth();
         for (std::size_t i = 0; i < m_all.size(); ++i) {
             worth += chooseChart(m_all[i], near[i]);

@@ -30,21 +30,15 @@ struct BlockTriangle {
 /// Those of the charts whose density varies.
 std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensity& density,
                                             const LightmapLayout& layout) {
-    const glm::ivec2 size(int(layout.width), int(layout.height));
     std::vector<PlacedTriangle> result;
     for (const VariedChart& v : density.varied) {
-        const InstanceLightmap& map = layout.instances[v.instance];
-        const MeshCharts& charts = layout.meshes[scene.instances[v.instance].mesh];
-        for (std::uint32_t back = 0; back < (map.backRows > 0 ? 2U : 1U); ++back)
-            for (std::uint32_t t = 0; t < charts.chartOfTriangle.size(); ++t) {
-                if (charts.chartOfTriangle[t] != v.chart)
-                    continue;
-                PlacedTriangle placed{v.instance, back, t, {}, glm::ivec2(0), size};
-                for (std::uint32_t k = 0; k < 3; ++k)
-                    placed.corner[k] = map.uv[charts.indices[3 * t + k]] * glm::vec2(size) +
-                                       glm::vec2(0, float(back * map.backRows)) - 0.5f;
-                result.push_back(placed);
-            }
+        const std::uint32_t mesh = scene.instances[v.instance].mesh;
+        const std::vector<std::uint32_t>& chartOf = layout.meshes[mesh].chartOfTriangle;
+        const std::uint32_t sides = layout.instances[v.instance].backRows > 0 ? 2 : 1;
+        for (std::uint32_t back = 0; back < sides; ++back)
+            for (std::uint32_t t = 0; t < chartOf.size(); ++t)
+                if (chartOf[t] == v.chart)
+                    result.push_back(placeTriangle(layout, mesh, v.instance, back, t));
     }
     return result;
 }
@@ -267,6 +261,7 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
                 all[i].rays = texels.size() * kRaysPerTexel;
                 // Texels of base / 4^k have class k.
                 const double has = std::log2(double(base / owner.width)) / 2;
+                // One ray overstates how near all else is; it counts a class less.
                 const double detail =
                     std::max(probe.detail(owner, texels),
                              std::exp2(4. * (met[all[i].place] - 1)) * density.centre);

@@ -290,16 +290,9 @@ void Snapper::addTriangle(const PlacedTriangle& placed) {
 
 /// Those of one side of an instance.
 void Snapper::addTriangles(std::uint32_t instance, std::uint32_t back) {
-    const MeshCharts& charts = m_layout.meshes[m_sides.trace.scene().instances[instance].mesh];
-    const InstanceLightmap& map = m_layout.instances[instance];
-    const glm::ivec2 size(int(m_layout.width), int(m_layout.height));
-    for (std::uint32_t t = 0; t < charts.chartOfTriangle.size(); ++t) {
-        PlacedTriangle placed{instance, back, t, {}, glm::ivec2(0), size};
-        for (std::uint32_t k = 0; k < 3; ++k)
-            placed.corner[k] = map.uv[charts.indices[3 * t + k]] * glm::vec2(size) +
-                               glm::vec2(0, float(back * map.backRows)) - 0.5f;
-        addTriangle(placed);
-    }
+    const std::uint32_t mesh = m_sides.trace.scene().instances[instance].mesh;
+    for (std::uint32_t t = 0; t < m_layout.meshes[mesh].chartOfTriangle.size(); ++t)
+        addTriangle(placeTriangle(m_layout, mesh, instance, back, t));
 }
 
 void Snapper::findPoints() {
@@ -424,6 +417,18 @@ std::vector<std::uint32_t> Snapper::run(const Progress& progress) {
 }
 
 } // namespace
+
+PlacedTriangle placeTriangle(const LightmapLayout& layout, std::uint32_t mesh,
+                             std::uint32_t instance, std::uint32_t back, std::uint32_t triangle) {
+    const MeshCharts& charts = layout.meshes[mesh];
+    const InstanceLightmap& map = layout.instances[instance];
+    const glm::ivec2 size(int(layout.width), int(layout.height));
+    PlacedTriangle placed{instance, back, triangle, {}, glm::ivec2(0), size};
+    for (std::uint32_t k = 0; k < 3; ++k)
+        placed.corner[k] = map.uv[charts.indices[3 * triangle + k]] * glm::vec2(size) +
+                           glm::vec2(0, float(back * map.backRows)) - 0.5f;
+    return placed;
+}
 
 TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas,
                           const std::vector<PlacedTriangle>& placed, const Progress& progress) {

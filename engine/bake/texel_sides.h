@@ -22,13 +22,17 @@ struct TexelSides {
     std::uint64_t rays = 0;           ///< traced for it
 };
 
-/// A triangle as it lies in some of an atlas' lookups.
+/// Where a triangle lies in an atlas. A lookup is named by the texel at its upper left.
 struct PlacedTriangle {
     std::uint32_t instance, back; ///< as AtlasTexel
     std::uint32_t triangle;
     std::array<glm::vec2, 3> corner; ///< in texels from the middle of the atlas' first texel
-    glm::ivec2 lower, upper;         ///< the lookups that it lies in, [lower, upper)
+    glm::ivec2 lower, upper;         ///< it counts only for the lookups in [lower, upper)
 };
+
+/// Where the layout draws a triangle, for all of its lookups.
+PlacedTriangle placeTriangle(const LightmapLayout& layout, std::uint32_t mesh,
+                             std::uint32_t instance, std::uint32_t back, std::uint32_t triangle);
 
 /// A point is open in the share of a few directions in which nothing lies within a texel's width,
 /// nor the back of a one-sided surface anywhere. So much of a point is seen from further off than

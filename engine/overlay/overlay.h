@@ -100,8 +100,9 @@ struct OverlayData {
     /// Per lightmap texel, row by row, as OverlayMark::color; A = 0: not painted. Empty: surfaces
     /// stay as they are.
     std::vector<std::uint32_t> texels;
-    /// Per texel, for lookups between its middle and that of the next ones: the first of a block of
-    /// finer texels that is painted instead, ~0 for none. Empty: there are none.
+    /// Per texel: the first texel of the block of finer ones that is painted instead of the square
+    /// between the centres of this texel and the next ones to the right and below; ~0: none. Empty:
+    /// the lightmap has no finer texels.
     std::vector<std::uint32_t> finer;
     OverlayLegend legend;
 };

@@ -31,9 +31,10 @@ std::vector<float> seenShares(const ClusterTree& tree);
 /// When bounces may end, on whichever device they run.
 class Convergence {
 public:
-    /// Of all light, and of each surfel's own in the mean over what caches see, by one bounce. Of
-    /// all light alone, a sunlit ground of 200 m would hide what bounces do in the house on it,
-    /// whose walls were up to a fourth too dark for that.
+    /// Bounces have converged when one changes both the total radiosity of all surfels, and each
+    /// surfel's own in the mean over what caches see, by less than this share. With the total
+    /// alone, a sunlit ground of 200 m hid the bounces in the house on it, and its walls came out
+    /// up to a fourth too dark.
     static constexpr double kChange = 1e-4;
 
     bool reached() const { return m_reached; }

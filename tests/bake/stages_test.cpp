@@ -148,7 +148,7 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
     }
 }
 
-// The ground's finer texels follow what stands on it.
+// Which parts of the ground have finer texels depends on where the chest stands.
 TEST(Stages, MovingAChestInAHouseOnAWideGroundEqualsAFullBake) {
     const auto withChest = [](glm::vec3 at) {
         SceneBuilder b = houseOnGround(1, false);

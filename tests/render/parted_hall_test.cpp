@@ -11,7 +11,12 @@
 namespace limn {
 namespace {
 
-using ViewportPartedHall = ViewportTest;
+class ViewportPartedHall : public ViewportTest {
+protected:
+    void expectLooksAsOnTheCpu(const Scene& scene, const TraceScene& trace,
+                               const IndirectField& field, const LightmapLayout& plain,
+                               double changed);
+};
 
 /// Irradiance at the middles of the pixels, each looked up by itself.
 std::vector<float> lookedUp(const TraceScene& trace, const IndirectField& field,
@@ -40,6 +45,25 @@ double shareOff(const std::vector<float>& a, const std::vector<float>& b, float 
     return double(off) / double(a.size());
 }
 
+/// Draws the scene and compares each pixel with a lookup on the CPU. Without what `plain` leaves
+/// out of the layout, more than the share `changed` of the pixels would be off.
+void ViewportPartedHall::expectLooksAsOnTheCpu(const Scene& scene, const TraceScene& trace,
+                                               const IndirectField& field,
+                                               const LightmapLayout& plain, double changed) {
+    viewport->setIndirect(field);
+    const std::vector<float> truth = lookedUp(trace, field, *layout, options);
+    const std::vector<float> without = lookedUp(trace, field, plain, options);
+    std::vector<float> drawn;
+    for (const glm::vec3 p : draw(scene, View::Irradiance).rgb)
+        drawn.push_back(p.x);
+    // Texture units interpolate with 8 bits of weight, along both sides of a texel.
+    const float bound = *std::ranges::max_element(without) / 64;
+    // Where two surfaces meet, CPU and GPU may disagree on what lies at a pixel's middle, or in
+    // which cell.
+    EXPECT_LT(shareOff(drawn, truth, bound), 0.003) << options.camera.eye.x;
+    EXPECT_GT(shareOff(without, truth, bound), changed) << "nothing to compare";
+}
+
 TEST_F(ViewportPartedHall, LookupsSnapAsTheyDoOnTheCpu) {
     Scene scene = partedHall(0, 470);
     scene.bake.surfels = 500;
@@ -53,24 +77,12 @@ TEST_F(ViewportPartedHall, LookupsSnapAsTheyDoOnTheCpu) {
     layout = std::make_shared<LightmapLayout>(baked->lightmap);
     LightmapLayout plain = baked->lightmap;
     plain.snaps.clear();
-    viewport->setIndirect(relighter.field());
     options.width = 96;
     options.height = 64;
     // From the dark part and from the bright one, along the floor to the wall.
     for (const float eye : {1.2f, 6.2f}) {
         options.camera = {.eye = {eye, 1.6f, 2}, .target = {3.7f, 0.4f, 1.9f}, .fovY = 1.2f};
-        const std::vector<float> truth = lookedUp(trace, relighter.field(), *layout, options);
-        const ImageF image = draw(scene, View::Irradiance);
-        std::vector<float> drawn;
-        for (const glm::vec3 p : image.rgb)
-            drawn.push_back(p.x);
-        const std::vector<float> unsnapped = lookedUp(trace, relighter.field(), plain, options);
-        // Texture units interpolate with 8 bits of weight, along both sides of a texel.
-        const float bound = *std::ranges::max_element(unsnapped) / 64;
-        // Where the wall meets the hall the two may disagree on what lies at a pixel's middle, or
-        // in which cell.
-        EXPECT_LT(shareOff(drawn, truth, bound), 0.003) << eye;
-        EXPECT_GT(shareOff(unsnapped, truth, bound), 0.03) << "nothing to snap";
+        expectLooksAsOnTheCpu(scene, trace, relighter.field(), plain, 0.03);
     }
 }
 
@@ -89,19 +101,10 @@ TEST_F(ViewportPartedHall, FinerTexelsAreReadAsOnTheCpu) {
     LightmapLayout plain = baked->lightmap;
     for (std::uint32_t& s : plain.snaps)
         s = (s & kFineLookup) != 0 ? 0 : s;
-    viewport->setIndirect(relighter.field());
     options.width = 96;
     options.height = 64;
     options.camera = {.eye = {5, 2, 2.5f}, .target = {2, 0, 2.4f}, .fovY = 1.2f};
-    const std::vector<float> truth = lookedUp(trace, relighter.field(), *layout, options);
-    const ImageF image = draw(scene, View::Irradiance);
-    std::vector<float> drawn;
-    for (const glm::vec3 p : image.rgb)
-        drawn.push_back(p.x);
-    const std::vector<float> coarse = lookedUp(trace, relighter.field(), plain, options);
-    const float bound = *std::ranges::max_element(coarse) / 64;
-    EXPECT_LT(shareOff(drawn, truth, bound), 0.003);
-    EXPECT_GT(shareOff(coarse, truth, bound), 0.2) << "nothing is finer";
+    expectLooksAsOnTheCpu(scene, trace, relighter.field(), plain, 0.2);
 }
 
 } // namespace
