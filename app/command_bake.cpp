@@ -49,7 +49,9 @@ void print(const Bake& bake) {
 }
 
 Exit runBake(const BakeCommand& command) {
-    if (const Result<void> writable = checkOutputFile(command.output); !writable)
+    if (const Result<void> writable =
+            checkOutputFile(command.output, {".limnbake"}, {command.scene.scene});
+        !writable)
         return failed(writable.error().message);
     Result<ImportedScene> imported = openScene(command.scene);
     if (!imported)
@@ -71,7 +73,8 @@ Exit runBake(const BakeCommand& command) {
         std::fflush(stdout);
     }
     const Result<Bake> baked =
-        bake(TraceScene(scene), progressOnStderr(), command.noStore ? nullptr : &store);
+        bake(TraceScene(scene), progressOnStderr(), command.noStore ? nullptr : &store, nullptr,
+             command.scene.import.memory);
     endProgressLine();
     store.flush();
     if (const std::string defect = store.defect(); !defect.empty())

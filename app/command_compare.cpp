@@ -38,7 +38,9 @@ nlohmann::ordered_json report(const Comparison& c, bool twoReferences) {
 
 Exit runCompare(const Options& o) {
     if (!o.heatmap.empty())
-        if (const Result<void> writable = checkOutputFile(o.heatmap, {".png"}); !writable)
+        if (const Result<void> writable =
+                checkOutputFile(o.heatmap, {".png"}, {o.test, o.reference, o.reference2});
+            !writable)
             return failed(writable.error().message);
     const Result<ImageF> test = readFloatImage(o.test);
     if (!test)

@@ -47,6 +47,7 @@ void addEditCommand(CLI::App& app, Run& run) {
             "which is faster here")
         ->check(CLI::IsMember(
             std::vector<std::string>(kRelightOnNames.begin(), kRelightOnNames.end())));
+    addImportOptions(*command, options->import);
     command->add_flag("--no-bake", options->noBake, "does not bake a scene as soon as it is open");
     command->callback([options, &run] {
         run = [options] {

@@ -56,7 +56,9 @@ Json report(const ReferenceResult& r, const std::string& view, double seconds) {
 }
 
 Exit runReference(Options& o) {
-    if (const Result<void> writable = checkOutputFile(o.output, {".exr"}); !writable)
+    if (const Result<void> writable =
+            checkOutputFile(o.output, {".exr"}, {o.scene.scene, o.scene.sky});
+        !writable)
         return failed(writable.error().message);
     const ThreadLimit limit(o.threads);
     const Result<ImportedScene> imported = openScene(o.scene);

@@ -298,8 +298,10 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
 }
 
 Exit runRender(const Options& options) {
-    for (const Result<void>& possible : {checkOutputFile(options.output, {".exr", ".png"}),
-                                         checkOverlay(options), checkRelight(options)})
+    for (const Result<void>& possible :
+         {checkOutputFile(options.output, {".exr", ".png"},
+                          {options.scene.scene, options.scene.sky, options.bake}),
+          checkOverlay(options), checkRelight(options)})
         if (!possible)
             return failed(possible.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);

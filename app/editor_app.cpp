@@ -8,11 +8,9 @@
 #include "editor_ui/theme.h"
 #include "engine/bake/stage_store.h"
 #include "engine/core/log.h"
+#include "engine/core/replace_file.h"
 
 #include <imgui.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -56,7 +54,7 @@ public:
           m_swapchain(*m_device, surface), m_imgui(*m_window), m_renderer(*m_device, m_swapchain),
           m_picture(*m_device, options.validate, [this] { m_window->wake(); }),
           m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake,
-                     defaultStageFolder()}) {}
+                     defaultStageFolder(), options.import}) {}
 
     void run();
     void writeStats() const;
@@ -223,11 +221,9 @@ void EditorApp::writeStats() const {
         {"validating", m_device->validating},
         {"validation_messages", validationMessages()},
     };
-    // Renamed into place: a reader never sees half of it.
-    const std::string temporary = m_options.statsPath + ".part";
-    std::ofstream(temporary) << json.dump(2) << '\n';
-    std::error_code error;
-    std::filesystem::rename(temporary, m_options.statsPath, error);
+    if (const Result<void> written = replaceFile(m_options.statsPath, json.dump(2) + '\n');
+        !written)
+        logWarning(written.error().message);
 }
 
 void EditorApp::run() {

@@ -3,6 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/files/relight_choice.h"
+#include "engine/scene/gltf_import.h"
 
 #include <cstdint>
 #include <string>
@@ -12,6 +13,7 @@ namespace limn {
 struct EditorAppOptions {
     std::string scene = "cornell";
     std::string projectsFolder;
+    ImportOptions import;
     std::uint32_t width = 1440, height = 900;
     std::string statsPath; ///< empty: none
     bool validate = false;

@@ -29,7 +29,11 @@ static int runLimn(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? int(Exit::Done) : int(Exit::Usage);
     }
-    return int(run());
+    const Exit exit = run();
+    // A full disk shows only now, where stdout is a file.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        return int(failed("cannot write to standard output"));
+    return int(exit);
 }
 
 } // namespace limn

@@ -28,6 +28,18 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     addDynamicOption(command, options);
 }
 
+void addImportOptions(CLI::App& command, ImportOptions& options) {
+    command
+        .add_option_function<double>(
+            "--memory",
+            [&options](double gib) { options.memory.most = std::uint64_t(gib * double(1 << 30)); },
+            "most that scenes, pictures and bakes may need [GiB]; default half of the machine's")
+        ->check(CLI::Range(0.001, 1e6));
+    command.add_flag_callback(
+        "--outside-files", [&options] { options.reach = FileReach::Anywhere; },
+        "a .gltf may name files outside its own folder");
+}
+
 void addDynamicOption(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--dynamic", options.dynamics,
@@ -50,6 +62,7 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
                        "FILE.exr, a panorama; replaces the scene's");
     command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
         ->check(CLI::Range(0.f, kMostLight));
+    addImportOptions(command, options.import);
     command.add_option("--sky-rotation", options.skyRotation,
                        "of the panorama about +Y, from +Z towards +X [degrees]");
 }
@@ -59,13 +72,13 @@ void addTimeOption(CLI::App& command, SceneOptions& options) {
         ->check(CLI::Range(-1e6, 1e6));
 }
 
-static Result<Sky> openSky(const std::string& spec) {
+static Result<Sky> openSky(const std::string& spec, const MemoryBudget& memory) {
     if (!spec.ends_with(".hdr") && !spec.ends_with(".exr"))
         return parseSky(spec);
     Sky sky;
     sky.kind = SkyKind::Image;
     sky.image = spec;
-    if (const Result<void> read = readSkyImage(sky); !read)
+    if (const Result<void> read = readSkyImage(sky, memory); !read)
         return tl::make_unexpected(read.error());
     return sky;
 }
@@ -106,14 +119,15 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
     }
     std::optional<Sky> sky;
     if (!options.sky.empty()) {
-        const Result<Sky> parsed = openSky(options.sky);
+        const Result<Sky> parsed = openSky(options.sky, options.import.memory);
         if (!parsed)
             return tl::make_unexpected(parsed.error());
         sky = *parsed;
     }
-    Result<ImportedScene> scene = options.scene.starts_with(kGenerated)
-                                      ? openGenerated(options.scene)
-                                      : openAny(options.scene, projectsFolder());
+    Result<ImportedScene> scene =
+        options.scene.starts_with(kGenerated)
+            ? openGenerated(options.scene)
+            : openAny(options.scene, projectsFolder(), {}, options.import);
     if (!scene)
         return scene;
     for (Light& light : lights)

@@ -24,6 +24,7 @@ struct SceneOptions {
     std::optional<float> skyStrength, skyRotation; ///< factor, degrees
     double seconds = 0;                            ///< after the start of films
     std::vector<std::string> dynamics;
+    ImportOptions import;
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
@@ -31,6 +32,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 void addLightOptions(CLI::App& command, SceneOptions& options);
 
 void addDynamicOption(CLI::App& command, SceneOptions& options);
+
+/// --memory and --outside-files.
+void addImportOptions(CLI::App& command, ImportOptions& options);
 
 void addTimeOption(CLI::App& command, SceneOptions& options);
 

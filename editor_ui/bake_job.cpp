@@ -9,8 +9,8 @@ namespace limn {
 
 using Clock = std::chrono::steady_clock;
 
-BakeJob::BakeJob(std::function<void()> wake, StageStoreOptions store)
-    : m_wake(std::move(wake)), m_store(std::move(store)) {}
+BakeJob::BakeJob(std::function<void()> wake, StageStoreOptions store, MemoryBudget memory)
+    : m_wake(std::move(wake)), m_store(std::move(store)), m_memory(memory) {}
 
 BakeJob::~BakeJob() {
     m_cancel = true;
@@ -59,7 +59,7 @@ Result<Bake> BakeJob::bakeWith(const BakeSettings& settings, const TraceScene& t
             m_wake();
         }
     };
-    return bake(trace, progress, &m_store, &settings);
+    return bake(trace, progress, &m_store, &settings, m_memory);
 }
 
 void BakeJob::put(Result<BakedScene> result) {

@@ -31,7 +31,7 @@ class BakeJob {
 public:
     /// `wake` is called from the bake's thread when there is progress or a result to show. Finished
     /// stages are kept in `store`.
-    BakeJob(std::function<void()> wake, StageStoreOptions store);
+    BakeJob(std::function<void()> wake, StageStoreOptions store, MemoryBudget memory);
     ~BakeJob();
     BakeJob(const BakeJob&) = delete;
     BakeJob& operator=(const BakeJob&) = delete;
@@ -57,6 +57,7 @@ private:
 
     std::function<void()> m_wake;
     StageStore m_store;
+    MemoryBudget m_memory;
     std::thread m_thread;
     std::atomic<bool> m_cancel{false}, m_running{false};
     std::chrono::steady_clock::time_point m_start;

@@ -32,8 +32,8 @@ std::string bakePathOf(const std::string& projectPath) {
     return fs::path(projectPath).replace_extension(".limnbake").string();
 }
 
-FileJob::FileJob(std::string projectsFolder, std::function<void()> wake)
-    : m_projectsFolder(std::move(projectsFolder)), m_wake(std::move(wake)) {}
+FileJob::FileJob(std::string projectsFolder, ImportOptions options, std::function<void()> wake)
+    : m_projectsFolder(std::move(projectsFolder)), m_options(options), m_wake(std::move(wake)) {}
 
 FileJob::~FileJob() {
     m_cancel = true; // of an import; a save is always finished
@@ -71,8 +71,8 @@ static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene
 }
 
 static Result<OpenedFile> openFile(const std::string& what, const std::string& projectsFolder,
-                                   const Progress& progress) {
-    Result<ImportedScene> imported = openAny(what, projectsFolder, progress);
+                                   const Progress& progress, const ImportOptions& options) {
+    Result<ImportedScene> imported = openAny(what, projectsFolder, progress, options);
     if (!imported)
         return tl::make_unexpected(imported.error());
     OpenedFile file;
@@ -90,7 +90,7 @@ bool FileJob::open(std::string what) {
     return start([this, what = std::move(what)] {
         Progress progress;
         progress.cancel = &m_cancel;
-        auto opened = openFile(what, m_projectsFolder, progress);
+        auto opened = openFile(what, m_projectsFolder, progress, m_options);
         const std::lock_guard lock(m_mutex);
         m_opened = std::move(opened);
     });
@@ -99,7 +99,7 @@ bool FileJob::open(std::string what) {
 bool FileJob::openSkyImage(std::string path) {
     return start([this, path = std::move(path)] {
         Sky sky{.kind = SkyKind::Image, .image = path};
-        const Result<void> read = readSkyImage(sky);
+        const Result<void> read = readSkyImage(sky, m_options.memory);
         const std::lock_guard lock(m_mutex);
         if (read)
             m_sky = std::move(sky);

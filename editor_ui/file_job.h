@@ -29,7 +29,7 @@ struct OpenedFile {
 class FileJob {
 public:
     /// `projectsFolder`: where sample projects are looked for by name.
-    FileJob(std::string projectsFolder, std::function<void()> wake);
+    FileJob(std::string projectsFolder, ImportOptions options, std::function<void()> wake);
     ~FileJob();
     FileJob(const FileJob&) = delete;
     FileJob& operator=(const FileJob&) = delete;
@@ -53,6 +53,7 @@ private:
     bool start(std::function<void()> work);
 
     std::string m_projectsFolder;
+    ImportOptions m_options;
     std::function<void()> m_wake;
     std::thread m_thread;
     std::atomic<bool> m_running{false}, m_cancel{false};

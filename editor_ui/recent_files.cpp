@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/recent_files.h"
 
+#include "engine/core/log.h"
+#include "engine/core/read_file.h"
+#include "engine/core/replace_file.h"
+
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 namespace limn {
 
@@ -19,7 +23,7 @@ static fs::path recentPath() {
 
 std::vector<std::string> readRecentFiles() {
     std::vector<std::string> recent;
-    std::ifstream in(recentPath());
+    std::istringstream in(readFile(recentPath().string()).value_or(""));
     for (std::string line; recent.size() < 10 && std::getline(in, line);)
         if (!line.empty())
             recent.push_back(line);
@@ -37,9 +41,11 @@ std::vector<std::string> addRecentFile(std::vector<std::string> recent, const st
         recent.resize(10);
     if (const fs::path file = recentPath(); !file.empty()) {
         fs::create_directories(file.parent_path(), error);
-        std::ofstream out(file);
+        std::string lines;
         for (const std::string& line : recent)
-            out << line << '\n';
+            lines += line + '\n';
+        if (const Result<void> written = replaceFile(file.string(), lines); !written)
+            logWarning(written.error().message);
     }
     return recent;
 }

@@ -38,8 +38,10 @@ LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapL
 }
 
 Session::Session(SessionOptions options)
-    : m_options(std::move(options)), m_files(m_options.projectsFolder, m_options.wake),
-      m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}), m_relightJob(m_options.wake) {
+    : m_options(std::move(options)),
+      m_files(m_options.projectsFolder, m_options.import, m_options.wake),
+      m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
+      m_relightJob(m_options.wake) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));

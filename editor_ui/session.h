@@ -15,6 +15,7 @@ struct SessionOptions {
         wake;               ///< called from any thread when update() has something new to take in
     bool bakeOnOpen = true; ///< a scene without a bake is baked as soon as it is open
     std::string bakeFolder; ///< keeps finished stages of bakes; empty: memory does
+    ImportOptions import;   ///< of every scene that is opened; its memory is also the bakes'
 };
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No

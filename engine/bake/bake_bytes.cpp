@@ -8,6 +8,8 @@
 #include "engine/bake/seen_patches.h"
 #include "engine/scene/triangle_geometry.h"
 
+#include <algorithm>
+
 namespace limn {
 
 namespace {
@@ -76,6 +78,16 @@ BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std:
     return b;
 }
 
+std::uint64_t roughPeak(const BakeSettings& settings, std::uint64_t caches) {
+    // What grows with each of them, on top of what the result holds: hits and their sorting, cuts
+    // being chosen, patches and training light, points and texels.
+    constexpr double kPerRay = 14, kPerLink = 48, kPerSurfel = 4000, kPerCache = 4600;
+    const double perCache = kPerRay * settings.rays + kPerLink * settings.links + kPerCache;
+    const double bytes = double(caches) * perCache + kPerSurfel * double(settings.surfels) +
+                         double(predictBytes(settings, settings.surfels, caches).total());
+    return std::uint64_t(std::min(bytes, 1e18));
+}
+
 std::uint64_t expectedCaches(const Scene& scene) {
     const BakeSettings& s = scene.bake;
     LightmapLayout layout; // only as to which instances have a lightmap
@@ -92,7 +104,7 @@ std::uint64_t expectedCaches(const Scene& scene) {
         texels = area * double(s.texelsPerMetre) * double(s.texelsPerMetre);
     const glm::uvec3 grid = chooseGridSize(scene, layout, s);
     texels += texels / kCachesPerOwn;
-    return std::uint64_t(texels) + std::uint64_t(grid.x) * grid.y * grid.z;
+    return std::uint64_t(std::min(texels, 1e15)) + std::uint64_t(grid.x) * grid.y * grid.z;
 }
 
 } // namespace limn

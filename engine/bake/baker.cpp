@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/bake.h"
+#include "engine/bake/bake_bytes.h"
 
 #include "engine/bake/atlas_stage.h"
 #include "engine/bake/cache_points.h"
@@ -158,12 +159,19 @@ BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
 } // namespace
 
 Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore* store,
-                  const BakeSettings* settings) {
+                  const BakeSettings* settings, const MemoryBudget& memory) {
     Scene scene = trace.scene();
     if (settings)
         scene.bake = *settings;
     if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
         return fail(defect);
+    const std::uint64_t caches = expectedCaches(scene);
+    if (const Result<void> fits =
+            memory.allow(fmt::format("a bake of {} caches with {} rays and {} links each", caches,
+                                     scene.bake.rays, scene.bake.links),
+                         roughPeak(scene.bake, caches));
+        !fits)
+        return fail("bake settings: " + fits.error().message + ": lower rays, lightmap or grid");
     const auto cancelled = [] { return fail("cancelled"); };
     Bake result;
     result.settings = scene.bake;

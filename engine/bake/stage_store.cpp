@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/stage_store.h"
 
+#include "engine/core/descriptor.h"
 #include "engine/core/hash.h"
+#include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <list>
 #include <mutex>
 #include <thread>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include <elf.h>
+#include <fcntl.h>
 #include <link.h>
 #include <zstd.h>
 
@@ -89,13 +89,21 @@ std::optional<std::string> unpack(std::uint64_t key, const std::string& file) {
     return bytes;
 }
 
-std::string readWhole(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+/// Whether a file is one of ours by its name and by its first bytes.
+bool isStage(const fs::path& path) {
+    const std::string name = path.filename().string();
+    const std::size_t digits = 16;
+    if (name.size() != digits + std::strlen(kExtension) || !name.ends_with(kExtension) ||
+        name.find_first_not_of("0123456789abcdef") != digits)
+        return false;
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
+    char magic[sizeof kMagic];
+    return file && read(file.number(), magic, sizeof magic) == ssize_t(sizeof magic) &&
+           std::memcmp(magic, kMagic, sizeof magic) == 0;
 }
 
-/// Removes what was used longest ago until at most `most` bytes are left, and what writers killed
-/// long ago left half written. Returns the bytes left. Other processes may remove files meanwhile.
+/// Removes what was used longest ago until at most `most` bytes are left. Returns the bytes left.
+/// Other processes may remove files meanwhile. Whatever else lies in the folder is not ours.
 std::uint64_t trim(const fs::path& folder, std::uint64_t most) {
     struct File {
         fs::file_time_type used;
@@ -105,15 +113,12 @@ std::uint64_t trim(const fs::path& folder, std::uint64_t most) {
     std::vector<File> files;
     std::uint64_t total = 0;
     std::error_code error;
-    const auto now = fs::file_time_type::clock::now();
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         std::error_code gone;
         const File file{it->last_write_time(gone), it->file_size(gone), it->path()};
         if (gone)
             continue;
-        if (file.path.extension() == ".tmp" && now - file.used > std::chrono::hours(1))
-            fs::remove(file.path, gone);
-        if (file.path.extension() != kExtension)
+        if (!isStage(file.path))
             continue;
         total += file.size;
         files.push_back(file);
@@ -187,7 +192,7 @@ Packed StageStore::Impl::recall(std::uint64_t key) {
 }
 
 void StageStore::Impl::writeFile(std::uint64_t key, const std::string& file) {
-    const Result<void> written = replaceFile(pathOf(key).string(), file);
+    const Result<void> written = replaceFile(pathOf(key).string(), file, AtLink::Replace);
     if (!written) {
         const std::lock_guard lock(mutex);
         defect = written.error().message;
@@ -247,10 +252,11 @@ std::optional<std::string> StageStore::find(std::uint64_t key) {
     if (m_impl->options.folder.empty())
         return {};
     const fs::path path = m_impl->pathOf(key);
-    auto file = std::make_shared<const std::string>(readWhole(path));
-    std::optional<std::string> bytes = unpack(key, *file);
+    Result<std::string> read = readFile(path.string());
+    std::optional<std::string> bytes = read ? unpack(key, *read) : std::nullopt;
     if (!bytes)
         return {};
+    auto file = std::make_shared<const std::string>(std::move(*read));
     std::error_code gone;
     fs::last_write_time(path, fs::file_time_type::clock::now(), gone); // used just now
     const std::lock_guard lock(m_impl->mutex);

@@ -6,6 +6,7 @@
 #include "engine/bake/trace_record.h"
 #include "engine/core/archive.h"
 #include "engine/core/hash.h"
+#include "engine/core/memory_budget.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -16,7 +17,6 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace limn {
 
@@ -40,10 +40,6 @@ std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
     for (const Instance& i : in.trace.scene().instances)
         h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
     return h;
-}
-
-std::uint64_t physicalBytes() {
-    return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
 }
 
 /// 10585 as "10 585".
@@ -204,7 +200,7 @@ bool Tracing::loadBaseHits() {
     Base& base = *m_base;
     const std::size_t caches = base.record.caches.size();
     if (!base.aligned) {
-        if (caches * in.rays * sizeof(RawHit) > physicalBytes() / 4)
+        if (caches * in.rays * sizeof(RawHit) > halfOfMemory() / 2)
             return false;
         base.hits.resize(caches * in.rays);
         for (std::uint32_t c = 0; c < caches; ++c)
@@ -429,7 +425,7 @@ Result<TraceReport> traceHits(const TraceInput& in, const Progress& progress, St
     const std::uint64_t caches = in.caches.size(),
                         aimed = mostAimed(in.trace.scene(), in.set, in.linker),
                         bytes = caches * (in.rays * sizeof(RawHit) + aimed * sizeof(AimedSample)),
-                        most = physicalBytes() / 2;
+                        most = halfOfMemory();
     if (bytes > most)
         return fail(fmt::format(
             "bake settings: {} rays for each of {} caches need {:.1f} GiB, more than half of this "

@@ -5,14 +5,13 @@
 #include "engine/bake/stage_archive.h"
 #include "engine/core/archive.h"
 #include "engine/core/hash.h"
+#include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 #include "engine/math/packing.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -342,12 +341,10 @@ Result<void> writeBake(const std::string& path, const Bake& bake) {
 }
 
 Result<Bake> readBake(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        return fail(fmt::format("{}: cannot open: {}", path, std::strerror(errno)));
-    const std::string bytes((std::istreambuf_iterator<char>(file)),
-                            std::istreambuf_iterator<char>());
-    const Result<std::map<std::string, Chunk>> chunks = listChunks(path, bytes);
+    const Result<std::string> bytes = readFile(path);
+    if (!bytes)
+        return fail(fmt::format("{}: {}", path, bytes.error().message));
+    const Result<std::map<std::string, Chunk>> chunks = listChunks(path, *bytes);
     if (!chunks)
         return tl::make_unexpected(chunks.error());
     Bake bake;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/exr_check.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
 #include <vector>
@@ -49,8 +50,10 @@ struct ByteReader {
 /// What the chunk table depends on.
 struct ExrLayout {
     std::int32_t linesPerChunk = 0;
+    bool isPiz = false;
     std::int32_t minX = 0, minY = 0, maxX = -1, maxY = -1;
     std::int64_t channels = 0;
+    std::int64_t texelBytes = 0; ///< of all channels
     std::int64_t chunkCount = 0; ///< 0: not stated
 };
 
@@ -70,6 +73,7 @@ static Result<void> readChannels(ByteReader value, ExrLayout& layout) {
             return fail("channels: malformed");
         if (samplingX != 1 || samplingY != 1)
             return fail("channels: subsampled channels are not supported");
+        layout.texelBytes += type == 1 ? 2 : 4; // half; float or integer
         if (++layout.channels > kMaxChannels)
             return fail("channels: too many");
     }
@@ -84,6 +88,7 @@ static Result<void> readCompression(ByteReader value, ExrLayout& layout) {
     if (!value.ok || compression >= std::size(kLines))
         return fail("compression: not one of none, RLE, ZIPS, ZIP, PIZ");
     layout.linesPerChunk = kLines[compression];
+    layout.isPiz = compression == 4;
     return {};
 }
 
@@ -134,14 +139,46 @@ static Result<ExrLayout> readAttributes(ByteReader& file) {
     return layout;
 }
 
-/// Each chunk is inside the file and starts a block of lines of its own.
+/// No compression that EXR has packs more than this into a byte: deflate packs 1032.
+constexpr std::int64_t kMostPerByte = 1100;
+
+/// The bitmap of values and the Huffman table of a PIZ chunk.
+/// OpenEXR, ImfPizCompressor.cpp and ImfHuf.cpp.
+static Result<void> checkPiz(ByteReader chunk) {
+    constexpr std::uint32_t kBitmap = 8192, kCodes = 65537;
+    const auto least = chunk.number<std::uint16_t>(), most = chunk.number<std::uint16_t>();
+    if (most >= kBitmap)
+        return fail("values: out of range");
+    if (least <= most)
+        chunk.take(std::size_t(most - least) + 1);
+    const auto length = chunk.number<std::int32_t>();
+    if (!chunk.ok || length < 0 || std::size_t(length) > chunk.rest.size())
+        return fail("codes: exceed the chunk");
+    if (length == 0)
+        return {};
+    const auto first = chunk.number<std::uint32_t>(), last = chunk.number<std::uint32_t>();
+    chunk.take(4); // the table's length, which nobody reads
+    const auto bits = chunk.number<std::int32_t>();
+    chunk.take(4);
+    constexpr std::int32_t kHeader = 20;
+    if (!chunk.ok || length < kHeader || first >= kCodes || last >= kCodes || bits < 0 ||
+        bits > 8LL * (length - kHeader))
+        return fail("codes: malformed");
+    return {};
+}
+
+/// Each chunk is inside the file, has bytes of its own, and starts a block of lines of its own.
 static Result<void> checkChunks(const ExrLayout& layout, ByteReader table,
                                 std::span<const std::uint8_t> file) {
     const std::int64_t height = std::int64_t(layout.maxY) - layout.minY + 1;
     const std::int64_t count = (height + layout.linesPerChunk - 1) / layout.linesPerChunk;
     if (layout.chunkCount != 0 && layout.chunkCount != count)
         return fail("chunkCount: does not fit the dataWindow");
+    const std::int64_t width = std::int64_t(layout.maxX) - layout.minX + 1;
+    if (std::uint64_t(count) > table.rest.size() / sizeof(std::uint64_t))
+        return fail("chunks: their table exceeds the file");
     std::vector<bool> seen(static_cast<std::size_t>(count));
+    std::size_t sum = 0;
     for (std::int64_t i = 0; i < count; ++i) {
         const auto offset = table.number<std::uint64_t>();
         if (!table.ok || offset > file.size())
@@ -154,12 +191,22 @@ static Result<void> checkChunks(const ExrLayout& layout, ByteReader table,
         if (line < 0 || line >= height || line % layout.linesPerChunk != 0 ||
             seen[std::size_t(line / layout.linesPerChunk)])
             return fail(fmt::format("chunk {}: wrong line", i));
+        const std::int64_t lines = std::min<std::int64_t>(layout.linesPerChunk, height - line);
+        const std::int64_t plain = lines * width * layout.texelBytes;
+        if (plain / kMostPerByte > size)
+            return fail(fmt::format("chunk {}: too short for its lines", i));
+        if (layout.isPiz && size != plain) // of that size it is not packed
+            if (const Result<void> valid = checkPiz({chunk.rest.first(std::size_t(size))}); !valid)
+                return fail(fmt::format("chunk {}: {}", i, valid.error().message));
+        sum += std::size_t(size); // of chunks inside the file, no more of them than it has bytes
+        if (sum > file.size())
+            return fail(fmt::format("chunk {}: shares bytes with others", i));
         seen[std::size_t(line / layout.linesPerChunk)] = true;
     }
     return {};
 }
 
-Result<void> checkExr(std::span<const std::uint8_t> file) {
+Result<ExrSize> checkExr(std::span<const std::uint8_t> file) {
     ByteReader reader{file};
     const auto magic = reader.number<std::uint32_t>();
     const auto version = reader.number<std::uint32_t>();
@@ -172,7 +219,10 @@ Result<void> checkExr(std::span<const std::uint8_t> file) {
     const Result<ExrLayout> layout = readAttributes(reader);
     if (!layout)
         return tl::make_unexpected(layout.error());
-    return checkChunks(*layout, reader, file);
+    if (const Result<void> chunks = checkChunks(*layout, reader, file); !chunks)
+        return tl::make_unexpected(chunks.error());
+    return ExrSize{std::uint32_t(layout->maxX - layout->minX + 1),
+                   std::uint32_t(layout->maxY - layout->minY + 1), std::uint32_t(layout->channels)};
 }
 
 } // namespace limn

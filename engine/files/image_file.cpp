@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/image_file.h"
 
+#include "engine/core/read_file.h"
+#include "engine/core/replace_file.h"
 #include "engine/files/exr_check.h"
+#include "engine/scene/decode_image.h"
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -20,37 +23,15 @@
 
 namespace limn {
 
-/// Refused before anything is allocated: 16k x 16k.
-static constexpr std::uint64_t kMaxTexels = std::uint64_t(1) << 28;
-
-using Bytes = std::vector<unsigned char>;
-
-static Result<Bytes> readBytes(const std::string& path) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error))
-        return fail(fmt::format("{}: no such file", path));
-    if (!std::filesystem::is_regular_file(path, error))
-        return fail(fmt::format("{}: not a file", path));
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file ? std::streamoff(file.tellg()) : -1;
-    if (size < 0)
-        return fail(fmt::format("{}: cannot read", path));
-    if (size > std::numeric_limits<int>::max())
-        return fail(fmt::format("{}: larger than 2 GiB", path));
-    Bytes bytes(static_cast<std::size_t>(size));
-    file.seekg(0);
-    if (!file.read(reinterpret_cast<char*>(bytes.data()), size))
-        return fail(fmt::format("{}: cannot read", path));
+static Result<std::string> readBytes(const std::string& path) {
+    Result<std::string> bytes = readFile(path, std::numeric_limits<int>::max());
+    if (!bytes)
+        return fail(fmt::format("{}: {}", path, bytes.error().message));
     return bytes;
 }
 
-static Result<void> writeBytes(const std::string& path, const void* data, std::size_t size) {
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(static_cast<const char*>(data), std::streamsize(size));
-    file.close();
-    if (!file)
-        return fail(fmt::format("{}: cannot write", path));
-    return {};
+static std::span<const std::uint8_t> spanOf(const std::string& bytes) {
+    return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
 }
 
 Result<void> writeExr(const std::string& path, const ImageF& image) {
@@ -91,7 +72,7 @@ Result<void> writeExr(const std::string& path, const ImageF& image) {
         FreeEXRErrorMessage(problem);
         return fail(fmt::format("{}: cannot encode EXR: {}", path, reason));
     }
-    return writeBytes(path, memory, size);
+    return replaceFile(path, {reinterpret_cast<const char*>(memory), size});
 }
 
 namespace {
@@ -139,9 +120,16 @@ static Result<std::array<int, 3>> colorChannels(const std::string& path, EXRHead
     return channels;
 }
 
-static Result<ImageF> readExr(const std::string& path, const Bytes& bytes) {
-    if (const Result<void> valid = checkExr(bytes); !valid)
-        return fail(fmt::format("{}: {}", path, valid.error().message));
+static Result<ImageF> readExr(const std::string& path, std::span<const std::uint8_t> bytes,
+                              const MemoryBudget& memory) {
+    const Result<ExrSize> size = checkExr(bytes);
+    if (!size)
+        return fail(fmt::format("{}: {}", path, size.error().message));
+    // tinyexr's planes of all channels, and the pixels made of three of them.
+    const std::uint64_t needed =
+        size->texels() * (size->channels * sizeof(float) + sizeof(glm::vec3));
+    if (const Result<void> fits = memory.allow(path, needed); !fits)
+        return tl::make_unexpected(fits.error());
     EXRVersion version;
     if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS)
         return exrFailure(path, nullptr);
@@ -172,16 +160,20 @@ static Result<ImageF> readExr(const std::string& path, const Bytes& bytes) {
     return out;
 }
 
-static bool tooLarge(const Bytes& bytes) {
+static Result<ImageF> readHdr(const std::string& path, std::span<const std::uint8_t> bytes,
+                              const MemoryBudget& memory) {
     int width = 0, height = 0, channels = 0;
-    return stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels) &&
-           std::uint64_t(width) * std::uint64_t(height) > kMaxTexels;
-}
-
-static Result<ImageF> readHdr(const std::string& path, const Bytes& bytes) {
-    if (tooLarge(bytes))
+    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels) ||
+        width <= 0 || height <= 0)
+        return fail(fmt::format("{}: malformed HDR", path));
+    const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
+    if (texels > kMostTexels)
         return fail(fmt::format("{}: too large", path));
-    int width = 0, height = 0, channels = 0;
+    // A run of 127 equal bytes takes two, for each of four channels.
+    if (texels / 127 * 8 > bytes.size())
+        return fail(fmt::format("{}: truncated HDR", path));
+    if (const Result<void> fits = memory.allow(path, 2 * texels * sizeof(glm::vec3)); !fits)
+        return tl::make_unexpected(fits.error());
     const std::unique_ptr<float, decltype(&stbi_image_free)> pixels(
         stbi_loadf_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 3),
         stbi_image_free);
@@ -196,49 +188,42 @@ static Result<ImageF> readHdr(const std::string& path, const Bytes& bytes) {
     return out;
 }
 
-Result<ImageF> readFloatImage(const std::string& path) {
-    const Result<Bytes> bytes = readBytes(path);
-    if (!bytes)
-        return tl::make_unexpected(bytes.error());
-    if (bytes->size() >= 4 && std::memcmp(bytes->data(), "\x76\x2f\x31\x01", 4) == 0)
-        return readExr(path, *bytes);
-    if (stbi_is_hdr_from_memory(bytes->data(), int(bytes->size())))
-        return readHdr(path, *bytes);
+Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memory) {
+    Result<std::string> read = readBytes(path);
+    if (!read)
+        return tl::make_unexpected(read.error());
+    const std::size_t size = read->size();
+    read->append(kExrPadding, '\0');
+    const std::span<const std::uint8_t> bytes = spanOf(*read).first(size);
+    if (read->starts_with("\x76\x2f\x31\x01"))
+        return readExr(path, bytes, memory);
+    if (stbi_is_hdr_from_memory(bytes.data(), int(bytes.size())))
+        return readHdr(path, bytes, memory);
     return fail(fmt::format("{}: neither EXR nor HDR", path));
 }
 
 Result<void> writePng(const std::string& path, const Image& image) {
     if (image.width == 0 || image.height == 0)
         return fail(fmt::format("{}: the image is empty", path));
-    Bytes png;
+    std::string png;
     const auto append = [](void* context, void* data, int size) {
-        const auto* begin = static_cast<const unsigned char*>(data);
-        static_cast<Bytes*>(context)->insert(static_cast<Bytes*>(context)->end(), begin,
-                                             begin + size);
+        static_cast<std::string*>(context)->append(static_cast<const char*>(data),
+                                                   std::size_t(size));
     };
     if (!stbi_write_png_to_func(append, &png, int(image.width), int(image.height), 4,
                                 image.rgba.data(), int(image.width) * 4))
         return fail(fmt::format("{}: cannot encode PNG", path));
-    return writeBytes(path, png.data(), png.size());
+    return replaceFile(path, png);
 }
 
 Result<Image> readPng(const std::string& path) {
-    const Result<Bytes> bytes = readBytes(path);
+    const Result<std::string> bytes = readBytes(path);
     if (!bytes)
         return tl::make_unexpected(bytes.error());
-    if (tooLarge(*bytes))
-        return fail(fmt::format("{}: too large", path));
-    int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(bytes->data(), int(bytes->size()), &width, &height, &channels, 4),
-        stbi_image_free);
-    if (!pixels)
-        return fail(fmt::format("{}: malformed PNG", path));
-    Image image;
-    image.name = std::filesystem::path(path).filename().string();
-    image.width = std::uint32_t(width);
-    image.height = std::uint32_t(height);
-    image.rgba.assign(pixels.get(), pixels.get() + std::size_t(width) * std::size_t(height) * 4);
+    Result<Image> image = decodeImage(spanOf(*bytes));
+    if (!image)
+        return fail(fmt::format("{} {}", path, image.error().message));
+    image->name = std::filesystem::path(path).filename().string();
     return image;
 }
 

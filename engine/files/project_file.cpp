@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/project_file.h"
 
+#include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 #include "engine/files/document_json.h"
 #include "engine/files/sky_file.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -80,26 +77,23 @@ static void dropLost(ImportedScene& scene) {
 }
 
 /// Finds the sky's image beside the project; where it cannot be read, the sky has its colour.
-static void openSky(const fs::path& folder, ImportedScene& scene) {
+static void openSky(const fs::path& folder, ImportedScene& scene, const MemoryBudget& memory) {
     for (auto& [id, object] : scene.document.objects) {
         Sky* sky = std::get_if<Sky>(&object);
         if (!sky || sky->image.empty())
             continue;
         sky->image = (folder / sky->image).lexically_normal().string();
-        if (const Result<void> read = readSkyImage(*sky); !read)
+        if (const Result<void> read = readSkyImage(*sky, memory); !read)
             scene.repairs.push_back("sky: " + read.error().message);
     }
 }
 
-Result<ImportedScene> loadProject(const std::string& path, const Progress& progress) {
-    std::error_code error;
-    if (!fs::exists(path, error))
-        return fail(fmt::format("{}: no such file", path));
-    std::ifstream file(path, std::ios::binary);
-    if (!fs::is_regular_file(path, error) || !file)
-        return fail(fmt::format("{}: cannot read", path));
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    Result<ProjectText> project = readProjectText(text);
+Result<ImportedScene> loadProject(const std::string& path, const Progress& progress,
+                                  const ImportOptions& options) {
+    const Result<std::string> text = readFile(path);
+    if (!text)
+        return fail(fmt::format("{}: {}", path, text.error().message));
+    Result<ProjectText> project = readProjectText(*text);
     if (!project)
         return fail(fmt::format("{}: {}", path, project.error().message));
     Document& document = project->document;
@@ -109,7 +103,7 @@ Result<ImportedScene> loadProject(const std::string& path, const Progress& progr
     if (!document.scenePath.empty()) {
         const fs::path folder = fs::path(path).parent_path();
         document.scenePath = (folder / document.scenePath).lexically_normal().string();
-        Result<ImportedScene> imported = importGltf(document.scenePath, progress);
+        Result<ImportedScene> imported = importGltf(document.scenePath, progress, options);
         if (!imported)
             return fail(fmt::format("{}: scene: {}", path, imported.error().message));
         scene = std::move(*imported);
@@ -122,25 +116,25 @@ Result<ImportedScene> loadProject(const std::string& path, const Progress& progr
     document.sceneHash = scene.document.sceneHash;
     scene.document = std::move(document);
     dropLost(scene);
-    openSky(fs::path(path).parent_path(), scene);
+    openSky(fs::path(path).parent_path(), scene, options.memory);
     return scene;
 }
 
 Result<ImportedScene> openAny(const std::string& what, const std::string& projectsFolder,
-                              const Progress& progress) {
+                              const Progress& progress, const ImportOptions& options) {
     std::error_code error;
     const std::string extension = fs::path(what).extension().string();
     if (extension == ".limn")
-        return loadProject(what, progress);
+        return loadProject(what, progress, options);
     if (extension == ".gltf" || extension == ".glb" || fs::is_regular_file(what, error))
-        return importGltf(what, progress);
+        return importGltf(what, progress, options);
     const fs::path folder(projectsFolder);
     // A name is a name: no way out of the folder.
     if (!what.empty() && what.find('/') == std::string::npos && what[0] != '.')
         for (const fs::path& base : {folder / what, folder})
             for (const char* end : {".limn", ".gltf", ".glb"})
                 if (const fs::path path = base / (what + end); fs::is_regular_file(path, error))
-                    return openAny(path.string(), projectsFolder, progress);
+                    return openAny(path.string(), projectsFolder, progress, options);
     return fail(fmt::format("{}: neither a .gltf, .glb or .limn file nor a project in {}", what,
                             projectsFolder));
 }

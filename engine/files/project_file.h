@@ -18,12 +18,14 @@ Result<Document> documentFromJson(const std::string& json);
 Result<void> saveProject(const std::string& path, const Document& document);
 
 /// Reads the project and its glTF. Objects of the project replace those of the import. A scene
-/// whose content changed since the save is imported and reported in `repairs`.
-Result<ImportedScene> loadProject(const std::string& path, const Progress& progress = {});
+/// whose content changed since the save is imported and reported in `repairs`. `options` are for
+/// the glTF and the sky's panorama.
+Result<ImportedScene> loadProject(const std::string& path, const Progress& progress = {},
+                                  const ImportOptions& options = {});
 
 /// A .gltf/.glb, a .limn, or the name of a sample project ("cornell"), looked for in
 /// `projectsFolder`.
 Result<ImportedScene> openAny(const std::string& what, const std::string& projectsFolder,
-                              const Progress& progress = {});
+                              const Progress& progress = {}, const ImportOptions& options = {});
 
 } // namespace limn

@@ -3,12 +3,12 @@
 
 #include "engine/bake/bake_bytes.h"
 #include "engine/bake/stage_store.h"
+#include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 
 #include <bit>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@ constexpr int kVersion = 1;
 /// {"version": 1, "times": {KEY: {"cpu_ms", "gpu_ms"}, …}}; without times where the file is of no
 /// use.
 Json readTimes(const std::string& file) {
-    std::ifstream in(file);
-    Json json = in ? Json::parse(in, nullptr, false) : Json();
+    const Result<std::string> text = readFile(file);
+    Json json = text ? Json::parse(*text, nullptr, false) : Json();
     const bool known = json.is_object() && json.value("version", Json()) == kVersion &&
                        json.value("times", Json()).is_object();
     return known ? json : Json{{"version", kVersion}, {"times", Json::object()}};

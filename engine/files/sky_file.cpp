@@ -11,8 +11,8 @@
 
 namespace limn {
 
-Result<void> readSkyImage(Sky& sky) {
-    Result<ImageF> image = readFloatImage(sky.image);
+Result<void> readSkyImage(Sky& sky, const MemoryBudget& memory) {
+    Result<ImageF> image = readFloatImage(sky.image, memory);
     if (!image)
         return tl::make_unexpected(image.error());
     if (image->rgb.empty())

@@ -8,10 +8,6 @@
 
 namespace limn {
 
-/// An accessor without a view is all zeros and costs its file nothing: what no mesh needs is
-/// refused.
-static constexpr std::size_t kMaxZeros = std::size_t(1) << 20;
-
 static std::uint32_t componentSize(int type) {
     switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -137,7 +133,7 @@ static Result<Elements> baseElements(const tinygltf::Model& model,
                                      const tinygltf::Accessor& accessor, std::size_t size) {
     if (accessor.bufferView >= 0)
         return elementsAt(model, accessor.bufferView, accessor.byteOffset, accessor.count, size);
-    if (accessor.count > kMaxZeros)
+    if (accessor.count > kMostZeros)
         return fail(fmt::format("count: {} zeros are too many", accessor.count));
     return Elements{nullptr, 0, accessor.count};
 }

@@ -3,6 +3,7 @@
 
 #include "engine/core/result.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,6 +11,10 @@
 #include <tiny_gltf.h>
 
 namespace limn {
+
+/// An accessor without a view is all zeros and costs its file nothing: of more, which no mesh
+/// needs, none is read.
+inline constexpr std::size_t kMostZeros = std::size_t(1) << 20;
 
 /// An accessor's numbers, row after row. Normalised integers become [0, 1] or [-1, 1], others plain
 /// numbers; sparse values are applied. May hold NaN and infinity.

@@ -2,13 +2,13 @@
 #include "engine/scene/gltf_file.h"
 
 #include "engine/core/hash.h"
+#include "engine/core/read_file.h"
 #include "engine/scene/gltf_schema.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string_view>
 
@@ -27,65 +27,62 @@ static constexpr std::array<std::string_view, 5> kKnownExtensions = {
 /// tinygltf descends recursively into extras.
 static constexpr int kMaxJsonDepth = 128;
 
-static bool readBytes(const std::string& path, std::vector<unsigned char>& out) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) // no devices, no pipes: they may never end
-        return false;
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file)
-        return false;
-    const std::streamoff size = file.tellg();
-    if (size < 0)
-        return false;
-    out.resize(std::size_t(size));
-    file.seekg(0);
-    file.read(reinterpret_cast<char*>(out.data()), size);
-    return bool(file);
-}
-
 namespace {
 
-/// A buffer that lies in a file of its own.
-struct ExternalBuffer {
-    std::size_t index = 0; ///< in the root's `buffers`
-    std::uint64_t length = 0;
+/// A buffer or an image that lies in a file of its own.
+struct ExternalFile {
+    bool isBuffer = false;
+    std::size_t index = 0; ///< in the root's `buffers` or `images`
+    std::string uri;
+    std::uint64_t length = 0; ///< of a buffer; its file may be longer, which tinygltf would refuse
 };
 
 /// What tinygltf's callbacks work on.
 struct LoadState {
-    fs::path folder;
-    /// The buffers with a file, in order. Their files come first; they may be longer than their
-    /// buffer, which tinygltf would refuse.
-    std::vector<ExternalBuffer> buffers;
+    std::string folder;
+    FileReach reach = FileReach::Folder;
+    std::uint64_t mostBytes = 0;     ///< of one file
+    std::vector<ExternalFile> files; ///< in the order in which tinygltf reads them
     std::size_t filesRead = 0;
+    std::string bufferProblem; ///< why the last buffer's file could not be read
     std::vector<std::vector<std::uint8_t>> encodedImages;
+    std::vector<std::string> imageProblems; ///< as GltfFile
 };
 
 } // namespace
 
-static bool fileExists(const std::string& path, void* user) {
-    // tinygltf also looks into the working directory; what lies there is nobody's business.
-    const fs::path& folder = static_cast<const LoadState*>(user)->folder;
-    const std::string prefix = folder.empty() ? "" : folder.string();
-    std::error_code error;
-    return path.compare(0, prefix.size(), prefix) == 0 && fs::is_regular_file(path, error);
+/// tinygltf asks for each file in its folder, then in the working directory. What it asks for is
+/// ignored: readWholeFile() finds the file by itself.
+static bool fileExists(const std::string&, void*) {
+    return true;
 }
 
 static std::string samePath(const std::string& path, void*) {
     return path;
 }
 
-static bool readWholeFile(std::vector<unsigned char>* out, std::string* error,
-                          const std::string& path, void* user) {
+static bool readWholeFile(std::vector<unsigned char>* out, std::string* error, const std::string&,
+                          void* user) {
     LoadState& state = *static_cast<LoadState*>(user);
-    if (!readBytes(path, *out)) {
+    if (state.filesRead == state.files.size())
+        return false;
+    const ExternalFile& file = state.files[state.filesRead++];
+    const Result<std::string> path = fileOfUri(state.folder, file.uri, state.reach);
+    const Result<std::string> bytes = path ? readFile(*path, state.mostBytes) : path;
+    if (!bytes || bytes->empty()) {
+        const std::string problem = bytes ? "is empty" : bytes.error().message;
+        if (file.isBuffer)
+            state.bufferProblem =
+                fmt::format("buffers[{}].uri: {}: {}", file.index, file.uri, problem);
+        else
+            state.imageProblems[file.index] = "cannot be read: " + problem;
         if (error)
-            *error = "cannot read";
+            *error = problem;
         return false;
     }
-    const std::size_t index = state.filesRead++;
-    if (index < state.buffers.size() && out->size() > state.buffers[index].length)
-        out->resize(std::size_t(state.buffers[index].length));
+    out->assign(bytes->begin(), bytes->end());
+    if (file.isBuffer && out->size() > file.length)
+        out->resize(std::size_t(file.length));
     return true;
 }
 
@@ -129,15 +126,14 @@ static bool tooDeep(std::string_view text) {
     return false;
 }
 
-static bool isGlb(const std::vector<unsigned char>& bytes) {
-    return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+static bool isGlb(std::string_view bytes) {
+    return bytes.starts_with("glTF");
 }
 
 /// The JSON part of the file; of a .glb its first chunk.
-static Result<std::string_view> jsonText(const std::vector<unsigned char>& bytes) {
-    const char* text = reinterpret_cast<const char*>(bytes.data());
+static Result<std::string_view> jsonText(std::string_view bytes) {
     if (!isGlb(bytes))
-        return std::string_view(text, bytes.size());
+        return bytes;
     if (bytes.size() < 20)
         return fail("GLB header: truncated");
     std::array<std::uint32_t, 5> header;
@@ -151,7 +147,7 @@ static Result<std::string_view> jsonText(const std::vector<unsigned char>& bytes
         return fail("GLB: the first chunk is not JSON");
     if (header[3] > bytes.size() - 20)
         return fail("GLB: the JSON chunk exceeds the file");
-    return std::string_view(text + 20, header[3]);
+    return bytes.substr(20, header[3]);
 }
 
 static Result<void> checkExtensions(const nlohmann::json& json) {
@@ -172,15 +168,20 @@ static Result<void> checkExtensions(const nlohmann::json& json) {
     return {};
 }
 
-static std::vector<ExternalBuffer> externalBuffers(const nlohmann::json& json) {
-    std::vector<ExternalBuffer> external;
-    const auto buffers = json.find("buffers");
-    for (std::size_t i = 0; buffers != json.end() && i < buffers->size(); ++i) {
-        const std::string uri = (*buffers)[i].value("uri", "");
-        if (!uri.empty() && !uri.starts_with("data:"))
-            external.push_back({i, std::uint64_t((*buffers)[i].value("byteLength", 0.0))});
+/// tinygltf reads all buffers, then all images.
+static std::vector<ExternalFile> externalFiles(const nlohmann::json& json) {
+    std::vector<ExternalFile> files;
+    for (const char* kind : {"buffers", "images"}) {
+        const auto list = json.find(kind);
+        for (std::size_t i = 0; list != json.end() && i < list->size(); ++i) {
+            const nlohmann::json& one = (*list)[i];
+            const std::string uri = one.value("uri", "");
+            if (!uri.empty() && !uri.starts_with("data:") && !one.contains("bufferView"))
+                files.push_back({kind == std::string_view("buffers"), i, uri,
+                                 std::uint64_t(one.value("byteLength", 0.0))});
+        }
     }
-    return external;
+    return files;
 }
 
 /// Parses and checks the JSON by itself, so that errors carry the field.
@@ -204,40 +205,39 @@ static Result<nlohmann::json> readJson(std::string_view text) {
     return json;
 }
 
-static Result<void> parseModel(const std::vector<unsigned char>& bytes, std::string_view json,
-                               LoadState& state, tinygltf::Model& model) {
+static Result<void> parseModel(std::string_view bytes, std::string_view json, LoadState& state,
+                               tinygltf::Model& model) {
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks({fileExists, samePath, readWholeFile, nullptr, &state});
     loader.SetImageLoader(keepEncoded, &state);
     std::string error, warning;
     bool loaded = false;
-    const std::string folder = state.folder.string();
+    // tinygltf joins paths to the folder, but asks for none that it does not find there.
+    const std::string folder = state.folder.empty() ? "." : state.folder;
     try {
-        loaded = isGlb(bytes) ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(),
-                                                            unsigned(bytes.size()), folder, 0)
-                              : loader.LoadASCIIFromString(&model, &error, &warning, json.data(),
-                                                           unsigned(json.size()), folder, 0);
+        loaded =
+            isGlb(bytes)
+                ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                              reinterpret_cast<const unsigned char*>(bytes.data()),
+                                              unsigned(bytes.size()), folder, 0)
+                : loader.LoadASCIIFromString(&model, &error, &warning, json.data(),
+                                             unsigned(json.size()), folder, 0);
     } catch (const std::exception& e) { // libtinygltf 2.7 throws on some malformed files
         return fail(fmt::format("malformed glTF ({})", e.what()));
     }
-    if (!loaded && state.filesRead < state.buffers.size() && error.starts_with("File "))
-        return fail(fmt::format("buffers[{}].uri: {}", state.buffers[state.filesRead].index,
-                                firstLine(error)));
+    if (!loaded && !state.bufferProblem.empty())
+        return fail(state.bufferProblem);
     if (!loaded)
         return fail(error.empty() ? "malformed glTF" : firstLine(error));
     return {};
 }
 
-Result<GltfFile> readGltfFile(const std::string& path) {
-    std::error_code error;
-    if (!fs::exists(path, error))
-        return fail("no such file");
-    std::vector<unsigned char> bytes;
-    if (!readBytes(path, bytes))
-        return fail("cannot read");
-    if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
-        return fail("larger than 4 GiB");
-    const Result<std::string_view> text = jsonText(bytes);
+Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
+                              const MemoryBudget& memory) {
+    const Result<std::string> main = readFile(path, std::numeric_limits<std::uint32_t>::max());
+    if (!main)
+        return tl::make_unexpected(main.error());
+    const Result<std::string_view> text = jsonText(*main);
     if (!text)
         return tl::make_unexpected(text.error());
     const Result<nlohmann::json> json = readJson(*text);
@@ -246,13 +246,19 @@ Result<GltfFile> readGltfFile(const std::string& path) {
 
     GltfFile file;
     LoadState state;
-    state.folder = fs::path(path).parent_path();
-    state.buffers = externalBuffers(*json);
-    if (const Result<void> parsed = parseModel(bytes, *text, state, file.model); !parsed)
+    state.folder = fs::path(path).parent_path().string();
+    state.reach = reach;
+    state.mostBytes = memory.most;
+    state.files = externalFiles(*json);
+    const auto images = json->find("images");
+    state.imageProblems.resize(images == json->end() ? 0 : images->size());
+    if (const Result<void> parsed = parseModel(*main, *text, state, file.model); !parsed)
         return tl::make_unexpected(parsed.error());
     file.encodedImages = std::move(state.encodedImages);
     file.encodedImages.resize(file.model.images.size());
-    file.hash = hashBytes(bytes.data(), bytes.size());
+    file.imageProblems = std::move(state.imageProblems);
+    file.imageProblems.resize(file.model.images.size());
+    file.hash = hashBytes(main->data(), main->size());
     for (const tinygltf::Buffer& buffer : file.model.buffers)
         file.hash = hashVector(buffer.data, file.hash);
     return file;

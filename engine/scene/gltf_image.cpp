@@ -2,19 +2,14 @@
 #include "engine/scene/gltf_image.h"
 
 #include "engine/core/parallel.h"
+#include "engine/scene/decode_image.h"
 #include "engine/scene/gltf_accessor.h"
 
-#include <limits>
-#include <memory>
-#include <span>
+#include <utility>
 
 #include <fmt/format.h>
-#include <stb/stb_image.h>
 
 namespace limn {
-
-/// 16k x 16k texels, 1 GiB as RGBA: larger ones are refused before anything is allocated.
-static constexpr std::uint64_t kMaxTexels = std::uint64_t(1) << 28;
 
 static std::string imageName(const tinygltf::Image& image, std::size_t index) {
     if (!image.name.empty())
@@ -22,38 +17,22 @@ static std::string imageName(const tinygltf::Image& image, std::size_t index) {
     return image.uri.empty() ? fmt::format("images[{}]", index) : image.uri;
 }
 
-/// Fills width, height and texels; returns the reason where it cannot.
-static std::string decode(std::span<const std::uint8_t> bytes, Image& image) {
-    if (bytes.empty())
-        return "is missing";
-    if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
-        return "is too large";
-    const int size = int(bytes.size());
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
-        return "has a format that is not supported";
-    if (width <= 0 || height <= 0 || std::uint64_t(width) * std::uint64_t(height) > kMaxTexels)
-        return "is too large";
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
-    if (!pixels)
-        return "is damaged";
-    image.width = std::uint32_t(width);
-    image.height = std::uint32_t(height);
-    image.rgba.assign(pixels.get(), pixels.get() + std::size_t(width) * std::size_t(height) * 4);
-    return {};
+Result<std::span<const std::uint8_t>> encodedImage(const GltfFile& file, std::size_t index) {
+    const tinygltf::Image& source = file.model.images[index];
+    if (source.bufferView >= 0)
+        return viewBytes(file.model, source.bufferView);
+    return std::span<const std::uint8_t>(file.encodedImages[index]);
 }
 
-static std::string decodeOne(GltfFile& file, std::size_t index, Image& image) {
-    const tinygltf::Image& source = file.model.images[index];
-    if (source.bufferView >= 0) {
-        const Result<std::span<const std::uint8_t>> bytes =
-            viewBytes(file.model, source.bufferView);
-        return bytes ? decode(*bytes, image) : bytes.error().message;
-    }
-    const std::string problem = decode(file.encodedImages[index], image);
+static Result<Image> decodeOne(GltfFile& file, std::size_t index) {
+    if (!file.imageProblems[index].empty())
+        return fail(file.imageProblems[index]);
+    const Result<std::span<const std::uint8_t>> bytes = encodedImage(file, index);
+    if (!bytes)
+        return tl::make_unexpected(bytes.error());
+    Result<Image> image = decodeImage(*bytes);
     std::vector<std::uint8_t>().swap(file.encodedImages[index]);
-    return problem;
+    return image;
 }
 
 std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs) {
@@ -61,8 +40,11 @@ std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRe
     std::vector<std::string> problems(images.size());
     parallelRanges(images.size(), 1, progress, "images", [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (Result<Image> image = decodeOne(file, i))
+                images[i] = std::move(*image);
+            else
+                problems[i] = image.error().message;
             images[i].name = imageName(file.model.images[i], i);
-            problems[i] = decodeOne(file, i, images[i]);
         }
     });
     for (std::size_t i = 0; i < images.size(); ++i)

@@ -7,6 +7,7 @@
 #include "engine/scene/gltf_material.h"
 #include "engine/scene/gltf_mesh.h"
 #include "engine/scene/gltf_nodes.h"
+#include "engine/scene/gltf_size.h"
 
 #include <algorithm>
 #include <array>
@@ -98,11 +99,14 @@ static void reportUnused(const tinygltf::Model& model, GltfRepairs& repairs) {
     repairs.add("animations left out", model.animations.size());
 }
 
-static Result<ImportedScene> import(const std::string& path, const Progress& progress) {
+static Result<ImportedScene> import(const std::string& path, const Progress& progress,
+                                    const ImportOptions& options) {
     progress.at("read", 0);
-    Result<GltfFile> file = readGltfFile(path);
+    Result<GltfFile> file = readGltfFile(path, options.reach, options.memory);
     if (!file)
         return tl::make_unexpected(file.error());
+    if (const Result<void> fits = checkGltfSize(*file, options.memory); !fits)
+        return tl::make_unexpected(fits.error());
     const tinygltf::Model& model = file->model;
     GltfRepairs repairs;
     reportUnused(model, repairs);
@@ -134,10 +138,11 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
     return scene;
 }
 
-Result<ImportedScene> importGltf(const std::string& path, const Progress& progress) {
+Result<ImportedScene> importGltf(const std::string& path, const Progress& progress,
+                                 const ImportOptions& options) {
     Result<ImportedScene> scene;
     try {
-        scene = import(path, progress);
+        scene = import(path, progress, options);
     } catch (const std::bad_alloc&) { // sizes that a file claims are checked; this is the last line
         scene = fail("needs more memory than there is");
     }

@@ -138,6 +138,35 @@ TEST_F(CommandLine, RefusesAnOutputBeforeTheWork) {
     expectRefusal("compare one.exr two.exr --heatmap " + path("no/such/folder/x.png"), "x.png");
 }
 
+TEST_F(CommandLine, NeverWritesOverItsInputOrFilesOfAnotherKind) {
+    const std::string scene = path("s.limnbake"), text = path("notes.png");
+    write(scene, "a scene");
+    fs::create_symlink("s.limnbake", path("link.limnbake"));
+    expectRefusal("bake " + scene + " -o " + scene, "is the input");
+    expectRefusal("bake " + scene + " -o " + path("link.limnbake"), "is the input");
+    expectRefusal("bake cornell -o " + path("cornell"), "must end in .limnbake");
+    write(text, "my notes");
+    expectRefusal("render cornell -o " + text, "holds something else");
+    EXPECT_EQ(contents(scene), "a scene");
+    EXPECT_EQ(contents(text), "my notes");
+    fs::create_symlink("/dev/null", path("null.exr"));
+    expectRefusal("reference cornell -o " + path("null.exr"), "is not a regular file");
+}
+
+TEST_F(CommandLine, AFullStandardOutputIsAFailure) {
+    const std::string command =
+        "'" LIMN_EXECUTABLE "' info cornell > /dev/full 2> '" + path("err") + "'";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+    EXPECT_NE(contents(path("err")).find("cannot write to standard output"), std::string::npos);
+}
+
+TEST_F(CommandLine, WhatWouldNeedTooMuchMemoryIsRefusedBeforeItIsAllocated) {
+    expectRefusal("bake cornell --json --no-cache --texels-per-metre 3000 -o " + path("c.limnbake"),
+                  "lower rays, lightmap or grid");
+    expectRefusal("bake cornell --json --no-cache --memory 0.125 -o " + path("c.limnbake"),
+                  "128 MiB are allowed (--memory)");
+}
+
 TEST_F(CommandLine, RefusesLightsSkiesAndCamerasThatMakeNoSense) {
     const std::string start = "reference cornell --spp 1 --width 8 --height 8 -o " + path("x.exr");
     EXPECT_NE(limn(start + " --light 'sun dir=0,-1,0 lux=abc'").exit, 0);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -109,6 +110,59 @@ TEST_F(Store, WhatLayUnusedLongestGoesFirstWhenTheFolderIsFull) {
     EXPECT_TRUE(store.find(1));
     EXPECT_FALSE(store.find(2));
     EXPECT_TRUE(store.find(12));
+}
+
+// Nor does it count them.
+TEST_F(Store, FilesOfOthersStay) {
+    fs::create_directories(m_folder);
+    const std::vector<std::string> others = {"notes.tmp", "play.stage", "0123456789abcdef.stage",
+                                             "0123456789abcdef.stage.77.1.tmp"};
+    for (const std::string& name : others) {
+        std::ofstream(m_folder / name) << std::string(5000, 'x');
+        fs::last_write_time(m_folder / name,
+                            fs::file_time_type::clock::now() - std::chrono::hours(48));
+    }
+    fs::create_symlink("notes.tmp", m_folder / "fedcba9876543210.stage");
+    StageStoreOptions small = onDisk();
+    small.mostDiskBytes = 20000;
+    for (unsigned i = 0; i < 5; ++i) {
+        StageStore store(small);
+        store.put(i, noise(8000, i));
+    }
+    for (const std::string& name : others)
+        EXPECT_TRUE(fs::exists(m_folder / name)) << name;
+    EXPECT_EQ(fs::file_size(m_folder / "notes.tmp"), 5000u);
+}
+
+// Someone else's link to a file must not become a way to write that file.
+TEST_F(Store, ALinkInTheFolderIsReplacedNotFollowed) {
+    { StageStore(onDisk()).put(3, noise(1000, 3)); }
+    ASSERT_EQ(files().size(), 1u);
+    const fs::path stage = files()[0], victim = m_folder.string() + ".victim";
+    std::ofstream(victim) << "mine";
+    fs::remove(stage);
+    fs::create_symlink(victim, stage);
+    {
+        StageStore store(onDisk());
+        EXPECT_FALSE(store.find(3));
+        store.put(3, noise(1000, 3));
+    }
+    EXPECT_EQ(fs::file_size(victim), 4u);
+    EXPECT_EQ(StageStore(onDisk()).find(3), noise(1000, 3));
+    fs::remove(victim);
+}
+
+TEST_F(Store, APipeInTheFolderHangsNobody) {
+    { StageStore(onDisk()).put(3, noise(1000, 3)); }
+    const fs::path stage = files().at(0);
+    fs::remove(stage);
+    ASSERT_EQ(mkfifo(stage.c_str(), 0600), 0);
+    StageStore store(onDisk());
+    EXPECT_FALSE(store.find(3));
+    store.put(3, noise(1000, 3));
+    store.flush();
+    EXPECT_EQ(store.find(3), noise(1000, 3));
+    EXPECT_FALSE(store.defect().empty());
 }
 
 TEST_F(Store, MemoryAloneServesWithinItsSize) {

@@ -3,7 +3,10 @@
 
 #include "tests/scene/gltf_builder.h"
 
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <random>
 
@@ -72,12 +75,47 @@ TEST(ImageFile, FailuresNameTheFile) {
               std::string::npos);
     EXPECT_NE(readPng(folder.file("no.png")).error().message.find("no such file"),
               std::string::npos);
-    EXPECT_NE(readPng(folder.path.string()).error().message.find("not a file"), std::string::npos);
+    EXPECT_NE(readPng(folder.path.string()).error().message.find("not a regular file"),
+              std::string::npos);
     const Result<void> written = writeExr(folder.file("no/where.exr"), randomImage(2, 2));
     ASSERT_FALSE(written);
-    EXPECT_NE(written.error().message.find("where.exr: cannot write"), std::string::npos);
+    EXPECT_NE(written.error().message.find("where.exr: cannot create"), std::string::npos);
     EXPECT_FALSE(writePng(folder.file("empty.png"), Image{}));
     EXPECT_FALSE(writeExr(folder.file("empty.exr"), ImageF{}));
+}
+
+TEST(ImageFile, FewBytesNeverBecomeManyPixels) {
+    const TemporaryFolder folder;
+    const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+    writeFile(folder.file("i.hdr"), head + "-Y 16000 +X 16000\n");
+    EXPECT_NE(readFloatImage(folder.file("i.hdr")).error().message.find("truncated HDR"),
+              std::string::npos);
+    writeFile(folder.file("i.hdr"), head + "-Y 1000 +X 1000\n" + std::string(4000000, '\x80'));
+    EXPECT_TRUE(readFloatImage(folder.file("i.hdr")));
+    EXPECT_NE(readFloatImage(folder.file("i.hdr"), {10 << 20})
+                  .error()
+                  .message.find("i.hdr would need 22.9 MiB of memory, 10 MiB are allowed"),
+              std::string::npos);
+    ASSERT_TRUE(writeExr(folder.file("i.exr"), ImageF{400, 300, std::vector<glm::vec3>(120000)}));
+    EXPECT_NE(readFloatImage(folder.file("i.exr"), {1 << 20}).error().message.find("would need"),
+              std::string::npos);
+}
+
+TEST(ImageFile, APictureThatCannotBeWrittenLeavesTheOldOne) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeExr(folder.file("i.exr"), randomImage(3, 3)));
+    const std::string before = fileBytes(folder.file("i.exr"));
+    rlimit limit{};
+    getrlimit(RLIMIT_FSIZE, &limit);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit small = limit;
+    small.rlim_cur = 1 << 12;
+    setrlimit(RLIMIT_FSIZE, &small);
+    const bool written = bool(writeExr(folder.file("i.exr"), randomImage(100, 100)));
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_FALSE(written);
+    EXPECT_EQ(fileBytes(folder.file("i.exr")), before);
 }
 
 /// Whatever the bytes, the reader answers; what it accepts is whole.
@@ -97,7 +135,7 @@ TEST(ImageFile, DamagedFilesNeverCrash) {
     ASSERT_TRUE(writePng(folder.file("i.png"), Image{"", 4, 4, std::vector<std::uint8_t>(64, 7)}));
     std::mt19937 random(11);
     for (const char* name : {"i.exr", "i.png"}) {
-        const std::string whole = readFile(folder.file(name));
+        const std::string whole = fileBytes(folder.file(name));
         for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 100)
             expectAnswer(folder, whole.substr(0, length));
         for (int round = 0; round < 200; ++round) {

@@ -49,7 +49,7 @@ TEST(ProjectFile, TheSceneIsStoredRelativeSoThatTheFolderMayMove) {
     const Workspace w;
     const ImportedScene scene = *importGltf(w.scene());
     ASSERT_TRUE(saveProject(w.file("projects/p.limn"), scene.document));
-    EXPECT_NE(readFile(w.file("projects/p.limn")).find("\"../models/scene.glb\""),
+    EXPECT_NE(fileBytes(w.file("projects/p.limn")).find("\"../models/scene.glb\""),
               std::string::npos);
     const TemporaryFolder elsewhere;
     fs::copy(w.path, elsewhere.path, fs::copy_options::recursive);
@@ -74,7 +74,8 @@ TEST(ProjectFile, TheSkysImageIsStoredRelativeAndReadAgain) {
         if (std::holds_alternative<Sky>(object))
             object = sky;
     ASSERT_TRUE(saveProject(w.file("projects/p.limn"), scene.document));
-    EXPECT_NE(readFile(w.file("projects/p.limn")).find("\"../models/sky.exr\""), std::string::npos);
+    EXPECT_NE(fileBytes(w.file("projects/p.limn")).find("\"../models/sky.exr\""),
+              std::string::npos);
     const Result<ImportedScene> loaded = loadProject(w.file("projects/p.limn"));
     ASSERT_TRUE(loaded);
     const Sky again = singleton<Sky>(loaded->document);
@@ -140,7 +141,7 @@ TEST(ProjectFile, AFailedSaveKeepsTheOldFile) {
     const Workspace w;
     const std::string project = w.file("projects/p.limn");
     ASSERT_TRUE(saveProject(project, Document{}));
-    const std::string before = readFile(project);
+    const std::string before = fileBytes(project);
     Document broken;
     Light light;
     light.strength = std::numeric_limits<float>::quiet_NaN();
@@ -151,7 +152,7 @@ TEST(ProjectFile, AFailedSaveKeepsTheOldFile) {
     Document unspeakable;
     addObject(unspeakable, Material{.name = "\xff"});
     EXPECT_FALSE(saveProject(project, unspeakable));
-    EXPECT_EQ(readFile(project), before);
+    EXPECT_EQ(fileBytes(project), before);
     const Result<void> nowhere = saveProject(w.file("no/p.limn"), Document{});
     ASSERT_FALSE(nowhere);
     EXPECT_NE(nowhere.error().message.find("no/p.limn"), std::string::npos);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/scene/gltf_import.h"
+#include "tests/core/temporary_folder.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -15,38 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 namespace limn {
-
-/// A folder of its own, gone with the object.
-struct TemporaryFolder {
-    std::filesystem::path path;
-
-    TemporaryFolder() {
-        static int count = 0;
-        path = std::filesystem::temp_directory_path() /
-               ("limn-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-        std::filesystem::create_directories(path);
-    }
-    ~TemporaryFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path, error);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string file(const std::string& name) const { return (path / name).string(); }
-};
-
-inline void writeFile(const std::string& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-}
-
-inline std::string readFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Writes small glTF files for tests: JSON that may be edited freely, and one buffer.
 struct GltfBuilder {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/scene/gltf_builder.h"
+#include "tests/scene/small_png.h"
 
 #include <random>
 
@@ -24,9 +25,7 @@ std::string richFile() {
     b.mesh({{"attributes", {{"POSITION", position}, {"TEXCOORD_0", uv}}},
             {"indices", b.indices({0, 1, 2, 0, 2, 3})},
             {"material", 0}});
-    // A 1x1 grey TGA, which needs no compression.
-    const int image = b.view(
-        std::vector<std::uint8_t>{0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 8, 0, 128});
+    const int image = b.view(greyPng());
     b.json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}}};
     b.json["textures"] = {{{"source", 0}}};
     b.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},

@@ -115,7 +115,7 @@ TEST(GltfRefusal, AMissingFileOrAFolderIsNoScene) {
     const TemporaryFolder folder;
     EXPECT_NE(importGltf(folder.file("no.gltf")).error().message.find("no such file"),
               std::string::npos);
-    EXPECT_NE(importGltf(folder.path.string()).error().message.find("cannot read"),
+    EXPECT_NE(importGltf(folder.path.string()).error().message.find("not a regular file"),
               std::string::npos);
 }
 
