@@ -25,8 +25,9 @@ class StageStore;
 /// world space.
 struct Surfels {
     std::vector<glm::vec3> position;
-    std::vector<glm::vec3> normal;       ///< unit; the side it stands for
-    std::vector<float> area;             ///< [m^2], > 0; they sum to the area of the lit sides
+    std::vector<glm::vec3> normal; ///< unit, of the side it stands for: of the triangle while
+                                   ///< baking, in a bake of the vertices, for the light it gets
+    std::vector<float> area;       ///< [m^2], > 0; they sum to the area of the lit sides
     std::vector<std::uint32_t> instance; ///< index into Scene::instances
     std::vector<std::uint32_t> triangle; ///< of the instance's mesh
     std::vector<glm::vec2> barycentric;  ///< (u, v), weights (1-u-v, u, v)

@@ -63,7 +63,7 @@ std::uint64_t Bake::hash() const {
 
 std::uint64_t hashMesh(const Mesh& mesh) {
     const std::uint64_t h = hashVector(mesh.positions, hashVector(mesh.indices, 5));
-    return hashVector(mesh.uv0, hashVector(mesh.uv1, h));
+    return hashVector(mesh.normals, hashVector(mesh.uv0, hashVector(mesh.uv1, h)));
 }
 
 std::vector<std::uint64_t> hashMeshes(const Scene& scene) {

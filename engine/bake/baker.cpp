@@ -12,6 +12,7 @@
 #include "engine/bake/rooms.h"
 #include "engine/bake/seen_patches.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/surfel_normals.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/trace_record.h"
 #include "engine/bake/trace_stage.h"
@@ -209,6 +210,9 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     if (store)
         owners.keep(*store, ownerKeys(set, meshes));
     owners.part(patchSidesStage(trace, set, owners, meshes, progress, store, rays));
+    if (progress.cancelled())
+        return cancelled();
+    set.surfels.area = ownedAreas(scene, set, owners);
     const SeenPatches seenPatches =
         seenPatchesStage(trace, set, owners, atlas, result.caches, points,
                          raysForPatches(scene.bake), meshes, progress, store, rays);
@@ -254,6 +258,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     const std::uint32_t invalid = fillInvalid(result.caches, 1 / atlas.texelsPerMetre);
     clock.finish("cut");
 
+    shade(scene, set.surfels);
     result.lightmap = std::move(atlas.layout);
     result.surfels = std::move(set.surfels);
     result.counts = countOf(scene, result, rays);

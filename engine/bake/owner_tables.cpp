@@ -2,6 +2,10 @@
 #include "engine/bake/owner_tables.h"
 
 #include "engine/bake/stage_archive.h"
+#include "engine/core/parallel.h"
+#include "engine/scene/triangle_geometry.h"
+
+#include <algorithm>
 
 #include <tbb/task_arena.h>
 
@@ -22,6 +26,31 @@ const SurfelOwners& OwnerTables::of(std::uint32_t mesh) const {
         });
     });
     return lazy.owners;
+}
+
+std::vector<float> ownedAreas(const Scene& scene, const SurfelSet& set, const OwnerTables& owners) {
+    std::vector<float> result(set.surfels.size());
+    const auto areasOf = [&](std::uint32_t instance) {
+        const Instance& placed = scene.instances[instance];
+        const std::uint32_t first = set.instanceBegin[instance];
+        const std::uint32_t sides = isTwoSided(scene.materialOf(placed)) ? 2 : 1;
+        std::vector<double> sum(set.instanceBegin[instance + 1] - first);
+        for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
+            const auto area = double(triangleWorldArea(scene, placed, t));
+            owners.of(placed.mesh).forSharesOf(t, [&](std::uint32_t cell, double share) {
+                for (std::uint32_t back = 0; back < sides; ++back)
+                    sum[owners.ofCell(instance, cell, back != 0) - first] += share * area;
+            });
+        }
+        for (std::size_t s = 0; s < sum.size(); ++s)
+            result[first + s] = std::max(float(sum[s]), 1e-30f);
+    };
+    parallelRanges(scene.instances.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (auto i = std::uint32_t(begin); i < end; ++i)
+            if (set.instanceBegin[i] < set.instanceBegin[i + 1])
+                areasOf(i);
+    });
+    return result;
 }
 
 } // namespace limn

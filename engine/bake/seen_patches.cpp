@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 
@@ -24,6 +25,7 @@ constexpr float kUnlike = 0.1f;      ///< share of the sky that makes caches wro
 struct Sighting {
     std::uint32_t surfel = ~0U; ///< ~0: it met none
     MeshPoint point{};
+    bool near = false; ///< from nearer than the patch is wide
 };
 
 bool isBack(const SurfelSet& set, std::uint32_t surfel, const Scene& scene) {
@@ -61,6 +63,7 @@ struct Sight {
     bool look(const Progress& progress);
     void sort();
     std::vector<std::uint32_t> picks(std::uint32_t surfel) const;
+    bool isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
     MeshPoint placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
 };
 
@@ -80,7 +83,9 @@ bool Sight::look(const Progress& progress) {
                     if (!hit)
                         open += directions.local.height(r);
                     else if (!(met & kBack))
-                        sightings[c * rays + r] = {met, {hit.triangle, {hit.u, hit.v}}};
+                        sightings[c * rays + r] = {met,
+                                                   {hit.triangle, {hit.u, hit.v}},
+                                                   hit.t * hit.t < set.surfels.area[met]};
                 }
                 sky[c] = skyShare(open, rays);
             }
@@ -89,15 +94,23 @@ bool Sight::look(const Progress& progress) {
 
 /// By surfel, then by cache.
 void Sight::sort() {
-    begin.assign(set.surfels.size() + 1, 0);
+    const std::size_t count = set.surfels.size();
+    std::vector<bool> seenFromAfar(count);
     for (const Sighting& s : sightings)
-        if (s.surfel != ~0U)
+        if (s.surfel != ~0U && !s.near)
+            seenFromAfar[s.surfel] = true;
+    const auto counts = [&](const Sighting& s) {
+        return s.surfel != ~0U && (!s.near || !seenFromAfar[s.surfel]);
+    };
+    begin.assign(count + 1, 0);
+    for (const Sighting& s : sightings)
+        if (counts(s))
             ++begin[s.surfel + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     order.resize(begin.back());
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     for (std::uint32_t i = 0; i < sightings.size(); ++i)
-        if (sightings[i].surfel != ~0U)
+        if (counts(sightings[i]))
             order[next[sightings[i].surfel]++] = i;
 }
 
@@ -109,6 +122,22 @@ std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
         result[k] =
             order[begin[surfel] + std::uint32_t(std::uint64_t(2 * k + 1) * all / (2 * count))];
     return result;
+}
+
+/// Whether the surfel's own place is in sight of most of a few caches that see its patch.
+bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
+    constexpr std::size_t kAsked = 4;
+    const glm::vec3 place = trace.clearOf(set.surfels.position[surfel], set.surfels.normal[surfel]);
+    std::size_t asked = 0, hidden = 0;
+    for (std::size_t k = 0; k < picked.size();
+         k += std::max<std::size_t>(picked.size() / kAsked, 1)) {
+        const std::uint32_t cache = picked[k] / rays, first = points.begin[cache],
+                            point = first + picked[k] % rays % (points.begin[cache + 1] - first);
+        hidden += trace.blocked(trace.clearOf(points.position[point], points.normal[point]), place,
+                                TraceMask::Static);
+        ++asked;
+    }
+    return 2 * hidden <= asked;
 }
 
 /// Distances count as they do where owners are found (NearestPoint).
@@ -129,7 +158,8 @@ MeshPoint Sight::placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>
         return sum;
     };
     const float n = float(picked.size());
-    float least = sumTo(s.position[surfel], s.normal[surfel]) / n;
+    float least = isSeen(surfel, picked) ? sumTo(s.position[surfel], s.normal[surfel]) / n
+                                         : std::numeric_limits<float>::max();
     MeshPoint best = own;
     for (std::size_t k = 0; k < picked.size(); ++k)
         if (const float mean = sumTo(at[k].position, at[k].normal) / (n - 1); mean < least) {

@@ -34,14 +34,16 @@ struct SeenPatches {
     std::uint64_t rays = 0;              ///< traced for it
 };
 
-/// Shoots `rays` rays from every lightmap cache, with 0 of them nothing changes. A surfel stays
-/// where it is unless one of the points where they meet its patch lies closer to the others, in
-/// distance and in orientation: then it moves there, so that the light it gets, and sends from its
-/// whole patch, is that of what is seen. Where its lightmap caches see another share of the sky
-/// than its place does, by a tenth or more, their light is not that of its patch: it reads a cache
-/// of its own, which it shares with such surfels beside it. Those go where difference times rays is
-/// largest: one for every kCachesPerOwn at most, and no more than the atlas has texels that no
-/// lookup needs. `caches`: the lightmap's. When cancelled, of no use.
+/// Shoots `rays` rays from every lightmap cache, with 0 of them nothing changes. Those that come
+/// from nearer than a patch is wide count only where no others meet it: such caches, in a gap
+/// between surfaces, see a piece of it. A surfel stays where it is unless most of these caches do
+/// not see that place, or one of the points where their rays meet its patch lies closer to the
+/// others, in distance and in orientation: then it moves there, so that the light it gets, and
+/// sends from its whole patch, is that of what is seen. Where its lightmap caches see another share
+/// of the sky than its place does, by a tenth or more, their light is not that of its patch: it
+/// reads a cache of its own, which it shares with such surfels beside it. Those go where difference
+/// times rays is largest: one for every kCachesPerOwn at most, and no more than the atlas has
+/// texels that no lookup needs. `caches`: the lightmap's. When cancelled, of no use.
 SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
                             const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
                             const CachePoints& points, std::uint32_t rays,

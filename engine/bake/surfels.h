@@ -98,6 +98,22 @@ public:
                 }
         });
     }
+    /// Calls visit(cell, share of the triangle's area) for the same cells; the shares sum to 1.
+    template <class Visit>
+    void forSharesOf(std::uint32_t triangle, const Visit& visit) const {
+        const std::uint32_t side = m_density.side(triangle);
+        forCells(side, [&](glm::uvec2 at) {
+            const Block& block = m_blocks[blockOf(triangle, at)];
+            const std::uint32_t n = block.resolution;
+            const double square = 2 / (double(side) * side * n * n);
+            for (std::uint32_t j = 0; j < n; ++j)
+                for (std::uint32_t i = 0; i < n && j <= last(at, float(side), n, i); ++i) {
+                    const bool cut = at.x + at.y + 1 == side && i + j + 1 == n;
+                    visit(block.begin + j * n + i, cut ? square / 2 : square);
+                }
+        });
+    }
+    std::uint32_t frontCount() const { return m_frontCount; }
     /// The surfel on the front of a cell.
     std::uint32_t front(std::uint32_t cell) const { return m_owner[cell]; }
 

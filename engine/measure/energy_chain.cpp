@@ -2,6 +2,7 @@
 #include "engine/measure/energy_chain.h"
 
 #include "engine/bake/atlas.h"
+#include "engine/bake/surfel_normals.h"
 #include "engine/core/parallel.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
@@ -159,7 +160,8 @@ std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
             for (std::size_t i = begin; i < end; ++i) {
                 SurfacePoint p;
                 p.position = s.position[i];
-                p.normal = p.geometricNormal = s.normal[i];
+                p.normal = s.normal[i];
+                p.geometricNormal = geometricNormal(trace.scene(), s, std::uint32_t(i));
                 glm::vec3 E = directIrradiance(trace, p, rays);
                 for (std::uint32_t k = 0; k < options.paths; ++k)
                     E += truth(p, mixBits(options.seed + 29, std::uint32_t(i)), k) /

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/surface_point.h"
 
-#include <array>
+#include "engine/scene/triangle_geometry.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
 namespace limn {
-
-// Interpolated normal on the front's side; the triangle's own where the file's normals are useless.
-static glm::vec3 shadingNormal(const Mesh& mesh, const Instance& instance, const Hit& hit) {
-    if (mesh.normals.empty())
-        return hit.geometricNormal;
-    const std::array<std::uint32_t, 3> k = mesh.triangle(hit.triangle);
-    const glm::vec3 n = (1 - hit.u - hit.v) * mesh.normals[k[0]] + hit.u * mesh.normals[k[1]] +
-                        hit.v * mesh.normals[k[2]];
-    // The cofactor matrix up to a positive factor; its sign under mirroring is settled below.
-    glm::vec3 world = instance.normalToWorld * n;
-    const float length = glm::length(world);
-    if (!(length > 0))
-        return hit.geometricNormal;
-    world /= length;
-    return glm::dot(world, hit.geometricNormal) > 0 ? world : hit.geometricNormal;
-}
 
 std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit) {
     const Scene& scene = trace.scene();
@@ -35,7 +19,8 @@ std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit
     SurfacePoint p;
     p.position = hit.position;
     p.geometricNormal = side * hit.geometricNormal;
-    p.normal = side * shadingNormal(scene.meshOf(instance), instance, hit);
+    p.normal = side * shadingNormal(scene.meshOf(instance), instance, hit.triangle, {hit.u, hit.v},
+                                    hit.geometricNormal);
     p.albedo = material.albedo;
     p.emission = material.emission;
     return p;

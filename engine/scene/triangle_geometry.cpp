@@ -42,6 +42,19 @@ TriangleGeometry triangleGeometry(const Mesh& mesh) {
     return g;
 }
 
+glm::vec3 shadingNormal(const Mesh& mesh, const Instance& instance, std::size_t triangle,
+                        glm::vec2 uv, glm::vec3 geometric) {
+    if (mesh.normals.empty())
+        return geometric;
+    const auto [a, b, c] = mesh.triangle(triangle);
+    // The cofactor matrix up to a positive factor; its sign under mirroring is settled below.
+    const glm::vec3 world =
+        instance.normalToWorld *
+        ((1 - uv.x - uv.y) * mesh.normals[a] + uv.x * mesh.normals[b] + uv.y * mesh.normals[c]);
+    const float length = glm::length(world);
+    return length > 0 && glm::dot(world, geometric) > 0 ? world / length : geometric;
+}
+
 static float stretchedArea(const Mesh& mesh, const glm::mat3& m, std::size_t triangle) {
     const auto [a, b, c] = mesh.triangle(triangle);
     return glm::length(glm::cross(m * (mesh.positions[b] - mesh.positions[a]),

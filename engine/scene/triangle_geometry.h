@@ -36,6 +36,12 @@ struct TriangleGeometry {
 };
 TriangleGeometry triangleGeometry(const Mesh& mesh);
 
+/// The vertices' normal at (u, v) in the world, unit, on the side of `geometric`, the unit normal
+/// of the triangle's front there: what light is weighed by. `geometric` where the vertices have
+/// none or theirs points to the other side.
+glm::vec3 shadingNormal(const Mesh& mesh, const Instance& instance, std::size_t triangle,
+                        glm::vec2 uv, glm::vec3 geometric);
+
 /// Area of one side in the world [m^2].
 float triangleWorldArea(const Scene& scene, const Instance& instance, std::size_t triangle);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/nearest_point.h"
+#include "engine/bake/owner_tables.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/tree_shape.h"
 #include "engine/math/sampling.h"
@@ -44,6 +45,38 @@ TEST(Surfels, AreasSumToTheLitSidesExactly) {
     EXPECT_NEAR(area[1], 20, 1e-3);
     EXPECT_NEAR(area[2], 2, 1e-4);
     EXPECT_NEAR(double(set.surfels.size()), 5000, 100);
+}
+
+// Pushed apart, surfels of the large sides end up on the rim, more than it deserves.
+TEST(Surfels, AreasThatTheyOwnAreThoseOfTheirSides) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box({-0.5f, -0.003f, -0.5f}, {0.5f, 0.003f, 0.5f}, false));
+    b.add(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, false),
+          glm::mat4(glm::vec4(2, 0, 0, 0), glm::vec4(0, 0.5f, 0, 0), glm::vec4(0, 0, 3, 0),
+                    glm::vec4(7, 0, 0, 1)));
+    const Scene scene = b.build();
+    const SurfelSet set = placeSurfels(scene, 3000);
+    const OwnerTables owners(scene, set);
+    const std::vector<float> area = ownedAreas(scene, set, owners);
+    double rim = 0, placedFor = 0, plate = 0, block[3] = {};
+    for (std::size_t i = 0; i < area.size(); ++i) {
+        EXPECT_GT(area[i], 0);
+        const glm::vec3 n = glm::abs(set.surfels.normal[i]);
+        if (set.surfels.instance[i] == 0) {
+            plate += double(area[i]);
+            rim += n.y < 0.5f ? double(area[i]) : 0;
+            placedFor += n.y < 0.5f ? double(set.surfels.area[i]) : 0;
+        } else {
+            block[n.x > 0.5f ? 0 : n.y > 0.5f ? 1 : 2] += double(area[i]);
+        }
+    }
+    EXPECT_GT(placedFor, 3 * 0.024) << "nothing to put right";
+    EXPECT_NEAR(rim, 0.024, 0.002);
+    EXPECT_NEAR(plate, 2.024, 1e-4);
+    EXPECT_NEAR(block[0], 2 * 3 * 0.5, 0.03);
+    EXPECT_NEAR(block[1], 2 * 2 * 3, 0.03);
+    EXPECT_NEAR(block[2], 2 * 2 * 0.5, 0.03);
 }
 
 TEST(Surfels, LieOnTheirTrianglesAndFaceTheirSide) {
