@@ -214,9 +214,9 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
     ImGui::Separator();
     countRow(
         edit, "Most bounces",
-        "Relighting stops earlier once the light no longer changes. 1: light that is reflected "
+        "Relighting stops as soon as nothing to speak of is missing. 1: light that is reflected "
         "once; up to 8 begin anew with every change",
-        s.maxBounces, 1, 256, "Bounces");
+        s.maxBounces, 1, 10000, "Bounces");
     fieldLabel("Dimming",
                "Dynamic objects keep bounced light off what is behind them. Needs no bake");
     ImGui::Checkbox("##dimming", &s.dimming);

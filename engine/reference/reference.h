@@ -3,6 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
+#include "engine/reference/path.h"
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
 
@@ -15,7 +16,8 @@ struct ReferenceOptions {
     Camera camera;
     std::uint32_t width = 512, height = 512;
     std::uint32_t samplesPerPixel = 256;
-    std::uint32_t maxBounces = 64; ///< path segments after the first surface; longer paths are cut
+    std::uint32_t maxBounces =
+        kMostBounces; ///< path segments after the first surface; longer paths are cut
     std::uint32_t seed = 1;
 };
 

@@ -31,10 +31,11 @@ std::vector<float> seenShares(const ClusterTree& tree);
 /// When bounces may end, on whichever device they run.
 class Convergence {
 public:
-    /// Bounces have converged when one changes both the total radiosity of all surfels, and each
-    /// surfel's own in the mean over what caches see, by less than this share. With the total
-    /// alone, a sunlit ground of 200 m hid the bounces in the house on it, and its walls came out
-    /// up to a fourth too dark.
+    /// Bounces have converged when one, and all that would follow it, change both the total
+    /// radiosity of all surfels, and each surfel's own in the mean over what caches see, by less
+    /// than this share. With the total alone, a sunlit ground of 200 m hid the bounces in the house
+    /// on it, and its walls came out up to a fourth too dark. With this bounce alone, a closed room
+    /// of albedo 0.99 missed 1 %: each one that follows passes on nearly as much.
     static constexpr double kChange = 1e-4;
 
     bool reached() const { return m_reached; }
@@ -64,7 +65,9 @@ public:
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         m_passedOn = reflects ? round.change / m_before : 0;
         m_before = round.change;
-        const bool converged = round.ofAll() < kChange && round.relative < kChange;
+        const double toCome = following();
+        const bool converged =
+            round.ofAll() * toCome < kChange && round.relative * toCome < kChange;
         m_growing = m_passedOn > kRounding && !converged ? m_growing + 1 : 0;
         m_reached = (converged && m_unseenRounds == 0 && m_rounds >= kBringing) || grows();
         m_unseenRounds -= m_unseenRounds > 0;
@@ -73,6 +76,14 @@ public:
 private:
     static constexpr std::uint32_t kBringing = 2;
     static constexpr double kRounding = 1.001;
+
+    /// This change and all that it would lead to, by the sum of the geometric series, over this
+    /// change alone where that is more.
+    double following() const {
+        constexpr double kMostPassedOn = 0.999; // noise, rounding
+        const double q = std::min(m_passedOn, kMostPassedOn);
+        return std::max(q / (1 - q), 1.);
+    }
 
     bool m_reached = false;
     std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;

@@ -38,11 +38,11 @@ struct BakeSettings {
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
     std::uint32_t rays = 256;      ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
-        36000;                     ///< target count of lightmap caches; 0 with texelsPerMetre > 0
-    float texelsPerMetre = 0;      ///< > 0: fixes the texel density instead
-    glm::uvec3 grid{0};            ///< cells of the grid caches; 0: chosen from the bounds
-    std::uint32_t maxBounces = 64; ///< relighting stops earlier once converged
-    bool dimming = true;           ///< dynamic objects keep bounced light off what is behind them
+        36000;                       ///< target count of lightmap caches; 0 with texelsPerMetre > 0
+    float texelsPerMetre = 0;        ///< > 0: fixes the texel density instead
+    glm::uvec3 grid{0};              ///< cells of the grid caches; 0: chosen from the bounds
+    std::uint32_t maxBounces = 1000; ///< relighting stops earlier once converged
+    bool dimming = true;             ///< dynamic objects keep bounced light off what is behind them
 
     SurfelPlacement placement = SurfelPlacement::Relaxed;
     Linker linker = Linker::Gather;

@@ -116,17 +116,17 @@ TEST(Reference, OneOfManyLightsPerSampleIsUnbiased) {
 }
 
 TEST(Reference, AWhiteFurnaceGlowsByEmissionOverOneMinusAlbedo) {
-    for (float albedo : {0.2f, 0.5f, 0.9f}) {
+    for (float albedo : {0.2f, 0.5f, 0.9f, 0.95f, 0.99f}) {
         SceneBuilder b;
         b.addMaterial(lambert(glm::vec3(albedo), glm::vec3(1)));
         b.add(box(glm::vec3(-1), {1, 2, 3}, true));
         const TraceScene trace(b.build());
-        auto options = optionsFor(View::Indirect, {0, 0.2f, 0.4f}, {1, 1, 1}, 24, 64);
-        options.maxBounces = 1000; // nothing is cut at 0.9: 0.9^1000 < 1e-45
+        // The number of bounces varies more the longer paths are.
+        const auto options = optionsFor(View::Indirect, {0, 0.2f, 0.4f}, {1, 1, 1}, 24, 64);
         const ReferenceResult r = renderReference(trace, options);
         const double expected = double(albedo) / (1 - double(albedo));
         EXPECT_NEAR(meanOf(r.image) / expected, 1, 4 * relativeError(r) + 1e-5) << albedo;
-        EXPECT_LT(relativeError(r), 4e-3);
+        EXPECT_LT(relativeError(r), albedo < 0.92f ? 4e-3 : 8e-3);
     }
 }
 
@@ -142,7 +142,6 @@ TEST(Reference, AnIntegratingSphereHasUniformBouncedLight) {
         const bool dark = albedo < 0.5f; // short paths, little noise: can show 0.1 %
         auto options =
             optionsFor(View::Irradiance, {0, 0, 0}, {1, 1, 1}, 32, dark ? 400 : 100, 1.5f);
-        options.maxBounces = 500;
         const ReferenceResult r = renderReference(trace, options);
         // All flux lands on the facets: rho / (1 - rho) Phi over their area, 0.17 % under 4 pi R^2.
         // What is left of the tessellation is the unevenness of E over a facet, under 0.05 %.
@@ -171,7 +170,6 @@ TEST(Reference, ConcentricSpheresBalanceTheirRadiosities) {
     // B1 = pi Le + rho1 B2, B2 = rho2 E2, E2 = F21 B1 + (1 - F21) B2
     const double E2 = F21 * kPi * Le / (1 - rho2 * (F21 * rho1 + 1 - F21));
     auto options = optionsFor(View::Irradiance, {0, 0, 1.2f}, {0, 0, 2}, 32, 256, 1.2f);
-    options.maxBounces = 500;
     const ReferenceResult r = renderReference(trace, options);
     EXPECT_NEAR(meanOf(r.image) / E2, 1, 4 * relativeError(r) + 1e-3);
     EXPECT_LT(relativeError(r), 1.5e-3);

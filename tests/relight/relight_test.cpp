@@ -76,6 +76,23 @@ TEST(Furnace, ClosedRoomReachesItsRadiosityAtEveryBandCount) {
             }
 }
 
+// Each bounce passes on nearly all of it: what those left out would bring counts, too.
+TEST(Furnace, RoomsThatAbsorbLittleAreLitUntilNothingIsMissing) {
+    for (const float albedo : {0.95f, 0.99f}) {
+        const Lit lit = light(furnace(albedo, 1, 3), BakeSettings().maxBounces);
+        const Relighter& relighter = *lit.relighter;
+        EXPECT_TRUE(lit.stats.converged);
+        const double expected = kPi / (1 - double(albedo));
+        double sum = 0, area = 0;
+        const Surfels& s = relighter.bake().surfels;
+        for (std::uint32_t i = 0; i < s.size(); ++i) {
+            sum += double(relighter.radiosity()[i].x * s.area[i]);
+            area += double(s.area[i]);
+        }
+        EXPECT_NEAR(sum / area / expected, 1, 0.002) << albedo;
+    }
+}
+
 TEST(Furnace, GridCachesSeeTheSameRadianceFromEverywhere) {
     Scene scene = furnace(0.5f, 1, 3);
     SceneBuilder b;
