@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bake_options.h"
+#include "app/number_range.h"
 
 #include "engine/core/hash.h"
 
@@ -67,7 +68,7 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
         .add_option("--texels-per-metre", o.texelsPerMetre,
                     "Lightmap density, instead of --lightmap")
         ->excludes(lightmap)
-        ->check(CLI::PositiveNumber);
+        ->check(numberWithin(1e-9, 1e6));
     command.add_option("--grid", o.grid, "Cells of the grid caches, XxYxZ")
         ->check([](const std::string& text) {
             return gridOf(text) ? "" : fmt::format("\"{}\" is not XxYxZ, each 1 to 256", text);
@@ -95,11 +96,11 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
     command
         .add_option("--cluster-normal-weight", o.clusterNormalWeight,
                     "C_n, weight of normals in the clusters' metric")
-        ->check(CLI::Range(0.f, 100.f));
+        ->check(numberWithin(0., 100.));
     command
         .add_option("--cluster-balance-weight", o.clusterBalanceWeight,
                     "C_b, weight of equal areas in it; agglomerative only")
-        ->check(CLI::Range(0.f, 100.f));
+        ->check(numberWithin(0., 100.));
     command.add_option("--threads", o.threads, "Threads to use; 0: all")
         ->check(CLI::Range(0, 1024));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench.h"
+#include "app/number_range.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
 
@@ -253,7 +254,7 @@ void addGlossyBench(CLI::App& bench, Run& run) {
     const auto list = [&](const char* flag, auto& values, const char* text, const auto& check) {
         command->add_option(flag, values, text)->delimiter(',')->check(check);
     };
-    list("--roughness", o->roughnesses, "of the metal, a list", CLI::Range(0.0, 1.0));
+    list("--roughness", o->roughnesses, "of the metal, a list", numberWithin(0.0, 1.0));
     list("--bands", o->bands, "SH bands, a list", CLI::Range(2, 8));
     list("--storage", o->storages, "a list of link storages", oneOf(kStorageNames));
     command->add_option("--spp", o->samplesPerPixel, "of the reference")

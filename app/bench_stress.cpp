@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_bakes.h"
+#include "app/number_range.h"
 #include "app/random_scene.h"
 
 #include "engine/core/log.h"
@@ -256,7 +257,7 @@ void addStressBench(CLI::App& bench, Run& run) {
     addCameraOptions(*command, o->camera);
     command->add_option("-o,--output", o->output, "folder of stress.csv and stress.json")
         ->required();
-    command->add_option("--seconds", o->seconds, "for each bake")->check(CLI::Range(0.1, 1e6));
+    command->add_option("--seconds", o->seconds, "for each bake")->check(numberWithin(0.1, 1e6));
     command->add_option("--frames", o->frames, "at least so many, however long they take")
         ->check(CLI::Range(1, 1000000));
     command->add_option("--seed", o->seed, "the same makes the same changes");
@@ -264,7 +265,7 @@ void addStressBench(CLI::App& bench, Run& run) {
         ->add_option("--growth", o->growthMiB,
                      "resident memory may grow by so much after a fifth of the time and 100 frames "
                      "[MiB]")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(numberWithin(0.0, 1e6));
     command->add_option("--device", o->device, "part of a Vulkan device's name");
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return runStressBench(*o); }; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bake_options.h"
 #include "app/command.h"
+#include "app/number_range.h"
 #include "app/output_file.h"
 #include "app/progress_line.h"
 #include "app/scene_options.h"
@@ -104,7 +105,7 @@ void addBakeCommand(CLI::App& app, Run& run) {
         "--cache", command->store.folder,
         "Folder that keeps finished stages for later bakes; default ~/.cache/limn/bake");
     sub->add_option("--cache-size", command->storeGib, "Most that the folder may hold [GiB]")
-        ->check(CLI::Range(0.001, 1e6));
+        ->check(numberWithin(0.001, 1e6));
     sub->add_flag("--no-cache", command->noStore, "Bake everything, keep nothing")
         ->excludes(folder);
     sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();

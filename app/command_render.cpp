@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
+#include "app/number_range.h"
 #include "app/output_file.h"
 #include "app/overlay_options.h"
 #include "app/progress_line.h"
@@ -330,7 +331,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
                      "the extension of the output")
         ->check(CLI::Range(1, 100000));
     command->add_option("--fps", options->framesPerSecond, "frames per second of --frames [1/s]")
-        ->check(CLI::Range(0.001, 10000.0));
+        ->check(numberWithin(0.001, 10000.0));
     addCameraOptions(*command, options->camera);
     addOverlayFlags(*command, options->overlay);
     command->add_option("--bake", options->bake,
@@ -341,7 +342,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command->add_option("--view", options->view, "what it shows")
         ->check(CLI::IsMember(strings(kViewNames)));
     command->add_option("--exposure", options->exposureEv, "stops before tone mapping [EV]")
-        ->check(CLI::Range(-64.0, 64.0));
+        ->check(numberWithin(-64.0, 64.0));
     command->add_option("--tonemap", options->tonemap, "curve of a .png")
         ->check(CLI::IsMember(strings(kTonemapNames)));
     command->add_option("--device", options->device,

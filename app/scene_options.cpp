@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/scene_options.h"
+#include "app/number_range.h"
 
 #include "engine/core/log.h"
 #include "engine/files/project_file.h"
@@ -7,6 +8,7 @@
 #include "engine/gallery/gallery.h"
 #include "engine/scene/dynamic_spec.h"
 #include "engine/scene/light_spec.h"
+#include "engine/scene/reach.h"
 
 #include <algorithm>
 #include <charconv>
@@ -34,7 +36,7 @@ void addImportOptions(CLI::App& command, ImportOptions& options) {
             "--memory",
             [&options](double gib) { options.memory.most = std::uint64_t(gib * double(1 << 30)); },
             "most that scenes, pictures and bakes may need [GiB]; default half of the machine's")
-        ->check(CLI::Range(0.001, 1e6));
+        ->check(numberWithin(0.001, 1e6));
     command.add_flag_callback(
         "--outside-files", [&options] { options.reach = FileReach::Anywhere; },
         "a .gltf may name files outside its own folder");
@@ -61,15 +63,17 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
                        "r,g,b [nits] | gradient up=r,g,b horizon=r,g,b ground=r,g,b | FILE.hdr or "
                        "FILE.exr, a panorama; replaces the scene's");
     command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
-        ->check(CLI::Range(0.f, kMostLight));
+        ->check(numberWithin(0., double(kMostLight)));
     addImportOptions(command, options.import);
-    command.add_option("--sky-rotation", options.skyRotation,
-                       "of the panorama about +Y, from +Z towards +X [degrees]");
+    command
+        .add_option("--sky-rotation", options.skyRotation,
+                    "of the panorama about +Y, from +Z towards +X [degrees]")
+        ->check(numberWithin(-1e6, 1e6));
 }
 
 void addTimeOption(CLI::App& command, SceneOptions& options) {
     command.add_option("--time", options.seconds, "after the start of films in materials [s]")
-        ->check(CLI::Range(-1e6, 1e6));
+        ->check(numberWithin(-1e6, 1e6));
 }
 
 static Result<Sky> openSky(const std::string& spec, const MemoryBudget& memory) {
@@ -141,6 +145,9 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
     for (const std::string& spec : options.dynamics)
         if (const Result<void> made = makeDynamic(scene->document, spec); !made)
             return tl::make_unexpected(made.error());
+    if (const std::string defect = reachDefect(flatten(scene->document, scene->assets));
+        !defect.empty())
+        return fail(fmt::format("{}: {}", options.scene, defect));
     for (const std::string& repair : scene->repairs)
         logWarning(fmt::format("{}: {}", options.scene, repair));
     return scene;
@@ -155,7 +162,7 @@ void addCameraOptions(CLI::App& command, CameraOptions& options) {
     eye->needs(target)->excludes(name);
     target->needs(eye);
     command.add_option("--fov", options.fovDegrees, "vertical field of view [degrees]")
-        ->check(CLI::Range(0.1, 179.0));
+        ->check(numberWithin(0.1, 179.0));
     command.add_option("--width", options.width, "[pixels]")->check(CLI::Range(1, 16384));
     command.add_option("--height", options.height, "[pixels]")->check(CLI::Range(1, 16384));
 }
@@ -172,12 +179,12 @@ Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {
     }
     Camera camera = chooseCamera(scene, options.name);
     if (options.eye.size() == 3 && options.target.size() == 3) {
-        for (std::size_t c = 0; c < 3; ++c)
-            if (!std::isfinite(options.eye[c]) || !std::isfinite(options.target[c]))
-                return fail("--eye, --target: not finite");
         camera = Camera{};
         camera.eye = {options.eye[0], options.eye[1], options.eye[2]};
         camera.target = {options.target[0], options.target[1], options.target[2]};
+        if (!withinReach(camera.eye) || !withinReach(camera.target))
+            return fail(
+                fmt::format("--eye, --target: beyond {:g} m of the origin", kMostCoordinate));
         if (camera.eye == camera.target)
             return fail("--target: may not be the eye");
     }

@@ -18,6 +18,7 @@
 #include "engine/bake/trace_stage.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
+#include "engine/scene/reach.h"
 
 #include <algorithm>
 #include <chrono>
@@ -165,6 +166,8 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     if (settings)
         scene.bake = *settings;
     if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
+        return fail(defect);
+    if (const std::string defect = reachDefect(scene); !defect.empty())
         return fail(defect);
     const std::uint64_t caches = expectedCaches(scene);
     if (const Result<void> fits =

@@ -5,6 +5,7 @@
 #include "engine/core/replace_file.h"
 #include "engine/files/document_json.h"
 #include "engine/files/sky_file.h"
+#include "engine/scene/reach.h"
 
 #include <filesystem>
 
@@ -116,6 +117,9 @@ Result<ImportedScene> loadProject(const std::string& path, const Progress& progr
     document.sceneHash = scene.document.sceneHash;
     scene.document = std::move(document);
     dropLost(scene);
+    if (const std::string defect = reachDefect(flatten(scene.document, scene.assets));
+        !defect.empty())
+        return fail(fmt::format("{}: {}", path, defect));
     openSky(fs::path(path).parent_path(), scene, options.memory);
     return scene;
 }

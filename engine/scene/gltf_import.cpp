@@ -8,6 +8,7 @@
 #include "engine/scene/gltf_mesh.h"
 #include "engine/scene/gltf_nodes.h"
 #include "engine/scene/gltf_size.h"
+#include "engine/scene/reach.h"
 
 #include <algorithm>
 #include <array>
@@ -130,6 +131,8 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
     addObject(scene.document, Sky{});
     addObject(scene.document, BakeSettings{});
 
+    if (const std::string defect = reachDefect(flatten(scene.document, assets)); !defect.empty())
+        return fail(defect);
     assets->images = decodeImages(*file, progress, repairs);
     if (progress.cancelled())
         return fail("cancelled");

@@ -80,7 +80,10 @@ static void addCamera(Document& document, const tinygltf::Camera& source,
     camera.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : "Camera";
     camera.fovY = fovY;
     camera.eye = glm::vec3(toWorld[3]);
-    camera.target = camera.eye + axis(toWorld, {0, 0, -1}, {0, 0, -1});
+    // Far from the origin a metre ahead is the same place.
+    const float ahead = std::max({1.f, 1e-3f * std::abs(camera.eye.x),
+                                  1e-3f * std::abs(camera.eye.y), 1e-3f * std::abs(camera.eye.z)});
+    camera.target = camera.eye + ahead * axis(toWorld, {0, 0, -1}, {0, 0, -1});
     camera.up = axis(toWorld, {0, 1, 0}, {0, 1, 0});
     addObject(document, camera);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/mesh_repair.h"
 
+#include "engine/scene/reach.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,11 +13,10 @@
 namespace limn {
 
 /// Beyond it the square of an area overflows float.
-static constexpr float kMaxCoordinate = 1e12f;
 
 static bool usable(glm::vec3 p) {
-    return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-           std::abs(p.z) <= kMaxCoordinate; // false for NaN
+    return std::abs(p.x) <= kMostCoordinate && std::abs(p.y) <= kMostCoordinate &&
+           std::abs(p.z) <= kMostCoordinate; // false for NaN
 }
 
 /// Twice the triangle's area along its normal, in double: float loses needles far from the origin.

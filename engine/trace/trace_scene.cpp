@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -119,6 +120,9 @@ struct TraceScene::Impl {
     std::vector<HitFrame> frames; ///< per instance
     float magnitude = 0; ///< the power of two above the static scene's largest coordinate [m]
     std::shared_ptr<const Trees> fixed, moving; ///< null where there is no such instance
+    mutable std::atomic<std::uint64_t> badRays = 0;
+
+    bool traceable(const Ray& ray) const;
 
     Impl(const Scene& s, const std::vector<bool>* only, const Impl* before);
     MeshKey keyOf(const Instance& instance) const;
@@ -342,9 +346,29 @@ static unsigned instanceOf(const RTCRayHit& rh) {
     return rh.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? rh.hit.geomID : rh.hit.instID[0];
 }
 
+bool TraceScene::Impl::traceable(const Ray& ray) const {
+    constexpr float kMost = 1e18f; // Embree's limit is 1.8e18
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(ray.origin[c]) < kMost) || !(std::abs(ray.direction[c]) < kMost)) {
+            badRays.fetch_add(1, std::memory_order_relaxed);
+            return false;
+        }
+    if (ray.tNear >= 0 && ray.tFar >= ray.tNear)
+        return true;
+    if (!(ray.tFar < ray.tNear)) // an empty stretch is none the worse for it
+        badRays.fetch_add(1, std::memory_order_relaxed);
+    return false;
+}
+
+std::uint64_t TraceScene::badRays() const {
+    return m_impl->badRays;
+}
+
 // Position and normal come from the triangle itself: the position is exact to a few roundings of
 // the vertices however far the ray came from.
 Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
+    if (!m_impl->traceable(ray))
+        return {};
     RTCRayHit rh = unhit(ray);
     if (m_impl->fixed && asks(mask, TraceMask::Static))
         embreeIntersect(m_impl->fixed->top, rh);
@@ -387,7 +411,7 @@ bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
         embreeOccluded(trees->top, r);
         return r.tfar < 0;
     };
-    if (!(ray.tFar > ray.tNear)) // less than 0, it would be taken for Embree's answer
+    if (!m_impl->traceable(ray)) // tFar < 0 would be taken for Embree's answer
         return false;
     return meets(m_impl->fixed, TraceMask::Static) || meets(m_impl->moving, TraceMask::Dynamic);
 }

@@ -54,9 +54,10 @@ public:
     TraceScene(const TraceScene&) = delete;
     TraceScene& operator=(const TraceScene&) = delete;
 
+    /// Nothing, and one more of badRays(), for a ray with a number that is none or too large.
     Hit closestHit(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// True if anything opaque lies in (tNear, tFar).
+    /// True if anything opaque lies in (tNear, tFar); of bad rays as closestHit().
     bool occluded(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
     /// True if anything opaque lies between two points, both clear of their own surfaces.
@@ -69,6 +70,9 @@ public:
     /// Offset that clears a surface at `p` of float rounding [m]; grows with |p| and in powers of
     /// two with the static scene.
     float epsilonAt(glm::vec3 p) const;
+
+    /// Rays so far that were not traced, because Embree's assertions would end the process.
+    std::uint64_t badRays() const;
 
     const Scene& scene() const;
 

@@ -153,6 +153,21 @@ TEST_F(CommandLine, NeverWritesOverItsInputOrFilesOfAnotherKind) {
     expectRefusal("reference cornell -o " + path("null.exr"), "is not a regular file");
 }
 
+TEST_F(CommandLine, NumbersThatAreNoneOrTooLargeAreRefused) {
+    for (const char* arguments :
+         {"render cornell -o x.png --fov nan", "render cornell -o x.png --exposure nan",
+          "reference cornell -o x.exr --sky-strength nan",
+          "reference cornell -o x.exr --sky-rotation inf",
+          "bake cornell -o x.limnbake --texels-per-metre nan",
+          "bake cornell -o x.limnbake --cache-size nan", "bake cornell -o x.limnbake --memory nan"})
+        EXPECT_EQ(limn(arguments).exit, 2) << arguments;
+    const std::string out = " --spp 1 --width 8 --height 8 -o " + path("x.exr");
+    for (const char* arguments : {"reference cornell --eye 1e20,0,0 --target 0,0,0",
+                                  "reference cornell --eye nan,0,0 --target 0,0,0",
+                                  "reference cornell --light 'point pos=1e20,0,0 cd=5'"})
+        expectRefusal(arguments + out, "beyond 1e+12 m of the origin");
+}
+
 TEST_F(CommandLine, AFullStandardOutputIsAFailure) {
     const std::string command =
         "'" LIMN_EXECUTABLE "' info cornell > /dev/full 2> '" + path("err") + "'";

@@ -344,6 +344,30 @@ TEST_P(TraceSceneInstances, RaysPassThroughMaskedTexelsOnly) {
     }
 }
 
+// Embree as Debian builds it ends the process on them.
+TEST(TraceScene, RaysOfNoUseMeetNothingAndAreCounted) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(-1), glm::vec3(1), true));
+    const TraceScene trace(b.build());
+    const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+    std::uint64_t bad = 0;
+    for (const float x : {nan, inf, -inf, 3e38f, -1e19f}) {
+        for (const Ray& ray : {Ray{{0, x, 0}, {0, 0, 1}}, Ray{{0, 0, 0}, {x, 0, 1}}}) {
+            EXPECT_FALSE(trace.closestHit(ray));
+            EXPECT_FALSE(trace.occluded(ray));
+            bad += 2;
+        }
+        EXPECT_EQ(trace.badRays(), bad);
+    }
+    EXPECT_FALSE(trace.closestHit({{0, 0, 0}, {0, 0, 1}, nan, 5}));
+    EXPECT_FALSE(trace.occluded({{0, 0, 0}, {0, 0, 1}, 0, nan}));
+    EXPECT_EQ(trace.badRays(), bad + 2);
+    EXPECT_FALSE(trace.occluded({{0, 0, 0}, {0, 0, 1}, 1, 0.5f})) << "an empty stretch";
+    EXPECT_TRUE(trace.closestHit({{0, 0, 0}, {0, 0, 1}}));
+    EXPECT_EQ(trace.badRays(), bad + 2);
+}
+
 TEST(TraceScene, AnEmptySceneIsNeverHit) {
     for (const Scene& scene : {Scene{}, SceneBuilder{}.build()}) {
         const TraceScene trace(scene);

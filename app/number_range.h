@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+/// Takes numbers in [least, most] alone: CLI::Range lets "nan" pass.
+inline CLI::Validator numberWithin(double least, double most) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            double value = 0;
+            const bool ok =
+                CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return ok ? std::string()
+                      : fmt::format("Value {} not in range [{:g} - {:g}]", text, least, most);
+        },
+        fmt::format("NUMBER in [{:g} - {:g}]", least, most));
+}
+
+} // namespace limn

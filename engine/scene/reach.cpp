@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+bool withinReach(glm::vec3 p) {
+    return std::abs(p.x) <= kMostCoordinate && std::abs(p.y) <= kMostCoordinate &&
+           std::abs(p.z) <= kMostCoordinate;
+}
+
+std::string reachDefect(const Scene& scene) {
+    const std::string most = fmt::format("beyond {:g} m of the origin", kMostCoordinate);
+    for (const Instance& instance : scene.instances)
+        for (int c = 0; c < 4; ++c)
+            if (!withinReach(glm::vec3(instance.toWorld[c])))
+                return fmt::format("an object of the mesh '{}' lies or extends {}",
+                                   scene.meshOf(instance).name, most);
+    if (!withinReach(scene.bounds.lower) || !withinReach(scene.bounds.upper))
+        return "the scene extends " + most;
+    for (const Light& light : scene.lights)
+        if (light.kind != LightKind::Directional && !withinReach(light.position))
+            return fmt::format("the light '{}' lies {}", light.name, most);
+    for (const Camera& camera : scene.cameras)
+        if (!withinReach(camera.eye) || !withinReach(camera.target))
+            return fmt::format("the camera '{}' or its target lies {}", camera.name, most);
+    return {};
+}
+
+} // namespace limn

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <string>
+
+namespace limn {
+
+/// Nothing may lie further from the origin along an axis [m]: squares of distances, and their
+/// squares, stay within float.
+inline constexpr float kMostCoordinate = 1e12f;
+
+/// False for what is no number, too.
+bool withinReach(glm::vec3 p);
+
+/// What of a scene lies beyond kMostCoordinate once it is placed, in words: its meshes, a light, a
+/// camera. Empty: nothing does. O(instances); the scene's bounds must be set.
+std::string reachDefect(const Scene& scene);
+
+} // namespace limn
