@@ -124,7 +124,8 @@ std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
     return result;
 }
 
-/// Whether the surfel's own place is in sight of most of a few caches that see its patch.
+/// Asks a few of the caches that see the surfel's patch: whether at least half of them see the
+/// surfel's own position, too.
 bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
     constexpr std::size_t kAsked = 4;
     const glm::vec3 place = trace.clearOf(set.surfels.position[surfel], set.surfels.normal[surfel]);

@@ -11,9 +11,9 @@ namespace limn {
 /// The unit normal of the triangle that a surfel lies on, on the surfel's side.
 glm::vec3 geometricNormal(const Scene& scene, const Surfels& surfels, std::uint32_t surfel);
 
-/// Gives surfels the normals of the vertices, on their sides: the last step of a bake. Surfaces are
-/// shaded by those; a box whose vertices are shared by its sides would send a fourth too much light
-/// by the normals of its triangles.
+/// Sets each surfel's normal to that of the vertices, interpolated, on its side: the last step of a
+/// bake. The viewport and the reference light surfaces by these. With the normals of the triangles,
+/// a room of boxes whose faces share vertices was a fourth too bright.
 void shade(const Scene& scene, Surfels& surfels);
 
 } // namespace limn

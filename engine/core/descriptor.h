@@ -23,7 +23,7 @@ public:
     explicit operator bool() const { return m_number >= 0; }
     int number() const { return m_number; }
 
-    /// False, and errno, where the system could not write what it had put off.
+    /// False, with errno set, where a delayed write has failed.
     bool close() {
         const int number = std::exchange(m_number, -1);
         return number < 0 || ::close(number) == 0;

@@ -23,7 +23,7 @@ tl::unexpected<Error> unreadable(int reason) {
 } // namespace
 
 Result<std::string> readFile(const std::string& path, std::uint64_t most) {
-    // To open a pipe would wait for its writer without O_NONBLOCK, which files do not heed.
+    // Without O_NONBLOCK, opening a pipe waits for a writer. Regular files ignore the flag.
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     struct stat status {};
     if (!file || fstat(file.number(), &status) != 0)

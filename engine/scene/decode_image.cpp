@@ -25,16 +25,10 @@ bool startsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
 
 } // namespace
 
-ImageFormat imageFormat(std::span<const std::uint8_t> bytes) {
-    return startsWith(bytes, kPng)    ? ImageFormat::Png
-           : startsWith(bytes, kJpeg) ? ImageFormat::Jpeg
-                                      : ImageFormat::None;
-}
-
 Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes) {
     if (bytes.empty())
         return fail("is missing");
-    if (imageFormat(bytes) == ImageFormat::None) // stb would try all that it knows
+    if (!startsWith(bytes, kPng) && !startsWith(bytes, kJpeg)) // stb would try all that it knows
         return fail("is neither PNG nor JPEG");
     if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
         return fail("is too large");

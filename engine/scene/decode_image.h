@@ -6,24 +6,18 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 namespace limn {
 
 /// 16k x 16k texels, 1 GiB as RGBA: larger images are refused before anything is allocated.
 inline constexpr std::uint64_t kMostTexels = std::uint64_t(1) << 28;
 
-enum class ImageFormat : std::uint8_t { None, Png, Jpeg };
-
-/// By the first bytes, whatever the file is called.
-ImageFormat imageFormat(std::span<const std::uint8_t> bytes);
-
 struct ImageSize {
     std::uint32_t width = 0, height = 0;
 };
 
-/// What the header of a PNG or JPEG says. Fails on all else, and on sizes of zero or above
-/// kMostTexels. Messages say what the image is or does: "is too large".
+/// What the header of a PNG or JPEG says, whatever the file is called. Fails on all else, and on
+/// sizes of zero or above kMostTexels. Messages say what the image is or does: "is too large".
 Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes);
 
 /// The texels of a PNG or JPEG, as RGBA; fails as imageSize() and where they are damaged.

@@ -47,7 +47,8 @@ TEST(Surfels, AreasSumToTheLitSidesExactly) {
     EXPECT_NEAR(double(set.surfels.size()), 5000, 100);
 }
 
-// Pushed apart, surfels of the large sides end up on the rim, more than it deserves.
+// Relaxation pushes surfels of the large faces onto the rim, which gets more of them than its area
+// asks for.
 TEST(Surfels, AreasThatTheyOwnAreThoseOfTheirSides) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/replace_file.h"
 
+#include "tests/core/full_disk.h"
 #include "tests/core/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
@@ -69,20 +69,15 @@ TEST(ReplaceFile, WhatIsNoFileStays) {
     EXPECT_TRUE(fs::is_fifo(folder.path / "pipe"));
 }
 
-// A limit on the size of files fails as a full disk does: in the midst of the bytes.
 TEST(ReplaceFile, AFullDiskLeavesTheOldFile) {
     const TemporaryFolder folder;
     const std::string path = folder.file("f");
     ASSERT_TRUE(replaceFile(path, "old"));
-    rlimit before{};
-    getrlimit(RLIMIT_FSIZE, &before);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    rlimit small = before;
-    small.rlim_cur = 1 << 16;
-    setrlimit(RLIMIT_FSIZE, &small);
-    const std::string said = problem(replaceFile(path, std::string(1 << 20, 'x')));
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, handler);
+    std::string said;
+    {
+        const FullDisk full(1 << 16);
+        said = problem(replaceFile(path, std::string(1 << 20, 'x')));
+    }
     EXPECT_NE(said.find("f: cannot write: File too large"), std::string::npos) << said;
     EXPECT_EQ(fileBytes(path), "old");
     EXPECT_EQ(names(folder), std::vector<std::string>{"f"});

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/image_file.h"
 
+#include "tests/core/full_disk.h"
 #include "tests/scene/gltf_builder.h"
 
-#include <sys/resource.h>
-
 #include <cmath>
-#include <csignal>
 #include <limits>
 #include <random>
 
@@ -105,16 +103,10 @@ TEST(ImageFile, APictureThatCannotBeWrittenLeavesTheOldOne) {
     const TemporaryFolder folder;
     ASSERT_TRUE(writeExr(folder.file("i.exr"), randomImage(3, 3)));
     const std::string before = fileBytes(folder.file("i.exr"));
-    rlimit limit{};
-    getrlimit(RLIMIT_FSIZE, &limit);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    rlimit small = limit;
-    small.rlim_cur = 1 << 12;
-    setrlimit(RLIMIT_FSIZE, &small);
-    const bool written = bool(writeExr(folder.file("i.exr"), randomImage(100, 100)));
-    setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, handler);
-    EXPECT_FALSE(written);
+    {
+        const FullDisk full(1 << 12);
+        EXPECT_FALSE(writeExr(folder.file("i.exr"), randomImage(100, 100)));
+    }
     EXPECT_EQ(fileBytes(folder.file("i.exr")), before);
 }
 

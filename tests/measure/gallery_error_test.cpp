@@ -77,8 +77,8 @@ struct Ceiling {
 /// are those of a coarse bake, and no promise of what default settings give. Houses on large planes
 /// and a narrower door are missing: their errors, or the noise of so few paths, are so large that a
 /// ceiling would guard nothing. The furnished box was at 0.002 and 0.103 while surfels of patches
-/// that are half covered stood where they are covered, which is wrong the other way; at default
-/// settings it is 0.02 either way.
+/// that are half covered stood where they are covered, which is too dark; at default settings its
+/// bias is 0.02 with either.
 constexpr Ceiling kCeilings[] = {
     {0, 0.005, 0.013},        // room without thickness, ten times as large
     {1, 0.018, 0.19, 0.0075}, // two rooms: the light in the dark one is a leak
