@@ -7,6 +7,7 @@
 #include "app/render_image.h"
 #include "app/scene_options.h"
 
+#include "engine/bake/bake_defect.h"
 #include "engine/core/log.h"
 #include "engine/files/bake_file.h"
 #include "engine/files/image_file.h"
@@ -78,7 +79,7 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
         endProgressLine();
         return made;
     }
-    Result<Bake> read = readBake(options.bake);
+    Result<Bake> read = readBake(options.bake, options.scene.import.memory);
     if (!read)
         return read;
     const bool dimming = scene.bake.dimming; // the document's, not that of the time of the bake
@@ -88,6 +89,8 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
         return fail(
             fmt::format("{}: is the bake of another scene than {}, or of an older state of it",
                         options.bake, options.scene.scene));
+    if (const std::string defect = bakeDefect(*read, &scene); !defect.empty())
+        return fail(fmt::format("{}: {}", options.bake, defect));
     return read;
 }
 

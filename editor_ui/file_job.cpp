@@ -2,6 +2,7 @@
 #include "editor_ui/file_job.h"
 
 #include "editor_ui/background_priority.h"
+#include "engine/bake/bake_defect.h"
 #include "engine/files/bake_file.h"
 #include "engine/files/project_file.h"
 #include "engine/files/sky_file.h"
@@ -57,14 +58,16 @@ bool FileJob::start(std::function<void()> work) {
 }
 
 /// The bake beside a project, if there is one that fits what the project now holds.
-static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene& imported) {
+static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene& imported,
+                             const MemoryBudget& memory) {
     std::error_code error;
     const std::string path = bakePathOf(projectPath);
     if (!fs::exists(path, error))
         return {};
-    Result<Bake> bake = readBake(path);
+    Result<Bake> bake = readBake(path, memory);
     auto scene = std::make_shared<const Scene>(flatten(imported.document, imported.assets));
-    if (!bake || bake->sceneHash != bakeInputHash(*scene))
+    if (!bake || bake->sceneHash != bakeInputHash(*scene) ||
+        !bakeDefect(*bake, scene.get()).empty())
         return {};
     return {std::make_shared<const Bake>(std::move(*bake)), scene,
             std::make_shared<const TraceScene>(*scene)};
@@ -81,7 +84,7 @@ static Result<OpenedFile> openFile(const std::string& what, const std::string& p
     file.meshBounds = boundsOfMeshes(*file.imported.assets);
     if (fs::path(what).extension() == ".limn") {
         file.projectPath = fs::absolute(what).string();
-        file.baked = bakeBeside(file.projectPath, file.imported);
+        file.baked = bakeBeside(file.projectPath, file.imported, options.memory);
     }
     return file;
 }

@@ -4,9 +4,11 @@
 #include "engine/bake/bake_bytes.h"
 #include "engine/bake/charts.h"
 #include "engine/bake/density.h"
+#include "engine/bake/density_fields.h"
 #include "engine/bake/fine_texels.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/structure_rules.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/texel_sides.h"
 #include "engine/core/hash.h"
@@ -32,7 +34,9 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
                 if (used[m])
                     charts[m] = keptOrMade<MeshCharts>(
                         store, hashValue(meshes[m], 21), progress,
-                        [](auto& a, auto& c) { chartFields(a, c); },
+                        [&mesh = scene.assets->meshes[m]](auto& a, auto& c) {
+                            chartFields(a, c, &mesh);
+                        },
                         [&] { return buildCharts(scene.assets->meshes[m], progress); });
         });
 }
@@ -72,23 +76,118 @@ void evenLamps(const Scene& scene, std::vector<SurfelDensity>& surfels) {
             surfels[i.mesh] = {};
 }
 
+/// Powers of sixteen in texels per area, as densityClass() has them.
+constexpr int kLeastClass = -3, kMostClass = 2;
+
+/// Of an instance that has a place in the atlas.
+bool hasCharts(const Scene& scene, const std::vector<MeshCharts>& charts, std::size_t instance) {
+    return instance < scene.instances.size() && !scene.instances[instance].dynamic &&
+           !charts[scene.instances[instance].mesh].chartSize.empty();
+}
+
+template <class A, class V>
+void variedFields(A& a, V& v, const Scene& scene, const std::vector<MeshCharts>& charts) {
+    a("instance", v.instance,
+      rule::holds("without charts", [&](std::uint32_t i) { return hasCharts(scene, charts, i); }));
+    a("chart", v.chart, rule::holds("out of range", [&](std::uint32_t chart) {
+          return chart < charts[scene.instances[v.instance].mesh].chartSize.size();
+      }));
+    a("at", v.at, rule::each("not on the mesh", [&](std::size_t, const MeshPoint& p) {
+          return isPointOf(scene.meshOf(scene.instances[v.instance]), p);
+      }));
+    a("back", v.back, rule::count(v.at.size()), rule::below(2));
+    a("fours", v.fours, rule::count(v.at.size()), rule::within(kLeastClass, kMostClass));
+}
+
+template <class A, class D>
+void bakeDensityFields(A& a, D& d, const Scene& scene, const std::vector<MeshCharts>& charts) {
+    a.each("texels", d.texels, rule::noneOr(scene.instances.size()), [&](auto& factors) {
+        const auto i = std::size_t(&factors - d.texels.data());
+        a("factors", factors, rule::noneOr(charts[scene.instances[i].mesh].chartSize.size()),
+          rule::within(std::exp2(2 * kLeastClass), std::exp2(2 * kMostClass)));
+    });
+    a.each("surfels", d.surfels, rule::noneOr(scene.assets->meshes.size()), [&](auto& s) {
+        densityFields(a, s, scene.assets->meshes[std::size_t(&s - d.surfels.data())]);
+    });
+    a.each("varied", d.varied, rule::any, [&](auto& v) { variedFields(a, v, scene, charts); });
+    a("baseShare", d.baseShare, rule::within(0, 1));
+    a("centre", d.centre, rule::within(1e-300, 1e300));
+    a("size", d.size, rule::within(0, 1e30));
+    a("nearest", d.nearest, rule::within(0, 1e30));
+}
+
 BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
                          const std::vector<MeshCharts>& charts, std::uint32_t texels,
                          const Progress& progress, StageStore* store, std::uint64_t& rays) {
     return keptOrMade<BakeDensity>(
         store, surfacesKey(trace, meshes, hashValue(texels, 35)), progress,
-        [](auto& a, auto& d) {
-            a.each(d.texels, [&](auto& factors) { a(factors); });
-            a.each(d.surfels, [&](auto& s) { a(s.level), a(s.begin), a(s.density); });
-            a.each(d.varied,
-                   [&](auto& v) { a(v.instance), a(v.chart), a(v.at), a(v.back), a(v.fours); });
-            a(d.baseShare), a(d.centre), a(d.size), a(d.nearest);
-        },
+        [&](auto& a, auto& d) { bakeDensityFields(a, d, trace.scene(), charts); },
         [&] {
             BakeDensity made = findDensity(trace, charts, texels, progress);
             rays += made.rays;
             return made;
         });
+}
+
+/// All but the charts, which are kept per mesh.
+template <class A, class T>
+void atlasFields(A& a, T& t, const Scene& scene, const std::vector<MeshCharts>& charts) {
+    auto& l = t.layout;
+    a("width", l.width, rule::any);
+    a("height", l.height, rule::holds("too large for its texels", [&](std::uint32_t height) {
+          return isAtlasSize(l.width, height, t.texels.size());
+      }));
+    a("texels", t.texels, rule::each("out of range", [&](std::size_t i, const AtlasTexel& texel) {
+          return texel.texel < std::uint64_t(l.width) * l.height && texel.back <= 1 &&
+                 (i == 0 || t.texels[i - 1].texel < texel.texel) && texel.width >= 0 &&
+                 texel.width < kMostCoordinate && hasCharts(scene, charts, texel.instance) &&
+                 arePointsOf(scene.meshOf(scene.instances[texel.instance]), texel);
+      }));
+    a("texelsPerMetre", t.texelsPerMetre, rule::within(1e-30, 1e30));
+    a.each("instances", l.instances, rule::count(scene.instances.size()), [&](auto& i) {
+        const auto at = std::size_t(&i - l.instances.data());
+        a("uv", i.uv, rule::within(0, 1),
+          rule::count(hasCharts(scene, charts, at)
+                          ? charts[scene.instances[at].mesh].sourceVertex.size()
+                          : 0));
+        a("backRows", i.backRows, rule::below(l.height));
+    });
+}
+
+/// Those of an atlas' texels.
+template <class A, class S>
+void sideFields(A& a, S& s, const Scene& scene, const Atlas& atlas) {
+    a("texels", s.texels, rule::count(atlas.texels.size()),
+      rule::each("not the atlas'", [&](std::size_t i, const AtlasTexel& texel) {
+          const AtlasTexel& whole = atlas.texels[i];
+          return texel.texel == whole.texel && texel.instance == whole.instance &&
+                 texel.back == whole.back && texel.width == whole.width &&
+                 arePointsOf(scene.meshOf(scene.instances[texel.instance]), texel);
+      }));
+    a("open", s.open, rule::count(atlas.texels.size()), rule::below(2));
+    a("snaps", s.snaps, [&atlas](const auto& snaps) {
+        return snapDefect(snaps, atlas.layout.width, atlas.layout.height);
+    });
+}
+
+/// As many as can be needed, so that the atlas' size stays a number of 31 bits.
+template <class A, class F>
+void fineFields(A& a, F& f) {
+    constexpr std::size_t kMostPlaces = 1 << 24;
+    a.each("levels", f.places,
+           rule::holds("too many",
+                       [&](const auto& levels) {
+                           std::size_t places = 0;
+                           for (const auto& level : levels)
+                               places += level.size();
+                           return levels.size() <= std::size_t(kFineLevels) &&
+                                  places <= kMostPlaces;
+                       }),
+           [&](auto& places) {
+               a("places", places, rule::holds("out of order", [](const auto& level) {
+                     return std::ranges::is_sorted(level);
+                 }));
+           });
 }
 
 /// An atlas of coarse texels, and where finer ones are to be added to it.
@@ -119,7 +218,7 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
     LaidTexels result;
     result.key = atlasKey(scene, meshes, settings, density);
     result.atlas = keptOrMade<Atlas>(
-        store, result.key, progress, [](auto& a, auto& t) { atlasFields(a, t); },
+        store, result.key, progress, [&](auto& a, auto& t) { atlasFields(a, t, scene, charts); },
         [&] { return buildAtlas(scene, charts, settings, density.texels, progress); });
     result.atlas.layout.meshes = charts;
     if (density.varied.empty() || progress.cancelled())
@@ -127,7 +226,7 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
     const std::uint64_t laid = result.atlas.texels.size();
     result.fine = keptOrMade<FineLookups>(
         store, surfacesKey(trace, meshes, hashValue(result.key, hashValue(most, 36))), progress,
-        [](auto& a, auto& f) { a.each(f.places, [&](auto& places) { a(places); }); },
+        [](auto& a, auto& f) { fineFields(a, f); },
         [&] {
             FineLookups made = findFineLookups(
                 trace, result.atlas, density, std::uint32_t(most - std::min(most, laid)), progress);
@@ -191,7 +290,7 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
     const std::vector<PlacedTriangle> placed = addFineTexels(scene, density, laid.fine, atlas);
     TexelSides sides = keptOrMade<TexelSides>(
         store, surfacesKey(trace, meshes, hashValue(laid.key, 31)), progress,
-        [](auto& a, auto& s) { a(s.texels), a(s.open), a(s.snaps); },
+        [&](auto& a, auto& s) { sideFields(a, s, scene, atlas); },
         [&] {
             TexelSides made = findTexelSides(trace, atlas, placed, progress);
             rays += made.rays;

@@ -11,7 +11,9 @@
 #include "engine/bake/input_hash.h"
 #include "engine/bake/rooms.h"
 #include "engine/bake/seen_patches.h"
+#include "engine/bake/settings_defect.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/structure_rules.h"
 #include "engine/bake/surfel_normals.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/trace_record.h"
@@ -45,36 +47,6 @@ private:
     std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
 };
 
-std::string settingsDefect(const BakeSettings& s) {
-    const auto outside = [](std::uint32_t v, std::uint32_t low, std::uint32_t high) {
-        return v < low || v > high;
-    };
-    if (outside(s.surfels, 64, 1U << 20))
-        return fmt::format("bake settings: surfels {} is outside [64, 1048576]", s.surfels);
-    if (outside(s.links, 1, 4096))
-        return fmt::format("bake settings: links {} is outside [1, 4096]", s.links);
-    if (outside(s.bands, 2, 8))
-        return fmt::format("bake settings: bands {} is outside [2, 8]", s.bands);
-    if (outside(s.chromaBands, 0, 8))
-        return fmt::format("bake settings: chromaBands {} is outside [0, 8]", s.chromaBands);
-    if (outside(s.rays, 16, 65536))
-        return fmt::format("bake settings: rays {} is outside [16, 65536]", s.rays);
-    for (const float weight : {s.clusterNormalWeight, s.clusterBalanceWeight})
-        if (!(weight >= 0 && weight <= 100))
-            return fmt::format("bake settings: cluster weight {} is outside [0, 100]", weight);
-    if (!(s.texelsPerMetre >= 0 && s.texelsPerMetre < 1e6f))
-        return fmt::format("bake settings: texelsPerMetre {} is outside [0, 1e6)",
-                           s.texelsPerMetre);
-    if (s.texelsPerMetre == 0 && outside(s.lightmapCaches, 1, 1U << 24))
-        return fmt::format("bake settings: lightmapCaches {} is outside [1, 16777216]",
-                           s.lightmapCaches);
-    if (s.grid != glm::uvec3(0) &&
-        (outside(s.grid.x, 1, 256) || outside(s.grid.y, 1, 256) || outside(s.grid.z, 1, 256)))
-        return fmt::format("bake settings: grid {}x{}x{} is outside 1 to 256 a side", s.grid.x,
-                           s.grid.y, s.grid.z);
-    return {};
-}
-
 /// The form factor linker's rays only tell which points lie in walls.
 std::uint32_t raysPerCache(const BakeSettings& settings) {
     constexpr std::uint32_t kFormFactorRays = 112; // 16 for each point of a texel
@@ -93,11 +65,20 @@ PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const 
                            StageStore* store, std::uint64_t& rays) {
     const std::uint64_t key =
         hashValue(32, hashRecord(describeTrace(trace, set, owners, {}, {{0}}, 1, meshes)));
+    const Scene& scene = trace.scene();
     return keptOrMade<PatchSides>(
         store, key, progress,
-        [](auto& archive, auto& s) {
-            archive(s.changed);
-            archive.each(s.owner, [&](auto& o) { archive(o); });
+        [&](auto& a, auto& s) {
+            a("changed", s.changed, rule::noneOr(set.surfels.size()));
+            a.each("owner", s.owner, rule::noneOr(scene.instances.size()), [&](auto& of) {
+                const auto i = std::uint32_t(&of - s.owner.data());
+                a("owner", of,
+                  rule::holds("of another length",
+                              [&](const auto& cells) {
+                                  return cells.empty() || cells.size() == owners.cellsOf(i);
+                              }),
+                  rule::below(set.instanceBegin[i + 1] - set.instanceBegin[i]));
+            });
         },
         [&] {
             PatchSides made = findPatchSides(trace, set, owners, progress);
@@ -114,13 +95,25 @@ SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
                              StageStore* store, std::uint64_t& rays) {
     const std::uint64_t rayStarts =
         hashRecord(describeTrace(trace, set, owners, caches, points, std::max(looks, 1U), meshes));
-    const std::uint64_t key =
-        hashValue(atlas.layout.width * atlas.layout.height, hashValue(rayStarts, 33));
+    const std::uint32_t texels = atlas.layout.width * atlas.layout.height;
+    const std::uint64_t key = hashValue(texels, hashValue(rayStarts, 33));
+    const Scene& scene = trace.scene();
     return keptOrMade<SeenPatches>(
         store, key, progress,
-        [](auto& archive, auto& s) {
-            archive(s.place), archive(s.cache), archive(s.cacheWeight), archive(s.own);
-            archive(s.ownCache);
+        [&](auto& a, auto& s) {
+            const std::uint64_t n = set.surfels.size();
+            a("place", s.place, rule::count(n),
+              rule::each("not on its mesh", [&](std::size_t i, const MeshPoint& p) {
+                  return isPointOf(scene.meshOf(scene.instances[set.surfels.instance[i]]), p);
+              }));
+            a("cache", s.cache, rule::count(n), rule::belowOr(caches.lightmapCount, ~0U));
+            a("cacheWeight", s.cacheWeight, rule::count(n), rule::within(0, 1 + 1e-4));
+            a("own", s.own, rule::each("out of range", [&](std::size_t i, const OwnCache& own) {
+                  return i < texels - caches.lightmapCount && own.back <= 1 &&
+                         own.instance < scene.instances.size() &&
+                         arePointsOf(scene.meshOf(scene.instances[own.instance]), own);
+              }));
+            a("ownCache", s.ownCache, rule::count(n), rule::belowOr(s.own.size(), ~0U));
         },
         [&] {
             SeenPatches made =
@@ -133,8 +126,11 @@ SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
 /// The training lights as shadow rays see them; traced again only near what moved.
 TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, TraceReport& traced,
                              const Progress& progress, StageStore* store) {
-    const auto fields = [](auto& archive, auto& t) {
-        archive(t.irradiance), archive(t.lamps), archive(t.position);
+    const auto fields = [&surfels](auto& a, auto& t) {
+        a("irradiance", t.irradiance, rule::count(surfels.size() * TracedTraining::kCount),
+          rule::within(0, 1e30));
+        a("lamps", t.lamps, rule::count(TracedTraining::kLamps), rule::inReach());
+        a("position", t.position, rule::count(surfels.size()), rule::inReach());
     };
     const auto key = [](std::uint64_t of) { return hashValue(of, 23); };
     return keptOrMade<TracedTraining>(store, key(traced.key), progress, fields, [&] {

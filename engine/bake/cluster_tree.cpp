@@ -3,6 +3,7 @@
 
 #include "engine/bake/clustering.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/structure_rules.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 
@@ -42,7 +43,13 @@ MergeTree keptMeshTree(const MeshSurfels& surfels, const BakeSettings& settings,
     const bool slow =
         settings.clustering == Clustering::Agglomerative && surfels.size() >= kWorthKeeping;
     return keptOrMade<MergeTree>(
-        slow ? store : nullptr, key, progress, [](auto& a, auto& t) { a(t.left), a(t.right); },
+        slow ? store : nullptr, key, progress,
+        [&surfels](auto& a, auto& t) {
+            a("left", t.left, rule::any);
+            a("right", t.right, rule::holds("no tree", [&](const auto& right) {
+                  return isTree(t.left, right, std::uint32_t(surfels.size()));
+              }));
+        },
         [&] { return meshTree(surfels, settings, progress); });
 }
 

@@ -21,7 +21,7 @@ const SurfelOwners& OwnerTables::of(std::uint32_t mesh) const {
             constexpr std::size_t kWorthKeeping = 2048; // fewer are as fast to make
             lazy.owners = keptOrMade<SurfelOwners>(
                 cells < kWorthKeeping ? nullptr : m_store, m_store ? m_keys[mesh] : 0, m_progress,
-                [](auto& a, auto& o) { SurfelOwners::fields(a, o); },
+                [&](auto& a, auto& o) { SurfelOwners::fields(a, o, m, m_set.meshes[mesh]); },
                 [&] { return SurfelOwners(m, m_set.meshes[mesh], m_progress); });
         });
     });
@@ -37,7 +37,7 @@ std::vector<float> ownedAreas(const Scene& scene, const SurfelSet& set, const Ow
         std::vector<double> sum(set.instanceBegin[instance + 1] - first);
         for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
             const auto area = double(triangleWorldArea(scene, placed, t));
-            owners.of(placed.mesh).forSharesOf(t, [&](std::uint32_t cell, double share) {
+            owners.of(placed.mesh).forCellsOf(t, [&](std::uint32_t cell, glm::vec2, double share) {
                 for (std::uint32_t back = 0; back < sides; ++back)
                     sum[owners.ofCell(instance, cell, back != 0) - first] += share * area;
             });

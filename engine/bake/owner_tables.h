@@ -38,6 +38,12 @@ public:
     /// Any thread may ask. Precondition: the mesh has surfels.
     const SurfelOwners& of(std::uint32_t mesh) const;
 
+    /// How long PatchSides::owner is for an instance with surfels.
+    std::uint64_t cellsOf(std::uint32_t instance) const {
+        const Instance& i = m_scene.instances[instance];
+        return std::uint64_t(of(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
+    }
+
     /// The surfel of the scene that stands for a cell of an instance's mesh.
     std::uint32_t ofCell(std::uint32_t instance, std::uint32_t cell, bool back) const {
         const SurfelOwners& owners = of(m_scene.instances[instance].mesh);

@@ -86,7 +86,7 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
         for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
             for (std::uint32_t side = 0; side < sides; ++side) {
                 const std::uint32_t first = side * patches.surfels().frontCount;
-                owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv) {
+                owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
                     const std::uint32_t near = owners.front(cell),
                                         own = patches.ownerOf(t, uv * 0.999f, near, side == 1);
                     result[side * owners.cells() + cell] = own;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/atlas.h"
 #include "engine/bake/stage_store.h"
 #include "engine/core/archive.h"
+#include "engine/core/field_rule.h"
 #include "engine/core/progress.h"
 
 #include <optional>
@@ -11,27 +11,20 @@
 
 namespace limn {
 
-template <class A, class C>
-void chartFields(A& a, C& c) {
-    a(c.sourceVertex), a(c.indices), a(c.chartOfTriangle), a(c.chartUv), a(c.chartSize);
-}
-
-/// All but the charts, which are kept per mesh.
-template <class A, class T>
-void atlasFields(A& a, T& t) {
-    a(t.layout.width), a(t.layout.height), a(t.texels), a(t.texelsPerMetre);
-    a.each(t.layout.instances, [&](auto& i) { a(i.uv), a(i.backRows); });
-}
-
-/// What is kept under `key`, or nothing. `fields(archive, T)` lists T's fields.
+/// What is kept under `key`, or nothing where it breaks a rule: whoever can write to the folder
+/// must not be able to lead a bake astray. `fields(archive, T)` lists T's fields and their rules.
 template <class T, class Fields>
 std::optional<T> kept(StageStore& store, std::uint64_t key, Fields fields) {
     if (const auto bytes = store.find(key)) {
         T value{};
         ByteReader reader(*bytes);
         fields(reader, value);
-        if (reader.ok && reader.atEnd())
-            return value;
+        FieldCheck check;
+        if (reader.ok && reader.atEnd()) {
+            fields(check, std::as_const(value));
+            if (check.defect.empty())
+                return value;
+        }
     }
     return {};
 }

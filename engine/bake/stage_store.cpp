@@ -3,6 +3,7 @@
 
 #include "engine/core/descriptor.h"
 #include "engine/core/hash.h"
+#include "engine/core/memory_budget.h"
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 
@@ -80,7 +81,7 @@ std::optional<std::string> unpack(std::uint64_t key, const std::string& file) {
     const char* packed = file.data() + kHeader;
     const std::size_t size = file.size() - kHeader;
     if (version != kVersion || longs[0] != key || hashBytes(packed, size) != longs[2] ||
-        ZSTD_getFrameContentSize(packed, size) != longs[1])
+        ZSTD_getFrameContentSize(packed, size) != longs[1] || longs[1] > halfOfMemory() / 2)
         return {};
     std::string bytes(std::size_t(longs[1]), '\0');
     const std::size_t n = ZSTD_decompress(bytes.data(), bytes.size(), packed, size);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/surfels.h"
 
+#include "engine/bake/density_fields.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/nearest_point.h"
 #include "engine/bake/relaxation.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/structure_rules.h"
 #include "engine/bake/surfel_spacing.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -283,6 +285,24 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
     return result;
 }
 
+template <class A, class S>
+static void meshSurfelFields(A& a, S& s, const Mesh& mesh, bool twoSided) {
+    const std::uint64_t n = s.position.size();
+    a("position", s.position, rule::inReach());
+    a("normal", s.normal, rule::count(n), rule::unit());
+    a("triangle", s.triangle, rule::count(n));
+    a("barycentric", s.barycentric, rule::count(n),
+      rule::each("not on the mesh", [&](std::size_t i, glm::vec2 uv) {
+          return isPointOf(mesh, {s.triangle[i], uv});
+      }));
+    a("frontCount", s.frontCount, rule::holds("not the surfels of the front", [=](std::uint32_t f) {
+          return f > 0 && n == std::uint64_t(f) * (twoSided ? 2 : 1);
+      }));
+    a("area", s.area, rule::within(1e-38, 1e30));
+    a("areas", s.areas, rule::noneOr(n), rule::within(0, 1e30));
+    densityFields(a, s.density, mesh);
+}
+
 static MeshSurfels meshSurfels(const Scene& scene, std::size_t m, std::uint32_t count,
                                const SurfelDensity& density, const Progress& progress,
                                StageStore* store) {
@@ -294,10 +314,7 @@ static MeshSurfels meshSurfels(const Scene& scene, std::size_t m, std::uint32_t 
     constexpr std::uint32_t kWorthKeeping = 64; // fewer are as fast to place
     return keptOrMade<MeshSurfels>(
         count < kWorthKeeping ? nullptr : store, key, progress,
-        [](auto& a, auto& s) {
-            a(s.position), a(s.normal), a(s.triangle), a(s.barycentric), a(s.frontCount), a(s.area);
-            a(s.areas), a(s.density.level), a(s.density.begin), a(s.density.density);
-        },
+        [&mesh, twoSided](auto& a, auto& s) { meshSurfelFields(a, s, mesh, twoSided); },
         [&] { return placeSurfels(mesh, count, twoSided, placement, density, progress); });
 }
 
@@ -326,6 +343,17 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
     }
     result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
     return result;
+}
+
+bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
+    bool within = true;
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        forCells(m_density.side(t), [&](glm::uvec2 at) {
+            const Block& block = m_blocks[blockOf(t, at)];
+            const std::uint64_t n = block.resolution, end = block.begin + n * n;
+            within = within && n > 0 && n < (1U << 16) && end <= m_owner.size();
+        });
+    return within;
 }
 
 void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
@@ -376,7 +404,7 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const P
     parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
         for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
             const glm::vec3 normal = triangleNormal(mesh, t);
-            forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv) {
+            forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
                 if (uv.x + uv.y > 1)
                     uv /= uv.x + uv.y;
                 m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);

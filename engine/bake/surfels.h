@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/bake/bake.h"
-#include "engine/bake/surfel_density.h"
+#include "engine/bake/density_fields.h"
 
 #include <cstdint>
 #include <span>
@@ -84,23 +84,10 @@ public:
     }
     std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
 
-    /// Calls visit(cell, uv of its middle) for the cells that meet a triangle.
+    /// Calls visit(cell, uv of its middle, share of the triangle's area) for the cells that meet a
+    /// triangle; the shares sum to 1.
     template <class Visit>
     void forCellsOf(std::uint32_t triangle, const Visit& visit) const {
-        const auto side = float(m_density.side(triangle));
-        forCells(m_density.side(triangle), [&](glm::uvec2 at) {
-            const Block& block = m_blocks[blockOf(triangle, at)];
-            const std::uint32_t n = block.resolution;
-            for (std::uint32_t j = 0; j < n; ++j)
-                for (std::uint32_t i = 0; i < n && j <= last(at, side, n, i); ++i) {
-                    const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
-                    visit(block.begin + j * n + i, (glm::vec2(at) + middle) / side);
-                }
-        });
-    }
-    /// Calls visit(cell, share of the triangle's area) for the same cells; the shares sum to 1.
-    template <class Visit>
-    void forSharesOf(std::uint32_t triangle, const Visit& visit) const {
         const std::uint32_t side = m_density.side(triangle);
         forCells(side, [&](glm::uvec2 at) {
             const Block& block = m_blocks[blockOf(triangle, at)];
@@ -108,8 +95,10 @@ public:
             const double square = 2 / (double(side) * side * n * n);
             for (std::uint32_t j = 0; j < n; ++j)
                 for (std::uint32_t i = 0; i < n && j <= last(at, float(side), n, i); ++i) {
+                    const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
                     const bool cut = at.x + at.y + 1 == side && i + j + 1 == n;
-                    visit(block.begin + j * n + i, cut ? square / 2 : square);
+                    visit(block.begin + j * n + i, (glm::vec2(at) + middle) / float(side),
+                          cut ? square / 2 : square);
                 }
         });
     }
@@ -119,8 +108,16 @@ public:
 
     /// Lists the tables for an archive.
     template <class A, class T>
-    static void fields(A& a, T& o) {
-        a(o.m_frontCount), a(o.m_density.level), a(o.m_density.begin), a(o.m_blocks), a(o.m_owner);
+    static void fields(A& a, T& o, const Mesh& mesh, const MeshSurfels& surfels) {
+        a("frontCount", o.m_frontCount, rule::holds("of other surfels", [&](std::uint32_t n) {
+              return n == surfels.frontCount;
+          }));
+        const bool uniform = surfels.density.uniform();
+        partFields(a, o.m_density, mesh, o.m_blocks.size());
+        a("blocks", o.m_blocks,
+          rule::count(uniform ? mesh.triangleCount() : surfels.density.density.size()),
+          rule::holds("out of range", [&](const auto&) { return o.blocksLieWithin(mesh); }));
+        a("owner", o.m_owner, rule::below(surfels.frontCount));
     }
 
 private:
@@ -137,6 +134,8 @@ private:
     static std::uint32_t last(glm::uvec2 at, float side, std::uint32_t n, std::uint32_t i) {
         return float(at.x + at.y + 1) < side ? n - 1 : n - 1 - i;
     }
+    /// Those that are read, within m_owner.
+    bool blocksLieWithin(const Mesh& mesh) const;
     void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);
 
     std::uint32_t m_frontCount = 0;

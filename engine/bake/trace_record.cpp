@@ -2,6 +2,7 @@
 #include "engine/bake/trace_record.h"
 
 #include "engine/bake/input_hash.h"
+#include "engine/bake/structure_rules.h"
 #include "engine/core/archive.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -30,8 +31,27 @@ std::uint64_t hashCache(const Caches& caches, const CachePoints& points, std::si
 
 template <class A, class R>
 void recordFields(A& a, R& r) {
-    a(r.rays), a(r.cachesPerBlock), a(r.clearance), a(r.instances), a(r.parted), a(r.caches),
-        a(r.blocks);
+    constexpr std::uint64_t kMostSurfels = 1 << 24; // of all instances
+    a("rays", r.rays, rule::within(1, 65536));
+    a("cachesPerBlock", r.cachesPerBlock, rule::within(1, 65536));
+    a("clearance", r.clearance, rule::finite);
+    a("instances", r.instances,
+      rule::holds("too many surfels",
+                  [](const auto& instances) {
+                      std::uint64_t sum = 0;
+                      for (const TracedInstance& i : instances)
+                          sum += i.surfelCount;
+                      return sum <= kMostSurfels;
+                  }),
+      rule::each("not placed",
+                 [](std::size_t, const TracedInstance& i) { return !rule::inReach()(i.toWorld); }));
+    a("parted", r.parted, rule::holds("of another length", [&r](const auto& parted) {
+          return parted.empty() || parted.size() == r.surfels();
+      }));
+    a("caches", r.caches, rule::any);
+    a("blocks", r.blocks, rule::holds("of another length", [&r](const auto& blocks) {
+          return blocks.size() == r.blockCount();
+      }));
 }
 
 } // namespace
@@ -99,9 +119,11 @@ std::string recordBytes(const TraceRecord& record) {
 bool readRecord(const std::string& bytes, TraceRecord& record) {
     ByteReader reader(bytes);
     recordFields(reader, record);
-    return reader.ok && reader.atEnd() && record.rays > 0 && record.cachesPerBlock > 0 &&
-           record.blocks.size() == record.blockCount() &&
-           (record.parted.empty() || record.parted.size() == record.surfels());
+    if (!reader.ok || !reader.atEnd())
+        return false;
+    FieldCheck check;
+    recordFields(check, std::as_const(record));
+    return check.defect.empty();
 }
 
 InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/bake/trace_stage.h"
 
+#include "engine/bake/cluster_tree.h"
 #include "engine/bake/grid_depth.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/trace_record.h"
 #include "engine/core/archive.h"
+#include "engine/core/field_rule.h"
 #include "engine/core/hash.h"
 #include "engine/core/memory_budget.h"
 #include "engine/core/parallel.h"
@@ -14,6 +16,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -40,6 +43,35 @@ std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
     for (const Instance& i : in.trace.scene().instances)
         h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
     return h;
+}
+
+/// A block's caches that differ from an earlier one's, and their hits.
+template <class A, class Root, class Patched, class Hits>
+void patchFields(A& a, Root& root, Patched& patched, Hits& hits, std::size_t caches,
+                 std::uint32_t rays) {
+    a("root", root, rule::any);
+    a("patched", patched, rule::below(caches));
+    a("hits", hits, rule::count(std::uint64_t(patched.size()) * rays));
+}
+
+/// Every cache aims from its own points, at senders that there are.
+bool areAims(const GatherHits& hits, const TraceInput& in) {
+    const std::uint64_t senders = in.set.surfels.size() + kSkyCells;
+    for (std::size_t c = 0; c < in.caches.size(); ++c)
+        for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
+            const AimedSample& s = hits.aimed[k];
+            if (s.sender >= senders || s.point < in.points.begin[c] ||
+                s.point >= in.points.begin[c + 1] || !(s.scale >= 0 && s.scale <= float(senders)))
+                return false;
+        }
+    return true;
+}
+
+template <class A, class H>
+void aimedFields(A& a, H& hits, const TraceInput& in) {
+    a("aimedBegin", hits.aimedBegin, rule::offsets(in.caches.size(), hits.aimed.size()));
+    a("aimed", hits.aimed,
+      rule::holds("out of range", [&](const auto&) { return areAims(hits, in); }));
 }
 
 /// 10585 as "10 585".
@@ -92,7 +124,8 @@ private:
     std::size_t last(std::uint32_t block) const {
         return std::min(first(block) + m_record.cachesPerBlock, in.caches.size());
     }
-    KeptBlock loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const;
+    KeptBlock loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
+                        std::uint32_t surfels) const;
     void loadDone();
     void loadBase();
     bool loadBaseHits();
@@ -121,27 +154,36 @@ private:
     TraceReport m_report;
 };
 
-KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches) const {
+/// What rays can have met where there are so many surfels.
+bool areHits(std::span<const RawHit> hits, std::uint32_t surfels) {
+    return std::ranges::all_of(hits, [surfels](RawHit hit) {
+        return hit == kUntraced || (hit & ~kBack) < (hit & kBack ? surfels : surfels + kSkyCells);
+    });
+}
+
+/// Hits of another trace, of as many surfels, to `out`.
+KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
+                             std::uint32_t surfels) const {
     const std::size_t bytesPerCache = in.rays * sizeof(RawHit);
     KeptBlock block{.known = false, .root = key, .patched = {}};
     std::optional<std::string> bytes = m_store->find(key);
     std::vector<RawHit> hits;
     if (bytes && bytes->size() != caches * bytesPerCache) { // a patch has fewer
         ByteReader reader(*bytes);
-        reader(block.root), reader(block.patched), reader(hits);
-        if (!reader.ok || !reader.atEnd() || hits.size() != block.patched.size() * in.rays)
+        patchFields(reader, block.root, block.patched, hits, caches, in.rays);
+        FieldCheck check;
+        if (reader.ok && reader.atEnd())
+            patchFields(check, block.root, block.patched, hits, caches, in.rays);
+        if (!reader.ok || !reader.atEnd() || !check.defect.empty())
             return block;
         bytes = m_store->find(block.root);
     }
     if (!bytes || bytes->size() != caches * bytesPerCache)
         return block;
     std::memcpy(out, bytes->data(), bytes->size());
-    for (std::size_t i = 0; i < block.patched.size(); ++i) {
-        if (block.patched[i] >= caches)
-            return block;
+    for (std::size_t i = 0; i < block.patched.size(); ++i)
         std::copy_n(&hits[i * in.rays], in.rays, out + block.patched[i] * std::size_t(in.rays));
-    }
-    block.known = true;
+    block.known = areHits({out, caches * in.rays}, surfels);
     return block;
 }
 
@@ -156,8 +198,9 @@ void Tracing::loadDone() {
     parallelRanges(m_done.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t from = first(std::uint32_t(b)), to = last(std::uint32_t(b));
-            m_done[b] =
-                loadBlock(m_record.blocks[b], &m_hits.sender[from * in.rays], to - from).known;
+            m_done[b] = loadBlock(m_record.blocks[b], &m_hits.sender[from * in.rays], to - from,
+                                  std::uint32_t(in.set.surfels.size()))
+                            .known;
         }
     });
 }
@@ -214,7 +257,8 @@ bool Tracing::loadBaseHits() {
             const std::size_t from = b * m_record.cachesPerBlock;
             const std::size_t to = std::min<std::size_t>(from + m_record.cachesPerBlock, caches);
             RawHit* out = (base.aligned ? m_hits.sender : base.hits).data() + from * in.rays;
-            base.blocks[b] = loadBlock(base.record.blocks[b], out, to - from);
+            base.blocks[b] =
+                loadBlock(base.record.blocks[b], out, to - from, base.record.surfels());
         }
     });
     return true;
@@ -321,7 +365,7 @@ void Tracing::keepBlock(std::uint32_t block) {
                               hits + std::size_t(c + 1) * in.rays);
             }
         ByteWriter writer;
-        writer(m_base->blocks[block].root), writer(which), writer(theirs);
+        patchFields(writer, m_base->blocks[block].root, which, theirs, caches, in.rays);
         m_store->put(m_record.blocks[block], writer.bytes);
         return;
     }
@@ -345,9 +389,12 @@ bool Tracing::finish() {
     if (aims && m_store)
         if (const std::optional<std::string> bytes = m_store->find(key)) {
             ByteReader reader(*bytes);
-            reader(m_hits.aimedBegin), reader(m_hits.aimed);
-            if (!reader.ok || m_hits.aimedBegin.size() != in.caches.size() + 1)
-                m_hits.aimedBegin.clear();
+            aimedFields(reader, m_hits, in);
+            FieldCheck check;
+            if (reader.ok && reader.atEnd())
+                aimedFields(check, std::as_const(m_hits), in);
+            if (!reader.ok || !reader.atEnd() || !check.defect.empty())
+                m_hits.aimedBegin.clear(), m_hits.aimed.clear();
         }
     m_report.gridDepth =
         gridDepths(in.set.surfels, in.caches, in.points, m_hits.sender, in.rays, in.gridReach);
@@ -358,7 +405,7 @@ bool Tracing::finish() {
     m_rays += aimed;
     if (aims && m_store && fresh) {
         ByteWriter writer;
-        writer(m_hits.aimedBegin), writer(m_hits.aimed);
+        aimedFields(writer, std::as_const(m_hits), in);
         m_store->put(key, writer.bytes);
     }
     return true;

@@ -10,8 +10,9 @@
 
 namespace limn {
 
-// One list of fields serves both directions: `template <class A, class T> void fields(A& a, T& t)`
-// writes with a ByteWriter and a const T, reads and checks with a ByteReader and a T.
+// One list of fields serves all directions: `template <class A, class T> void fields(A& a, T& t)`
+// calls a("name", t.field, rules...) for each. With a ByteWriter and a const T it writes, with a
+// ByteReader and a T it reads, with a FieldCheck it checks the rules.
 // Little-endian, as in memory: an array or string is a u64 count and its elements.
 
 /// Appends fields to `bytes`.
@@ -19,26 +20,30 @@ class ByteWriter {
 public:
     std::string bytes;
 
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(const T& value) {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    template <class T, class... Rules>
+    requires(sizeof...(Rules) > 0) void operator()(std::string_view, const T& field,
+                                                   const Rules&...) {
+        put(field);
     }
+    template <class T, class Rule, class F>
+    void each(std::string_view, const std::vector<T>& v, const Rule&, const F& fields) {
+        put(std::uint64_t(v.size()));
+        for (const T& element : v)
+            fields(element);
+    }
+
     template <class T>
     requires std::is_trivially_copyable_v<T>
-    void operator()(const std::vector<T>& v) {
-        (*this)(std::uint64_t(v.size()));
+    void put(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void put(const std::vector<T>& v) {
+        put(std::uint64_t(v.size()));
         bytes.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
     }
-    void operator()(const std::string& s) {
-        (*this)(std::uint64_t(s.size()));
+    void put(const std::string& s) {
+        put(std::uint64_t(s.size()));
         bytes += s;
-    }
-    template <class T, class F>
-    void each(const std::vector<T>& v, F field) {
-        (*this)(std::uint64_t(v.size()));
-        for (const T& element : v)
-            field(element);
     }
 };
 
@@ -50,28 +55,44 @@ public:
     bool ok = true;
     bool atEnd() const { return m_rest.empty(); }
 
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(T& value) { take(&value, sizeof value); }
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(std::vector<T>& v) {
-        v.resize(count(sizeof(T)));
-        take(v.data(), v.size() * sizeof(T));
+    template <class T, class... Rules>
+    requires(sizeof...(Rules) > 0) void operator()(std::string_view, T& field, const Rules&...) {
+        take(field);
     }
-    void operator()(std::string& s) {
-        s.resize(count(1));
-        take(s.data(), s.size());
-    }
-    template <class T, class F>
-    void each(std::vector<T>& v, F field) {
-        v.resize(count(1));
+    /// Applies the rule, too: `fields` may rely on the number of elements.
+    template <class T, class Rule, class F>
+    void each(std::string_view, std::vector<T>& v, const Rule& rule, const F& fields) {
+        v.resize(count(sizeof(std::uint64_t))); // of an array's length, the least there can be
+        if (rule(v)) {
+            ok = false;
+            v.clear();
+        }
         for (T& element : v)
-            field(element);
+            fields(element);
     }
 
 private:
-    void take(void* out, std::size_t size) {
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void take(T& value) { takeBytes(&value, sizeof value); }
+    /// Another byte than 0 or 1 would be no bool.
+    void take(bool& value) {
+        std::uint8_t byte = 0;
+        take(byte);
+        ok = ok && byte <= 1;
+        value = byte == 1;
+    }
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void take(std::vector<T>& v) {
+        v.resize(count(sizeof(T)));
+        takeBytes(v.data(), v.size() * sizeof(T));
+    }
+    void take(std::string& s) {
+        s.resize(count(1));
+        takeBytes(s.data(), s.size());
+    }
+    void takeBytes(void* out, std::size_t size) {
         if (size > m_rest.size()) {
             ok = false;
             m_rest = {};
@@ -84,7 +105,7 @@ private:
     /// A count of elements of at least `elementSize` bytes that the rest can hold.
     std::size_t count(std::size_t elementSize) {
         std::uint64_t n = 0;
-        take(&n, sizeof n);
+        take(n);
         if (n > m_rest.size() / elementSize) {
             ok = false;
             return 0;

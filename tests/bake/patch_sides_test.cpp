@@ -28,7 +28,7 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
     std::vector<float> side; // cells along a triangle's sides: of n, n (n + 1) / 2 meet it
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
         float cells = 0;
-        owners.of(0).forCellsOf(t, [&](std::uint32_t, glm::vec2) { ++cells; });
+        owners.of(0).forCellsOf(t, [&](std::uint32_t, glm::vec2, double) { ++cells; });
         side.push_back(std::floor(std::sqrt(2 * cells)));
     }
     for (int i = 0; i < 20000; ++i) {

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/bake_file.h"
 
+#include "engine/bake/bake_defect.h"
+#include "engine/bake/bake_fields.h"
+#include "engine/core/archive.h"
 #include "engine/relight/relight.h"
 #include "tests/bake/parted_hall.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -90,14 +96,16 @@ TEST_F(BakeFile, LoadsBackLinksInShStorage) {
         const Result<Bake> read = readBake(path);
         return read ? "nothing" : read.error().message;
     };
-    EXPECT_NE(refusal([](Bake& b) { b.caches.shNode[3] = 1U << 30; }).find("link out of range"),
+    EXPECT_NE(refusal([](Bake& b) {
+                  b.caches.shNode[3] = 1U << 30;
+              }).find("CACHES: shNode: out of range"),
               std::string::npos);
     for (const std::string& message :
          {refusal([](Bake& b) { b.caches.shCoefficients.pop_back(); }),
           refusal([](Bake& b) { b.settings.bands = 4; }),
           refusal([](Bake& b) { b.settings.storage = LinkStorage::Rtp; }),
           refusal([](Bake& b) { b.caches.linkExponent.pop_back(); })})
-        EXPECT_NE(message.find("links of another storage"), std::string::npos) << message;
+        EXPECT_NE(message.find("CACHES: "), std::string::npos) << message;
 }
 
 TEST_F(BakeFile, EveryTruncationIsAnErrorThatNamesTheFile) {
@@ -132,7 +140,7 @@ TEST_F(BakeFile, IndicesOutOfRangeAreRefusedEvenWithRightChecksums) {
     ASSERT_TRUE(writeBake(path, broken));
     const Result<Bake> refused = readBake(path);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("CACHES: link out of range"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("CACHES: links: node out of range"), std::string::npos);
     broken = baked;
     broken.surfels.cache[0].x = 1U << 30;
     ASSERT_TRUE(writeBake(path, broken));
@@ -195,24 +203,22 @@ TEST_F(BakeFile, SnapsOfLookupsLoadBackAndAreRefusedWhereTheyLeadNowhere) {
     using Snaps = std::vector<std::uint32_t>;
     const auto expectRefused = [&](const char* message, auto damage) {
         const std::string said = refusal(damage);
-        EXPECT_NE(said.find(std::string("LIGHTMAP: ") + message), std::string::npos) << said;
+        EXPECT_NE(said.find(std::string("LIGHTMAP: snaps: ") + message), std::string::npos) << said;
         EXPECT_NE(said.find(path), std::string::npos) << said;
     };
     EXPECT_EQ(refusal([&](Snaps& s) { s[0] = std::uint32_t(texels); }), "nothing");
     EXPECT_EQ(refusal([&](Snaps& s) { s[0] = std::uint32_t(s.size()) - kSnapCells; }), "nothing");
-    expectRefused("snaps out of range", [&](Snaps& s) { s[0] = std::uint32_t(texels) - 1; });
-    expectRefused("snaps out of range", [](Snaps& s) { s[0] = std::uint32_t(s.size()) - 7; });
-    expectRefused("snaps out of range", [](Snaps& s) { s[0] = ~0U; });
+    expectRefused("out of range", [&](Snaps& s) { s[0] = std::uint32_t(texels) - 1; });
+    expectRefused("out of range", [](Snaps& s) { s[0] = std::uint32_t(s.size()) - 7; });
+    expectRefused("out of range", [](Snaps& s) { s[0] = ~0U; });
     const auto block = [&](std::uint32_t fromRight, std::uint32_t fromBottom) {
         return kFineLookup | ((parted.lightmap.height - fromBottom) * parted.lightmap.width +
                               parted.lightmap.width - fromRight);
     };
     EXPECT_EQ(refusal([&](Snaps& s) { s[0] = block(kFineCells + 1, kFineCells + 1); }), "nothing");
-    expectRefused("snaps out of range",
-                  [&](Snaps& s) { s[0] = block(kFineCells, kFineCells + 1); });
-    expectRefused("snaps out of range",
-                  [&](Snaps& s) { s[0] = block(kFineCells + 1, kFineCells); });
-    expectRefused("snaps do not cover the texels", [&](Snaps& s) { s.resize(texels - 1); });
+    expectRefused("out of range", [&](Snaps& s) { s[0] = block(kFineCells, kFineCells + 1); });
+    expectRefused("out of range", [&](Snaps& s) { s[0] = block(kFineCells + 1, kFineCells); });
+    expectRefused("do not cover the texels", [&](Snaps& s) { s.resize(texels - 1); });
     expectRefused("unknown snap", [&](Snaps& s) { s[texels] = kSnaps; });
     expectRefused("unknown snap", [](Snaps& s) { s.back() = 0xf0000000; });
 }
@@ -233,6 +239,77 @@ TEST_F(BakeFile, SnapsOfFewerTexelsThanARowHasAreRefusedToo) {
     broken.lightmap.snaps[0] = std::uint32_t(texels);
     ASSERT_TRUE(writeBake(path, broken));
     EXPECT_FALSE(readBake(path)) << texels;
+}
+
+/// Every number of the light at the surfaces and in the air is finite.
+bool isFinite(const IndirectField& field) {
+    const auto finite = [](glm::vec4 v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    return std::ranges::all_of(field.lightmap, finite) && std::ranges::all_of(field.grid, finite);
+}
+
+// Eight bytes at a time, of every chunk: what is not refused can be lit.
+TEST_F(BakeFile, NoFieldLeadsRelightingAstray) {
+    scene.bake.rays = 16;
+    scene.bake.lightmapCaches = 40;
+    baked = *bake(TraceScene(scene));
+    std::size_t tried = 0, refused = 0;
+    forBakeChunks(nullptr, [&](const std::string& name, auto fields) {
+        ByteWriter whole;
+        fields(whole, std::as_const(baked));
+        for (const std::uint64_t value :
+             {std::uint64_t(0x7f7f7f7f7f7f7f7f), std::uint64_t(0), std::uint64_t(0x100000001)})
+            for (std::size_t k = 0; k < 60; ++k) {
+                const std::size_t at = (whole.bytes.size() - 8) * k / 60 / 4 * 4;
+                std::string bytes = whole.bytes;
+                std::memcpy(bytes.data() + at, &value, 8);
+                Bake broken = baked;
+                ByteReader reader(bytes);
+                fields(reader, broken);
+                ++tried;
+                if (!reader.ok || !reader.atEnd() || !bakeDefect(broken, &scene).empty()) {
+                    ++refused;
+                    continue;
+                }
+                Relighter relighter(std::make_shared<const Bake>(broken));
+                relighter.relight(scene, trace, 3);
+                EXPECT_TRUE(isFinite(relighter.field())) << name << " at " << at << ": " << value;
+            }
+    });
+    EXPECT_GT(refused, tried / 4);
+}
+
+TEST_F(BakeFile, OnlyItsSceneTellsWhetherIndicesAreThoseOfAScene) {
+    const auto defectOf = [&](auto damage) {
+        Bake broken = baked;
+        damage(broken);
+        EXPECT_EQ(bakeDefect(broken, nullptr), "");
+        return bakeDefect(broken, &scene);
+    };
+    EXPECT_EQ(defectOf([](Bake&) {}), "");
+    EXPECT_EQ(defectOf([](Bake& b) { b.surfels.triangle[3] = 1000; }),
+              "SURFELS: triangle: out of range");
+    EXPECT_EQ(defectOf([](Bake& b) { b.lightmap.meshes[0].sourceVertex[0] = 1000; }),
+              "LIGHTMAP: sourceVertex: out of range");
+    EXPECT_EQ(defectOf([](Bake& b) { b.lightmap.instances.emplace_back(); }),
+              "LIGHTMAP: instances: not those of the scene");
+    EXPECT_EQ(defectOf([](Bake& b) { b.lightmap.instances[0].uv.pop_back(); }),
+              "LIGHTMAP: uv: of another length");
+}
+
+// Also where a chunk only claims to be a terabyte.
+TEST_F(BakeFile, WhatWouldNeedMoreMemoryThanAllowedIsRefused) {
+    ASSERT_TRUE(writeBake(path, baked));
+    const Result<Bake> refused = readBake(path, {.most = 1000});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("--memory"), std::string::npos)
+        << refused.error().message;
+    std::string bomb = contents();
+    const std::uint64_t terabyte = std::uint64_t(1) << 40;
+    std::memcpy(bomb.data() + 24, &terabyte, 8); // the first chunk's size unpacked
+    overwrite(bomb);
+    EXPECT_NE(readBake(path).error().message.find("--memory"), std::string::npos);
 }
 
 TEST_F(BakeFile, ANewerVersionSaysSo) {

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+// What values a field of an archive may have. A rule is called with the field and returns what is
+// wrong with it, or nullptr. Rules may look at other fields of what is checked: fields are checked
+// in the order in which they are listed, and none after the first that is wrong.
+
+/// Whether predicate(x) holds for every number in a number, an enum, a vector or matrix of glm, or
+/// an array of those.
+template <class T, class Predicate>
+bool allNumbers(const T& value, const Predicate& predicate) {
+    if constexpr (std::is_enum_v<T>) {
+        return predicate(std::underlying_type_t<T>(value));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        return predicate(value);
+    } else if constexpr (requires { value.begin(); }) {
+        for (const auto& element : value)
+            if (!allNumbers(element, predicate))
+                return false;
+        return true;
+    } else {
+        for (int i = 0; i < T::length(); ++i)
+            if (!allNumbers(value[i], predicate))
+                return false;
+        return true;
+    }
+}
+
+namespace rule {
+
+/// Every value will do.
+inline constexpr auto any = [](const auto&) -> const char* { return nullptr; };
+
+/// `words` where test(field) is false.
+template <class Test>
+auto holds(const char* words, Test test) {
+    return
+        [words, test](const auto& field) -> const char* { return test(field) ? nullptr : words; };
+}
+
+/// `words` where test(index, element) is false for an element.
+template <class Test>
+auto each(const char* words, Test test) {
+    return holds(words, [test](const auto& field) {
+        for (std::size_t i = 0; i < field.size(); ++i)
+            if (!test(i, field[i]))
+                return false;
+        return true;
+    });
+}
+
+/// The number of elements.
+inline auto count(std::uint64_t n) {
+    return holds("of another length", [n](const auto& field) { return field.size() == n; });
+}
+/// The number of elements where there are any.
+inline auto noneOr(std::uint64_t n) {
+    return holds("of another length",
+                 [n](const auto& field) { return field.empty() || field.size() == n; });
+}
+
+/// Every number < end: indices, enums.
+inline auto below(std::uint64_t end) {
+    return holds("out of range", [end](const auto& field) {
+        return allNumbers(field, [end](auto x) { return std::uint64_t(x) < end; });
+    });
+}
+/// Every number < end, or `mark`.
+inline auto belowOr(std::uint64_t end, std::uint32_t mark) {
+    return holds("out of range", [end, mark](const auto& field) {
+        return allNumbers(field, [=](std::uint32_t x) { return x < end || x == mark; });
+    });
+}
+/// Every number in [low, high]; NaN is not.
+inline auto within(double low, double high) {
+    return holds("out of range, or not a number", [low, high](const auto& field) {
+        return allNumbers(field, [=](auto x) { return double(x) >= low && double(x) <= high; });
+    });
+}
+/// Every number is finite.
+inline constexpr auto finite = [](const auto& field) -> const char* {
+    return allNumbers(field, [](auto x) { return std::isfinite(x); }) ? nullptr : "not a number";
+};
+
+/// n + 1 offsets that do not run backwards, from 0 to `end`.
+inline auto offsets(std::uint64_t n, std::uint64_t end) {
+    return holds("offsets that do not cover what they should", [n, end](const auto& field) {
+        if (field.size() != n + 1 || field.front() != 0 || field.back() != end)
+            return false;
+        for (std::size_t i = 0; i < n; ++i)
+            if (field[i] > field[i + 1])
+                return false;
+        return true;
+    });
+}
+
+} // namespace rule
+
+/// The archive that checks what another one has read: the same list of fields, whose rules it
+/// applies. A field cannot be listed without a rule.
+class FieldCheck {
+public:
+    std::string defect; ///< of the first field that breaks a rule, "surfels: out of range"
+
+    template <class T, class... Rules>
+    requires(sizeof...(Rules) > 0) void operator()(std::string_view name, const T& field,
+                                                   const Rules&... rules) {
+        const char* wrong = defect.empty() ? nullptr : "";
+        ((wrong = wrong ? wrong : rules(field)), ...);
+        if (wrong && defect.empty())
+            defect = fmt::format("{}: {}", name, wrong);
+    }
+    template <class T, class Rule, class F>
+    void each(std::string_view name, const std::vector<T>& v, const Rule& rule, const F& fields) {
+        (*this)(name, v, rule);
+        for (const T& element : v) {
+            if (!defect.empty())
+                return;
+            fields(element);
+        }
+    }
+};
+
+} // namespace limn
