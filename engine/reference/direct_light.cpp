@@ -48,19 +48,21 @@ bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample&
     return trace.occluded(ray);
 }
 
-// One point of the rectangle, as if it were all of it.
+// One point of the rectangle, even in solid angle, as if it were all of it.
 DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
                              glm::vec2 uv) {
     const LightRectangle rectangle = lightRectangle(light);
-    const glm::vec3 onLight = rectangle.at(uv);
+    const SphericalRectangle sphere(rectangle, p.position);
+    const glm::vec3 onLight = sphere.at(uv);
     const glm::vec3 way = onLight - p.position;
-    if (!(glm::dot(p.geometricNormal, way) > 0))
+    if (!(glm::dot(p.geometricNormal, way) > 0) || !(glm::dot(rectangle.normal, way) < 0))
         return {};
-    const float share = rectangle.area * pointIrradiance(rectangle, onLight, p.position, p.normal);
+    const glm::vec3 toLight = glm::normalize(way);
+    const float share = float(sphere.solidAngle()) * glm::dot(p.normal, toLight);
     if (!(share > 0) ||
         trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal)))
         return {};
-    return {light.color * light.strength * share, glm::normalize(way)};
+    return {light.color * light.strength * share, toLight};
 }
 
 float strength(glm::vec3 e) {

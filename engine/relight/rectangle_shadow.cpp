@@ -13,11 +13,16 @@ float shadowedIrradiance(const TraceScene& trace, const LightRectangle& rectangl
     if (!(whole > 0))
         return 0;
     const glm::vec3 origin = trace.clearOf(p, n);
+    constexpr float kInset = 1e-3f;
+    const SphericalRectangle sphere(rectangle, p);
     double sum = 0, seen = 0;
     for (std::uint32_t i = 0; i < points; ++i) {
         const glm::vec2 hammersley((float(i) + 0.5f) / float(points), radicalInverse(i, 2));
-        const glm::vec3 onLight = rectangle.at(glm::fract(hammersley + shift));
-        const double share = double(pointIrradiance(rectangle, onLight, p, n));
+        // Not on the edge: walls that the light ends at would hide it.
+        const glm::vec2 uv =
+            glm::mix(glm::vec2(kInset), glm::vec2(1 - kInset), glm::fract(hammersley + shift));
+        const glm::vec3 onLight = sphere.at(uv);
+        const double share = double(glm::dot(glm::normalize(onLight - p), n));
         if (!(share > 0))
             continue;
         ++rays;

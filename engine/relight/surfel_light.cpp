@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/relight/rectangle_shadow.h"
+#include "engine/scene/light_parts.h"
 
 #include <algorithm>
 #include <atomic>
@@ -36,13 +37,26 @@ std::uint64_t hashOccluders(const Scene& scene) {
     return h;
 }
 
+/// What a light shines from; nothing: a point.
+std::vector<LightRectangle> rectanglesOf(const Light& light, const Scene& scene) {
+    if (light.kind != LightKind::Rectangle)
+        return {};
+    std::vector<LightRectangle> parts;
+    for (const Light& part : partsBetweenWalls(light, scene))
+        parts.push_back(lightRectangle(part));
+    return parts;
+}
+
 // Neighbours shift the points on the rectangle differently, so that what is left of their pattern
 // averages out over a cluster.
-float rectangleShare(const TraceScene& trace, const LightRectangle& rectangle, glm::vec3 p,
-                     glm::vec3 n, std::uint32_t surfel, std::uint64_t& rays) {
+float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>& rectangles,
+                     glm::vec3 p, glm::vec3 n, std::uint32_t surfel, std::uint64_t& rays) {
     const std::uint32_t bits = mixBits(surfel);
-    return shadowedIrradiance(trace, rectangle, p, n, SurfelLight::kRectanglePoints,
-                              {unitFloat(bits), unitFloat(mixBits(bits))}, rays);
+    const glm::vec2 shift(unitFloat(bits), unitFloat(mixBits(bits)));
+    float sum = 0;
+    for (const LightRectangle& r : rectangles)
+        sum += shadowedIrradiance(trace, r, p, n, SurfelLight::kRectanglePoints, shift, rays);
+    return sum;
 }
 
 float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::vec3 n,
@@ -59,17 +73,16 @@ float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::
 // Returns the shadow rays traced.
 std::uint64_t traceLight(const Surfels& surfels, const TraceScene& trace,
                          SurfelLight::PerLight& out) {
-    const bool isRectangle = out.light.kind == LightKind::Rectangle;
-    const LightRectangle rectangle = isRectangle ? lightRectangle(out.light) : LightRectangle{};
+    const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
     out.share.resize(surfels.size());
     std::atomic<std::uint64_t> rays = 0;
     parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::uint64_t mine = 0;
         for (std::size_t s = begin; s < end; ++s) {
             const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
-            out.share[s] = isRectangle
-                               ? rectangleShare(trace, rectangle, p, n, std::uint32_t(s), mine)
-                               : pointShare(trace, out.light, p, n, mine);
+            out.share[s] = rectangles.empty()
+                               ? pointShare(trace, out.light, p, n, mine)
+                               : rectangleShare(trace, rectangles, p, n, std::uint32_t(s), mine);
         }
         rays += mine;
     });

@@ -11,6 +11,7 @@
 #include "engine/render/indirect_pass.h"
 #include "engine/render/light_table.h"
 #include "engine/render/overlay_pass.h"
+#include "engine/render/parted_lights.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/sky_pass.h"
 #include "engine/render/surface_images.h"
@@ -142,8 +143,9 @@ struct Viewport::Impl {
     ShadowMaps shadows;
     IndirectLight indirect;
     RenderScene scene;
-    std::vector<Light> lights; ///< those that shine on anything
-    LightTable relightTable;   ///< of the last shadowedLights()
+    PartedLights parted;
+    const std::vector<Light>& lights = parted.lights; ///< those that shine on anything
+    LightTable relightTable;                          ///< of the last shadowedLights()
     std::vector<Light> relightLights;
     std::uint64_t relightScene = 0, relightDrawings = 0, relightVersion = 0;
     gpu::Timestamps relightTimes; ///< of the shadow maps for them
@@ -389,10 +391,8 @@ void Viewport::setScene(const Scene& scene, std::shared_ptr<const LightmapLayout
 void Viewport::setLighting(const Scene& scene) {
     m_impl->maskVersion += m_impl->materials.update(scene);
     m_impl->sky.set(scene.sky);
-    m_impl->lights.clear();
-    for (const Light& light : scene.lights)
-        if (shines(light) && reaches(light, scene.bounds))
-            m_impl->lights.push_back(light);
+    m_impl->parted.set(scene, m_impl->scene.version + m_impl->maskVersion);
+    m_impl->stats.lightsOff = m_impl->parted.lightsOff;
 }
 
 void Viewport::setIndirect(const IndirectField& field) {

@@ -43,6 +43,7 @@ struct ViewportStats {
     std::uint64_t geometryDrawn = 0;
     double relightShadowMs = 0;          ///< shadow maps of the last shadowedLights() that is done
     std::uint32_t relightShadowMaps = 0; ///< drawn by the last shadowedLights()
+    std::uint32_t lightsOff = 0;         ///< off, black or out of reach of the scene
     std::uint32_t lightsLeftOut = 0;     ///< dark, for lack of room for their shadow maps
     std::uint64_t gpuBytes = 0;
 };

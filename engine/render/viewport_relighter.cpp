@@ -45,7 +45,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     stats.directMs += g.uploadMs + drawn.relightShadowMs;
     stats.bandsLit = bands;
     stats.bandsSkipped = std::uint32_t(most) - bands;
-    stats.lightsOff = std::uint32_t(scene.lights.size()) - lights.count - drawn.lightsLeftOut;
+    stats.lightsOff = drawn.lightsOff;
     const std::chrono::duration<double, std::milli> total =
         std::chrono::steady_clock::now() - start;
     stats.totalMs = total.count();

@@ -79,6 +79,51 @@ float rectangleIrradiance(const LightRectangle& r, glm::vec3 p, glm::vec3 n) {
     return float(std::clamp(std::abs(sum) / 2, 0.0, std::numbers::pi));
 }
 
+SphericalRectangle::SphericalRectangle(const LightRectangle& r, glm::vec3 from)
+    : m_rectangle(r), m_from(from) {
+    const glm::dvec3 way = glm::dvec3(r.centre) - m_from, u(r.halfWidth), v(r.halfHeight);
+    const double halfWidth = glm::length(u), halfHeight = glm::length(v);
+    m_x = u / halfWidth;
+    m_y = v / halfHeight;
+    m_z = glm::cross(m_x, m_y);
+    if (glm::dot(way, m_z) < 0)
+        m_z = -m_z;
+    const double x = glm::dot(way, m_x), y = glm::dot(way, m_y);
+    m_x0 = x - halfWidth;
+    m_x1 = x + halfWidth;
+    m_y0 = y - halfHeight;
+    m_y1 = y + halfHeight;
+    m_depth = glm::dot(way, m_z);
+    // The z of the normals of the planes through `from` and the edges y0, x1, y1, x0.
+    const auto steepness = [this](double at) { return at / std::hypot(at, m_depth); };
+    const double n0 = -steepness(m_y0), n1 = steepness(m_x1), n2 = steepness(m_y1),
+                 n3 = -steepness(m_x0);
+    const auto angle = [](double a, double b) { return std::acos(std::clamp(-a * b, -1.0, 1.0)); };
+    const double g2 = angle(n2, n3), g3 = angle(n3, n0);
+    m_solidAngle = angle(n0, n1) + angle(n1, n2) + g2 + g3 - 2 * std::numbers::pi;
+    m_b0 = n0;
+    m_b1 = n2;
+    m_k = 2 * std::numbers::pi - g2 - g3;
+    constexpr double kSmall = 1e-6; // the angles' sum is exact to 1e-15
+    m_small = !(m_solidAngle > kSmall && m_depth > 0);
+    if (m_small)
+        m_solidAngle = double(r.area) * m_depth / std::pow(std::max(glm::length(way), 1e-30), 3);
+}
+
+glm::vec3 SphericalRectangle::at(glm::vec2 uv) const {
+    if (m_small)
+        return m_rectangle.at(uv);
+    const double au = double(uv.x) * m_solidAngle + m_k;
+    const double fu = (std::cos(au) * m_b0 - m_b1) / std::sin(au);
+    const double cu = std::clamp(std::copysign(1 / std::hypot(fu, m_b0), fu), -1.0, 1.0);
+    const double x = std::clamp(cu * m_depth / std::sqrt(std::max(1 - cu * cu, 1e-30)), m_x0, m_x1);
+    const double d = std::hypot(x, m_depth);
+    const double h0 = m_y0 / std::hypot(d, m_y0), h1 = m_y1 / std::hypot(d, m_y1);
+    const double h = h0 + double(uv.y) * (h1 - h0), h2 = h * h;
+    const double y = h2 < 1 - 1e-12 ? h * d / std::sqrt(1 - h2) : m_y1;
+    return glm::vec3(m_from + x * m_x + std::clamp(y, m_y0, m_y1) * m_y + m_depth * m_z);
+}
+
 float pointIrradiance(const LightRectangle& r, glm::vec3 onLight, glm::vec3 p, glm::vec3 n) {
     const glm::dvec3 way = glm::dvec3(onLight) - glm::dvec3(p);
     const double d2 = glm::dot(way, way);

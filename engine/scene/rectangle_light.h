@@ -34,4 +34,28 @@ float rectangleIrradiance(const LightRectangle& rectangle, glm::vec3 p, glm::vec
 /// where either side does not face the other.
 float pointIrradiance(const LightRectangle& rectangle, glm::vec3 onLight, glm::vec3 p, glm::vec3 n);
 
+/// A rectangle as seen from a point: places on it that are even in solid angle. Of one that is much
+/// larger than its distance, or than the room that the point is in, even places on its area would
+/// nearly all lie where they bring nothing.
+/// Ureña, Fajardo, King. An Area-Preserving Parametrization for Spherical Rectangles. 2013
+class SphericalRectangle {
+public:
+    SphericalRectangle(const LightRectangle& rectangle, glm::vec3 from);
+
+    double solidAngle() const { return m_solidAngle; } ///< [sr], > 0, of either side
+
+    /// For `uv` in [0, 1]^2.
+    glm::vec3 at(glm::vec2 uv) const;
+
+private:
+    LightRectangle m_rectangle;
+    glm::dvec3 m_from;
+    glm::dvec3 m_x, m_y, m_z;      ///< unit, along the edges and towards the rectangle's plane
+    double m_x0, m_x1, m_y0, m_y1; ///< of the edges, in that frame about `from` [m]
+    double m_depth;                ///< of the plane, > 0 [m]
+    double m_b0, m_b1, m_k;        ///< as the paper names them
+    double m_solidAngle;
+    bool m_small; ///< so small that rounding would show: even in area then, which is the same
+};
+
 } // namespace limn

@@ -123,5 +123,51 @@ TEST(RectangleShadow, ALampOnACeilingIsNotInItsShadow) {
                   rectangleIrradiance(rectangle, {x, 0, 1}, {0, 1, 0}));
 }
 
+// Every point of the floor sees all of the light that lies in the room, and nothing of the rest.
+TEST(RectangleShadow, OfALightThatReachesThroughWallsIsThatOfItsPartInTheRoom) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::box({-2, 0, -2.5f}, {2, 3, 2.5f}, true));
+    const Scene scene = b.build();
+    const TraceScene trace(scene);
+    Surfels floor;
+    for (float x = -1.9f; x < 2; x += 0.2f)
+        for (float z = -2.4f; z < 2.5f; z += 0.2f) {
+            floor.position.push_back({x, 0, z});
+            floor.normal.push_back({0, 1, 0});
+        }
+    floor.area.assign(floor.position.size(), 1);
+    Light inRoom = panel();
+    inRoom.position.y = 2.6f;
+    inRoom.size = {4, 5};
+    for (const float size : {8.f, 12.f, 20.f, 50.f, 100.f}) {
+        Light light = inRoom;
+        light.position += glm::vec3(0.5f, 0, -0.2f);
+        light.size = glm::vec2(size);
+        Scene lit = scene;
+        lit.lights = {light};
+        SurfelLight state;
+        updateSurfelLight(floor, lit, trace, state);
+        for (std::size_t i = 0; i < floor.size(); ++i) {
+            const double truth = double(
+                rectangleIrradiance(lightRectangle(inRoom), floor.position[i], floor.normal[i]));
+            EXPECT_NEAR(double(state.irradiance[i].x), truth * double(light.strength),
+                        1e-3 * truth * double(light.strength))
+                << size;
+        }
+        // Points even in solid angle have no bias, though most of them are in shadow.
+        double sum = 0, expected = 0;
+        std::uint64_t rays = 0;
+        for (std::size_t i = 0; i < floor.size(); ++i) {
+            const glm::vec2 shift(float(i * 7 % 16) / 16, float(i * 11 % 16) / 16);
+            sum += double(shadowedIrradiance(trace, lightRectangle(light), floor.position[i],
+                                             floor.normal[i], 64, shift, rays));
+            expected += double(
+                rectangleIrradiance(lightRectangle(inRoom), floor.position[i], floor.normal[i]));
+        }
+        EXPECT_NEAR(sum / expected, 1, 0.01) << size;
+    }
+}
+
 } // namespace
 } // namespace limn

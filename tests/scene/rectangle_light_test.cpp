@@ -167,5 +167,44 @@ TEST(RectangleLight, AtContactEdgeOnTinyOrHugeItIsANumberInRange) {
                 1e-3);
 }
 
+TEST(SphericalRectangle, PlacesAreEvenInSolidAngle) {
+    Random random;
+    for (int k = 0; k < 200; ++k) {
+        Light light =
+            panel(std::exp2(12 * random.unit() - 6), std::exp2(12 * random.unit() - 6), 1);
+        light.direction = random.direction();
+        light.position = (0.1f + 3 * random.unit()) * random.direction();
+        if (glm::dot(light.position, light.direction) > 0) // it would shine the other way
+            light.position = -light.position;
+        const LightRectangle r = lightRectangle(light);
+        const glm::vec3 n = glm::normalize(r.centre);
+        const SphericalRectangle sphere(r, glm::vec3(0));
+        // The mean cosine over the solid angle is Lambert's irradiance; n² of them sum it to 1/n².
+        constexpr int kSide = 128;
+        double sum = 0;
+        for (int j = 0; j < kSide; ++j)
+            for (int i = 0; i < kSide; ++i) {
+                const glm::vec3 at =
+                    sphere.at((glm::vec2(float(i), float(j)) + 0.5f) / float(kSide));
+                EXPECT_LE(std::abs(glm::dot(at - r.centre, r.normal)), 1e-4f * glm::length(at));
+                sum += std::max(double(glm::dot(glm::normalize(at), n)), 0.);
+            }
+        const double expected = double(rectangleIrradiance(r, glm::vec3(0), n));
+        EXPECT_NEAR(sum / (kSide * kSide) * sphere.solidAngle(), expected, 2e-3 * expected) << k;
+    }
+}
+
+TEST(SphericalRectangle, FromFarAwayItIsItsAreaOverTheSquaredDistance) {
+    for (const float distance : {1e3f, 1e4f, 1e6f}) {
+        const LightRectangle r = lightRectangle(panel(2, 1, distance));
+        const SphericalRectangle sphere(r, glm::vec3(0));
+        const double expected = 2 / (double(distance) * distance);
+        EXPECT_NEAR(sphere.solidAngle(), expected, 1e-4 * expected);
+        EXPECT_LT(glm::length(sphere.at({0, 0}) - r.at({0, 0})), 2.1f);
+        for (const glm::vec2 uv : {glm::vec2(0), glm::vec2(0.3f, 0.9f), glm::vec2(1)})
+            EXPECT_LE(std::abs(sphere.at(uv).x), 1.0001f);
+    }
+}
+
 } // namespace
 } // namespace limn
