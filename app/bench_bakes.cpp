@@ -13,9 +13,10 @@
 
 namespace limn {
 
-void addBenchBakes(CLI::App& command, BenchBakes& o) {
-    command.add_option("scenes", o.scenes, ".gltf, .glb or .limn files, or names of projects")
-        ->required();
+CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& o) {
+    CLI::Option* scenes =
+        command.add_option("scenes", o.scenes, ".gltf, .glb or .limn files, or names of projects");
+    scenes->required();
     addLightOptions(command, o.common);
     addList(command, "--surfels", o.surfels, "n_S, a list", CLI::Range(64, 1 << 20));
     addList(command, "--links", o.links, "n_L, a list", CLI::Range(1, 4096));
@@ -26,6 +27,7 @@ void addBenchBakes(CLI::App& command, BenchBakes& o) {
     command.add_option("--rays", o.rays, "of a cache")->check(CLI::Range(16, 65536));
     command.add_option("--lightmap", o.lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));
     command.add_option("--threads", o.threads, "0: all")->check(CLI::Range(0, 1024));
+    return scenes;
 }
 
 static std::vector<BakeSettings> sweep(const BenchBakes& o) {

@@ -22,7 +22,8 @@ struct BenchBakes {
     std::uint32_t rays = 1024, lightmap = 10000;
     int threads = 0; ///< 0: all
 };
-void addBenchBakes(CLI::App& command, BenchBakes& options);
+/// Returns the option of the scenes, which is required.
+CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& options);
 
 struct BenchBake {
     std::string name; ///< of the scene: its file's, without the ending

@@ -81,9 +81,9 @@ void addBenchCommand(CLI::App& app, Run& run) {
     addGlossyBench(*bench, run);
     addLinksBench(*bench, run);
     addRelightBench(*bench, run);
+    addStressBench(*bench, run);
 #ifdef LIMN_HAS_VIEWPORT
     addFrameBench(*bench, run);
-    addStressBench(*bench, run);
 #endif
 }
 

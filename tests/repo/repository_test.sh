@@ -18,7 +18,7 @@ code='\.(cpp|h|glsl|vert|frag|comp)$'
 
 # Rooms from the bottom up: a room includes itself and the rooms before it.
 rooms='engine/core engine/math engine/scene engine/gallery engine/trace engine/bake engine/overlay engine/relight engine/reference
-       engine/files engine/measure engine/gpu engine/relight_gpu engine/render editor_ui app'
+       engine/files engine/measure engine/stress engine/gpu engine/relight_gpu engine/render editor_ui app'
 
 layers_point_downward() {
     files "^(engine|editor_ui|app)/.*$cpp" | xargs awk -v rooms="$rooms" '
@@ -46,7 +46,7 @@ engine_knows_no_window() {
     includes_none '^(engine|projects)/' '(imgui|GLFW|editor_ui|app/)'
 }
 light_knows_no_vulkan() {
-    includes_none '^engine/(core|math|scene|gallery|trace|bake|overlay|relight|reference|files|measure)/' \
+    includes_none '^engine/(core|math|scene|gallery|trace|bake|overlay|relight|reference|files|measure|stress)/' \
         '(vulkan|volk|engine/(gpu|render|relight_gpu))'
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+
+#include <glm/mat3x3.hpp>
+
+namespace limn {
+
+/// The same scene `s` times as large and as bright: what lamps send grows with s^2.
+Scene scaledScene(Scene scene, float s);
+
+Scene movedScene(Scene scene, glm::vec3 by);
+
+/// Turned about the origin. The sky stays.
+Scene turnedScene(Scene scene, const glm::mat3& rotation);
+
+/// The triangles of each mesh in another order.
+Scene withTrianglesShuffled(Scene scene, std::uint64_t seed);
+
+/// The instances in another order.
+Scene withObjectsShuffled(Scene scene, std::uint64_t seed);
+
+/// Whether the sky is the same in every direction.
+bool isEven(const Sky& sky);
+
+} // namespace limn
