@@ -2,6 +2,9 @@
 #include "app/bench_oracles.h"
 
 #include "app/number_range.h"
+#ifdef LIMN_HAS_VIEWPORT
+#include "app/device_oracle.h"
+#endif
 #include "engine/core/log.h"
 #include "engine/stress/case_file.h"
 #include "engine/stress/minimise.h"
@@ -116,9 +119,12 @@ Result<void> keepFailing(const OracleBench& o, const StressCase& stressCase,
     return {};
 }
 
-std::vector<Oracle> oraclesOf(const OracleBench& o) {
-    (void)o;
-    return engineOracles();
+std::vector<Oracle> oraclesOf([[maybe_unused]] const OracleBench& o) {
+    std::vector<Oracle> oracles = engineOracles();
+#ifdef LIMN_HAS_VIEWPORT
+    oracles.push_back(deviceOracle(o.device, o.deviceShare));
+#endif
+    return oracles;
 }
 
 Exit runCaseFile(const OracleBench& o) {

@@ -13,38 +13,47 @@ namespace limn {
 
 namespace {
 
-/// Mean radiosity over the area, per colour, and the variance of that mean as if surfels were drawn
-/// at random.
+/// Mean radiosity over the area, per colour, of light that is reflected at most twice, and its
+/// variance as if surfels and texels were drawn at random.
 struct MeanLight {
     glm::dvec3 mean{0}, variance{0};
 };
 
-MeanLight meanLight(const LitScene& s) {
+/// Two reflections and no more: in a closed white room each passes on nearly all, so that all of
+/// them together would be a hundred times as noisy.
+MeanLight meanLight(const LitScene& s, const Progress& progress) {
+    const Surfels& surfels = s.bake->surfels;
+    const auto once = lightOf(s.bake, s.scene, *s.trace, 1, progress).radiosity;
+    const auto twice = lightOf(s.bake, s.scene, *s.trace, 2, progress).radiosity;
     MeanLight out;
     double area = 0;
-    for (std::size_t i = 0; i < s.bake->surfels.size(); ++i) {
-        const double a = double(s.bake->surfels.area[i]);
-        out.mean += a * glm::dvec3(glm::vec3(s.light.radiosity[i]));
+    glm::dvec3 bounced(0);
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+        const double a = double(surfels.area[i]);
+        out.mean += a * glm::dvec3(glm::vec3(twice[i]));
+        bounced += a * glm::dvec3(glm::vec3(twice[i]) - glm::vec3(once[i]));
         area += a;
     }
     out.mean /= area;
-    for (std::size_t i = 0; i < s.bake->surfels.size(); ++i) {
-        const double share = double(s.bake->surfels.area[i]) / area;
-        const glm::dvec3 d = share * (glm::dvec3(glm::vec3(s.light.radiosity[i])) - out.mean);
+    bounced /= area;
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+        const double share = double(surfels.area[i]) / area;
+        const glm::dvec3 d = share * (glm::dvec3(glm::vec3(twice[i])) - out.mean);
         out.variance += d * d;
     }
+    // Bounced light is that of few texels.
+    out.variance += bounced * bounced / double(std::max(s.bake->caches.lightmapCount, 1U));
     return out;
 }
 
-/// How far the mean light of two bakes of one scene is apart, in standard deviations of what other
-/// places of surfels change. Bounces bring the light of few texels, drawn anew as well, with at
-/// least a hundredth of it as noise.
-double deviations(const LitScene& a, const LitScene& b) {
-    const MeanLight x = meanLight(a), y = meanLight(b);
+/// How far the mean light of two bakes of one scene is apart, in standard deviations; a thousandth
+/// of it is rounding's.
+double deviations(const LitScene& a, const LitScene& b, const Progress& progress) {
+    const MeanLight x = meanLight(a, progress), y = meanLight(b, progress);
     double most = 0;
     for (int c = 0; c < 3; ++c) {
-        const double floor = 0.01 * (x.mean[c] + y.mean[c]) + 1e-30;
-        const double sigma = std::sqrt(x.variance[c] + y.variance[c] + floor * floor);
+        const double rounding = 1e-3 * (x.mean[c] + y.mean[c]) + 1e-30;
+        const double sigma = std::sqrt(x.variance[c] + y.variance[c] + rounding * rounding);
         most = std::max(most, std::abs(x.mean[c] - y.mean[c]) / sigma);
     }
     return most;
@@ -52,9 +61,9 @@ double deviations(const LitScene& a, const LitScene& b) {
 
 /// Surfels and rays are drawn otherwise in the changed scene, so that only means can be compared:
 /// six standard deviations are a chance of 1 in 10^9.
-Judgement judgeAlike(const Subject& subject, const Scene& changed) {
+Judgement judgeAlike(const Subject& subject, const Scene& changed, double limit = 6) {
     const Result<LitScene> other = bakeAndLight(changed, subject.progress);
-    return other ? judged(deviations(subject.base, *other), 6) : broken();
+    return other ? judged(deviations(subject.base, *other, subject.progress), limit) : broken();
 }
 
 /// How many of its sizes a scene lies away from the origin.
@@ -98,6 +107,7 @@ Judgement judgeScale(const Subject& subject) {
 /// Not from or to where 24 bits of a coordinate no longer tell the parts of a scene apart.
 constexpr double kMostSizesAway = 100;
 
+/// All draws are the same here: only what rounding takes to the other side of an edge differs.
 Judgement judgeTranslation(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     if (sizesAway(scene) > kMostSizesAway)
@@ -105,7 +115,7 @@ Judgement judgeTranslation(const Subject& subject) {
     RandomStream random(subject.seed + 2);
     const glm::dvec3 by(random.between(-8, 8), random.between(-8, 8), random.between(-8, 8));
     const double size = double(glm::length(scene.bounds.size()));
-    return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)));
+    return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)), 2);
 }
 
 /// x to y to z: no coordinate is rounded.

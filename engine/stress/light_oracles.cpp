@@ -2,11 +2,14 @@
 #include "engine/math/sampling.h"
 #include "engine/relight/surfel_light.h"
 #include "engine/relight/surfel_material.h"
+#include "engine/scene/triangle_geometry.h"
 #include "engine/stress/oracle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -87,49 +90,96 @@ FirstLight firstLight(const LitScene& s) {
     return out;
 }
 
+/// Of all surfels and colours [W].
+struct Flux {
+    double sent = 0, given = 0; ///< with bounces, and by first light
+    double area = 0;            ///< [m^2]
+    double noise = 0;           ///< standard deviation of what arrives, as a share of what is sent
+};
+
+/// What a surfel sends reaches others by rays that caches draw, some caches * rays / surfels of
+/// them: their number has a standard deviation of 1 / sqrt of it, and where n surfels send alike
+/// that of the sum is 1 / sqrt(n) of that. What arrives is then read where the surfels stand, with
+/// 1 / sqrt of their number, or of the caches' where these are fewer, of how uneven it is.
+double noiseOf(const LitScene& s, double senders) {
+    const auto once = lightOf(s.bake, s.scene, *s.trace, 1, {}).radiosity;
+    const auto twice = lightOf(s.bake, s.scene, *s.trace, 2, {}).radiosity;
+    const auto surfels = double(s.bake->surfels.size()),
+               caches = double(s.bake->caches.lightmapCount);
+    double arrived = 0, squares = 0, area = 0;
+    for (std::size_t i = 0; i < s.bake->surfels.size(); ++i) {
+        const double a = double(s.bake->surfels.area[i]);
+        const double e = largest(glm::vec3(twice[i]) - glm::vec3(once[i]));
+        arrived += a * e;
+        squares += a * e * e;
+        area += a;
+    }
+    const double uneven = arrived > 0 ? std::max(squares * area / (arrived * arrived) - 1, 0.) : 0;
+    return std::sqrt(surfels / (caches * double(s.scene.bake.rays) * senders) +
+                     uneven / std::min(surfels, caches));
+}
+
+Flux fluxOf(const LitScene& s, const FirstLight& first) {
+    const Surfels& surfels = s.bake->surfels;
+    const auto sum = [](glm::vec3 v) { return double(v.x) + double(v.y) + double(v.z); };
+    Flux flux;
+    double squares = 0;
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+        const double a = double(surfels.area[i]), b = a * sum(first.radiosity[i]);
+        flux.sent += a * sum(glm::vec3(s.light.radiosity[i]));
+        flux.given += b;
+        squares += b * b;
+        flux.area += a;
+    }
+    flux.noise = noiseOf(s, squares > 0 ? flux.given * flux.given / squares
+                                        : double(std::max<std::size_t>(surfels.size(), 1)));
+    return flux;
+}
+
 /// All that surfels send, over what they may: first light, F, and the sky's, at most albedo times
 /// pi L on all of the area, reflected again and again: (F + albedo pi L A) / (1 - albedo).
-/// What a surfel sends reaches others through rays that caches draw, so it is counted with an
-/// error: where one surfel sends everything, by 1 / sqrt of the rays that meet it, and where few
-/// caches stand for the surfaces around it, by 1 / sqrt of those. n = (sum A B)^2 / sum (A B)^2
-/// surfels send as much as all do; on an average each is met by rays * caches / surfels rays. Six
-/// standard deviations are allowed, and 2 % for what textures of three bands miss.
+/// Six standard deviations of noise are allowed, and 2 % for normals that caches do not look along.
 Judgement judgeEnergy(const Subject& subject) {
     const LitScene& s = subject.base;
     if (s.scene.bake.linker != Linker::Gather) // only gathered light sums to what is sent
         return notJudged();
     const FirstLight first = firstLight(s);
-    const Surfels& surfels = s.bake->surfels;
-    double sent = 0, given = 0, area = 0, squares = 0;
-    for (std::size_t i = 0; i < surfels.size(); ++i) {
-        const double a = double(surfels.area[i]);
-        const auto sum = [](glm::vec3 v) { return double(v.x) + double(v.y) + double(v.z); };
-        const double b = sum(first.radiosity[i]);
-        sent += a * sum(glm::vec3(s.light.radiosity[i]));
-        given += a * b;
-        squares += a * b * a * b;
-        area += a;
-    }
+    const Flux flux = fluxOf(s, first);
     const double allowed =
-        (given + 3 * first.mostAlbedo * first.mostSky * area) / (1 - first.mostAlbedo);
+        (flux.given + 3 * first.mostAlbedo * first.mostSky * flux.area) / (1 - first.mostAlbedo);
     if (!(allowed > 1e-30))
-        return judged(sent, 1e-30);
-    const double senders = squares > 0 ? given * given / squares : double(surfels.size());
-    return judged(sent / allowed, 1.02 + 6 / std::sqrt(senders));
+        return judged(flux.sent, 1e-30);
+    return judged(flux.sent / allowed, 1.02 + 6 * flux.noise);
 }
 
-/// The same scene, everything grey and aglow: albedo 1/2, radiance 1, no other light.
-LitScene furnaceOf(const Subject& subject) {
+/// The same scene, everything of albedo 1/2 and without light. Where it had lamps it is baked anew:
+/// caches aim rays of their own at lamps, whose sum is only on an average what is seen.
+std::optional<LitScene> greyScene(const Subject& subject) {
     LitScene s = subject.base;
+    bool lamps = false;
     for (Material& m : s.scene.materials) {
+        lamps |= m.emission != glm::vec3(0);
         m.baseColor = glm::vec4(glm::vec3(0.5f), m.baseColor.w);
         m.metallic = 0;
-        m.emission = glm::vec3(1);
+        m.emission = glm::vec3(0);
     }
-    s.scene.lights.clear();
     s.scene.sky = {};
     s.scene.bake.maxBounces = 1000;
-    s.light = lightOf(s.bake, s.scene, *s.trace, 1000, subject.progress);
+    if (!lamps)
+        return s;
+    Result<LitScene> again = bakeAndLight(s.scene, subject.progress);
+    return again ? std::optional(std::move(*again)) : std::nullopt;
+}
+
+/// A grey scene aglow: radiance 1, no other light.
+std::optional<LitScene> furnaceOf(const Subject& subject) {
+    std::optional<LitScene> s = greyScene(subject);
+    if (!s)
+        return {};
+    for (Material& m : s->scene.materials)
+        m.emission = glm::vec3(1);
+    s->scene.lights.clear();
+    s->light = lightOf(s->bake, s->scene, *s->trace, 1000, subject.progress);
     return s;
 }
 constexpr double kFurnace = 2 * kPi; // pi L / (1 - albedo)
@@ -139,18 +189,34 @@ constexpr double kFurnace = 2 * kPi; // pi L / (1 - albedo)
 Judgement judgeFurnaceMost(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather)
         return notJudged();
-    const LitScene s = furnaceOf(subject);
+    const std::optional<LitScene> s = furnaceOf(subject);
+    if (!s)
+        return broken();
     double most = 0;
-    for (std::size_t i = 0; i < s.bake->surfels.size(); ++i)
-        most = std::max(most, largest(glm::vec3(s.light.radiosity[i])));
+    for (std::size_t i = 0; i < s->bake->surfels.size(); ++i)
+        most = std::max(most, largest(glm::vec3(s->light.radiosity[i])));
     return judged(most / kFurnace, 1.01);
 }
 
-/// Whether every ray from every surfel meets the front of something static.
+bool isFlat(const LitScene& s, std::size_t surfel) {
+    const Surfels& surfels = s.bake->surfels;
+    const Instance& instance = s.scene.instances[surfels.instance[surfel]];
+    const glm::vec3 n =
+        glm::normalize(instance.normalToWorld *
+                       triangleNormal(s.scene.meshOf(instance), surfels.triangle[surfel]));
+    return std::abs(glm::dot(n, surfels.normal[surfel])) > 0.9999f;
+}
+
+/// Whether every ray from every surfel meets the front of something static, and none is bent away
+/// by smooth normals, of whose hemispheres a part lies below the surface and is dark.
 bool isClosed(const LitScene& s) {
+    if (std::ranges::any_of(s.scene.instances, &Instance::dynamic))
+        return false;
     constexpr int kRays = 32;
     std::uint32_t bits = 1;
     for (std::size_t i = 0; i < s.bake->surfels.size(); ++i) {
+        if (!isFlat(s, i))
+            return false;
         const glm::vec3 n = s.bake->surfels.normal[i], p = s.bake->surfels.position[i];
         for (int k = 0; k < kRays; ++k) {
             glm::vec3 d;
@@ -170,16 +236,32 @@ bool isClosed(const LitScene& s) {
     return true;
 }
 
+/// As little as judgeFurnaceMost() allows too much, in all of a closed furnace.
 Judgement judgeFurnaceLeast(const Subject& subject) {
-    const Scene& scene = subject.base.scene;
-    const bool moves = std::ranges::any_of(scene.instances, &Instance::dynamic);
-    if (moves || scene.bake.linker != Linker::Gather || !isClosed(subject.base))
+    if (subject.base.scene.bake.linker != Linker::Gather || !isClosed(subject.base))
         return notJudged();
-    const LitScene s = furnaceOf(subject);
+    const std::optional<LitScene> s = furnaceOf(subject);
+    if (!s)
+        return broken();
     double least = 1;
-    for (std::size_t i = 0; i < s.bake->surfels.size(); ++i)
-        least = std::min(least, double(s.light.radiosity[i].x) / kFurnace);
+    for (std::size_t i = 0; i < s->bake->surfels.size(); ++i)
+        least = std::min(least, double(s->light.radiosity[i].x) / kFurnace);
     return judged(1 - least, 0.01);
+}
+
+/// Nothing leaves a closed room: of albedo 1/2 all over it sends twice its first light, whatever
+/// lights it. Noise as in judgeEnergy().
+Judgement judgeBalance(const Subject& subject) {
+    if (subject.base.scene.bake.linker != Linker::Gather || !isClosed(subject.base))
+        return notJudged();
+    std::optional<LitScene> s = greyScene(subject);
+    if (!s)
+        return broken();
+    s->light = lightOf(s->bake, s->scene, *s->trace, 1000, subject.progress);
+    const Flux flux = fluxOf(*s, firstLight(*s));
+    if (!(flux.given > 1e-30))
+        return notJudged();
+    return judged(std::abs(flux.sent / (2 * flux.given) - 1), 0.02 + 6 * flux.noise);
 }
 
 } // namespace
@@ -189,6 +271,7 @@ void addLightOracles(std::vector<Oracle>& to) {
     to.push_back({"not_negative", "No light is less than none.", judgeNotNegative});
     to.push_back(
         {"energy", "Surfaces send no more than first light over 1 - albedo.", judgeEnergy});
+    to.push_back({"balance", "A closed grey room sends twice its first light.", judgeBalance});
     to.push_back({"furnace_most", "In a furnace nothing is brighter than pi L / (1 - albedo).",
                   judgeFurnaceMost});
     to.push_back(

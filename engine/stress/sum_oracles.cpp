@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 
@@ -50,27 +51,20 @@ std::uint32_t mostLinks(const Caches& caches) {
     return most;
 }
 
-/// Light that surfaces reflect once is linear, as no irradiance is clamped yet: A and B lit
-/// together are A plus B, in every cache. Each of the three sums of n links rounds by sqrt(n) / 4 +
-/// 1/2 units of 2^-24 of the cache's light, whose first coefficient no term of it exceeds by more
-/// than 4; the sums of lights and of the tree add as many roundings as there are, some 30. Six
-/// standard deviations are allowed.
-Judgement judgeAdditivity(const Subject& subject) {
-    const LitScene& s = subject.base;
-    Scene a = s.scene, b = s.scene;
-    for (std::size_t l = 0; l < a.lights.size(); ++l)
-        (l % 2 == 0 ? b : a).lights[l].enabled = false;
-    b.sky = {};
-    for (Material& m : a.materials)
-        m.emission = glm::vec3(0);
-    const auto lit = [&](const Scene& scene) {
-        return lightOf(s.bake, scene, *s.trace, 1, subject.progress).sh;
-    };
-    const std::vector<glm::vec3> ofA = lit(a), ofB = lit(b), both = lit(s.scene);
-    if (ofA.size() != both.size() || ofB.size() != both.size())
-        return broken();
-    const double roundings = 0.25 * std::sqrt(double(mostLinks(s.bake->caches))) + 30;
-    const std::size_t each = both.size() / std::max<std::size_t>(s.bake->caches.size(), 1);
+/// What sums of n links differ by when they are summed otherwise: with the lights' sums and the
+/// way up the tree, some 40 numbers more, each rounds by sqrt(n + 40) / 4 + 1/2 units of 2^-24 of
+/// the cache's light, whose first coefficient no term exceeds by more than 4 times. Three sums are
+/// compared, and six standard deviations allowed.
+double mostRoundings(const Caches& caches) {
+    return 6 * std::sqrt(3.0) * (0.25 * std::sqrt(double(mostLinks(caches)) + 40) + 0.5);
+}
+
+/// The largest difference between a + b and `both`, in those units.
+double roundings(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b,
+                 const std::vector<glm::vec3>& both, std::size_t caches) {
+    if (a.size() != both.size() || b.size() != both.size())
+        return std::numeric_limits<double>::infinity();
+    const std::size_t each = both.size() / std::max<std::size_t>(caches, 1);
     double worst = 0;
     for (std::size_t i = 0; i < both.size(); ++i) {
         const glm::vec3 first = both[i - i % each];
@@ -78,9 +72,43 @@ Judgement judgeAdditivity(const Subject& subject) {
             4 * std::ldexp(double(std::max({first.x, first.y, first.z})), -24) + 1e-30;
         for (int c = 0; c < 3; ++c)
             worst = std::max(
-                worst, std::abs(double(ofA[i][c]) + double(ofB[i][c]) - double(both[i][c])) / unit);
+                worst, std::abs(double(a[i][c]) + double(b[i][c]) - double(both[i][c])) / unit);
     }
-    return judged(worst, 6 * std::sqrt(3.0) * roundings);
+    return worst;
+}
+
+/// Light that surfaces reflect once is linear, as no irradiance is clamped yet.
+std::vector<glm::vec3> reflectedOnce(const Subject& subject, const Scene& scene) {
+    return lightOf(subject.base.bake, scene, *subject.base.trace, 1, subject.progress).sh;
+}
+
+/// A and B lit together are A plus B, in every cache.
+Judgement judgeAdditivity(const Subject& subject) {
+    const Scene& scene = subject.base.scene;
+    Scene a = scene, b = scene;
+    for (std::size_t l = 0; l < a.lights.size(); ++l)
+        (l % 2 == 0 ? b : a).lights[l].enabled = false;
+    b.sky = {};
+    for (Material& m : a.materials)
+        m.emission = glm::vec3(0);
+    const Caches& caches = subject.base.bake->caches;
+    return judged(roundings(reflectedOnce(subject, a), reflectedOnce(subject, b),
+                            reflectedOnce(subject, scene), caches.size()),
+                  mostRoundings(caches));
+}
+
+/// Lights and materials in another order are the same light.
+Judgement judgeOrder(const Subject& subject) {
+    Scene scene = subject.base.scene;
+    std::ranges::reverse(scene.lights);
+    std::ranges::reverse(scene.materials);
+    for (Instance& i : scene.instances)
+        i.material = std::uint32_t(scene.materials.size()) - 1 - i.material;
+    const std::vector<glm::vec3> other = reflectedOnce(subject, scene);
+    const Caches& caches = subject.base.bake->caches;
+    return judged(roundings(other, std::vector<glm::vec3>(other.size()),
+                            reflectedOnce(subject, subject.base.scene), caches.size()),
+                  mostRoundings(caches));
 }
 
 /// A scene on the way to that one: other strengths, places, materials and sky.
@@ -101,8 +129,7 @@ Scene edited(Scene scene, RandomStream& random) {
         if (random.chance(0.2))
             m.emission = glm::vec3(float(random.between(0, 100)));
     }
-    if (random.chance(0.4))
-        scene.sky.radiance = glm::vec3(float(random.between(0, 10)));
+    scene.sky.radiance = glm::vec3(float(random.between(0, 10))); // a change at least
     return scene;
 }
 
@@ -143,6 +170,7 @@ void addSumOracles(std::vector<Oracle>& to) {
     to.push_back(
         {"brightness", "Light 2^n times as strong is 2^n times as much.", judgeBrightness});
     to.push_back({"additivity", "Two lights together are the sum of each.", judgeAdditivity});
+    to.push_back({"order", "The order of lights and materials changes no light.", judgeOrder});
     to.push_back({"increments", "Edits that lead to a scene leave its light.", judgeIncrements});
 }
 
