@@ -13,7 +13,8 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity) {
     const std::uint32_t leaves = tree.leaves();
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
         const glm::vec4 l = radiosity[tree.left[k]], r = radiosity[tree.right[k]];
-        radiosity[leaves + k] = r + (l - r) * tree.leftWeight[k];
+        // Not r + (l - r) w: a lamp in r, of no weight, would leave its rounding in a dark l.
+        radiosity[leaves + k] = l * tree.leftWeight[k] + r * (1 - tree.leftWeight[k]);
     }
 }
 

@@ -185,6 +185,20 @@ TEST(LightCaches, IsTheSumOverManyLinks) {
             << "more than wait in a block";
 }
 
+// When it was r + (l - r) w, a lamp that nothing sees left 2^-24 of its light in what it was joined
+// with: more than there is in a dark room.
+TEST(PullRadiosity, BringsNothingOfALampWithoutWeight) {
+    ClusterTree tree;
+    tree.surfels = 3;
+    tree.left = {0, 2};
+    tree.right = {1, 3};
+    tree.leftWeight = {1, 0};
+    std::vector<glm::vec4> radiosity = {glm::vec4(1e-5f), glm::vec4(1e6f), glm::vec4(1e6f), {}, {}};
+    pullRadiosity(tree, radiosity);
+    EXPECT_EQ(radiosity[3], glm::vec4(1e-5f));
+    EXPECT_EQ(radiosity[4], glm::vec4(1e-5f));
+}
+
 TEST(LightCaches, ABlackSkyNeedsNoneOfItsLinks) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
         Bake baked = bakedRoom(storage, 3, true);
