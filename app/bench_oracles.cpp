@@ -151,10 +151,8 @@ void addOracleOptions(CLI::App& command, OracleBench& o) {
         ->excludes(generated);
     command.add_option("--case-seconds", o.caseSeconds, "a case that takes longer is stopped")
         ->check(numberWithin(0.1, 1e5));
-#ifdef LIMN_HAS_VIEWPORT
     command.add_option("--device-share", o.deviceShare,
-                       "the device is asked about one generated scene in so many; 0: none");
-#endif
+                       "the device is asked about one scene in so many; 0: about none");
 }
 
 Exit runOracleBench(const OracleBench& o) {

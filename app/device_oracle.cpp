@@ -28,7 +28,8 @@ double ofRounding(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>&
         return std::numeric_limits<double>::infinity();
     double most = 0, scale = 1e-30;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        most = std::max(most, largest(a[i] - b[i]));
+        for (int c = 0; c < 3; ++c)
+            raise(most, std::abs(double(a[i][c]) - double(b[i][c])));
         scale = std::max(scale, largest(a[i]));
     }
     return most / (6 * 4 * roundings * std::ldexp(scale, -24));

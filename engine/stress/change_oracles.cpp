@@ -54,16 +54,16 @@ double deviations(const LitScene& a, const LitScene& b, const Progress& progress
     for (int c = 0; c < 3; ++c) {
         const double rounding = 1e-3 * (x.mean[c] + y.mean[c]) + 1e-30;
         const double sigma = std::sqrt(x.variance[c] + y.variance[c] + rounding * rounding);
-        most = std::max(most, std::abs(x.mean[c] - y.mean[c]) / sigma);
+        raise(most, std::abs(x.mean[c] - y.mean[c]) / sigma);
     }
     return most;
 }
 
 /// Surfels and rays are drawn otherwise in the changed scene, so that only means can be compared:
 /// six standard deviations are a chance of 1 in 10^9.
-Judgement judgeAlike(const Subject& subject, const Scene& changed, double limit = 6) {
+Judgement judgeAlike(const Subject& subject, const Scene& changed) {
     const Result<LitScene> other = bakeAndLight(changed, subject.progress);
-    return other ? judged(deviations(subject.base, *other, subject.progress), limit) : broken();
+    return other ? judged(deviations(subject.base, *other, subject.progress), 6) : broken();
 }
 
 /// How many of its sizes a scene lies away from the origin.
@@ -107,7 +107,6 @@ Judgement judgeScale(const Subject& subject) {
 /// Not from or to where 24 bits of a coordinate no longer tell the parts of a scene apart.
 constexpr double kMostSizesAway = 100;
 
-/// All draws are the same here: only what rounding takes to the other side of an edge differs.
 Judgement judgeTranslation(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     if (sizesAway(scene) > kMostSizesAway)
@@ -115,7 +114,7 @@ Judgement judgeTranslation(const Subject& subject) {
     RandomStream random(subject.seed + 2);
     const glm::dvec3 by(random.between(-8, 8), random.between(-8, 8), random.between(-8, 8));
     const double size = double(glm::length(scene.bounds.size()));
-    return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)), 2);
+    return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)));
 }
 
 /// x to y to z: no coordinate is rounded.

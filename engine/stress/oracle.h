@@ -40,6 +40,12 @@ inline Judgement broken() {
     return judged(std::numeric_limits<double>::infinity(), 0);
 }
 
+/// Keeps the larger one in `worst`: infinity where `value` is no number.
+inline void raise(double& worst, double value) {
+    if (!(value <= worst))
+        worst = value > worst ? value : std::numeric_limits<double>::infinity();
+}
+
 /// Something that holds of every scene, whatever is in it.
 struct Oracle {
     std::string_view name; ///< a word, as in tables

@@ -40,7 +40,7 @@ Judgement judgeBrightness(const Subject& subject) {
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < light.sh.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            different += std::abs(light.sh[i][c] - k * s.light.sh[i][c]) > kFlushed;
+            different += !(std::abs(light.sh[i][c] - k * s.light.sh[i][c]) <= kFlushed);
     return judged(double(different), 0);
 }
 
@@ -71,8 +71,7 @@ double roundings(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& 
         const double unit =
             4 * std::ldexp(double(std::max({first.x, first.y, first.z})), -24) + 1e-30;
         for (int c = 0; c < 3; ++c)
-            worst = std::max(
-                worst, std::abs(double(a[i][c]) + double(b[i][c]) - double(both[i][c])) / unit);
+            raise(worst, std::abs(double(a[i][c]) + double(b[i][c]) - double(both[i][c])) / unit);
     }
     return worst;
 }
@@ -153,9 +152,10 @@ Judgement judgeIncrements(const Subject& subject) {
             different += light.sh[i] != s.light.sh[i];
         return judged(double(different), 0);
     }
-    if (!stats.converged || !s.light.stats.converged)
+    const auto ended = [](const RelightStats& r) { return r.converged && !r.grows; };
+    if (!ended(stats) || !ended(s.light.stats)) // light that grows has no end to compare
         return notJudged();
-    double difference = 0, all = 1e-30;
+    double difference = 0, all = 1e-20; // light that was switched off fades by a share per bounce
     for (std::size_t i = 0; i < s.bake->surfels.size(); ++i) {
         const glm::vec3 x(light.radiosity[i]), y(s.light.radiosity[i]), d = glm::abs(x - y);
         difference += double(d.x + d.y + d.z) * double(s.bake->surfels.area[i]);

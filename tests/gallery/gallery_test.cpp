@@ -3,9 +3,11 @@
 
 #include "engine/core/hash.h"
 #include "engine/gallery/blocks.h"
+#include "engine/gallery/hostile_scene.h"
 #include "engine/gallery/random_stream.h"
 #include "engine/math/sampling.h"
 #include "engine/reference/reference.h"
+#include "engine/scene/reach.h"
 
 #include <gtest/gtest.h>
 
@@ -84,6 +86,32 @@ double shareOfLitPixels(const ImageF& image) {
     return double(std::count_if(image.rgb.begin(), image.rgb.end(),
                                 [](glm::vec3 p) { return p.x + p.y + p.z > 0; })) /
            double(image.rgb.size());
+}
+
+TEST(HostileScenes, AreTheSameForTheSameSeedAndKeepWhatTheImporterGuarantees) {
+    std::set<LightKind> lights;
+    std::size_t objects = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const HostileScene scene = hostileScene(seed), again = hostileScene(seed);
+        EXPECT_TRUE(scene.document == again.document);
+        EXPECT_TRUE(scene.assets->meshes == again.assets->meshes);
+        for (const Mesh& m : scene.assets->meshes) {
+            EXPECT_EQ(m.normals.size(), m.positions.size());
+            EXPECT_EQ(m.indices.size() % 3, 0U);
+            for (const std::uint32_t i : m.indices)
+                ASSERT_LT(i, m.positions.size());
+            for (const glm::vec3 n : m.normals)
+                ASSERT_NEAR(glm::length(n), 1, 1e-5);
+        }
+        for (const auto& [id, object] : scene.document.objects) {
+            if (const Light* light = std::get_if<Light>(&object))
+                lights.insert(light->kind);
+            objects += std::holds_alternative<Node>(object);
+        }
+        EXPECT_EQ(reachDefect(flatten(scene.document, scene.assets)), "");
+    }
+    EXPECT_EQ(lights.size(), 4U);
+    EXPECT_GT(objects, 400U);
 }
 
 } // namespace
