@@ -5,6 +5,7 @@
 #include "engine/relight/light_links.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -53,6 +54,7 @@ public:
         m_reached = false;
         m_rounds = m_growing = 0;
         m_passedOn = 0;
+        m_latest = {};
     }
     /// A changed sky, or links that are dimmed otherwise, change no surfel before the caches have
     /// seen it: it reaches them in the first round, and the surfels' radiosity in the second.
@@ -65,6 +67,7 @@ public:
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         m_passedOn = reflects ? round.change / m_before : 0;
         m_before = round.change;
+        m_latest[m_rounds % m_latest.size()] = m_passedOn;
         const double toCome = following();
         const bool converged =
             round.ofAll() * toCome < kChange && round.relative * toCome < kChange;
@@ -78,16 +81,19 @@ private:
     static constexpr double kRounding = 1.001;
 
     /// This change and all that it would lead to, by the sum of the geometric series, over this
-    /// change alone where that is more.
+    /// change alone where that is more. By the most that one of the latest rounds passed on: where
+    /// changes are no more than a hundred roundings, shares scatter by some per cent, and in a
+    /// white room the first one that came out low would end bounces 0.03 % to 0.1 % too early.
     double following() const {
         constexpr double kMostPassedOn = 0.999; // noise, rounding
-        const double q = std::min(m_passedOn, kMostPassedOn);
+        const double q = std::min(std::ranges::max(m_latest), kMostPassedOn);
         return std::max(q / (1 - q), 1.);
     }
 
     bool m_reached = false;
     std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;
     double m_before = 0, m_passedOn = 0;
+    std::array<double, 4> m_latest{}; ///< passed on by the latest rounds
 };
 
 /// So few bounces, or fewer, are taken as they are asked for (BakeSettings::maxBounces): whenever
