@@ -5,6 +5,7 @@
 #include "engine/core/replace_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -136,9 +137,9 @@ Result<void> StressLog::end(const CaseResult& result) {
 std::vector<OracleCount> countOracles(const std::vector<CaseResult>& cases, std::size_t oracles) {
     std::vector<OracleCount> counts(oracles);
     const auto share = [](const Judgement& j) {
-        if (j.limit > 0)
+        if (j.limit > 0 && !std::isnan(j.value))
             return j.value / j.limit;
-        return j.value > 0 ? std::numeric_limits<double>::infinity() : 0;
+        return j.value <= 0 ? 0 : std::numeric_limits<double>::infinity();
     };
     for (const CaseResult& c : cases)
         for (std::size_t k = 0; k < oracles; ++k) {

@@ -71,6 +71,13 @@ TEST(OracleCounts, KeepTheWorstAndTheFirstThatFailed) {
 }
 
 TEST(OracleCounts, NoNumberIsAFailure) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<OracleCount> counts = countOracles(
+        {result(1, judged(none, 1), judged(none, 0)), result(2, judged(0.5, 1), judged(0, 0))}, 2);
+    for (const OracleCount& c : counts) {
+        EXPECT_EQ(c.failed, 1U);
+        EXPECT_EQ(c.worstSeed, 1U);
+    }
     EXPECT_TRUE(judged(std::numeric_limits<double>::quiet_NaN(), 1).failed());
     EXPECT_FALSE(notJudged().failed());
     double worst = 1;
