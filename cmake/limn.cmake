@@ -16,6 +16,10 @@ if(LIMN_SANITIZE)
   target_link_options(limn_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(LIMN_FUZZ)
+  target_compile_options(limn_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # limn_room(limn_scene SOURCES a.cpp b.cpp DEPENDS limn_core TBB::tbb)
 function(limn_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
