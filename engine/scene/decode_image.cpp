@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/decode_image.h"
 
+#include "engine/scene/image_check.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -32,6 +34,8 @@ Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes) {
         return fail("is neither PNG nor JPEG");
     if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
         return fail("is too large");
+    if (startsWith(bytes, kPng) ? !pngChunksFit(bytes) : !jpegTablesFit(bytes))
+        return fail("is damaged");
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
         return fail("is damaged");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/decode_image.h"
+#include "engine/scene/image_check.h"
 
 #include "tests/scene/small_png.h"
 
@@ -56,6 +57,52 @@ TEST(DecodeImage, DamagedOnesAreRefused) {
     std::vector<std::uint8_t> png = greyPng();
     for (std::size_t size = 0; size + 12 < png.size(); ++size) // the last chunk is empty
         EXPECT_NE(problem({png.begin(), png.begin() + std::ptrdiff_t(size)}), "") << size;
+}
+
+// stb would allocate a gigabyte before it found the file at its end.
+TEST(DecodeImage, APngChunkLiesWithinTheFile) {
+    std::vector<std::uint8_t> png = greyPng();
+    constexpr std::size_t kDataLength = 33; // of IDAT
+    png[kDataLength] = 0x3f;
+    EXPECT_EQ(problem(png), "is damaged");
+    png = greyPng();
+    png.insert(png.end(), 9, 0xff); // behind the last chunk nobody looks
+    EXPECT_EQ(problem(png), "");
+}
+
+/// A JPEG with nothing but a Huffman table of so many codes of 15 bits and as many of 16.
+std::vector<std::uint8_t> jpegWithTable(std::uint8_t of15, std::uint8_t of16) {
+    const unsigned length = 19U + of15 + of16;
+    std::vector<std::uint8_t> jpeg = {
+        0xff, 0xd8, 0xff, 0xc4, std::uint8_t(length >> 8), std::uint8_t(length), 0x13};
+    jpeg.insert(jpeg.end(), 14, 0);
+    jpeg.insert(jpeg.end(), {of15, of16});
+    jpeg.insert(jpeg.end(), std::size_t(of15) + of16, 1);
+    return jpeg;
+}
+
+// stb 2.27 writes the codes of a longer table over what lies behind it.
+TEST(DecodeImage, AJpegTableHasNoMoreCodesThanSymbols) {
+    EXPECT_TRUE(jpegTablesFit(jpegWithTable(128, 128)));
+    EXPECT_FALSE(jpegTablesFit(jpegWithTable(128, 129)));
+    EXPECT_EQ(problem(jpegWithTable(128, 129)), "is damaged");
+
+    std::vector<std::uint8_t> cut = jpegWithTable(255, 255);
+    cut.resize(25); // within the counts of codes, or within the codes
+    EXPECT_FALSE(jpegTablesFit(cut));
+    std::vector<std::uint8_t> second = jpegWithTable(1, 1);
+    const std::vector<std::uint8_t> table = jpegWithTable(255, 2);
+    second.insert(second.end(), table.begin() + 2, table.end());
+    EXPECT_FALSE(jpegTablesFit(second));
+
+    // A scan's texels end where the decoder says.
+    std::vector<std::uint8_t> scan = {0xff, 0xd8, 0xff, 0xda, 0x00, 0x40, 1, 2, 3};
+    scan.insert(scan.end(), table.begin() + 2, table.end());
+    EXPECT_FALSE(jpegTablesFit(scan));
+    // What looks like a table may lie in a comment before that.
+    std::vector<std::uint8_t> comment = {0xff, 0xd8, 0xff, 0xfe, 0x08, 0x00};
+    comment.insert(comment.end(), table.begin() + 2, table.end());
+    EXPECT_TRUE(jpegTablesFit(comment));
 }
 
 } // namespace

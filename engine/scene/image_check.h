@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace limn {
+
+/// Whether no Huffman table of a JPEG holds more codes than its 256 symbols. stb 2.27 writes those
+/// of a longer one over whatever lies behind the table. Says nothing of what else may be wrong.
+bool jpegTablesFit(std::span<const std::uint8_t> file);
+
+/// Whether each chunk of a PNG, up to the one that ends it, lies within the file. stb allocates
+/// what a chunk claims before it reads it.
+bool pngChunksFit(std::span<const std::uint8_t> file);
+
+} // namespace limn
