@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // write_seeds FOLDER: writes the valid examples from which fuzzing starts, FOLDER/TARGET/NAME.
 #include "engine/files/image_file.h"
-#include "tests/scene/gltf_builder.h"
-#include "tests/scene/small_png.h"
+#include "engine/files/project_file.h"
+#include "tests/fuzz/project_files.h"
 
 #include <filesystem>
 #include <string>
@@ -127,6 +127,126 @@ void writeFloatImages(const TemporaryFolder& folder, const auto& write) {
     }
 }
 
+/// A floor and a lamp's panel above it, with as much of glTF as fits on them.
+GltfBuilder richScene() {
+    GltfBuilder b;
+    const int position = b.vec3({{0, 0, 0}, {0, 0, 2}, {2, 0, 2}, {2, 0, 0}});
+    const int normal = b.vec3({{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}});
+    const int uv =
+        b.accessor(b.view(std::vector<std::uint16_t>{0, 0, 65535, 0, 65535, 65535, 0, 65535}),
+                   "VEC2", GltfBuilder::kUnsignedShort, 4, true);
+    const int color = b.accessor(b.view(std::vector<std::uint8_t>(16, 200)), "VEC4",
+                                 GltfBuilder::kUnsignedByte, 4, true);
+    const int rows = b.view(std::vector<std::uint16_t>{2});
+    const int values = b.view(std::vector<glm::vec3>{{2, 0.1f, 2}});
+    b.json["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", rows}, {"componentType", 5123}}},
+        {"values", {{"bufferView", values}}}};
+    b.mesh({{"attributes",
+             {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}, {"COLOR_0", color}}},
+            {"indices", b.indices({0, 1, 2, 0, 2, 3})},
+            {"material", 0}});
+    const int panel = b.vec3({{0.5f, 1, 0.5f}, {1, 1, 0.5f}, {0.5f, 1, 1}, {1, 1, 1}});
+    b.mesh({{"attributes", {{"POSITION", panel}}}, {"mode", 5}, {"material", 1}});
+    b.json["images"] = {{{"bufferView", b.view(greyPng())}, {"mimeType", "image/png"}}};
+    b.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+    b.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    const nlohmann::json texture = {
+        {"index", 0},
+        {"extensions",
+         {{"KHR_texture_transform",
+           {{"offset", {0.1, 0.2}}, {"scale", {2, 2}}, {"rotation", 0.3}}}}}};
+    b.json["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.8, 0.7, 0.6, 1}},
+           {"baseColorTexture", texture},
+           {"metallicRoughnessTexture", {{"index", 0}}},
+           {"metallicFactor", 0.5},
+           {"roughnessFactor", 0.4}}},
+         {"normalTexture", {{"index", 0}, {"scale", 0.5}}},
+         {"alphaMode", "MASK"},
+         {"alphaCutoff", 0.3}},
+        {{"emissiveFactor", {1, 1, 0.5}},
+         {"emissiveTexture", {{"index", 0}}},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 20}}}}},
+         {"doubleSided", true},
+         {"alphaMode", "BLEND"}}};
+    b.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    b.json["extensionsUsed"] = {"KHR_lights_punctual", "EXT_mesh_gpu_instancing",
+                                "KHR_texture_transform", "KHR_materials_emissive_strength"};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 5}, {"range", 10}},
+        {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.5, 0.2}}},
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}}};
+    const int translation = b.vec3({{0, 0, 0}, {4, 0, 0}});
+    b.json["nodes"][0]["extensions"] = {
+        {"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translation}}}}}};
+    b.json["nodes"][1]["matrix"] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1};
+    for (int light = 0; light < 3; ++light) {
+        b.json["nodes"].push_back({{"translation", {1, 0.5, light}},
+                                   {"rotation", {0.6, 0, 0, 0.8}},
+                                   {"camera", 0},
+                                   {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+        b.json["scenes"][0]["nodes"].push_back(2 + light);
+    }
+    b.json["nodes"].push_back({{"children", {5}}, {"scale", {1, 2, 3}}});
+    b.json["nodes"][5]["children"] = {6};
+    b.json["nodes"].push_back({{"mesh", 1}});
+    b.json["scenes"][0]["nodes"].push_back(5);
+    return b;
+}
+
+void writeScenes(const TemporaryFolder&, const auto& write) {
+    write("triangle.glb", triangleScene().glb());
+    write("plain.glb", projectScene());
+    write("rich.glb", richScene().glb());
+    // As text; the buffer is zeros: degenerate triangles to be mended.
+    nlohmann::json text = triangleScene().json;
+    text["buffers"] = {{{"byteLength", 36},
+                        {"uri", "data:application/octet-stream;base64," + std::string(48, 'A')}}};
+    write("zeros.gltf", text.dump());
+    // Without a buffer at all an accessor is zeros.
+    text = triangleScene().json;
+    text.erase("bufferViews");
+    text["accessors"][0].erase("bufferView");
+    write("bufferless.gltf", text.dump());
+    GltfBuilder closed;
+    closed.mesh(
+        {{"attributes", {{"POSITION", closed.vec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}}},
+         {"indices", closed.indices({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2})}});
+    closed.json["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
+    closed.json["meshes"][0]["primitives"][0]["material"] = 0;
+    write("closed.glb", closed.glb());
+}
+
+void writeProjects(const TemporaryFolder& folder, const auto& write) {
+    writeFile(folder.file("scene.glb"), projectScene());
+    ImportedScene scene = *importGltf(folder.file("scene.glb"));
+    Document& document = scene.document;
+    Light spot;
+    spot.kind = LightKind::Spot;
+    Light panel;
+    panel.kind = LightKind::Rectangle;
+    addObject(document, spot);
+    addObject(document, panel);
+    addObject(document, Light{});
+    addObject(document, Camera{});
+    document.scenePath = "scene.glb";
+    write("whole.limn", documentToJson(document));
+    for (auto& [id, object] : document.objects)
+        if (Sky* sky = std::get_if<Sky>(&object)) {
+            sky->kind = SkyKind::Image;
+            sky->image = "sky.hdr";
+        }
+    write("sky.limn", documentToJson(document));
+    write("short.limn", R"({"version": 1, "scene": "scene.glb"})");
+    document.scenePath.clear();
+    document.sceneHash = 0;
+    write("no_scene.limn", documentToJson(document));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -142,5 +262,7 @@ int main(int argc, char** argv) {
     };
     writeImages(temporary, into("image"));
     writeFloatImages(temporary, into("float_image"));
+    writeScenes(temporary, into("gltf"));
+    writeProjects(temporary, into("project"));
     return 0;
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/relight/relight.h"
+#include "engine/scene/scene.h"
+#include "engine/trace/trace_scene.h"
+#include "tests/fuzz/target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace limn {
+
+inline bool allFinite(const std::vector<glm::vec4>& values) {
+    return std::ranges::all_of(values, [](const glm::vec4& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    });
+}
+
+/// Two bounces of the scene's light. What comes of anything that was accepted is a number.
+inline void relight(const Scene& scene, const TraceScene& trace, Bake made) {
+    Relighter relighter(std::make_shared<const Bake>(std::move(made)));
+    relighter.relight(scene, trace, 2);
+    require(allFinite(relighter.field().lightmap), "the light of a lightmap is a number");
+    require(allFinite(relighter.field().grid), "the light of a grid is a number");
+}
+
+/// As few of everything as a bake can have.
+inline BakeSettings smallBake() {
+    BakeSettings settings;
+    settings.surfels = 64;
+    settings.links = 4;
+    settings.rays = 16;
+    settings.lightmapCaches = 16;
+    settings.grid = {1, 1, 1};
+    return settings;
+}
+
+/// Uses an accepted scene as the program would: its materials, its camera, a bake and its light.
+/// Scenes of many triangles are left out of the bake: they take long, for good reason.
+inline void exercise(const Scene& scene) {
+    constexpr std::size_t kMostTriangles = 2000;
+    std::size_t triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        const auto count = std::uint32_t(scene.meshOf(instance).triangleCount());
+        triangles += count;
+        for (std::uint32_t t = 0; t < std::min(count, 8U); ++t) {
+            const SurfaceMaterial m = surfaceMaterial(scene, instance, t, 0.3f, 0.3f);
+            require(m.albedo.x >= 0 && m.albedo.x <= 0.99f, "an albedo is one");
+            require(std::isfinite(m.emission.x), "emission is a number");
+        }
+        if (triangles > kMostTriangles)
+            return;
+    }
+    chooseCamera(scene, {});
+    const TraceScene trace(scene);
+    const BakeSettings settings = smallBake();
+    if (Result<Bake> made = bake(trace, {}, nullptr, &settings, kFuzzMemory))
+        relight(scene, trace, std::move(*made));
+}
+
+} // namespace limn
