@@ -53,7 +53,7 @@ inline void exercise(const Scene& scene) {
         if (triangles > kMostTriangles)
             return;
     }
-    chooseCamera(scene, {});
+    chooseCamera(scene, std::optional<std::string>());
     const TraceScene trace(scene);
     const BakeSettings settings = smallBake();
     if (Result<Bake> made = bake(trace, {}, nullptr, &settings, kFuzzMemory))

@@ -14,7 +14,8 @@ inline std::string projectScene() {
     const int position = b.vec3({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     const int uv = b.accessor(b.view(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}), "VEC2",
                               GltfBuilder::kFloat, 4);
-    b.mesh({{"attributes", {{"POSITION", position}, {"TEXCOORD_0", uv}}},
+    const int normal = b.vec3(std::vector<glm::vec3>(4, {0, 0, 1}));
+    b.mesh({{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}}},
             {"indices", b.indices({0, 1, 2, 0, 2, 3})},
             {"material", 0}});
     b.json["images"] = {{{"bufferView", b.view(greyPng())}, {"mimeType", "image/png"}}};

@@ -247,6 +247,47 @@ void writeProjects(const TemporaryFolder& folder, const auto& write) {
     write("no_scene.limn", documentToJson(document));
 }
 
+/// Changes as changes.h reads them: field, kind, index, value.
+std::string change(int field, int kind, int index, std::uint64_t value) {
+    std::string out = {char(field), char(kind), char(index), char(index >> 8)};
+    for (const std::uint64_t word : {value, value})
+        out.append(reinterpret_cast<const char*>(&word), sizeof word);
+    return out;
+}
+
+void writeChanges(const TemporaryFolder&, const auto& write) {
+    for (const int links : {0, 1}) {
+        write("unchanged" + std::to_string(links), std::string(1, char(links)));
+        for (const int kind : {0, 1, 2, 3, 4}) {
+            std::string all(1, char(links));
+            for (int field = 16; field < 52; field += 5)
+                all += change(field + kind, kind, 3, 1);
+            write("kind" + std::to_string(kind) + "_" + std::to_string(links), all);
+        }
+    }
+}
+
+void writeStageChanges(const TemporaryFolder&, const auto& write) {
+    write("unchanged", "");
+    for (const int kind : {0, 1, 2, 3, 4})
+        for (const int stage : {0, 3, 6, 9})
+            write("kind" + std::to_string(kind) + "_" + std::to_string(stage),
+                  change(stage, kind, stage, 1));
+}
+
+void writeOptions(const TemporaryFolder&, const auto& write) {
+    write("lights", "scene\n--light\nsun dir=1,-1,0 lux=3 color=1,0.5,0\n--light\npoint pos=0,1,2 "
+                    "cd=5 range=4\n--light\nspot pos=0,1,0 dir=0,-1,0 cd=2 inner=10 "
+                    "outer=20\n--light\nrect pos=0,1,0 dir=0,-1,0 size=1,2 nits=3 roll=30 name=x");
+    write("sky", "scene\n--sky\n1,2,3");
+    write("gradient", "scene\n--sky\ngradient up=1,1,1 horizon=2,2,2 ground=0,0,0\n--time\n1.5");
+    write("dynamic", "scene\n--dynamic\nNode 0@1,2,3");
+    write("camera", "scene\n--eye\n1,2,3\n--target\n0,0,0\n--fov\n60\n--width\n64\n--height\n48");
+    write("bake", "scene\n--preset\ndraft\n--grid\n2x3x4\n--storage\nsh\n--texels-per-metre\n"
+                  "10\n--memory\n0.5");
+    write("times", R"({"version": 1, "times": {"k": {"cpu_ms": 2.5, "gpu_ms": 1}}})");
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -264,5 +305,8 @@ int main(int argc, char** argv) {
     writeFloatImages(temporary, into("float_image"));
     writeScenes(temporary, into("gltf"));
     writeProjects(temporary, into("project"));
+    writeChanges(temporary, into("bake"));
+    writeStageChanges(temporary, into("stage"));
+    writeOptions(temporary, into("option"));
     return 0;
 }

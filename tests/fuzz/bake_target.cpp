@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A bake file. An input that begins as one is given to the reader with its checksums put right;
+// any other is a list of changes to a valid bake, which is then written, read again and lit.
+#include "engine/bake/stage_archive.h"
+#include "engine/core/hash.h"
+#include "engine/files/bake_file.h"
+#include "tests/fuzz/changes.h"
+#include "tests/fuzz/exercise.h"
+#include "tests/fuzz/small_room.h"
+
+#include <cstring>
+
+using namespace limn;
+
+namespace {
+
+/// Fields as `archive` takes them; but for bools, of which some bytes are none.
+template <class A>
+void bakeFields(A& a, Bake& b) {
+    BakeSettings& s = b.settings;
+    a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
+    a(s.placement), a(s.linker), a(s.cut), a(s.storage), a(s.chromaBands), a(s.clustering);
+    a(s.clusterNormalWeight), a(s.clusterBalanceWeight), a(s.grid), a(s.maxBounces);
+    a(b.gridSize), a(b.gridBounds), a(b.gridDepth);
+    LightmapLayout& l = b.lightmap;
+    a(l.width), a(l.height), a(l.snaps);
+    a.each(l.meshes, [&](MeshCharts& m) { chartFields(a, m); });
+    a.each(l.instances, [&](InstanceLightmap& i) { a(i.uv), a(i.backRows); });
+    Surfels& f = b.surfels;
+    a(f.position), a(f.normal), a(f.area), a(f.instance), a(f.triangle), a(f.barycentric);
+    a(f.cache), a(f.cacheWeight);
+    ClusterTree& t = b.tree;
+    a(t.surfels), a(t.skyCells), a(t.left), a(t.right), a(t.leftWeight), a(t.parent);
+    a(t.skyDirection);
+    Caches& c = b.caches;
+    a(c.lightmapCount), a(c.kind), a(c.position), a(c.normal), a(c.texel), a(c.linkBegin);
+    a(c.linkExponent), a(c.links), a(c.shNode), a(c.shCoefficients), a(c.fillBegin);
+    a(c.fillSource), a(c.fillWeight);
+}
+
+/// The valid bakes that changes start from: links of both kinds, a scene of both sides.
+struct Starts {
+    Scene scene = smallRoom();
+    TraceScene trace{scene};
+    Bake rtp, sh;
+
+    Starts() {
+        const auto made = [&](LinkStorage storage) {
+            BakeSettings settings = smallBake();
+            settings.storage = storage;
+            Result<Bake> result = bake(trace, {}, nullptr, &settings);
+            require(result.has_value(), "the small room bakes");
+            return std::move(*result);
+        };
+        rtp = made(LinkStorage::Rtp);
+        sh = made(LinkStorage::Sh);
+    }
+};
+
+/// The hash of each chunk's packed bytes, as the file's comment has them.
+std::string withChecksums(std::string file) {
+    constexpr std::size_t kHeader = 16, kChunkHeader = 32;
+    for (std::size_t at = kHeader; at + kChunkHeader <= file.size();) {
+        std::uint64_t packed;
+        std::memcpy(&packed, &file[at + 16], sizeof packed);
+        at += kChunkHeader;
+        if (packed > file.size() - at)
+            break;
+        const std::uint64_t hash = hashBytes(&file[at], std::size_t(packed));
+        std::memcpy(&file[at - 8], &hash, sizeof hash);
+        at += std::size_t(packed);
+    }
+    return file;
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    useOneThread();
+    static const Starts starts;
+    const std::string_view input = textOf(data, size);
+    std::string path;
+    if (input.starts_with("LIMNBAKE")) {
+        path = scratchFile("raw.bake", withChecksums(std::string(input)));
+    } else {
+        Changes changes(input);
+        Bake changed = changes.number<std::uint8_t>() % 2 ? starts.sh : starts.rtp;
+        while (const std::optional<Change> change = changes.next()) {
+            ChangingArchive archive{*change};
+            bakeFields(archive, changed);
+        }
+        path = scratchFile("changed.bake", "");
+        require(writeBake(path, changed).has_value(), "any bake can be written");
+    }
+    Result<Bake> read = readBake(path);
+    if (!read) {
+        require(read.error().message.starts_with(path), "a message names the file");
+        return 0;
+    }
+    relight(starts.scene, starts.trace, std::move(*read));
+    return 0;
+}
