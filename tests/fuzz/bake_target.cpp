@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A bake file. An input that begins as one is given to the reader with its checksums put right;
 // any other is a list of changes to a valid bake, which is then written, read again and lit.
-#include "engine/bake/stage_archive.h"
+#include "engine/bake/bake_defect.h"
+#include "engine/bake/bake_fields.h"
 #include "engine/core/hash.h"
 #include "engine/files/bake_file.h"
 #include "tests/fuzz/changes.h"
@@ -13,30 +14,6 @@
 using namespace limn;
 
 namespace {
-
-/// Fields as `archive` takes them; but for bools, of which some bytes are none.
-template <class A>
-void bakeFields(A& a, Bake& b) {
-    BakeSettings& s = b.settings;
-    a(s.surfels), a(s.links), a(s.bands), a(s.rays), a(s.lightmapCaches), a(s.texelsPerMetre);
-    a(s.placement), a(s.linker), a(s.cut), a(s.storage), a(s.chromaBands), a(s.clustering);
-    a(s.clusterNormalWeight), a(s.clusterBalanceWeight), a(s.grid), a(s.maxBounces);
-    a(b.gridSize), a(b.gridBounds), a(b.gridDepth);
-    LightmapLayout& l = b.lightmap;
-    a(l.width), a(l.height), a(l.snaps);
-    a.each(l.meshes, [&](MeshCharts& m) { chartFields(a, m); });
-    a.each(l.instances, [&](InstanceLightmap& i) { a(i.uv), a(i.backRows); });
-    Surfels& f = b.surfels;
-    a(f.position), a(f.normal), a(f.area), a(f.instance), a(f.triangle), a(f.barycentric);
-    a(f.cache), a(f.cacheWeight);
-    ClusterTree& t = b.tree;
-    a(t.surfels), a(t.skyCells), a(t.left), a(t.right), a(t.leftWeight), a(t.parent);
-    a(t.skyDirection);
-    Caches& c = b.caches;
-    a(c.lightmapCount), a(c.kind), a(c.position), a(c.normal), a(c.texel), a(c.linkBegin);
-    a(c.linkExponent), a(c.links), a(c.shNode), a(c.shCoefficients), a(c.fillBegin);
-    a(c.fillSource), a(c.fillWeight);
-}
 
 /// The valid bakes that changes start from: links of both kinds, a scene of both sides.
 struct Starts {
@@ -87,16 +64,19 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         Bake changed = changes.number<std::uint8_t>() % 2 ? starts.sh : starts.rtp;
         while (const std::optional<Change> change = changes.next()) {
             ChangingArchive archive{*change};
-            bakeFields(archive, changed);
+            forBakeChunks(nullptr, [&](const char*, auto fields) { fields(archive, changed); });
         }
         path = scratchFile("changed.bake", "");
         require(writeBake(path, changed).has_value(), "any bake can be written");
     }
-    Result<Bake> read = readBake(path);
+    Result<Bake> read = readBake(path, kFuzzMemory);
     if (!read) {
         require(read.error().message.starts_with(path), "a message names the file");
         return 0;
     }
-    relight(starts.scene, starts.trace, std::move(*read));
+    Scene scene = starts.scene;
+    scene.bake = read->settings; // as limn render does
+    if (bakeDefect(*read, &scene).empty())
+        relight(scene, starts.trace, std::move(*read));
     return 0;
 }

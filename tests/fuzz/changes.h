@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 namespace limn {
@@ -52,29 +52,23 @@ private:
     std::string_view m_rest;
 };
 
-/// An archive, as a ByteWriter is one, that makes one change to the fields it meets.
+/// Makes one change to the fields of a list, as engine/core/archive.h has them. Bools and texts
+/// stay as they are: other bytes would be none.
 struct ChangingArchive {
     const Change& change;
     std::size_t met = 0;
 
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(T& value) {
+    template <class T, class... Rules>
+    void operator()(std::string_view, T& field, const Rules&...) {
         if (met++ == change.field)
-            set(value);
+            alter(field);
     }
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void operator()(std::vector<T>& v) {
-        if (met++ == change.field)
-            alter(v);
-    }
-    template <class T, class F>
-    void each(std::vector<T>& v, F field) {
+    template <class T, class Rule, class F>
+    void each(std::string_view, std::vector<T>& v, const Rule&, const F& fields) {
         if (met++ == change.field && change.kind == Change::Resize)
             v.resize(change.index % (v.size() + 3));
         for (T& element : v)
-            field(element);
+            fields(element);
     }
 
 private:
@@ -82,6 +76,12 @@ private:
     void set(T& value) const {
         std::memcpy(static_cast<void*>(&value), change.value,
                     std::min(sizeof value, sizeof change.value));
+    }
+    void alter(bool&) const {}
+    void alter(std::string&) const {}
+    template <class T>
+    void alter(T& value) const {
+        set(value);
     }
     template <class T>
     void alter(std::vector<T>& v) const {
