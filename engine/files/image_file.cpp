@@ -4,6 +4,7 @@
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 #include "engine/files/exr_check.h"
+#include "engine/files/hdr_image.h"
 #include "engine/scene/decode_image.h"
 
 #include <array>
@@ -17,7 +18,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #include <tinyexr.h>
 
@@ -160,34 +160,6 @@ static Result<ImageF> readExr(const std::string& path, std::span<const std::uint
     return out;
 }
 
-static Result<ImageF> readHdr(const std::string& path, std::span<const std::uint8_t> bytes,
-                              const MemoryBudget& memory) {
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels) ||
-        width <= 0 || height <= 0)
-        return fail(fmt::format("{}: malformed HDR", path));
-    const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
-    if (texels > kMostTexels)
-        return fail(fmt::format("{}: too large", path));
-    // A run of 127 equal bytes takes two, for each of four channels.
-    if (texels / 127 * 8 > bytes.size())
-        return fail(fmt::format("{}: truncated HDR", path));
-    if (const Result<void> fits = memory.allow(path, 2 * texels * sizeof(glm::vec3)); !fits)
-        return tl::make_unexpected(fits.error());
-    const std::unique_ptr<float, decltype(&stbi_image_free)> pixels(
-        stbi_loadf_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 3),
-        stbi_image_free);
-    if (!pixels)
-        return fail(fmt::format("{}: malformed HDR", path));
-    ImageF out;
-    out.width = std::uint32_t(width);
-    out.height = std::uint32_t(height);
-    out.rgb.resize(std::size_t(width) * std::size_t(height));
-    for (std::size_t i = 0; i < out.rgb.size(); ++i)
-        out.rgb[i] = {pixels.get()[3 * i], pixels.get()[3 * i + 1], pixels.get()[3 * i + 2]};
-    return out;
-}
-
 Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memory) {
     Result<std::string> read = readBytes(path);
     if (!read)
@@ -197,9 +169,12 @@ Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memor
     const std::span<const std::uint8_t> bytes = spanOf(*read).first(size);
     if (read->starts_with("\x76\x2f\x31\x01"))
         return readExr(path, bytes, memory);
-    if (stbi_is_hdr_from_memory(bytes.data(), int(bytes.size())))
-        return readHdr(path, bytes, memory);
-    return fail(fmt::format("{}: neither EXR nor HDR", path));
+    if (!isHdr(bytes))
+        return fail(fmt::format("{}: neither EXR nor HDR", path));
+    Result<ImageF> image = decodeHdr(bytes, memory);
+    if (!image)
+        return fail(fmt::format("{}: {}", path, image.error().message));
+    return image;
 }
 
 Result<void> writePng(const std::string& path, const Image& image) {

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "engine/files/hdr_image.h"
+
+#include "engine/scene/decode_image.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace limn {
+
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+using Rgbe = std::array<std::uint8_t, 4>;
+
+tl::unexpected<Error> malformed() {
+    return fail("malformed HDR");
+}
+tl::unexpected<Error> truncated() {
+    return fail("truncated HDR");
+}
+
+/// Up to the end of the line, which is taken too.
+std::string_view takeLine(std::string_view& rest) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    return line;
+}
+
+/// "-Y 480 +X 640": a number after the letters of its axis.
+bool takeNumber(std::string_view& line, std::string_view axis, std::uint32_t& number) {
+    if (!line.starts_with(axis))
+        return false;
+    line.remove_prefix(axis.size());
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+    line.remove_prefix(std::size_t(end - line.data()));
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    return error == std::errc() && number > 0;
+}
+
+glm::vec3 colorOf(const Rgbe& texel) {
+    constexpr int kBias = 128 + 8; // of the exponent, and of mantissas of 8 bits
+    const float scale = texel[3] ? std::ldexp(1.f, texel[3] - kBias) : 0;
+    return glm::vec3(texel[0], texel[1], texel[2]) * scale;
+}
+
+/// A row whose channels follow one another, each in runs of one byte and in others as they are.
+Result<void> unpackRow(Bytes& rest, std::vector<Rgbe>& row) {
+    constexpr std::size_t kRun = 128; // and what is above counts
+    for (std::size_t channel = 0; channel < 4; ++channel)
+        for (std::size_t x = 0; x < row.size();) {
+            if (rest.empty())
+                return truncated();
+            const bool isRun = rest[0] > kRun;
+            const std::size_t count = isRun ? rest[0] - kRun : rest[0];
+            rest = rest.subspan(1);
+            if (count == 0 || count > row.size() - x)
+                return malformed();
+            if (rest.size() < (isRun ? 1 : count))
+                return truncated();
+            for (std::size_t i = 0; i < count; ++i)
+                row[x++][channel] = rest[isRun ? 0 : i];
+            rest = rest.subspan(isRun ? 1 : count);
+        }
+    return {};
+}
+
+Result<void> readRow(Bytes& rest, std::vector<Rgbe>& row) {
+    constexpr std::size_t kLeastPacked = 8, kMostPacked = 32767;
+    const bool canBePacked = row.size() >= kLeastPacked && row.size() <= kMostPacked;
+    if (canBePacked && rest.size() >= 4 && rest[0] == 2 && rest[1] == 2 && rest[2] < 128) {
+        if (std::size_t(rest[2] << 8 | rest[3]) != row.size())
+            return malformed();
+        rest = rest.subspan(4);
+        return unpackRow(rest, row);
+    }
+    if (rest.size() < row.size() * sizeof(Rgbe))
+        return truncated();
+    for (Rgbe& texel : row) {
+        std::copy_n(rest.begin(), texel.size(), texel.begin());
+        rest = rest.subspan(texel.size());
+    }
+    return {};
+}
+
+} // namespace
+
+bool isHdr(Bytes file) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    return text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n");
+}
+
+Result<ImageF> decodeHdr(Bytes file, const MemoryBudget& memory) {
+    std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    bool isRgbe = false;
+    for (std::string_view line = takeLine(text); !line.empty(); line = takeLine(text))
+        isRgbe = isRgbe || line == "FORMAT=32-bit_rle_rgbe";
+    std::string_view size = takeLine(text);
+    ImageF image;
+    if (!isRgbe || !takeNumber(size, "-Y ", image.height) || !takeNumber(size, "+X ", image.width))
+        return malformed();
+    const std::uint64_t texels = std::uint64_t(image.width) * image.height;
+    if (texels > kMostTexels)
+        return fail("too large");
+    // A run of 127 equal bytes takes two, for each of four channels.
+    if (texels / 127 * 8 > text.size())
+        return truncated();
+    if (const Result<void> fits =
+            memory.allow("the picture", texels * sizeof(glm::vec3) + image.width * sizeof(Rgbe));
+        !fits)
+        return tl::make_unexpected(fits.error());
+    image.rgb.reserve(std::size_t(texels));
+    std::vector<Rgbe> row(image.width);
+    Bytes rest = file.last(text.size());
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        if (const Result<void> read = readRow(rest, row); !read)
+            return tl::make_unexpected(read.error());
+        for (const Rgbe& texel : row)
+            image.rgb.push_back(colorOf(texel));
+    }
+    return image;
+}
+
+} // namespace limn
