@@ -16,7 +16,8 @@ void main() {
         for (uint k = levelBegin[level] + first; k < levelBegin[level + 1]; k += step) {
             const GpuInnerNode n = nodes[k];
             const vec3 l = radiosity[n.left].rgb, r = radiosity[n.right].rgb;
-            radiosity[n.node] = vec4(r + (l - r) * n.leftWeight, 0);
+            // Not r + (l - r) w: a lamp in r, of no weight, would leave its rounding in a dark l.
+            radiosity[n.node] = vec4(l * n.leftWeight + r * (1.0 - n.leftWeight), 0);
         }
         memoryBarrierBuffer();
         barrier();

@@ -128,7 +128,7 @@ TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, Tr
                              const Progress& progress, StageStore* store) {
     const auto fields = [&surfels](auto& a, auto& t) {
         a("irradiance", t.irradiance, rule::count(surfels.size() * TracedTraining::kCount),
-          rule::within(0, 1e30));
+          rule::within(0, 1e15)); // its square stays within float
         a("lamps", t.lamps, rule::count(TracedTraining::kLamps), rule::inReach());
         a("position", t.position, rule::count(surfels.size()), rule::inReach());
     };

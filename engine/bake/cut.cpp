@@ -53,9 +53,8 @@ void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
                 band += y[i] * axis[i];
             series += factors[std::size_t(l)] * g[l] * band;
         }
-        cone.transport *= series > 0 ? std::min(cone.irradiance / (cone.transport * series),
-                                                IrradianceAxis::kMaxGain)
-                                     : 1;
+        const float seen = cone.transport * series;
+        cone.transport *= seen > 0 ? std::min(cone.irradiance / seen, IrradianceAxis::kMaxGain) : 1;
     }
 }
 
@@ -274,6 +273,8 @@ private:
 using WorthHistogram = std::vector<std::uint64_t>;
 
 std::uint32_t stepOf(float worth) {
+    if (!(worth > 0)) // of -0 and of what is no number it would lie beyond the histogram
+        return 0;
     return std::bit_cast<std::uint32_t>(worth) >> 16;
 }
 

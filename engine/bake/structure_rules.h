@@ -66,6 +66,7 @@ void chartFields(A& a, C& c, const Mesh* mesh) {
     const std::uint64_t vertices = mesh ? mesh->positions.size() : ~std::uint64_t(0);
     a("sourceVertex", c.sourceVertex, rule::below(vertices));
     a("indices", c.indices, rule::below(c.sourceVertex.size()),
+      rule::holds("not in threes", [](const auto& all) { return all.size() % 3 == 0; }),
       mesh ? rule::noneOr(mesh->indices.size()) : rule::noneOr(c.indices.size()));
     a("chartOfTriangle", c.chartOfTriangle, rule::count(c.indices.size() / 3),
       rule::below(c.chartSize.size()));

@@ -297,7 +297,7 @@ HWY_INLINE void addCones(Floats d, const Cones<Bands>& cones, const V* light, V*
 /// Adds the lanes of each.
 template <int Bands, int Chroma, Orders Of>
 HWY_INLINE void addTotals(const V* sum, float* total) {
-    constexpr auto kSums = sumsOf<Bands, Chroma, Of>();
+    static constexpr auto kSums = sumsOf<Bands, Chroma, Of>(); // clang lets no lambda name another
     constexpr int kFours = (kSums.count + 3) / 4;
     float out[4 * kFours];
     unrolled<0, kFours>([&](auto k) LIMN_UNROLLED {

@@ -19,6 +19,7 @@ static float spotFalloff(const Light& light, glm::vec3 toLight) {
 }
 
 LightSample sampleLight(const Light& light, glm::vec3 p) {
+    constexpr float kNearest = 1e-8f; // shadowed_light.glsl has its square
     LightSample s;
     if (!light.enabled || light.kind == LightKind::Rectangle)
         return s;
@@ -41,7 +42,7 @@ LightSample sampleLight(const Light& light, glm::vec3 p) {
     }
     if (light.kind == LightKind::Spot)
         window *= spotFalloff(light, s.toLight);
-    s.irradiance = light.color * (light.strength * window / std::max(d2, 1e-8f));
+    s.irradiance = light.color * (light.strength * window / std::max(d2, kNearest * kNearest));
     return s;
 }
 

@@ -18,7 +18,6 @@
 namespace limn {
 namespace {
 
-// None of them is scaled to where lamps are nearer than 0.1 mm, which sampleLight() caps.
 TEST(Oracles, AreMetByThirtyHostileScenes) {
     const TemporaryFolder folder;
     const std::vector<Oracle> oracles = engineOracles();
@@ -35,6 +34,18 @@ TEST(Oracles, AreMetByThirtyHostileScenes) {
     }
     for (std::size_t k = 0; k < oracles.size(); ++k)
         EXPECT_GT(judged[k], 0) << oracles[k].name << " was never judged";
+}
+
+// Links of needles and far lamps brought 0 / 0 of their light: not finite, not negative, not read
+// back, and not what a baked file may hold.
+TEST(Oracles, AreMetByScenesWhoseLinksWereNoNumbers) {
+    const TemporaryFolder folder;
+    const std::vector<Oracle> oracles = engineOracles();
+    for (const std::uint64_t seed : {2975, 5618, 9075, 9559}) {
+        const CaseResult result = runCase(generatedCase(seed), oracles, {60, folder.path.string()});
+        for (std::size_t k = 0; k < oracles.size(); ++k)
+            EXPECT_FALSE(result.judgements[k].failed()) << oracles[k].name << " of seed " << seed;
+    }
 }
 
 /// A closed room with a lamp, of few bounces.
