@@ -258,6 +258,25 @@ static Problem checkVersion(const Json& root) {
     return {};
 }
 
+/// tinygltf takes the address of an image in a buffer without asking whether it lies there.
+static Problem checkImageViews(const Json& root) {
+    const Json& images = root.value("images", Json::array());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const auto index = images[i].find("bufferView");
+        if (index == images[i].end())
+            continue;
+        const Json& view = root["bufferViews"][index->get<std::size_t>()];
+        const Json& buffer = root["buffers"][view["buffer"].get<std::size_t>()];
+        const double offset = view.value("byteOffset", 0.0), length = view["byteLength"],
+                     size = buffer["byteLength"];
+        if (offset + length > size)
+            return problem(
+                fmt::format("images[{}].bufferView", i),
+                fmt::format("{} bytes at {} exceed the buffer's {}", length, offset, size));
+    }
+    return {};
+}
+
 Result<void> checkGltfSchema(const Json& root) {
     Problem p = checkFields(root, kRoot, "", root);
     if (!p)
@@ -266,6 +285,8 @@ Result<void> checkGltfSchema(const Json& root) {
         p = checkNames(root, "extensionsUsed");
     if (!p)
         p = checkVersion(root);
+    if (!p)
+        p = checkImageViews(root);
     if (p)
         return fail(*p);
     return {};

@@ -81,6 +81,14 @@ TEST(GltfRefusal, WhatDoesNotFitIsRefusedByFieldAndFile) {
     }
 }
 
+TEST(GltfRefusal, AnImageBeyondItsBufferIsRefused) {
+    GltfBuilder b = triangleScene();
+    b.json["images"] = {{{"mimeType", "image/png"}, {"bufferView", b.json["bufferViews"].size()}}};
+    b.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 1000000}, {"byteLength", 40}});
+    EXPECT_NE(refusal(b).find("images[0].bufferView: 40 bytes at 1000000"), std::string::npos)
+        << refusal(b);
+}
+
 TEST(GltfRefusal, IndicesOutOfRangeAreRefused) {
     GltfBuilder b = triangleScene();
     b.json["meshes"][0]["primitives"][0]["indices"] = b.indices({0, 1, 3});
