@@ -4,6 +4,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/read_file.h"
 #include "engine/scene/gltf_schema.h"
+#include "engine/scene/gltf_size.h"
 
 #include <algorithm>
 #include <array>
@@ -240,6 +241,8 @@ Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
     const Result<std::string_view> text = jsonText(*main);
     if (!text)
         return tl::make_unexpected(text.error());
+    if (const Result<void> fits = memory.allow("its JSON", jsonBytes(*text)); !fits)
+        return tl::make_unexpected(fits.error());
     const Result<nlohmann::json> json = readJson(*text);
     if (!json)
         return tl::make_unexpected(json.error());

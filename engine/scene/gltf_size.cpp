@@ -97,4 +97,12 @@ Result<void> checkGltfSize(const GltfFile& file, const MemoryBudget& memory) {
     return memory.allow("the scene", all);
 }
 
+std::uint64_t jsonBytes(std::string_view text) {
+    // tinygltf keeps a tree of its own beside that of the JSON, and a node for every object.
+    constexpr std::uint64_t kPerValue = 200, kPerObject = 900;
+    const auto values = std::uint64_t(std::ranges::count(text, ','));
+    const auto objects = std::uint64_t(std::ranges::count(text, '{'));
+    return 2 * text.size() + kPerValue * values + kPerObject * objects;
+}
+
 } // namespace limn

@@ -55,6 +55,14 @@ TEST(GltfSize, PrimitivesThatShareVerticesMustFitEachForItself) {
               std::string::npos);
 }
 
+TEST(GltfSize, ItsJsonMustFit) {
+    GltfBuilder b = triangleScene();
+    b.json["extras"] = std::vector<int>(100000); // 200 kB that become 20 MB
+    EXPECT_NE(problem(b, 10 << 20).find("its JSON would need 19"), std::string::npos)
+        << problem(b, 10 << 20);
+    EXPECT_EQ(problem(b, 30 << 20), "");
+}
+
 TEST(GltfSize, WhatFitsIsRead) {
     EXPECT_EQ(problem(triangleScene(), 1 << 20), "");
 }
