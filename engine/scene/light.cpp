@@ -19,7 +19,7 @@ static float spotFalloff(const Light& light, glm::vec3 toLight) {
 }
 
 LightSample sampleLight(const Light& light, glm::vec3 p) {
-    constexpr float kNearest = 1e-8f; // shadowed_light.glsl has its square
+    constexpr float kNearest = 1e-5f; // shadowed_light.glsl has its square
     LightSample s;
     if (!light.enabled || light.kind == LightKind::Rectangle)
         return s;

@@ -45,7 +45,7 @@ struct LightSample {
     float distance = 0;      ///< [m]; infinity for Directional
 };
 
-/// Strength of `light` at world point `p`, nowhere more than at 10 nm. Zero irradiance when out of
+/// Strength of `light` at world point `p`, nowhere more than at 10 um. Zero irradiance when out of
 /// range, off, outside the cone, or at d = 0; and from a Rectangle, see rectangle_light.h.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
