@@ -81,6 +81,19 @@ std::vector<std::uint8_t> jpegWithTable(std::uint8_t of15, std::uint8_t of16) {
     return jpeg;
 }
 
+// stb 2.27 decodes by a table that is missing as memory happens to be.
+TEST(DecodeImage, AJpegScanHasItsTables) {
+    const auto scanBy = [](std::uint8_t tables, std::uint8_t first, std::uint8_t last) {
+        std::vector<std::uint8_t> jpeg = jpegWithTable(1, 1); // number 3 of those for AC
+        jpeg.insert(jpeg.end(), {0xff, 0xda, 0, 8, 1, 1, tables, first, last, 0});
+        return jpeg;
+    };
+    EXPECT_TRUE(jpegTablesFit(scanBy(0x13, 1, 63)));
+    EXPECT_FALSE(jpegTablesFit(scanBy(0x12, 1, 63)));
+    EXPECT_FALSE(jpegTablesFit(scanBy(0x13, 0, 63))); // there are none for DC
+    EXPECT_FALSE(jpegTablesFit(scanBy(0x13, 0, 0)));
+}
+
 // stb 2.27 writes the codes of a longer table over what lies behind it.
 TEST(DecodeImage, AJpegTableHasNoMoreCodesThanSymbols) {
     EXPECT_TRUE(jpegTablesFit(jpegWithTable(128, 128)));
