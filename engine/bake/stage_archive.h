@@ -17,14 +17,8 @@ template <class T, class Fields>
 std::optional<T> kept(StageStore& store, std::uint64_t key, Fields fields) {
     if (const auto bytes = store.find(key)) {
         T value{};
-        ByteReader reader(*bytes);
-        fields(reader, value);
-        FieldCheck check;
-        if (reader.ok && reader.atEnd()) {
-            fields(check, std::as_const(value));
-            if (check.defect.empty())
-                return value;
-        }
+        if (readFields(*bytes, [&](auto& archive) { fields(archive, value); }))
+            return value;
     }
     return {};
 }

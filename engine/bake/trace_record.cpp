@@ -117,13 +117,7 @@ std::string recordBytes(const TraceRecord& record) {
 }
 
 bool readRecord(const std::string& bytes, TraceRecord& record) {
-    ByteReader reader(bytes);
-    recordFields(reader, record);
-    if (!reader.ok || !reader.atEnd())
-        return false;
-    FieldCheck check;
-    recordFields(check, std::as_const(record));
-    return check.defect.empty();
+    return readFields(bytes, [&](auto& archive) { recordFields(archive, record); });
 }
 
 InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) {

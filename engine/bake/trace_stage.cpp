@@ -169,12 +169,9 @@ KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
     std::optional<std::string> bytes = m_store->find(key);
     std::vector<RawHit> hits;
     if (bytes && bytes->size() != caches * bytesPerCache) { // a patch has fewer
-        ByteReader reader(*bytes);
-        patchFields(reader, block.root, block.patched, hits, caches, in.rays);
-        FieldCheck check;
-        if (reader.ok && reader.atEnd())
-            patchFields(check, block.root, block.patched, hits, caches, in.rays);
-        if (!reader.ok || !reader.atEnd() || !check.defect.empty())
+        if (!readFields(*bytes, [&](auto& archive) {
+                patchFields(archive, block.root, block.patched, hits, caches, in.rays);
+            }))
             return block;
         bytes = m_store->find(block.root);
     }
@@ -387,15 +384,9 @@ bool Tracing::finish() {
     const bool aims = mostAimed(in.trace.scene(), in.set, in.linker) > 0;
     const std::uint64_t key = aimedKey(in, m_key);
     if (aims && m_store)
-        if (const std::optional<std::string> bytes = m_store->find(key)) {
-            ByteReader reader(*bytes);
-            aimedFields(reader, m_hits, in);
-            FieldCheck check;
-            if (reader.ok && reader.atEnd())
-                aimedFields(check, std::as_const(m_hits), in);
-            if (!reader.ok || !reader.atEnd() || !check.defect.empty())
+        if (const std::optional<std::string> bytes = m_store->find(key))
+            if (!readFields(*bytes, [&](auto& archive) { aimedFields(archive, m_hits, in); }))
                 m_hits.aimedBegin.clear(), m_hits.aimed.clear();
-        }
     m_report.gridDepth =
         gridDepths(in.set.surfels, in.caches, in.points, m_hits.sender, in.rays, in.gridReach);
     const bool fresh = m_hits.aimedBegin.empty();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/archive.h"
+
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -131,5 +133,18 @@ public:
         }
     }
 };
+
+/// Reads what `fields(archive)` lists, then checks it: it is called with a ByteReader and then with
+/// a FieldCheck. False where `bytes` are fewer or more than the fields, and where a rule is broken;
+/// the fields then hold anything.
+template <class Fields>
+bool readFields(std::string_view bytes, const Fields& fields) {
+    ByteReader reader(bytes);
+    fields(reader);
+    FieldCheck check;
+    if (reader.ok && reader.atEnd())
+        fields(check);
+    return reader.ok && reader.atEnd() && check.defect.empty();
+}
 
 } // namespace limn
