@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/light_parts.h"
 
+#include "engine/scene/light_cuts.h"
 #include "engine/scene/rectangle_light.h"
 
 #include <algorithm>
@@ -11,103 +12,16 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace limn {
 
 namespace {
 
-/// Where a triangle cuts the light's plane, in the light's coordinates: [-1, 1]^2 within.
-struct Cut {
-    glm::vec2 a, b;
-    glm::vec2 front; ///< times an offset in these coordinates: > 0 before the triangle
-    bool twoSided;
-};
-
-/// The part of a segment within [-1, 1]^2. Liang, Barsky. A New Concept and Method for Line
-/// Clipping. 1984
-bool clipToSquare(glm::vec2& a, glm::vec2& b) {
-    float enter = 0, leave = 1;
-    const glm::vec2 way = b - a;
-    for (int axis = 0; axis < 2; ++axis)
-        for (const float side : {-1.f, 1.f}) {
-            const float out = side * a[axis] - 1, along = -side * way[axis];
-            if (along == 0 ? out > 0 : false)
-                return false;
-            if (along < 0)
-                leave = std::min(leave, out / along);
-            if (along > 0)
-                enter = std::max(enter, out / along);
-        }
-    if (!(enter < leave))
-        return false;
-    const glm::vec2 start = a;
-    a = start + way * enter;
-    b = start + way * leave;
-    return true;
-}
-
-/// The plane lies a little before the light: what the light is flush with does not cut it.
-class Cutter {
-public:
-    explicit Cutter(const LightRectangle& r)
-        : m_r(r), m_from(r.centre + r.normal * (1e-3f * std::min(glm::length(r.halfWidth),
-                                                                 glm::length(r.halfHeight)))) {}
-
-    void add(const Scene& scene, const Instance& instance, std::vector<Cut>& cuts) {
-        const Mesh& mesh = scene.meshOf(instance);
-        const glm::vec3 normal = glm::transpose(glm::mat3(instance.toWorld)) * m_r.normal;
-        const float offset = glm::dot(m_r.normal, glm::vec3(instance.toWorld[3]) - m_from);
-        m_height.resize(mesh.positions.size());
-        for (std::size_t i = 0; i < m_height.size(); ++i)
-            m_height[i] = glm::dot(normal, mesh.positions[i]) + offset;
-        for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
-            addTriangle(scene, instance, mesh.triangle(t), cuts);
-    }
-
-private:
-    glm::vec2 coordinates(glm::vec3 p) const {
-        const glm::vec3 way = p - m_r.centre;
-        return {glm::dot(way, m_r.halfWidth) / glm::dot(m_r.halfWidth, m_r.halfWidth),
-                glm::dot(way, m_r.halfHeight) / glm::dot(m_r.halfHeight, m_r.halfHeight)};
-    }
-    void addTriangle(const Scene& scene, const Instance& instance,
-                     const std::array<std::uint32_t, 3>& corners, std::vector<Cut>& cuts) const {
-        const std::vector<glm::vec3>& at = scene.meshOf(instance).positions;
-        std::array<glm::vec3, 3> ends;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t i = corners[k], j = corners[(k + 1) % 3];
-            if ((m_height[i] < 0) != (m_height[j] < 0))
-                ends[count++] =
-                    at[i] + (at[j] - at[i]) * (m_height[i] / (m_height[i] - m_height[j]));
-        }
-        if (count != 2)
-            return;
-        const auto placed = [&](glm::vec3 p) {
-            return coordinates(glm::vec3(instance.toWorld * glm::vec4(p, 1)));
-        };
-        Cut cut{placed(ends[0]), placed(ends[1]), {}, false};
-        if (!clipToSquare(cut.a, cut.b))
-            return;
-        const glm::vec3 normal =
-            instance.normalToWorld *
-            glm::cross(at[corners[1]] - at[corners[0]], at[corners[2]] - at[corners[0]]);
-        cut.front = {glm::dot(normal, m_r.halfWidth), glm::dot(normal, m_r.halfHeight)};
-        cut.twoSided = scene.materialOf(instance).doubleSided;
-        cuts.push_back(cut);
-    }
-
-    const LightRectangle& m_r;
-    glm::vec3 m_from;
-    std::vector<float> m_height; ///< of the mesh's vertices above the plane
-};
-
 /// The coordinates along one axis at which something may change, -1 and 1 among them.
-std::vector<float> linesOf(const std::vector<Cut>& cuts, int axis) {
+std::vector<float> linesOf(const std::vector<LightCut>& cuts, int axis) {
     constexpr std::size_t kMostLines = 128;
     std::vector<float> all = {-1, 1};
-    for (const Cut& c : cuts) {
+    for (const LightCut& c : cuts) {
         all.push_back(c.a[axis]);
         all.push_back(c.b[axis]);
     }
@@ -142,14 +56,14 @@ std::vector<float> middlesOf(const std::vector<float>& lines) {
 /// The light in cells, of which those are joined whose middles see each other along the plane.
 class PartGrid {
 public:
-    explicit PartGrid(const std::vector<Cut>& cuts)
+    explicit PartGrid(const std::vector<LightCut>& cuts)
         : m_lines{linesOf(cuts, 0), linesOf(cuts, 1)}, m_middles{middlesOf(m_lines[0]),
                                                                  middlesOf(m_lines[1])},
           m_parent(cells()), m_backs(cells(), true) {
         std::iota(m_parent.begin(), m_parent.end(), 0U);
         for (const int axis : {0, 1})
             m_blocked[std::size_t(axis)].assign(cells(), false);
-        for (const Cut& c : cuts)
+        for (const LightCut& c : cuts)
             for (const int axis : {0, 1})
                 block(c, axis);
         for (std::uint32_t y = 0; y < rows(); ++y)
@@ -188,7 +102,7 @@ private:
         return {m_lines[0][x], m_lines[1][y]};
     }
     void join(std::uint32_t a, std::uint32_t b) { m_parent[root(b)] = root(a); }
-    void block(const Cut& cut, int axis);
+    void block(const LightCut& cut, int axis);
 
     std::array<std::vector<float>, 2> m_lines, m_middles;
     std::vector<std::uint32_t> m_parent;
@@ -198,7 +112,7 @@ private:
 };
 
 /// Blocks the steps along `axis` that the cut crosses.
-void PartGrid::block(const Cut& cut, int axis) {
+void PartGrid::block(const LightCut& cut, int axis) {
     const int across = 1 - axis;
     const std::vector<float>&steps = m_middles[std::size_t(axis)],
           &rows = m_middles[std::size_t(across)];
@@ -322,11 +236,7 @@ Light partOf(const Light& light, const LightRectangle& r, const PartGrid::Part& 
 
 std::vector<Light> partsBetweenWalls(const Light& light, const Scene& scene) {
     const LightRectangle r = lightRectangle(light);
-    Cutter cutter(r);
-    std::vector<Cut> cuts;
-    for (const Instance& instance : scene.instances)
-        if (!isCutout(scene.materialOf(instance)))
-            cutter.add(scene, instance, cuts);
+    const std::vector<LightCut> cuts = lightCuts(r, scene);
     if (cuts.empty())
         return {light};
     std::vector<PartGrid::Part> parts = PartGrid(cuts).rectangles();

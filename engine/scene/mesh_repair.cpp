@@ -12,13 +12,6 @@
 
 namespace limn {
 
-/// Beyond it the square of an area overflows float.
-
-static bool usable(glm::vec3 p) {
-    return std::abs(p.x) <= kMostCoordinate && std::abs(p.y) <= kMostCoordinate &&
-           std::abs(p.z) <= kMostCoordinate; // false for NaN
-}
-
 /// Twice the triangle's area along its normal, in double: float loses needles far from the origin.
 static glm::dvec3 areaVector(const Mesh& mesh, std::size_t t) {
     const auto [a, b, c] = mesh.triangle(t);
@@ -76,8 +69,8 @@ RemovedTriangles removeBadTriangles(Mesh& mesh) {
     std::size_t out = 0;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
         const auto [a, b, c] = mesh.triangle(t);
-        if (!usable(mesh.positions[a]) || !usable(mesh.positions[b]) ||
-            !usable(mesh.positions[c])) {
+        if (!withinReach(mesh.positions[a]) || !withinReach(mesh.positions[b]) ||
+            !withinReach(mesh.positions[c])) {
             ++removed.notFinite;
         } else if (hasNoArea(mesh, t)) {
             ++removed.zeroArea;

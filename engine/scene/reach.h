@@ -11,7 +11,7 @@ namespace limn {
 /// squares, stay within float.
 inline constexpr float kMostCoordinate = 1e12f;
 
-/// False for what is no number, too.
+/// Whether no coordinate is NaN or beyond kMostCoordinate.
 bool withinReach(glm::vec3 p);
 
 /// What of a scene lies beyond kMostCoordinate once it is placed, in words: its meshes, a light, a
