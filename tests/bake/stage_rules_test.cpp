@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Kept stages with right checksums and wrong contents: whoever can write to the folder leads no
 // bake astray.
-#include "engine/bake/bake.h"
 #include "engine/bake/bake_defect.h"
-#include "engine/bake/stage_store.h"
+#include "tests/bake/staged_room.h"
 #include "tests/core/temporary_folder.h"
-#include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -19,38 +17,18 @@
 namespace limn {
 namespace {
 
-using namespace simple;
 namespace fs = std::filesystem;
 
-/// A room with a lamp, a two-sided sheet, a wall, a block and a dynamic ball: every kind of stage.
-Scene room(float blockAt) {
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.5f)));
-    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(100)));
-    Material sheet = lambert(glm::vec3(0.7f));
-    sheet.doubleSided = true;
-    b.addMaterial(sheet);
-    b.add(box(glm::vec3(0), glm::vec3(4), true));
-    b.add(quad({1.8f, 3.9f, 1.8f}, {0.2f, 0, 0}, {0, 0, 0.2f}, 1));
-    b.add(quad({3.5f, 0.5f, 0.5f}, {0, 1, 0}, {0, 0, 1}, 2));
-    b.add(box({2, 0, 0}, {0.05f, 4, 3}, false));
-    const std::uint32_t block = b.addMesh(box(glm::vec3(0), glm::vec3(1, 1.2f, 1), false));
-    b.addInstance(block, glm::translate(glm::mat4(1), glm::vec3(blockAt, 0, 1)));
-    const std::uint32_t ball = b.addMesh(sphere(0.2f, 1, false));
-    b.addInstance(ball, glm::translate(glm::mat4(1), glm::vec3(3, 3, 3)), true);
-    Scene scene = b.build();
+/// The room with a wall, baked with few surfels and texels: there are many bakes of it here.
+Scene smallRoom(float blockAt) {
+    Scene scene =
+        stagedRoom({.low = glm::translate(glm::mat4(1), glm::vec3(blockAt, 0, 1)), .wall = true});
     scene.bake.surfels = 700;
+    scene.bake.texelsPerMetre = 0;
     scene.bake.lightmapCaches = 400;
-    scene.bake.rays = 128;
     scene.bake.links = 12;
     scene.bake.grid = {2, 2, 2};
     return scene;
-}
-
-Bake bakedFrom(StageStore& store, const Scene& scene) {
-    Result<Bake> result = bake(TraceScene(scene), {}, &store);
-    EXPECT_TRUE(result) << (result ? "" : result.error().message);
-    return result ? std::move(*result) : Bake{};
 }
 
 /// A stage's file has its key behind the magic and two words.
@@ -67,7 +45,7 @@ protected:
     void keep(const Scene& scene) {
         {
             StageStore store({.folder = m_folder.path.string()});
-            m_hash = bakedFrom(store, scene).hash();
+            m_hash = baked(scene, &store).hash();
         }
         StageStore store({.folder = m_folder.path.string()});
         for (const std::uint64_t key : keysIn(m_folder.path)) {
@@ -82,14 +60,14 @@ protected:
         StageStore store;
         for (const auto& [other, kept] : m_stages)
             store.put(other, other == key ? bytes : kept);
-        return bakedFrom(store, scene);
+        return baked(scene, &store);
     }
     TemporaryFolder m_folder;
     std::map<std::uint64_t, std::string> m_stages;
     std::uint64_t m_hash = 0;
 };
 
-/// `bytes` with eight of them replaced.
+/// `bytes` with the eight at `at` overwritten by `value`.
 std::string overwritten(std::string bytes, std::size_t at, std::uint64_t value) {
     at = std::min(at, bytes.size());
     std::memcpy(bytes.data() + at, &value, std::min<std::size_t>(8, bytes.size() - at));
@@ -98,7 +76,7 @@ std::string overwritten(std::string bytes, std::size_t at, std::uint64_t value) 
 
 // As an index, a length, a float or a double, 0x7f7f… is out of every range.
 TEST_F(KeptStages, WhatIsOutOfRangeIsMadeAgain) {
-    const Scene scene = room(2.5f);
+    const Scene scene = smallRoom(2.5f);
     keep(scene);
     ASSERT_GT(m_stages.size(), 8U);
     for (const auto& [key, bytes] : m_stages)
@@ -110,7 +88,7 @@ TEST_F(KeptStages, WhatIsOutOfRangeIsMadeAgain) {
 }
 
 TEST_F(KeptStages, WhatIsWithinItsRangeMakesABakeThatCanBeFollowed) {
-    const Scene scene = room(2.5f);
+    const Scene scene = smallRoom(2.5f);
     keep(scene);
     std::uint32_t state = 7;
     for (const auto& [key, bytes] : m_stages)
@@ -125,10 +103,10 @@ TEST_F(KeptStages, WhatIsWithinItsRangeMakesABakeThatCanBeFollowed) {
 
 // An earlier trace, of which only the rays that meet what moved are traced again.
 TEST_F(KeptStages, AnEarlierTraceOutOfRangeIsNotUsed) {
-    keep(room(2.5f));
-    const Scene moved = room(2.2f);
+    keep(smallRoom(2.5f));
+    const Scene moved = smallRoom(2.2f);
     StageStore none;
-    const std::uint64_t right = bakedFrom(none, moved).hash();
+    const std::uint64_t right = baked(moved, &none).hash();
     for (const auto& [key, bytes] : m_stages)
         for (std::size_t k = 0; k < 6; ++k) {
             const std::size_t at = bytes.size() * k / 6 / 4 * 4;

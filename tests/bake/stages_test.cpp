@@ -8,6 +8,7 @@
 #include "engine/bake/training_light.h"
 #include "engine/core/parallel.h"
 #include "tests/bake/house_on_ground.h"
+#include "tests/bake/staged_room.h"
 
 #include <gtest/gtest.h>
 
@@ -26,48 +27,6 @@ namespace {
 
 using namespace simple;
 namespace fs = std::filesystem;
-
-/// Where the two blocks of the room stand. A third one is there where asked.
-struct Blocks {
-    glm::mat4 low = glm::translate(glm::mat4(1), glm::vec3(2, 0, 1));
-    glm::mat4 tall = glm::translate(glm::mat4(1), glm::vec3(0.5f, 0, 2.5f));
-    glm::mat4 ball = glm::translate(glm::mat4(1), glm::vec3(3, 3, 3));
-    bool third = false;
-};
-
-/// A room of 4 m with a small lamp, a two-sided sheet, blocks of one mesh, and a dynamic ball that
-/// brings a grid.
-Scene room(const Blocks& blocks) {
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.5f)));
-    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(100)));
-    Material sheet = lambert(glm::vec3(0.7f));
-    sheet.doubleSided = true;
-    b.addMaterial(sheet);
-    b.add(box(glm::vec3(0), glm::vec3(4), true));
-    b.add(quad({1.8f, 3.9f, 1.8f}, {0.2f, 0, 0}, {0, 0, 0.2f}, 1));
-    b.add(quad({3.5f, 0.5f, 0.5f}, {0, 1, 0}, {0, 0, 1}, 2));
-    const std::uint32_t block = b.addMesh(box(glm::vec3(0), glm::vec3(1, 1.2f, 1), false));
-    b.addInstance(block, blocks.low);
-    b.addInstance(block, blocks.tall * glm::scale(glm::mat4(1), glm::vec3(1, 2, 1)));
-    const std::uint32_t ball = b.addMesh(sphere(0.2f, 1, false));
-    b.addInstance(ball, blocks.ball, true);
-    if (blocks.third)
-        b.addInstance(block, glm::translate(glm::mat4(1), glm::vec3(0.2f, 2.7f, 0.3f))).node = 99;
-    Scene scene = b.build();
-    scene.bake.surfels = 900;
-    scene.bake.texelsPerMetre = 2;
-    scene.bake.rays = 128;
-    scene.bake.links = 24;
-    scene.bake.grid = {3, 3, 3};
-    return scene;
-}
-
-Bake baked(const Scene& scene, StageStore* store = nullptr) {
-    Result<Bake> result = bake(TraceScene(scene), {}, store);
-    EXPECT_TRUE(result) << (result ? "" : result.error().message);
-    return result ? std::move(*result) : Bake{};
-}
 
 /// Rays that look which points of the texels are open and on which side of walls they and the
 /// surfels' patches lie, and where patches are seen; again whenever anything moves.
@@ -96,7 +55,7 @@ std::string notesOf(const Bake& bake) {
 
 TEST(Stages, NothingIsTracedWhenOnlyLinksOrBandsChange) {
     StageStore store;
-    Scene scene = room({});
+    Scene scene = stagedRoom({});
     const Bake first = baked(scene, &store);
     EXPECT_GT(first.counts.rays, 10000U);
     EXPECT_EQ(first.hash(), baked(scene).hash());
@@ -112,7 +71,7 @@ TEST(Stages, NothingIsTracedWhenOnlyLinksOrBandsChange) {
 
 TEST(Stages, OtherRaysTraceEverything) {
     StageStore store;
-    Scene scene = room({});
+    Scene scene = stagedRoom({});
     baked(scene, &store);
     scene.bake.rays = 130;
     const Bake more = baked(scene, &store);
@@ -126,7 +85,7 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
         const ThreadLimit limit(threads);
         StageStore store;
         Blocks blocks;
-        const Bake start = baked(room(blocks), &store);
+        const Bake start = baked(stagedRoom(blocks), &store);
         const glm::mat4 moves[] = {
             glm::translate(blocks.low, glm::vec3(0.1f, 0, 0.3f)),
             glm::rotate(blocks.low, 0.4f, glm::vec3(0, 1, 0)),
@@ -134,15 +93,15 @@ TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
         };
         for (const glm::mat4& move : moves) {
             blocks.low = move;
-            const Bake moved = baked(room(blocks), &store);
-            const Bake full = baked(room(blocks));
+            const Bake moved = baked(stagedRoom(blocks), &store);
+            const Bake full = baked(stagedRoom(blocks));
             EXPECT_EQ(moved.hash(), full.hash());
-            const std::uint64_t looks = looksOf(room(blocks));
+            const std::uint64_t looks = looksOf(stagedRoom(blocks));
             EXPECT_LT(moved.counts.rays - looks, (full.counts.rays - looks) / 2);
             EXPECT_NE(notesOf(moved).find("1 instance moved: "), std::string::npos)
                 << notesOf(moved);
         }
-        const Bake back = baked(room({}), &store);
+        const Bake back = baked(stagedRoom({}), &store);
         EXPECT_EQ(back.hash(), start.hash());
         EXPECT_EQ(back.counts.rays, 0U);
     }
@@ -176,15 +135,15 @@ TEST(Stages, MovingAChestInAHouseOnAWideGroundEqualsAFullBake) {
 
 TEST(Stages, ABakeIsTheSameWhereverADynamicObjectIs) {
     Blocks blocks;
-    const Scene start = room(blocks);
+    const Scene start = stagedRoom(blocks);
     const Bake first = baked(start);
     for (const glm::vec3 at : {glm::vec3(1, 0.5f, 2), glm::vec3(40, -70, 900)}) {
         blocks.ball = glm::translate(glm::mat4(1), at);
-        Scene moved = room(blocks);
+        Scene moved = stagedRoom(blocks);
         EXPECT_EQ(bakeInputHash(moved), bakeInputHash(start));
         EXPECT_EQ(baked(moved).hash(), first.hash());
     }
-    Scene fixed = room({});
+    Scene fixed = stagedRoom({});
     fixed.instances[5].dynamic = false; // the ball
     EXPECT_NE(bakeInputHash(fixed), bakeInputHash(start));
 }
@@ -236,9 +195,9 @@ TEST(Stages, ASmallMoveKeepsOnlyTheCachesItChangedAndEqualsAFullBakeWithoutTheRe
 
 TEST(Stages, TrainingShadowsAreTracedAgainOnlyNearWhatMoved) {
     Blocks blocks;
-    const Scene before = room(blocks);
+    const Scene before = stagedRoom(blocks);
     blocks.tall[3].x += 0.3f;
-    const Scene after = room(blocks);
+    const Scene after = stagedRoom(blocks);
     StageStore store;
     const auto traced = [&](const Scene& scene, SurfelSet& set) {
         const TraceScene trace(scene);
@@ -271,7 +230,7 @@ TEST(Stages, TrainingShadowsAreTracedAgainOnlyNearWhatMoved) {
 
 TEST(Stages, AnObjectThatComesOrGoesTracesOnlyWhatMeetsIt) {
     StageStore store;
-    Scene without = room({}), with = room({.third = true});
+    Scene without = stagedRoom({}), with = stagedRoom({.third = true});
     const Bake start = baked(without, &store);
     const Bake added = baked(with, &store);
     EXPECT_EQ(added.hash(), baked(with).hash());
@@ -285,7 +244,7 @@ TEST(Stages, AnObjectThatComesOrGoesTracesOnlyWhatMeetsIt) {
 
 TEST(Stages, OneSideMoreOrAHoleIsMet) {
     StageStore store;
-    Scene scene = room({});
+    Scene scene = stagedRoom({});
     baked(scene, &store);
     scene.materials[2].doubleSided = false;
     EXPECT_EQ(baked(scene, &store).hash(), baked(scene).hash());
@@ -294,7 +253,7 @@ TEST(Stages, OneSideMoreOrAHoleIsMet) {
 }
 
 TEST(Stages, CancelledAtAnyMomentTheNextBakeEqualsTheUndisturbedOne) {
-    Scene scene = room({});
+    Scene scene = stagedRoom({});
     scene.bake.rays = 4096;
     const auto start = std::chrono::steady_clock::now();
     const Bake undisturbed = baked(scene);
@@ -329,7 +288,7 @@ TEST(Stages, CancelledAtAnyMomentTheNextBakeEqualsTheUndisturbedOne) {
 }
 
 TEST(Stages, HitsThatWouldFillTheMemoryAreRefusedByName) {
-    Scene scene = room({});
+    Scene scene = stagedRoom({});
     scene.bake.rays = 65536;
     scene.bake.grid = glm::uvec3(100);
     const Result<Bake> refused = bake(TraceScene(scene));

@@ -20,13 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names(const TemporaryFolder& folder) {
-    std::vector<std::string> result;
-    for (const auto& entry : fs::directory_iterator(folder.path))
-        result.push_back(entry.path().filename());
-    return result;
-}
-
 std::string problem(const Result<void>& result) {
     return result ? "" : result.error().message;
 }
@@ -40,7 +33,7 @@ TEST(ReplaceFile, WritesANewFileAndReplacesAnOldOneWithItsPermissions) {
     EXPECT_EQ(problem(replaceFile(path, "two")), "");
     EXPECT_EQ(fileBytes(path), "two");
     EXPECT_EQ(fs::status(path).permissions(), fs::perms(0600));
-    EXPECT_EQ(names(folder), std::vector<std::string>{"f"});
+    EXPECT_EQ(namesIn(folder.path), std::vector<std::string>{"f"});
 }
 
 TEST(ReplaceFile, ALinkIsFollowedOrReplaced) {
@@ -80,7 +73,7 @@ TEST(ReplaceFile, AFullDiskLeavesTheOldFile) {
     }
     EXPECT_NE(said.find("f: cannot write: File too large"), std::string::npos) << said;
     EXPECT_EQ(fileBytes(path), "old");
-    EXPECT_EQ(names(folder), std::vector<std::string>{"f"});
+    EXPECT_EQ(namesIn(folder.path), std::vector<std::string>{"f"});
 }
 
 TEST(ReplaceFile, ManyWritersLeaveOneWholeFile) {
@@ -96,7 +89,7 @@ TEST(ReplaceFile, ManyWritersLeaveOneWholeFile) {
         writer.join();
     const std::string bytes = fileBytes(path);
     EXPECT_EQ(bytes, std::string(50000, bytes.empty() ? ' ' : bytes[0]));
-    EXPECT_EQ(names(folder), std::vector<std::string>{"f"});
+    EXPECT_EQ(namesIn(folder.path), std::vector<std::string>{"f"});
 }
 
 TEST(ReplaceFile, KilledAtAnyMomentItLeavesAWholeFileAndNothingElse) {
@@ -120,7 +113,7 @@ TEST(ReplaceFile, KilledAtAnyMomentItLeavesAWholeFileAndNothingElse) {
         ASSERT_EQ(bytes, std::string(bytes.size(), bytes[0])) << round;
     }
     ASSERT_TRUE(replaceFile(path, "last"));
-    EXPECT_EQ(names(folder), std::vector<std::string>{"f"});
+    EXPECT_EQ(namesIn(folder.path), std::vector<std::string>{"f"});
 }
 
 // As a program does that was killed between two system calls.
@@ -130,7 +123,7 @@ TEST(ReplaceFile, ATemporaryFileLeftBehindIsRemoved) {
     writeFile(temporaryName(folder.file("f")), "left");
     EXPECT_TRUE(replaceFile(folder.file("f"), "new"));
     EXPECT_EQ(fileBytes(folder.file("f")), "new");
-    EXPECT_EQ(names(folder), std::vector<std::string>{"f"});
+    EXPECT_EQ(namesIn(folder.path), std::vector<std::string>{"f"});
 }
 
 } // namespace

@@ -53,7 +53,7 @@ private:
 };
 
 /// Makes one change to the fields of a list, as engine/core/archive.h has them. Bools and texts
-/// stay as they are: other bytes would be none.
+/// stay as they are: other bytes would be no bool.
 struct ChangingArchive {
     const Change& change;
     std::size_t met = 0;

@@ -18,15 +18,15 @@ inline bool allFinite(const std::vector<glm::vec4>& values) {
     });
 }
 
-/// Two bounces of the scene's light. What comes of anything that was accepted is a number.
+/// Two bounces of the scene's light. Whatever was accepted must light to finite numbers.
 inline void relight(const Scene& scene, const TraceScene& trace, Bake made) {
     Relighter relighter(std::make_shared<const Bake>(std::move(made)));
     relighter.relight(scene, trace, 2);
-    require(allFinite(relighter.field().lightmap), "the light of a lightmap is a number");
-    require(allFinite(relighter.field().grid), "the light of a grid is a number");
+    require(allFinite(relighter.field().lightmap), "the light of a lightmap is finite");
+    require(allFinite(relighter.field().grid), "the light of a grid is finite");
 }
 
-/// As few of everything as a bake can have.
+/// Nearly the least counts a bake can have, so that the fuzzer tries many.
 inline BakeSettings smallBake() {
     BakeSettings settings;
     settings.surfels = 64;
@@ -38,7 +38,7 @@ inline BakeSettings smallBake() {
 }
 
 /// Uses an accepted scene as the program would: its materials, its camera, a bake and its light.
-/// Scenes of many triangles are left out of the bake: they take long, for good reason.
+/// Scenes of many triangles are not baked, since their bakes rightly take long.
 inline void exercise(const Scene& scene) {
     constexpr std::size_t kMostTriangles = 2000;
     std::size_t triangles = 0;
@@ -47,8 +47,8 @@ inline void exercise(const Scene& scene) {
         triangles += count;
         for (std::uint32_t t = 0; t < std::min(count, 8U); ++t) {
             const SurfaceMaterial m = surfaceMaterial(scene, instance, t, 0.3f, 0.3f);
-            require(m.albedo.x >= 0 && m.albedo.x <= 0.99f, "an albedo is one");
-            require(std::isfinite(m.emission.x), "emission is a number");
+            require(m.albedo.x >= 0 && m.albedo.x <= 0.99f, "an albedo is in [0, 0.99]");
+            require(std::isfinite(m.emission.x), "emission is finite");
         }
         if (triangles > kMostTriangles)
             return;
