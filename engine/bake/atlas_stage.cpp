@@ -76,9 +76,6 @@ void evenLamps(const Scene& scene, std::vector<SurfelDensity>& surfels) {
             surfels[i.mesh] = {};
 }
 
-/// Powers of sixteen in texels per area, as densityClass() has them.
-constexpr int kLeastClass = -3, kMostClass = 2;
-
 /// Of an instance that has a place in the atlas.
 bool hasCharts(const Scene& scene, const std::vector<MeshCharts>& charts, std::size_t instance) {
     return instance < scene.instances.size() && !scene.instances[instance].dynamic &&
@@ -96,7 +93,8 @@ void variedFields(A& a, V& v, const Scene& scene, const std::vector<MeshCharts>&
           return isPointOf(scene.meshOf(scene.instances[v.instance]), p);
       }));
     a("back", v.back, rule::count(v.at.size()), rule::below(2));
-    a("fours", v.fours, rule::count(v.at.size()), rule::within(kLeastClass, kMostClass));
+    a("fours", v.fours, rule::count(v.at.size()),
+      rule::within(kLeastDensityClass, kMostDensityClass));
 }
 
 template <class A, class D>
@@ -104,7 +102,7 @@ void bakeDensityFields(A& a, D& d, const Scene& scene, const std::vector<MeshCha
     a.each("texels", d.texels, rule::noneOr(scene.instances.size()), [&](auto& factors) {
         const auto i = std::size_t(&factors - d.texels.data());
         a("factors", factors, rule::noneOr(charts[scene.instances[i].mesh].chartSize.size()),
-          rule::within(std::exp2(2 * kLeastClass), std::exp2(2 * kMostClass)));
+          rule::within(std::exp2(2 * kLeastDensityClass), std::exp2(2 * kMostDensityClass)));
     });
     a.each("surfels", d.surfels, rule::noneOr(scene.assets->meshes.size()), [&](auto& s) {
         densityFields(a, s, scene.assets->meshes[std::size_t(&s - d.surfels.data())]);

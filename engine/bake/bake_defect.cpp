@@ -12,7 +12,7 @@ namespace limn {
 
 bool linksAreBounded(const Caches& c, std::uint32_t bands) {
     constexpr float kMostTransport = 1024;
-    constexpr int kLargest = 0x7bff; // half; beyond it are infinity and what is no number
+    constexpr int kLargest = 0x7bff; // half; beyond it are infinity and NaN
     const auto magnitude = [](std::uint16_t half) { return half & 0x7fff; };
     const std::size_t coefficients = std::size_t(bands) * bands;
     for (std::size_t cache = 0; cache < c.size(); ++cache) {

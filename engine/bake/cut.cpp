@@ -273,7 +273,7 @@ private:
 using WorthHistogram = std::vector<std::uint64_t>;
 
 std::uint32_t stepOf(float worth) {
-    if (!(worth > 0)) // of -0 and of what is no number it would lie beyond the histogram
+    if (!(worth > 0)) // of -0 and of NaN it would lie beyond the histogram
         return 0;
     return std::bit_cast<std::uint32_t>(worth) >> 16;
 }

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-// Of the fields of a Bake, those that are no arrays.
+// The fields of a Bake that are not arrays.
 
 template <class A, class B>
 void settingsFields(A& a, B& b) {
@@ -21,13 +21,13 @@ void settingsFields(A& a, B& b) {
     a("clusterNormalWeight", s.clusterNormalWeight, any);
     a("clusterBalanceWeight", s.clusterBalanceWeight, any), a("grid", s.grid, any);
     a("maxBounces", s.maxBounces, any);
-    a("dimming", s.dimming, rule::holds("out of range", [&s](bool) {
-          return settingsDefect(s).empty(); // of all the settings
-      }));
+    // The last of the settings has the rule for all of them.
+    a("dimming", s.dimming,
+      rule::holds("out of range", [&s](bool) { return settingsDefect(s).empty(); }));
     a("sceneHash", b.sceneHash, any), a("gridSize", b.gridSize, rule::within(0, 256));
     a("gridBounds.lower", b.gridBounds.lower, rule::inReach());
     a("gridBounds.upper", b.gridBounds.upper, rule::inReach());
-    auto& c = b.counts; // for people
+    auto& c = b.counts; // shown, never computed with
     a("triangles", c.triangles, any), a("surfels", c.surfels, any);
     a("clusters", c.clusters, any), a("caches", c.caches, any);
     a("invalidCaches", c.invalidCaches, any), a("links", c.links, any), a("rays", c.rays, any);

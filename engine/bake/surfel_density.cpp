@@ -104,10 +104,10 @@ float surfelClass(double value, double centre) {
 } // namespace
 
 int densityClass(double value, double centre) {
-    constexpr double kLeast = -3, kMost = 2;
     const double exact = std::log2(value / rounded(centre)) / 4;
     constexpr double kUp = 0.5, kDown = 0.1;
-    return int(std::clamp(std::floor(exact + (exact > 0 ? kUp : 1 - kDown)), kLeast, kMost));
+    return int(std::clamp(std::floor(exact + (exact > 0 ? kUp : 1 - kDown)),
+                          double(kLeastDensityClass), double(kMostDensityClass)));
 }
 
 std::vector<SurfelDensity> surfelDensities(const Scene& scene, std::span<const MeshCharts> charts,

@@ -75,9 +75,12 @@ std::vector<SurfelDensity> surfelDensities(const Scene& scene, std::span<const M
                                            std::span<const MeshChartShapes> shapes,
                                            std::span<const MeshHits> hits);
 
-/// The exponent of a power of sixteen for value / centre, in [-3, 2]: the nearest above 1, and
-/// below 1 hardly less than the value deserves. Both > 0; the centre is rounded, so that what
-/// changes it little changes no exponent.
+/// The range of densityClass().
+inline constexpr int kLeastDensityClass = -3, kMostDensityClass = 2;
+
+/// The exponent of a power of sixteen for value / centre: the nearest above 1, and below 1 hardly
+/// less than the value deserves. Both > 0; the centre is rounded, so that what changes it little
+/// changes no exponent.
 int densityClass(double value, double centre);
 
 } // namespace limn

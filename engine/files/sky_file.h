@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// Reads the panorama that `sky.image` names, .hdr or .exr. Pixels that are negative or no number
-/// become black. Fails with the file's name, also where it would not fit
-/// into memory, and leaves the sky as it was.
+/// Reads the panorama that `sky.image` names, .hdr or .exr. Pixels that are negative or NaN become
+/// black. Fails with the file's name, also where it would not fit into memory, and leaves the sky
+/// as it was.
 Result<void> readSkyImage(Sky& sky, const MemoryBudget& memory = {});
 
 } // namespace limn

@@ -50,7 +50,7 @@ bool refine(ReferenceSet& set, const TraceScene& trace, const ReferenceOptions& 
     return true;
 }
 
-/// Products of a picture's differences from two references, per pixel; NaN where any is no number.
+/// Products of a picture's differences from two references, per pixel; NaN where any is NaN.
 static std::vector<double> products(const ImageF& test, const ImageF& a, const ImageF& b) {
     std::vector<double> result(test.rgb.size());
     for (std::size_t i = 0; i < result.size(); ++i) {

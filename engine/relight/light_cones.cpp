@@ -297,7 +297,8 @@ HWY_INLINE void addCones(Floats d, const Cones<Bands>& cones, const V* light, V*
 /// Adds the lanes of each.
 template <int Bands, int Chroma, Orders Of>
 HWY_INLINE void addTotals(const V* sum, float* total) {
-    static constexpr auto kSums = sumsOf<Bands, Chroma, Of>(); // clang lets no lambda name another
+    static constexpr auto kSums =
+        sumsOf<Bands, Chroma, Of>(); // as a member: clang refuses it in a lambda
     constexpr int kFours = (kSums.count + 3) / 4;
     float out[4 * kFours];
     unrolled<0, kFours>([&](auto k) LIMN_UNROLLED {

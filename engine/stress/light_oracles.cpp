@@ -34,7 +34,7 @@ double largest(glm::vec3 v) {
     return std::max({double(v.x), double(v.y), double(v.z)});
 }
 
-/// Numbers that are none: what nodes send, caches hold and the field shows.
+/// Counts NaN and infinities in what nodes send, caches hold and the field shows.
 Judgement judgeFinite(const Subject& subject) {
     const Lighting& l = subject.base.light;
     return judged(double(countNotFinite(l.radiosity) + countNotFinite(l.sh) +
@@ -178,16 +178,17 @@ std::optional<LitScene> greyScene(const Subject& subject) {
     return again ? std::optional(std::move(*again)) : std::nullopt;
 }
 
-/// A grey scene aglow: radiance 1, no other light.
-std::optional<LitScene> furnaceOf(const Subject& subject) {
+/// Judges a furnace: the grey scene where every surface has radiance 1 and there is no other light.
+template <class Judge>
+Judgement judgeFurnace(const Subject& subject, const Judge& judge) {
     std::optional<LitScene> s = greyScene(subject);
     if (!s)
-        return {};
+        return broken();
     for (Material& m : s->scene.materials)
         m.emission = glm::vec3(1);
     s->scene.lights.clear();
     s->light = lightOf(s->bake, s->scene, *s->trace, 1000, subject.progress);
-    return s;
+    return judge(*s);
 }
 constexpr double kFurnace = 2 * kPi; // pi L / (1 - albedo)
 
@@ -214,15 +215,14 @@ bool looksAlong(const LitScene& s) {
 Judgement judgeFurnaceMost(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather)
         return notJudged();
-    const std::optional<LitScene> s = furnaceOf(subject);
-    if (!s)
-        return broken();
-    double most = 0;
-    for (std::size_t i = 0; i < s->bake->surfels.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            raise(most, double(s->light.radiosity[i][c]));
-    const double elsewhere = s->bake->settings.bands < 3 ? 2 : 1.138;
-    return judged(most / kFurnace, 1.01 * (looksAlong(*s) ? 1 : elsewhere));
+    return judgeFurnace(subject, [](const LitScene& s) {
+        double most = 0;
+        for (std::size_t i = 0; i < s.bake->surfels.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                raise(most, double(s.light.radiosity[i][c]));
+        const double elsewhere = s.bake->settings.bands < 3 ? 2 : 1.138;
+        return judged(most / kFurnace, 1.01 * (looksAlong(s) ? 1 : elsewhere));
+    });
 }
 
 /// Whether every ray from every surfel and cache of the surface meets the front of something
@@ -264,13 +264,12 @@ bool isClosed(const LitScene& s) {
 Judgement judgeFurnaceLeast(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather || !isClosed(subject.base))
         return notJudged();
-    const std::optional<LitScene> s = furnaceOf(subject);
-    if (!s)
-        return broken();
-    double missing = 0;
-    for (std::size_t i = 0; i < s->bake->surfels.size(); ++i)
-        raise(missing, 1 - double(s->light.radiosity[i].x) / kFurnace);
-    return judged(missing, 0.01);
+    return judgeFurnace(subject, [](const LitScene& s) {
+        double missing = 0;
+        for (std::size_t i = 0; i < s.bake->surfels.size(); ++i)
+            raise(missing, 1 - double(s.light.radiosity[i].x) / kFurnace);
+        return judged(missing, 0.01);
+    });
 }
 
 /// Nothing leaves a closed room: of albedo 1/2 all over it sends twice its first light, whatever
@@ -291,7 +290,7 @@ Judgement judgeBalance(const Subject& subject) {
 } // namespace
 
 void addLightOracles(std::vector<Oracle>& to) {
-    to.push_back({"finite", "Every number of the light is one.", judgeFinite});
+    to.push_back({"finite", "No number of the light is NaN or infinite.", judgeFinite});
     to.push_back({"not_negative", "No light is less than none.", judgeNotNegative});
     to.push_back(
         {"energy", "Surfaces send no more than first light over 1 - albedo.", judgeEnergy});

@@ -103,7 +103,7 @@ private:
         return dropped;
     }
 
-    /// Sets what differs from a plain scene back, one thing at a time.
+    /// Resets to plain values, one at a time, what differs from them.
     bool makePlain() {
         bool changed = false;
         for (const auto& [id, object] : Document(m_best.document).objects)

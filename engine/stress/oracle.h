@@ -40,7 +40,7 @@ inline Judgement broken() {
     return judged(std::numeric_limits<double>::infinity(), 0);
 }
 
-/// Keeps the larger one in `worst`: infinity where `value` is no number.
+/// Keeps the larger one in `worst`: infinity where `value` is NaN.
 inline void raise(double& worst, double value) {
     if (!(value <= worst))
         worst = value > worst ? value : std::numeric_limits<double>::infinity();

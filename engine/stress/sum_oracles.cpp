@@ -24,9 +24,8 @@ Scene brighter(Scene scene, float k) {
     return scene;
 }
 
-/// Times a power of two no number is rounded otherwise, so all of them are k times what they were,
-/// exactly; but what is too weak for normal numbers, below 1.2e-38, is none, and sums of such
-/// terms may miss some of it.
+/// A power of two changes no rounding, so all light is exactly k times what it was. Subnormal
+/// numbers, below 1.2e-38, are lost, and sums with such terms may miss them.
 Judgement judgeBrightness(const Subject& subject) {
     const LitScene& s = subject.base;
     RandomStream random(subject.seed + 6);
