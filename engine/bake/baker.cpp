@@ -14,6 +14,7 @@
 #include "engine/bake/settings_defect.h"
 #include "engine/bake/stage_archive.h"
 #include "engine/bake/structure_rules.h"
+#include "engine/bake/surfel_gain.h"
 #include "engine/bake/surfel_normals.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/trace_record.h"
@@ -255,9 +256,10 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         return cancelled();
     weighByLinks(seen, linked, result.tree);
     const std::uint32_t invalid = fillInvalid(result.caches, 1 / atlas.texelsPerMetre);
+    shade(scene, set.surfels);
+    limitGain(result.caches, int(scene.bake.bands), set.surfels);
     clock.finish("cut");
 
-    shade(scene, set.surfels);
     result.lightmap = std::move(atlas.layout);
     result.surfels = std::move(set.surfels);
     result.counts = countOf(scene, result, rays);

@@ -45,14 +45,17 @@ public:
     /// reflect less than they receive and receive no more than is sent, it is below 1.
     double passedOn() const { return m_passedOn; }
 
-    /// Rounds end, too, where light grew in kGrowing of them, one after the other: whatever the
-    /// cause, it would go on without end.
-    static constexpr std::uint32_t kGrowing = 3;
-    bool grows() const { return m_growing >= kGrowing; }
+    /// Rounds end, too, where light grew in kGrowing of them, one after the other, or kGrown times
+    /// in all of these. For a few rounds the sum over all surfels may grow although no surfel gets
+    /// more than the brightest one sends: some are seen by more rays than their share.
+    static constexpr std::uint32_t kGrowing = 12;
+    static constexpr double kGrown = 1e6;
+    bool grows() const { return m_growing >= kGrowing || m_grown >= kGrown; }
 
     void lightChanged() {
         m_reached = false;
         m_rounds = m_growing = 0;
+        m_grown = 1;
         m_passedOn = 0;
         m_latest = {};
     }
@@ -71,7 +74,9 @@ public:
         const double toCome = following();
         const bool converged =
             round.ofAll() * toCome < kChange && round.relative * toCome < kChange;
-        m_growing = m_passedOn > kRounding && !converged ? m_growing + 1 : 0;
+        const bool more = m_passedOn > kRounding && !converged;
+        m_growing = more ? m_growing + 1 : 0;
+        m_grown = more ? m_grown * m_passedOn : 1;
         m_reached = (converged && m_unseenRounds == 0 && m_rounds >= kBringing) || grows();
         m_unseenRounds -= m_unseenRounds > 0;
     }
@@ -92,7 +97,7 @@ private:
 
     bool m_reached = false;
     std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;
-    double m_before = 0, m_passedOn = 0;
+    double m_before = 0, m_passedOn = 0, m_grown = 1;
     std::array<double, 4> m_latest{}; ///< passed on by the latest rounds
 };
 

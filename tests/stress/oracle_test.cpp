@@ -48,6 +48,18 @@ TEST(Oracles, AreMetByScenesWhoseLinksWereNoNumbers) {
     }
 }
 
+// Closed rooms of high albedo at a handful of texels: surfels read more light than was sent, and
+// bounces were stopped because light grew, or a furnace was 18 % too bright.
+TEST(Oracles, AreMetByScenesWhoseLightGrew) {
+    const TemporaryFolder folder;
+    const std::vector<Oracle> oracles = engineOracles();
+    for (const std::uint64_t seed : {213, 511, 819, 1409, 1752, 1832, 1944, 2875}) {
+        const CaseResult result = runCase(generatedCase(seed), oracles, {60, folder.path.string()});
+        for (std::size_t k = 0; k < oracles.size(); ++k)
+            EXPECT_FALSE(result.judgements[k].failed()) << oracles[k].name << " of seed " << seed;
+    }
+}
+
 /// A closed room with a lamp, of few bounces.
 Subject room(const TemporaryFolder& folder) {
     Scene scene = *litRoom(150, 150);
