@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/decode_image.h"
 
-#include "engine/scene/image_check.h"
-
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
-#include <stb/stb_image.h>
+#include <spng.h>
+#include <turbojpeg.h>
 
 namespace limn {
 
 namespace {
+
+using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPng = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
 constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
@@ -20,47 +23,116 @@ constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
 /// No image has more: deflate packs 1032 bytes into one, each of eight black or white texels.
 constexpr std::uint64_t kMostTexelsPerByte = 8 * 1032;
 
-bool startsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> signature) {
+bool startsWith(Bytes bytes, Bytes signature) {
     return bytes.size() >= signature.size() &&
            std::ranges::equal(bytes.first(signature.size()), signature);
 }
 
-} // namespace
+/// One PNG in memory. Wrong checksums are let pass, and so are the file's notes on its colours,
+/// which glTF wants ignored.
+class PngReader {
+public:
+    explicit PngReader(Bytes bytes) : m_png(spng_ctx_new(SPNG_CTX_IGNORE_ADLER32)) {
+        constexpr std::size_t kMostText = std::size_t(1) << 26; // and profiles, unpacked
+        spng_set_crc_action(m_png.get(), SPNG_CRC_USE, SPNG_CRC_USE);
+        spng_set_chunk_limits(m_png.get(), kMostText, kMostText);
+        spng_set_png_buffer(m_png.get(), bytes.data(), bytes.size());
+    }
 
-Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes) {
-    if (bytes.empty())
-        return fail("is missing");
-    if (!startsWith(bytes, kPng) && !startsWith(bytes, kJpeg)) // stb would try all that it knows
-        return fail("is neither PNG nor JPEG");
-    if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
-        return fail("is too large");
-    if (startsWith(bytes, kPng) ? !pngChunksFit(bytes) : !jpegTablesFit(bytes))
+    std::optional<ImageSize> size() const {
+        spng_ihdr header;
+        if (spng_get_ihdr(m_png.get(), &header) != 0)
+            return {};
+        return ImageSize{header.width, header.height};
+    }
+    /// rgba: of the image's size.
+    bool read(std::vector<std::uint8_t>& rgba) {
+        return spng_decode_image(m_png.get(), rgba.data(), rgba.size(), SPNG_FMT_RGBA8,
+                                 SPNG_DECODE_TRNS) == 0;
+    }
+
+private:
+    struct Free {
+        void operator()(spng_ctx* png) const { spng_ctx_free(png); }
+    };
+    std::unique_ptr<spng_ctx, Free> m_png;
+};
+
+/// One JPEG in memory.
+class JpegReader {
+public:
+    explicit JpegReader(Bytes bytes) : m_bytes(bytes), m_jpeg(tjInitDecompress()) {}
+
+    std::optional<ImageSize> size() const {
+        int width = 0, height = 0, sampling = 0, colors = 0;
+        if (tjDecompressHeader3(m_jpeg.get(), m_bytes.data(), m_bytes.size(), &width, &height,
+                                &sampling, &colors) != 0)
+            return {};
+        return ImageSize{std::uint32_t(width), std::uint32_t(height)};
+    }
+    /// rgba: of the image's size. What a file lacks at its end is grey.
+    bool read(std::vector<std::uint8_t>& rgba) {
+        const std::optional<ImageSize> size = this->size();
+        return size && (tjDecompress2(m_jpeg.get(), m_bytes.data(), m_bytes.size(), rgba.data(), 0,
+                                      0, int(size->height), TJPF_RGBA, TJFLAG_LIMITSCANS) == 0 ||
+                        tjGetErrorCode(m_jpeg.get()) == TJERR_WARNING);
+    }
+
+private:
+    struct Free {
+        void operator()(void* jpeg) const { tjDestroy(jpeg); }
+    };
+    Bytes m_bytes;
+    std::unique_ptr<void, Free> m_jpeg;
+};
+
+template <class Reader>
+Result<ImageSize> checkedSize(const Reader& reader, Bytes bytes) {
+    const std::optional<ImageSize> size = reader.size();
+    if (!size)
         return fail("is damaged");
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        return fail("is damaged");
-    const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
-    if (width <= 0 || height <= 0 || texels > kMostTexels)
+    const std::uint64_t texels = std::uint64_t(size->width) * size->height;
+    if (texels > kMostTexels)
         return fail("is too large");
     if (texels / kMostTexelsPerByte > bytes.size())
         return fail("is damaged"); // cut short: all of it would be filled in
-    return ImageSize{std::uint32_t(width), std::uint32_t(height)};
+    return *size;
 }
 
-Result<Image> decodeImage(std::span<const std::uint8_t> bytes) {
-    if (const Result<ImageSize> size = imageSize(bytes); !size)
+template <class Reader>
+Result<Image> decodeWith(Reader reader, Bytes bytes) {
+    const Result<ImageSize> size = checkedSize(reader, bytes);
+    if (!size)
         return tl::make_unexpected(size.error());
-    int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4),
-        stbi_image_free);
-    if (!pixels)
-        return fail("is damaged");
     Image image;
-    image.width = std::uint32_t(width);
-    image.height = std::uint32_t(height);
-    image.rgba.assign(pixels.get(), pixels.get() + std::size_t(width) * std::size_t(height) * 4);
+    image.width = size->width;
+    image.height = size->height;
+    image.rgba.resize(std::size_t(4) * size->width * size->height);
+    if (!reader.read(image.rgba))
+        return fail("is damaged");
     return image;
+}
+
+/// Calls use(reader) with the reader of the format that the first bytes say.
+template <class T, class Use>
+Result<T> readBy(Bytes bytes, const Use& use) {
+    if (bytes.empty())
+        return fail("is missing");
+    if (startsWith(bytes, kPng))
+        return use(PngReader(bytes));
+    if (startsWith(bytes, kJpeg))
+        return use(JpegReader(bytes));
+    return fail("is neither PNG nor JPEG");
+}
+
+} // namespace
+
+Result<ImageSize> imageSize(Bytes bytes) {
+    return readBy<ImageSize>(bytes, [&](const auto& reader) { return checkedSize(reader, bytes); });
+}
+
+Result<Image> decodeImage(Bytes bytes) {
+    return readBy<Image>(bytes, [&](auto reader) { return decodeWith(std::move(reader), bytes); });
 }
 
 } // namespace limn

@@ -27,7 +27,7 @@ void putBig(std::string& out, std::uint32_t word) {
 void pngChunk(std::string& out, const std::string& name, const std::string& content) {
     putBig(out, std::uint32_t(content.size()));
     out += name + content;
-    putBig(out, 0); // a checksum that stb does not look at
+    putBig(out, 0); // a checksum, which nobody looks at
 }
 
 /// Rows of zeros, not compressed, of any kind of texel.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/decode_image.h"
-#include "engine/scene/image_check.h"
 
 #include "tests/scene/small_png.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include <sys/resource.h>
 
 namespace limn {
 namespace {
@@ -27,7 +28,8 @@ TEST(DecodeImage, ReadsAPng) {
     EXPECT_EQ(image->rgba, (std::vector<std::uint8_t>{128, 128, 128, 255}));
 }
 
-// stb reads all of these: of the first one past its end, and gigabytes for the second.
+// A reader that tries more formats read past the end of the first, and took gigabytes for the
+// second.
 TEST(DecodeImage, ReadsNothingThatGltfDoesNotHave) {
     const std::string ppm = "P6 2 2 65535\n" + std::string(24, 'x');
     std::string tga(33, '\0');
@@ -55,11 +57,11 @@ TEST(DecodeImage, RefusesSizesBeforeItAllocates) {
 
 TEST(DecodeImage, DamagedOnesAreRefused) {
     std::vector<std::uint8_t> png = greyPng();
-    for (std::size_t size = 0; size + 12 < png.size(); ++size) // the last chunk is empty
+    constexpr std::size_t kTexelsEnd = 51; // behind them are checksums and an empty chunk
+    for (std::size_t size = 0; size < kTexelsEnd; ++size)
         EXPECT_NE(problem({png.begin(), png.begin() + std::ptrdiff_t(size)}), "") << size;
 }
 
-// stb would allocate a gigabyte before it found the file at its end.
 TEST(DecodeImage, APngChunkLiesWithinTheFile) {
     std::vector<std::uint8_t> png = greyPng();
     constexpr std::size_t kDataLength = 33; // of IDAT
@@ -70,52 +72,80 @@ TEST(DecodeImage, APngChunkLiesWithinTheFile) {
     EXPECT_EQ(problem(png), "");
 }
 
-/// A JPEG with nothing but a Huffman table of so many codes of 15 bits and as many of 16.
-std::vector<std::uint8_t> jpegWithTable(std::uint8_t of15, std::uint8_t of16) {
-    const unsigned length = 19U + of15 + of16;
-    std::vector<std::uint8_t> jpeg = {
-        0xff, 0xd8, 0xff, 0xc4, std::uint8_t(length >> 8), std::uint8_t(length), 0x13};
-    jpeg.insert(jpeg.end(), 14, 0);
-    jpeg.insert(jpeg.end(), {of15, of16});
-    jpeg.insert(jpeg.end(), std::size_t(of15) + of16, 1);
-    return jpeg;
-}
-
-// stb 2.27 decodes by a table that is missing as memory happens to be.
-TEST(DecodeImage, AJpegScanHasItsTables) {
-    const auto scanBy = [](std::uint8_t tables, std::uint8_t first, std::uint8_t last) {
-        std::vector<std::uint8_t> jpeg = jpegWithTable(1, 1); // number 3 of those for AC
-        jpeg.insert(jpeg.end(), {0xff, 0xda, 0, 8, 1, 1, tables, first, last, 0});
-        return jpeg;
+/// A zlib stream of 1 + 258 * matches zeros in 13 bits per 258: RFC 1951, 3.2.6.
+std::vector<std::uint8_t> packedZeros(std::size_t matches) {
+    std::vector<std::uint8_t> out = {0x78, 0x01};
+    std::uint32_t bits = 0;
+    int count = 0;
+    const auto put = [&](std::uint32_t value, int size) {
+        bits |= value << count;
+        for (count += size; count >= 8; count -= 8, bits >>= 8)
+            out.push_back(std::uint8_t(bits));
     };
-    EXPECT_TRUE(jpegTablesFit(scanBy(0x13, 1, 63)));
-    EXPECT_FALSE(jpegTablesFit(scanBy(0x12, 1, 63)));
-    EXPECT_FALSE(jpegTablesFit(scanBy(0x13, 0, 63))); // there are none for DC
-    EXPECT_FALSE(jpegTablesFit(scanBy(0x13, 0, 0)));
+    put(0b011, 3);      // the last block, of fixed codes
+    put(0b00001100, 8); // a zero; codes begin with their highest bit
+    for (std::size_t i = 0; i < matches; ++i) {
+        put(0b10100011, 8); // 258 bytes
+        put(0, 5);          // as the one before
+    }
+    put(0, 7 + 8); // the end
+    out.insert(out.end(), 4, 0);
+    return out;
 }
 
-// stb 2.27 writes the codes of a longer table over what lies behind it.
-TEST(DecodeImage, AJpegTableHasNoMoreCodesThanSymbols) {
-    EXPECT_TRUE(jpegTablesFit(jpegWithTable(128, 128)));
-    EXPECT_FALSE(jpegTablesFit(jpegWithTable(128, 129)));
-    EXPECT_EQ(problem(jpegWithTable(128, 129)), "is damaged");
+void insertChunk(std::vector<std::uint8_t>& png, std::size_t at, const std::string& name,
+                 const std::vector<std::uint8_t>& data) {
+    std::vector<std::uint8_t> chunk;
+    for (const int shift : {24, 16, 8, 0})
+        chunk.push_back(std::uint8_t(data.size() >> shift));
+    chunk.insert(chunk.end(), name.begin(), name.end());
+    chunk.insert(chunk.end(), data.begin(), data.end());
+    chunk.insert(chunk.end(), 4, 0);
+    png.insert(png.begin() + std::ptrdiff_t(at), chunk.begin(), chunk.end());
+}
 
-    std::vector<std::uint8_t> cut = jpegWithTable(255, 255);
-    cut.resize(25); // within the counts of codes, or within the codes
-    EXPECT_FALSE(jpegTablesFit(cut));
-    std::vector<std::uint8_t> second = jpegWithTable(1, 1);
-    const std::vector<std::uint8_t> table = jpegWithTable(255, 2);
-    second.insert(second.end(), table.begin() + 2, table.end());
-    EXPECT_FALSE(jpegTablesFit(second));
+long peakKilobytes() {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
 
-    // A scan's texels end where the decoder says.
-    std::vector<std::uint8_t> scan = {0xff, 0xd8, 0xff, 0xda, 0x00, 0x40, 1, 2, 3};
-    scan.insert(scan.end(), table.begin() + 2, table.end());
-    EXPECT_FALSE(jpegTablesFit(scan));
-    // What looks like a table may lie in a comment before that.
-    std::vector<std::uint8_t> comment = {0xff, 0xd8, 0xff, 0xfe, 0x08, 0x00};
-    comment.insert(comment.end(), table.begin() + 2, table.end());
-    EXPECT_TRUE(jpegTablesFit(comment));
+// stb would unpack all of it before it looked how many texels there are.
+TEST(DecodeImage, APngUnpacksNoMoreThanItsTexelsAndSomeText) {
+    constexpr std::size_t kHeaderEnd = 33, kDataEnd = 55;
+    const std::vector<std::uint8_t> zeros = packedZeros(2'000'000); // 516 MB in 3 MB
+    std::vector<std::uint8_t> bomb = greyPng();
+    bomb.erase(bomb.begin() + kHeaderEnd, bomb.begin() + kDataEnd);
+    insertChunk(bomb, kHeaderEnd, "IDAT", zeros);
+    std::vector<std::uint8_t> text = greyPng(), data = {'a', 0, 0};
+    data.insert(data.end(), zeros.begin(), zeros.end());
+    insertChunk(text, kHeaderEnd, "zTXt", data);
+    const long before = peakKilobytes();
+    const Result<Image> black = decodeImage(bomb);
+    ASSERT_TRUE(black);
+    EXPECT_EQ(black->rgba, (std::vector<std::uint8_t>{0, 0, 0, 255}));
+    EXPECT_EQ(problem(text), "is damaged");
+    EXPECT_LT(peakKilobytes() - before, 200'000);
+}
+
+TEST(DecodeImage, SixteenBitsPalettesAndTransparencyBecomeRgba) {
+    const auto with = [](std::uint8_t depth, std::uint8_t color, const char* before,
+                         const std::vector<std::uint8_t>& extra) {
+        std::vector<std::uint8_t> png = greyPng();
+        png.erase(png.begin() + 33, png.begin() + 55);
+        png[24] = depth;
+        png[25] = color;
+        insertChunk(png, 33, "IDAT", packedZeros(1));
+        if (color == 3)
+            insertChunk(png, 33, "tRNS", {7});
+        insertChunk(png, 33, before, extra);
+        const Result<Image> image = decodeImage(png);
+        return image ? image->rgba : std::vector<std::uint8_t>{};
+    };
+    using Texel = std::vector<std::uint8_t>;
+    EXPECT_EQ(with(8, 3, "PLTE", {10, 20, 30}), (Texel{10, 20, 30, 7}));
+    EXPECT_EQ(with(16, 6, "gAMA", {0, 0, 0xb1, 0x8f}), (Texel{0, 0, 0, 0}));
+    EXPECT_EQ(with(1, 0, "tRNS", {0, 0}), (Texel{0, 0, 0, 0}));
 }
 
 } // namespace
