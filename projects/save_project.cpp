@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] [--caches N]
+// save_project SCENE.gltf PROJECT.limn [--sky R,G,B]
 // [--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]...: writes the project of a sample scene.
 #include "engine/files/project_file.h"
 #include "engine/scene/light_spec.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 
 namespace {
@@ -34,7 +33,7 @@ Result<void> saveSample(int argc, char** argv) {
         return tl::make_unexpected(scene.error());
     Document& document = scene->document;
     Sky sky = singleton<Sky>(document);
-    BakeSettings bake = singleton<BakeSettings>(document);
+    const BakeSettings bake = singleton<BakeSettings>(document);
     for (int i = 3; i + 1 < argc; i += 2) {
         const std::string flag = argv[i];
         if (flag == "--sky") {
@@ -42,10 +41,6 @@ Result<void> saveSample(int argc, char** argv) {
             if (!parsed)
                 return tl::make_unexpected(parsed.error());
             sky = *parsed;
-        } else if (flag == "--surfels") {
-            bake.surfels = std::uint32_t(std::strtoul(argv[i + 1], nullptr, 10));
-        } else if (flag == "--caches") {
-            bake.lightmapCaches = std::uint32_t(std::strtoul(argv[i + 1], nullptr, 10));
         } else if (flag == "--film") {
             if (const Result<void> set = setFilm(document, argv[i + 1]); !set)
                 return tl::make_unexpected(set.error());
@@ -66,8 +61,8 @@ Result<void> saveSample(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     if (argc < 3 || argc % 2 == 0) {
-        std::fputs("usage: save_project SCENE.gltf PROJECT.limn [--sky R,G,B] [--surfels N] "
-                   "[--caches N] [--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]\n",
+        std::fputs("usage: save_project SCENE.gltf PROJECT.limn [--sky R,G,B] "
+                   "[--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]\n",
                    stderr);
         return 2;
     }
