@@ -21,6 +21,7 @@
 #include "engine/bake/trace_stage.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
+#include "engine/core/process_memory.h"
 #include "engine/scene/reach.h"
 
 #include <algorithm>
@@ -254,6 +255,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
                     {scene.bake.cut, scene.bake.links, int(scene.bake.bands), scene.bake.storage},
                     progress, result.caches, &linked))
         return cancelled();
+    releaseFreedMemory();
     weighByLinks(seen, linked, result.tree);
     const std::uint32_t invalid = fillInvalid(result.caches, 1 / atlas.texelsPerMetre);
     shade(scene, set.surfels);

@@ -106,11 +106,8 @@ public:
         return m_seen.size() > 0;
     }
 
-    /// The same of what an earlier look() found.
-    void lookAgain(const std::vector<SeenLeaf>& found) { m_seen.build(found); }
-
-    /// After look(), not lookAgain().
-    const std::vector<SeenLeaf>& found() const { return m_seen.found(); }
+    /// After look(): leaves that it found.
+    std::uint32_t leaves() const { return m_seen.leaves(); }
 
     /// After look(): what each refinement is worth.
     const std::vector<float>& weigh() {
@@ -288,22 +285,16 @@ float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// What is known of a cache before the bound is.
-struct Weighed {
-    std::vector<float> worth;
-    std::vector<SeenLeaf> found; ///< empty: not kept
-};
-
-/// Fills `weighed` per cache and finds the bound on the worth that gives all caches together as
-/// many links as n_L each would. Nothing when cancelled.
+/// Fills `worth` per cache, as CacheLinker::weigh() has it, and finds the bound on the worth that
+/// gives all caches together as many links as n_L each would. Nothing when cancelled. What a cache
+/// saw is not kept: it would take 24 bytes a leaf, the most of all that a bake needs, and looking
+/// again is as quick as reading that back.
 std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
                                  const Caches& caches, const CutSettings& settings,
-                                 const Progress& progress, std::vector<Weighed>& weighed) {
+                                 const Progress& progress, std::vector<std::vector<float>>& worth) {
     constexpr std::size_t kSteps = 1 << 15;
-    constexpr std::size_t kMostKept = (std::size_t(1) << 29) / sizeof(SeenLeaf); // half a GiB
     tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
     std::atomic<std::uint64_t> budget = 0;
-    std::atomic<std::size_t> kept = 0;
     const bool done = parallelRanges(
         caches.size(), 8, progress, "budget", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
@@ -311,13 +302,10 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
             for (std::size_t c = begin; c < end; ++c) {
                 if (!linker.look(caches, std::uint32_t(c)))
                     continue;
-                const std::vector<SeenLeaf>& found = linker.found();
-                budget += std::min<std::size_t>(found.size(), settings.links) - 1;
-                weighed[c].worth = linker.weigh();
-                for (const float w : weighed[c].worth)
+                budget += std::min(linker.leaves(), settings.links) - 1;
+                worth[c] = linker.weigh();
+                for (const float w : worth[c])
                     ++histogram[stepOf(w)];
-                if (kept.fetch_add(found.size()) + found.size() <= kMostKept)
-                    weighed[c].found = found;
             }
         });
     if (!done)
@@ -398,11 +386,11 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                           unturnedRays(hits.rays, true)};
     tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
     const bool shared = settings.criterion == CutCriterion::Detail;
-    std::vector<Weighed> weighed(shared ? caches.size() : 0);
+    std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
     float bound = -1;
     std::uint32_t mostLinks = settings.links;
     if (shared) {
-        const auto found = sharedBound(linkers, caches, settings, progress, weighed);
+        const auto found = sharedBound(linkers, caches, settings, progress, worth);
         if (!found)
             return false;
         bound = *found;
@@ -414,14 +402,12 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
             CacheLinker& linker = linkers.local();
             for (std::size_t i = begin; i < end; ++i) {
                 const auto c = std::uint32_t(i);
-                if (shared && !weighed[c].found.empty())
-                    linker.lookAgain(weighed[c].found);
-                else if (!linker.look(caches, c))
+                if (!linker.look(caches, c))
                     continue;
-                links[c] = linker.link(caches, c, shared ? weighed[c].worth : linker.weigh(), bound,
-                                       mostLinks);
+                links[c] =
+                    linker.link(caches, c, shared ? worth[c] : linker.weigh(), bound, mostLinks);
                 if (shared)
-                    weighed[c] = {};
+                    worth[c] = {};
             }
         });
     if (!done)

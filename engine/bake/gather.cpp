@@ -4,6 +4,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/input_hash.h"
 #include "engine/core/parallel.h"
+#include "engine/core/process_memory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -147,6 +148,28 @@ std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, 
     return all;
 }
 
+/// Moves what each cache aims at into one array. Gives memory back on the way, so that the two
+/// hardly lie there at once.
+void joinAimed(std::vector<std::vector<AimedSample>>& aimed, GatherHits& hits) {
+    std::size_t all = 0;
+    for (const std::vector<AimedSample>& a : aimed)
+        all += a.size();
+    hits.aimed.clear();
+    hits.aimed.reserve(all);
+    hits.aimedBegin = {0};
+    constexpr std::size_t kParts = 8;
+    std::size_t next = all / kParts;
+    for (std::vector<AimedSample>& a : aimed) {
+        hits.aimed.insert(hits.aimed.end(), a.begin(), a.end());
+        hits.aimedBegin.push_back(std::uint32_t(hits.aimed.size()));
+        a = {};
+        if (hits.aimed.size() > next) {
+            releaseFreedMemory();
+            next += all / kParts + 1;
+        }
+    }
+}
+
 /// Number of the k-th probe's ray.
 std::uint32_t probeRay(std::uint32_t k, std::uint32_t rays) {
     return std::uint32_t(std::uint64_t(k) * rays / kProbes);
@@ -269,23 +292,21 @@ bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& cac
     const bool done = parallelRanges(
         caches.size(), grain, linker == Linker::Gather ? quiet : progress, "trace",
         [&](std::size_t begin, std::size_t end) {
+            std::vector<AimedSample> found;
             for (std::size_t c = begin; c < end; ++c) {
                 const auto cache = std::uint32_t(c);
                 std::uint32_t* sender = hits.sender.data() + c * hits.rays;
+                found.clear();
                 finisher.markBacks(hits.rays, sender);
                 finisher.leaveOutBuried(points.begin[c + 1] - points.begin[c], hits.rays, sender);
-                traced += finisher.aimCache(cache, hits.rays, sender, aimed[c]);
+                traced += finisher.aimCache(cache, hits.rays, sender, found);
+                aimed[c] = found; // a copy has no room to spare
             }
         });
     aimedRays += traced;
     if (finisher.aimedAlready)
         return done;
-    hits.aimedBegin = {0};
-    hits.aimed.clear();
-    for (const std::vector<AimedSample>& a : aimed) {
-        hits.aimed.insert(hits.aimed.end(), a.begin(), a.end());
-        hits.aimedBegin.push_back(std::uint32_t(hits.aimed.size()));
-    }
+    joinAimed(aimed, hits);
     return done;
 }
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -24,11 +23,6 @@ struct Sight {
         irradiance += o.irradiance;
         moment += o.moment;
     }
-};
-
-struct SeenLeaf {
-    std::uint32_t rank; ///< of SenderOrder
-    Sight sight;
 };
 
 /// The tree that the leaves in a cache's sight span: each of its inner nodes is one of the
@@ -52,11 +46,6 @@ public:
     }
     /// Joins the leaves that were added since the last call.
     void build();
-    /// The same of leaves that an earlier build() found.
-    void build(std::span<const SeenLeaf> found);
-
-    /// After build(): from left to right.
-    const std::vector<SeenLeaf>& found() const { return m_found; }
 
     std::uint32_t leaves() const { return m_leaves; }
     std::uint32_t size() const { return std::uint32_t(node.size()); }
@@ -74,7 +63,7 @@ private:
     std::vector<std::uint32_t> m_entry;   ///< per rank, of m_added; kNone: not in sight
     std::vector<std::uint64_t> m_inSight; ///< per rank, one bit
     std::vector<Sight> m_added;
-    std::vector<SeenLeaf> m_found;
+    std::vector<std::uint32_t> m_found; ///< ranks, from left to right
     std::vector<std::array<std::uint32_t, 2>> m_child;
     struct Open {
         std::uint32_t subtree; ///< a finished one, left of the join

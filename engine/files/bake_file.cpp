@@ -27,14 +27,19 @@ namespace {
 constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'B', 'A', 'K', 'E'};
 constexpr std::uint32_t kVersion = 5;
 
-std::string packChunk(const char* name, const std::string& plain) {
-    std::string packed(ZSTD_compressBound(plain.size()), '\0');
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 3));
-    ByteWriter out;
-    out.bytes.append(name, 8);
-    out.put(std::uint64_t(plain.size())), out.put(std::uint64_t(packed.size()));
-    out.put(hashBytes(packed.data(), packed.size()));
-    return out.bytes + packed;
+constexpr std::size_t kHeader = sizeof kMagic + 8, kChunkHeader = 8 + 3 * 8;
+
+/// Packs in place: chunks are as large as all else that a bake still holds when it is written.
+void appendChunk(const char* name, const std::string& plain, std::string& out) {
+    const std::size_t at = out.size(), from = at + kChunkHeader,
+                      most = ZSTD_compressBound(plain.size());
+    out.resize(from + most);
+    const std::size_t packed =
+        ZSTD_compress(out.data() + from, most, plain.data(), plain.size(), 3);
+    out.resize(from + packed);
+    const std::uint64_t longs[3] = {plain.size(), packed, hashBytes(out.data() + from, packed)};
+    std::memcpy(out.data() + at, name, 8);
+    std::memcpy(out.data() + at + 8, longs, sizeof longs);
 }
 
 struct Chunk {
@@ -43,7 +48,6 @@ struct Chunk {
 };
 
 Result<std::map<std::string, Chunk>> listChunks(const std::string& path, const std::string& bytes) {
-    constexpr std::size_t kHeader = sizeof kMagic + 8, kChunkHeader = 8 + 3 * 8;
     if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
         return fail(fmt::format("{}: not a bake file", path));
     std::uint32_t version, count;
@@ -89,18 +93,18 @@ Result<std::string> unpack(const std::string& path, const char* name, const Chun
 } // namespace
 
 Result<void> writeBake(const std::string& path, const Bake& bake) {
-    std::string chunks;
+    std::string file(kHeader, '\0');
     std::uint32_t count = 0;
     forBakeChunks(nullptr, [&](const char* name, auto fields) {
         ByteWriter archive;
         fields(archive, bake);
-        chunks += packChunk(name, archive.bytes);
+        appendChunk(name, archive.bytes, file);
         ++count;
     });
-    ByteWriter header;
-    header.bytes.append(kMagic, sizeof kMagic);
-    header.put(kVersion), header.put(count);
-    return replaceFile(path, header.bytes + chunks);
+    const std::uint32_t words[2] = {kVersion, count};
+    std::memcpy(file.data(), kMagic, sizeof kMagic);
+    std::memcpy(file.data() + sizeof kMagic, words, sizeof words);
+    return replaceFile(path, file);
 }
 
 Result<Bake> readBake(const std::string& path, const MemoryBudget& memory) {
