@@ -8,10 +8,14 @@
 
 #include "engine/bake/stage_store.h"
 #include "engine/core/log.h"
+#include "engine/core/memory_budget.h"
 #include "engine/core/parallel.h"
+#include "engine/core/process_memory.h"
 #include "engine/files/bake_file.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -36,7 +40,27 @@ void printBytes(const nlohmann::json& bytes) {
         fmt::print("{:<10} {:8.2f} MiB\n", name, double(count.get<std::uint64_t>()) / (1 << 20));
 }
 
-void print(const Bake& bake) {
+/// {"caches", "least_texels", "file_bytes", "peak_bytes"}; the peak is the process'.
+nlohmann::json summaryOf(const BakePrediction& p) {
+    return {{"caches", p.caches},
+            {"least_texels", p.leastTexels},
+            {"file_bytes", p.file},
+            {"peak_bytes", std::max(residentMemory() + p.working, peakMemory())}};
+}
+
+void print(const BakeSettings& settings, const nlohmann::json& predicted) {
+    if (const auto least = predicted["least_texels"].get<std::uint64_t>())
+        fmt::print("{} texels are asked for, but the objects need at least about {}: one for each "
+                   "way that an object faces\n",
+                   settings.lightmapCaches, least);
+    fmt::print("About {} caches, a file of {} and a peak of {} of memory\n",
+               predicted["caches"].get<std::uint64_t>(),
+               bytesText(predicted["file_bytes"].get<std::uint64_t>()),
+               bytesText(predicted["peak_bytes"].get<std::uint64_t>()));
+    std::fflush(stdout);
+}
+
+void print(const Bake& bake, std::uint64_t file, std::uint64_t peak) {
     const nlohmann::json summary = bakeSummary(bake);
     for (const auto& [stage, seconds] : bake.seconds)
         fmt::print("{:<10} {:8.2f} s\n", stage, seconds);
@@ -44,6 +68,7 @@ void print(const Bake& bake) {
     for (const auto& [name, count] : summary["counts"].items())
         fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
     printBytes(summary["bytes"]);
+    printBytes({{"file", file}, {"peak", peak}});
     for (const std::string& note : bake.notes)
         fmt::print("{}\n", note);
     fmt::print("hash {}\n", summary["hash"].get<std::string>());
@@ -64,18 +89,16 @@ Exit runBake(const BakeCommand& command) {
     options.mostDiskBytes = std::uint64_t(command.storeGib * double(1 << 30));
     if (command.noStore)
         options.folder.clear();
+    options.mostMemoryBytes = 0; // nothing asks for a stage twice
     StageStore store(options);
-    const std::uint64_t caches = expectedCaches(scene);
-    const nlohmann::json predicted =
-        bytesSummary(predictBytes(scene.bake, scene.bake.surfels, caches));
-    if (!command.json) {
-        fmt::print("About {} caches; at most\n", caches);
-        printBytes(predicted);
-        std::fflush(stdout);
-    }
-    const Result<Bake> baked =
-        bake(TraceScene(scene), progressOnStderr(), command.noStore ? nullptr : &store, nullptr,
-             command.scene.import.memory);
+    const TraceScene trace(scene);
+    releaseFreedMemory(); // what reading the scene left behind; residentMemory() would count it
+    const BakePrediction prediction = predictBake(scene, !command.noStore);
+    const nlohmann::json predicted = summaryOf(prediction);
+    if (!command.json)
+        print(scene.bake, predicted);
+    const Result<Bake> baked = bake(trace, progressOnStderr(), command.noStore ? nullptr : &store,
+                                    nullptr, command.scene.import.memory);
     endProgressLine();
     store.flush();
     if (const std::string defect = store.defect(); !defect.empty())
@@ -84,12 +107,18 @@ Exit runBake(const BakeCommand& command) {
         return failed(fmt::format("{}: {}", command.scene.scene, baked.error().message));
     if (const Result<void> written = writeBake(command.output, *baked); !written)
         return failed(written.error().message);
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(command.output, error);
+    const std::uint64_t file = error ? 0 : size, peak = peakMemory();
     if (command.json) {
         nlohmann::json summary = bakeSummary(*baked);
-        summary["predicted_bytes"] = predicted;
+        summary["file_bytes"] = file;
+        summary["peak_bytes"] = peak;
+        summary["predicted"] = predicted;
+        summary["predicted_bytes"] = bytesSummary(prediction.bytes);
         fmt::print("{}\n", summary.dump());
     } else {
-        print(*baked);
+        print(*baked, file, peak);
     }
     return Exit::Done;
 }

@@ -117,15 +117,26 @@ static void clusterRows(FieldEdit& edit, BakeSettings& s) {
                   s.clusterBalanceWeight);
 }
 
-static void memoryLine(const EditorState& state, const BakeSettings& s) {
-    const BakeBytes b = predictBytes(s, s.surfels, state.expectedCaches);
+static void memoryLine(const EditorState& state) {
+    const BakePrediction& p = state.prediction;
+    const BakeBytes& b = p.bytes;
     ImGui::Spacing();
-    ImGui::TextDisabled("Memory: up to %s", byteText(b.total()).c_str());
-    wrappedTooltip(("What a bake with these settings takes at most. Links " + byteText(b.links) +
-                    ", surfels " + byteText(b.surfels) + ", clusters " + byteText(b.clusters) +
-                    ", caches " + byteText(b.caches) + ", of which there will be about " +
-                    groupedNumber(state.expectedCaches))
-                       .c_str());
+    ImGui::TextDisabled("About %s, %s while baking", byteText(b.total()).c_str(),
+                        byteText(p.working).c_str());
+    wrappedTooltip(
+        ("What a bake with these settings takes in memory, and the most that baking takes "
+         "besides the scene; about " +
+         byteText(p.file) + " as a file. Links " + byteText(b.links) + ", surfels " +
+         byteText(b.surfels) + ", clusters " + byteText(b.clusters) + ", caches " +
+         byteText(b.caches) + ", of which there will be about " + groupedNumber(p.caches))
+            .c_str());
+    if (p.leastTexels > 0) {
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextDisabled("The objects need at least about %s texels: one for each way that an "
+                            "object faces.",
+                            groupedNumber(p.leastTexels).c_str());
+        ImGui::PopTextWrapPos();
+    }
 }
 
 static void bakeStateLine(EditorState& state) {
@@ -221,7 +232,7 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
                "Dynamic objects keep bounced light off what is behind them. Needs no bake");
     ImGui::Checkbox("##dimming", &s.dimming);
     fieldEdited(edit, "Dimming");
-    memoryLine(edit.state, s);
+    memoryLine(edit.state);
     bakeStateLine(edit.state);
 }
 

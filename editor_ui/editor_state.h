@@ -8,6 +8,7 @@
 #include "editor_ui/keys.h"
 #include "editor_ui/overlay_state.h"
 #include "editor_ui/statistics.h"
+#include "engine/bake/bake_bytes.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
@@ -118,7 +119,7 @@ struct EditorState {
     double seconds = 0;   ///< after the start of films in materials
     bool playing = false; ///< seconds go on
 
-    std::uint64_t expectedCaches = 0;        ///< of a bake of the document
+    BakePrediction prediction;               ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;
     BakeStatus bake;

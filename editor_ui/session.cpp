@@ -136,7 +136,7 @@ void Session::takeOpened() {
     m_shownSeconds = state.seconds;
     state.view.camera = chooseCamera(*m_scene, {});
     state.sceneBounds = m_scene->bounds;
-    state.expectedCaches = expectedCaches(*m_scene);
+    state.prediction = predictBake(*m_scene, true);
     state.view.flySpeed = std::max(glm::length(m_scene->bounds.size()) / 8, 0.01f);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
@@ -233,7 +233,7 @@ void Session::followDocument() {
     const bool sameList = sameInstances(*m_scene, *scene);
     m_scene = std::move(scene);
     state.sceneBounds = m_scene->bounds;
-    state.expectedCaches = expectedCaches(*m_scene);
+    state.prediction = predictBake(*m_scene, true);
     if (!sameList)
         fitLayout();
     m_relightJob.setScene(m_scene);

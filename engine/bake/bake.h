@@ -138,7 +138,7 @@ std::uint64_t bakeInputHash(const Scene& scene);
 /// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").
 /// Stages reported: charts, surfels, clusters, caches, trace, training, cut. What `store` knows is
 /// not made again: the result is the same, and counts.rays is what was traced now. `settings`
-/// replace the scene's own. Fails where roughPeak() says that it would need more than `memory`.
+/// replace the scene's own. Fails where predictBake() says that it would need more than `memory`.
 Result<Bake> bake(const TraceScene& trace, const Progress& progress = {},
                   StageStore* store = nullptr, const BakeSettings* settings = nullptr,
                   const MemoryBudget& memory = {});

@@ -167,11 +167,11 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
         return fail(defect);
     if (const std::string defect = reachDefect(scene); !defect.empty())
         return fail(defect);
-    const std::uint64_t caches = expectedCaches(scene);
+    const BakePrediction predicted = predictBake(scene, store != nullptr);
     if (const Result<void> fits =
-            memory.allow(fmt::format("a bake of {} caches with {} rays and {} links each", caches,
-                                     scene.bake.rays, scene.bake.links),
-                         roughPeak(scene.bake, caches));
+            memory.allow(fmt::format("a bake of {} caches with {} rays and {} links each",
+                                     predicted.caches, scene.bake.rays, scene.bake.links),
+                         predicted.working);
         !fits)
         return fail("bake settings: " + fits.error().message + ": lower rays, lightmap or grid");
     const auto cancelled = [] { return fail("cancelled"); };

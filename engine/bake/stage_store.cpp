@@ -58,11 +58,20 @@ std::uint64_t programHash() {
     return hash;
 }
 
+/// Piece by piece: room for all that zstd may need would be as much again as `bytes`.
 std::string pack(std::uint64_t key, const std::string& bytes) {
-    std::string file(kHeader + ZSTD_compressBound(bytes.size()), '\0');
-    const std::size_t packed =
-        ZSTD_compress(file.data() + kHeader, file.size() - kHeader, bytes.data(), bytes.size(), 1);
-    file.resize(kHeader + packed);
+    std::string file(kHeader, '\0'), piece(ZSTD_CStreamOutSize(), '\0');
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd(ZSTD_createCCtx(),
+                                                                    &ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, 1);
+    ZSTD_CCtx_setPledgedSrcSize(zstd.get(), bytes.size());
+    ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+    for (std::size_t left = 1; left > 0 && !ZSTD_isError(left);) {
+        ZSTD_outBuffer out{piece.data(), piece.size(), 0};
+        left = ZSTD_compressStream2(zstd.get(), &out, &in, ZSTD_e_end);
+        file.append(piece.data(), out.pos);
+    }
+    const std::size_t packed = file.size() - kHeader;
     const std::uint32_t words[2] = {kVersion, 0};
     const std::uint64_t longs[3] = {key, bytes.size(), hashBytes(file.data() + kHeader, packed)};
     std::memcpy(file.data(), kMagic, sizeof kMagic);

@@ -345,6 +345,21 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
     return result;
 }
 
+std::uint64_t expectedLampSurfels(const Scene& scene, std::uint32_t target) {
+    const auto isLamp = [&](const Instance& i) {
+        return sendsLight(scene, i) && emits(scene.materialOf(i));
+    };
+    if (std::ranges::none_of(scene.instances, isLamp))
+        return 0;
+    const std::vector<std::uint32_t> counts =
+        surfelsPerMesh(scene, litAreas(scene), meanDensities(scene, {}), target);
+    std::uint64_t sum = 0;
+    for (const Instance& i : scene.instances)
+        if (isLamp(i))
+            sum += std::uint64_t(counts[i.mesh]) * (isTwoSided(scene.materialOf(i)) ? 2 : 1);
+    return sum;
+}
+
 bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
     bool within = true;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)

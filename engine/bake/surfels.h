@@ -53,6 +53,9 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
                        std::span<const SurfelDensity> density = {}, const Progress& progress = {},
                        StageStore* store = nullptr);
 
+/// About how many of `target` surfels will lie on emissive surfaces, were all others equally dense.
+std::uint64_t expectedLampSurfels(const Scene& scene, std::uint32_t target);
+
 /// Light leaves both sides of such a surface.
 bool isTwoSided(const Material& material);
 

@@ -93,5 +93,58 @@ TEST(BakeBytes, TheNumberOfCachesIsExpectedFromTheScene) {
     EXPECT_GT(expectedCaches(scene), 1000U);
 }
 
+TEST(BakeBytes, LinksAndCachesArePredictedWithinAQuarter) {
+    for (const bool block : {false, true})
+        for (const std::uint32_t links : {16U, 64U}) {
+            Scene scene = room(block);
+            scene.bake.lightmapCaches = 2000;
+            scene.bake.links = links;
+            const BakePrediction p = predictBake(scene);
+            const Bake baked = bakeOf(scene);
+            const BakeBytes is = bytesOf(baked);
+            const auto expectNear = [](std::uint64_t predicted, std::uint64_t real) {
+                EXPECT_NEAR(double(predicted), double(real), 0.25 * double(real));
+            };
+            expectNear(p.caches, baked.caches.size());
+            expectNear(p.bytes.links, is.links);
+            expectNear(p.bytes.total(), is.total());
+            EXPECT_EQ(p.leastTexels, 0U);
+        }
+}
+
+TEST(BakeBytes, ManySmallObjectsNeedMoreTexelsThanAreAskedFor) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(0), glm::vec3(40, 30, 40), true));
+    const std::uint32_t cube = b.addMesh(box(glm::vec3(-0.1f), glm::vec3(0.1f), false));
+    for (int i = 0; i < 200; ++i) {
+        glm::mat4 place(1);
+        place[3] = glm::vec4(2 + 3.7f * float(i % 10), 2 + 5 * float(i / 50),
+                             2 + 7 * float(i / 10 % 5), 1);
+        b.addInstance(cube, place);
+    }
+    Scene scene = b.build();
+    scene.bake.surfels = 2000;
+    scene.bake.lightmapCaches = 300;
+    scene.bake.rays = 64;
+    scene.bake.links = 16;
+    EXPECT_EQ(leastTexels(scene), 6 * 201U);
+    const BakePrediction p = predictBake(scene);
+    EXPECT_EQ(p.leastTexels, 6 * 201U);
+    const auto real = double(bakeOf(scene).caches.size());
+    EXPECT_NEAR(double(p.caches), real, 0.05 * real);
+    scene.bake.lightmapCaches = 5000;
+    EXPECT_EQ(predictBake(scene).leastTexels, 0U);
+}
+
+TEST(BakeBytes, WorkingMemoryHoldsAtLeastTheArraysOfEveryStage) {
+    Scene scene = room(false);
+    const BakePrediction few = predictBake(scene);
+    const std::uint64_t hits = few.caches * scene.bake.rays * sizeof(std::uint32_t);
+    EXPECT_GT(few.working, hits + few.bytes.total());
+    scene.bake.rays *= 4;
+    EXPECT_GT(predictBake(scene).working, few.working + 3 * hits);
+}
+
 } // namespace
 } // namespace limn
