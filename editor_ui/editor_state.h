@@ -116,9 +116,8 @@ struct EditorState {
     bool paletteOpen = false;
     std::string paletteFilter;
     bool autoBake = false;
-    double seconds = 0;   ///< after the start of films in materials
-    bool playing = false; ///< seconds go on
-
+    double seconds = 0;                      ///< after the start of films in materials
+    bool playing = false;                    ///< seconds go on
     BakePrediction prediction;               ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;
