@@ -10,6 +10,7 @@
 #include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
+#include "engine/scene/origin.h"
 
 #include <cmath>
 #include <filesystem>
@@ -28,7 +29,7 @@ static std::uint64_t bytesOf(const Mesh& mesh) {
            bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
 }
 
-static Json toJson(glm::vec3 v) {
+static Json toJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
@@ -58,7 +59,8 @@ static Json describe(const ImportedScene& imported) {
     json["images"] = imported.assets->images.size();
     json["lights"] = scene.lights.size();
     json["cameras"] = scene.cameras.size();
-    json["bounds"] = {{"lower", toJson(scene.bounds.lower)}, {"upper", toJson(scene.bounds.upper)}};
+    json["bounds"] = {{"lower", toJson(toFile(scene.origin, scene.bounds.lower))},
+                      {"upper", toJson(toFile(scene.origin, scene.bounds.upper))}};
     json["bytes"] = {{"geometry", geometry}, {"images", images}, {"total", geometry + images}};
     json["repairs"] = imported.repairs;
     return json;

@@ -8,6 +8,7 @@
 #include "engine/gallery/gallery.h"
 #include "engine/scene/dynamic_spec.h"
 #include "engine/scene/light_spec.h"
+#include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
 
 #include <algorithm>
@@ -114,13 +115,9 @@ ImportedScene importedScene(const GeneratedScene& generated) {
 }
 
 Result<ImportedScene> openScene(const SceneOptions& options) {
-    std::vector<Light> lights; // before the import: a wrong flag should not cost seconds
-    for (const std::string& spec : options.lights) {
-        Result<Light> light = parseLight(spec);
-        if (!light)
+    for (const std::string& spec : options.lights) // a wrong flag should not cost an import
+        if (const Result<Light> light = parseLight(spec); !light)
             return tl::make_unexpected(light.error());
-        lights.push_back(std::move(*light));
-    }
     std::optional<Sky> sky;
     if (!options.sky.empty()) {
         const Result<Sky> parsed = openSky(options.sky, options.import.memory);
@@ -134,8 +131,8 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
             : openAny(options.scene, projectsFolder(), {}, options.import);
     if (!scene)
         return scene;
-    for (Light& light : lights)
-        addObject(scene->document, std::move(light));
+    for (const std::string& spec : options.lights)
+        addObject(scene->document, *parseLight(spec, scene->document.origin));
     if (sky)
         skyOf(scene->document) = *sky;
     if (options.skyStrength)
@@ -180,9 +177,11 @@ Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {
     Camera camera = chooseCamera(scene, options.name);
     if (options.eye.size() == 3 && options.target.size() == 3) {
         camera = Camera{};
-        camera.eye = {options.eye[0], options.eye[1], options.eye[2]};
-        camera.target = {options.target[0], options.target[1], options.target[2]};
-        if (!withinReach(camera.eye) || !withinReach(camera.target))
+        const glm::dvec3 eye(options.eye[0], options.eye[1], options.eye[2]);
+        const glm::dvec3 target(options.target[0], options.target[1], options.target[2]);
+        camera.eye = toWorld(scene.origin, eye);
+        camera.target = toWorld(scene.origin, target);
+        if (!withinReach(glm::vec3(eye)) || !withinReach(glm::vec3(target)))
             return fail(
                 fmt::format("--eye, --target: beyond {:g} m of the origin", kMostCoordinate));
         if (camera.eye == camera.target)

@@ -47,7 +47,7 @@ Result<ImportedScene> openScene(const SceneOptions& options);
 
 struct CameraOptions {
     std::optional<std::string> name;
-    std::vector<float> eye, target;  ///< x,y,z
+    std::vector<double> eye, target; ///< x,y,z in the file's coordinates [m]
     std::optional<float> fovDegrees; ///< vertical
     std::uint32_t width = 1280, height = 720;
 };

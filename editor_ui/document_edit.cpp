@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/object_rules.h"
+#include "engine/scene/placement.h"
 
 #include <algorithm>
 #include <limits>
@@ -198,16 +199,7 @@ void pruneSelection(EditorState& state) {
 }
 
 glm::mat4 worldMatrix(const Document& document, ObjectId node) {
-    glm::mat4 m(1);
-    for (std::size_t depth = 0; node != 0 && depth <= document.objects.size(); ++depth) {
-        const auto it = document.objects.find(node);
-        const Node* n = it == document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
-        if (!n)
-            break;
-        m = matrix(n->transform) * m;
-        node = n->parent;
-    }
-    return m;
+    return glm::mat4(Placements(document).of(node).toWorld);
 }
 
 static bool placeOf(const Document& document, ObjectId id, glm::vec3& place) {
@@ -245,7 +237,7 @@ Object displaced(const Document& document, const Object& object, glm::vec3 d) {
     } else if (auto* node = std::get_if<Node>(&moved)) {
         if (node->parent != 0)
             d = glm::inverse(glm::mat3(worldMatrix(document, node->parent))) * d;
-        node->transform.translation += d;
+        node->transform.translation += glm::dvec3(d);
     }
     return moved;
 }

@@ -37,7 +37,7 @@ bool redoEdit(EditorState& state);
 /// Drops ids from the selection that the document no longer has.
 void pruneSelection(EditorState& state);
 
-/// Object to world of a node, through its parents.
+/// Object to world of a node, through its parents, as in the flattened scene.
 glm::mat4 worldMatrix(const Document& document, ObjectId node);
 
 /// Where the gizmo stands: the mean of the places of the selected nodes, lights and cameras. False:

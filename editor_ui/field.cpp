@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/object_rules.h"
+#include "engine/scene/origin.h"
 
 #include <imgui.h>
 
@@ -34,6 +35,21 @@ void fieldLabel(const char* label, const char* tooltip) {
     wrappedTooltip(tooltip);
     ImGui::SameLine(left + width);
     ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+static bool dragPosition(const char* id, glm::dvec3& position) {
+    return ImGui::DragScalarN(id, ImGuiDataType_Double, &position.x, 3, 0.01f, nullptr, nullptr,
+                              "%.3f");
+}
+
+void positionField(const char* id, glm::vec3& position, const glm::dvec3& origin) {
+    glm::dvec3 shown = toFile(origin, position);
+    if (dragPosition(id, shown))
+        position = toWorld(origin, shown);
+}
+
+void positionField(const char* id, glm::dvec3& translation) {
+    dragPosition(id, translation);
 }
 
 void fieldEdited(FieldEdit& edit, const char* label) {

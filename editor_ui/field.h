@@ -20,6 +20,13 @@ struct FieldEdit {
 /// Labels carry units: "Strength (cd)".
 void fieldLabel(const char* label, const char* tooltip);
 
+/// The row's widget for a world position, shown and typed in the file's coordinates [m]: three
+/// numbers to drag.
+void positionField(const char* id, glm::vec3& position, const glm::dvec3& origin);
+
+/// Of a node's translation [m].
+void positionField(const char* id, glm::dvec3& translation);
+
 /// After the row's widget: values that the object's rules forbid are undone, the others become part
 /// of the gesture.
 void fieldEdited(FieldEdit& edit, const char* label);

@@ -130,8 +130,8 @@ void lightSection(FieldEdit& edit, Light& light) {
     ImGui::Separator();
     fieldLabel("Position (m)", light.kind == LightKind::Directional
                                    ? "Only where the icon stands: a sun shines everywhere [m]"
-                                   : "World space [m]");
-    ImGui::DragFloat3("##position", &light.position.x, 0.01f, 0, 0, "%.3f");
+                                   : "In the coordinates of the scene file [m]");
+    positionField("##position", light.position, edit.state.document.origin);
     fieldEdited(edit, "Move");
     if (light.kind != LightKind::Point)
         directionRows(edit, light);

@@ -132,11 +132,11 @@ void skySection(FieldEdit& edit, Sky& sky) {
 }
 
 void cameraSection(FieldEdit& edit, Camera& camera) {
-    fieldLabel("Eye (m)", "World space [m]");
-    ImGui::DragFloat3("##eye", &camera.eye.x, 0.01f, 0, 0, "%.3f");
+    fieldLabel("Eye (m)", "In the coordinates of the scene file [m]");
+    positionField("##eye", camera.eye, edit.state.document.origin);
     fieldEdited(edit, "Camera position");
-    fieldLabel("Target (m)", "The point looked at, world space [m]");
-    ImGui::DragFloat3("##target", &camera.target.x, 0.01f, 0, 0, "%.3f");
+    fieldLabel("Target (m)", "The point looked at, in the coordinates of the scene file [m]");
+    positionField("##target", camera.target, edit.state.document.origin);
     fieldEdited(edit, "Camera target");
     float degrees = glm::degrees(camera.fovY);
     fieldLabel("Field of view (\u00b0)", "Vertical, from edge to edge [degrees]");

@@ -31,7 +31,7 @@ static void rotationRow(FieldEdit& edit, Node& node) {
 void nodeSection(FieldEdit& edit, Node& node) {
     Transform& t = node.transform;
     fieldLabel("Position (m)", "In the parent's space [m]. Ctrl-click to type a number");
-    ImGui::DragFloat3("##position", &t.translation.x, 0.01f, 0, 0, "%.3f");
+    positionField("##position", t.translation);
     fieldEdited(edit, "Move");
     rotationRow(edit, node);
     fieldLabel("Scale", "Along the object's own axes; negative mirrors, 0 is not allowed");

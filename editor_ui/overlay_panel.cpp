@@ -3,6 +3,7 @@
 
 #include "editor_ui/field.h"
 #include "editor_ui/theme.h"
+#include "engine/scene/origin.h"
 
 #include <imgui.h>
 
@@ -174,9 +175,12 @@ static void cutRows(const OverlayState& overlay) {
     const Caches& caches = overlay.bake->caches;
     const LinkCut& cut = *overlay.cut;
     const bool valid = isValid(caches, cut.cache);
-    const glm::vec3 p = caches.position[cut.cache];
     ImGui::Text("%s, %s", kindText(caches.kind[cut.cache]), valid ? "valid" : "invalid");
-    ImGui::Text("At %.3g, %.3g, %.3g m", double(p.x), double(p.y), double(p.z));
+    const glm::dvec3& origin = overlay.scene->origin;
+    const glm::dvec3 p = toFile(origin, caches.position[cut.cache]);
+    // Three digits tell places apart only near the origin.
+    ImGui::Text(origin == glm::dvec3(0) ? "At %.3g, %.3g, %.3g m" : "At %.3f, %.3f, %.3f m", p.x,
+                p.y, p.z);
     if (!valid) {
         fillRows(cut);
         return;

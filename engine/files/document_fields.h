@@ -11,6 +11,7 @@
 namespace limn {
 
 // The fields of every object, once for reading and writing: fields(name, value [, range or names]).
+// fields.place() is for a world position, which files state in the coordinates of the scene file.
 
 template <class Fields, class T>
 void describeTransform(Fields& fields, T& t) {
@@ -34,7 +35,7 @@ void describeLight(Fields& fields, T& l) {
     fields("name", l.name);
     fields("kind", l.kind, kLightNames);
     fields("enabled", l.enabled);
-    fields("position", l.position);
+    fields.place("position", l.position);
     fields("direction", l.direction);
     fields("color", l.color, kLightRange);
     fields("strength", l.strength, kLightRange);
@@ -49,8 +50,8 @@ void describeLight(Fields& fields, T& l) {
 template <class Fields, class T>
 void describeCamera(Fields& fields, T& c) {
     fields("name", c.name);
-    fields("eye", c.eye);
-    fields("target", c.target);
+    fields.place("eye", c.eye);
+    fields.place("target", c.target);
     fields("up", c.up);
     fields("fovY", c.fovY, FieldRange{1e-3, 3.14});
 }

@@ -4,10 +4,13 @@
 #include "engine/core/hash.h"
 #include "engine/files/document_fields.h"
 #include "engine/files/project_file.h"
+#include "engine/scene/origin.h"
+#include "engine/scene/reach.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <set>
 
 #include <fmt/format.h>
@@ -15,32 +18,52 @@
 
 namespace limn {
 
-/// Numbers are floats, written with as many digits as bring the same float back.
-using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
-                                  std::int64_t, std::uint64_t, float>;
+using Json = nlohmann::ordered_json;
+
+/// The double with the digits that bring the same float back, so that 0.1f is written as 0.1.
+static double shortest(float value) {
+    const std::string digits = fmt::format("{}", value);
+    double out = double(value); // stays where it is no number
+    std::from_chars(digits.data(), digits.data() + digits.size(), out);
+    return out;
+}
+
+static double shortest(double value) {
+    return value;
+}
 
 namespace {
 
 /// Fields into a JSON object.
 struct FieldWriter {
     Json& out;
+    const glm::dvec3& origin; ///< of world space, in the file's coordinates
 
     template <class T, class... Limits>
     void operator()(const char* name, const T& value, const Limits&... limits) {
         if constexpr (std::is_enum_v<T>)
             nameOf(name, value, limits...);
-        else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string> ||
+        else if constexpr (std::is_floating_point_v<T>)
+            out[name] = shortest(value);
+        else if constexpr (std::is_integral_v<T> || std::is_same_v<T, std::string> ||
                            std::is_same_v<T, std::vector<std::uint32_t>>)
             out[name] = value;
         else if constexpr (std::is_same_v<T, glm::quat>)
-            out[name] = {value.x, value.y, value.z, value.w};
+            for (const float v : {value.x, value.y, value.z, value.w})
+                out[name].push_back(shortest(v));
         else
             for (int c = 0; c < T::length(); ++c)
-                out[name].push_back(value[c]);
+                out[name].push_back(numberOf(value[c]));
+    }
+    void place(const char* name, glm::vec3 p) {
+        if (origin == glm::dvec3(0))
+            (*this)(name, p);
+        else
+            (*this)(name, toFile(origin, p));
     }
     template <class T, class Describe>
     void object(const char* name, const T& value, const Describe& describe) {
-        FieldWriter inner{out[name] = Json::object()};
+        FieldWriter inner{out[name] = Json::object(), origin};
         describe(inner, value);
     }
 
@@ -49,13 +72,20 @@ private:
     void nameOf(const char* name, T value, const Names& names) {
         out[name] = std::string(names[std::size_t(value)]);
     }
+    template <class T>
+    static auto numberOf(T value) {
+        if constexpr (std::is_floating_point_v<T>)
+            return shortest(value);
+        else
+            return value;
+    }
 };
 
 /// Fields out of a JSON object. The first problem stays in `problem` and nothing more is read.
 class FieldReader {
 public:
-    FieldReader(const Json& in, std::string path, std::string& problem)
-        : m_in(in), m_path(std::move(path)), m_problem(problem) {
+    FieldReader(const Json& in, std::string path, std::string& problem, const glm::dvec3& origin)
+        : m_in(in), m_path(std::move(path)), m_problem(problem), m_origin(origin) {
         if (!in.is_object())
             report("", "not an object");
     }
@@ -65,10 +95,17 @@ public:
         if (const Json* json = take(name))
             read(*json, name, value, limits...);
     }
+    void place(const char* name, glm::vec3& p) {
+        if (const Json* json = take(name)) {
+            glm::dvec3 inFile(0);
+            read(*json, name, inFile);
+            p = toWorld(m_origin, inFile);
+        }
+    }
     template <class T, class Describe>
     void object(const char* name, T& value, const Describe& describe) {
         if (const Json* json = take(name)) {
-            FieldReader inner(*json, at(name), m_problem);
+            FieldReader inner(*json, at(name), m_problem, m_origin);
             describe(inner, value);
             inner.finish();
         }
@@ -97,10 +134,11 @@ private:
         return found == m_in.end() ? nullptr : &*found;
     }
 
-    void read(const Json& json, const std::string& name, float& value, FieldRange range = {}) {
-        if (!json.is_number() || !std::isfinite(json.get<float>()))
+    template <std::floating_point T>
+    void read(const Json& json, const std::string& name, T& value, FieldRange range = {}) {
+        if (!json.is_number() || !std::isfinite(float(json.get<double>())))
             return report(name, "not a number");
-        value = json.get<float>();
+        value = T(json.get<double>());
         checkRange(name, double(value), range);
     }
     template <class T>
@@ -164,6 +202,7 @@ private:
     const Json& m_in;
     std::string m_path;
     std::string& m_problem;
+    const glm::dvec3& m_origin;
     std::vector<std::string> m_known;
 };
 
@@ -204,7 +243,8 @@ static std::string invariantOf(const Object& object) {
 }
 
 /// The object under whichever kind's name `json` has.
-static Result<Object> readObject(const Json& json, const std::string& path) {
+static Result<Object> readObject(const Json& json, const std::string& path,
+                                 const glm::dvec3& origin) {
     static const std::array<Object, 6> kinds = {Node{},   Material{}, Light{},
                                                 Camera{}, Sky{},      BakeSettings{}};
     Result<Object> result = fail(path + ": no node, material, light, camera, sky or bakeSettings");
@@ -214,7 +254,7 @@ static Result<Object> readObject(const Json& json, const std::string& path) {
             if (found == json.end() || (!result && result.error().message.starts_with(path + ".")))
                 return;
             std::string problem;
-            FieldReader fields(*found, path + "." + name, problem);
+            FieldReader fields(*found, path + "." + name, problem, origin);
             describe(fields, object);
             fields.finish();
             if (problem.empty()) {
@@ -235,7 +275,7 @@ static Result<void> readEntry(const Json& json, const std::string& path, Documen
     if (id == json.end() || !id->is_number_unsigned() || id->get<std::uint64_t>() == 0 ||
         id->get<std::uint64_t>() >= ~ObjectId(0))
         return fail(path + ".id: not a positive integer");
-    Result<Object> object = readObject(json, path);
+    Result<Object> object = readObject(json, path, document.origin);
     if (!object)
         return tl::make_unexpected(object.error());
     if (json.size() != 2) {
@@ -298,11 +338,12 @@ static Result<void> readHead(const Json& json, Document& document) {
     {
         Json rest = json;
         rest.erase("objects");
-        FieldReader fields(rest, "", problem);
+        FieldReader fields(rest, "", problem, document.origin);
         fields("version", version);
         fields("scene", document.scenePath);
         fields("sceneHash", hash);
         fields("nextId", nextId);
+        fields("origin", document.origin, FieldRange{-kMostCoordinate, kMostCoordinate});
         fields.finish();
     }
     if (!problem.empty())
@@ -370,12 +411,14 @@ std::string documentToJson(const Document& document) {
     json["scene"] = document.scenePath;
     json["sceneHash"] = hexHash(document.sceneHash);
     json["nextId"] = document.nextId;
+    if (document.origin != glm::dvec3(0))
+        json["origin"] = {document.origin.x, document.origin.y, document.origin.z};
     json["objects"] = Json::array();
     for (const auto& [id, object] : document.objects) {
         Json entry;
         entry["id"] = id;
         describeObject(object, [&](const char* name, const auto& value, const auto& describe) {
-            FieldWriter fields{entry[name] = Json::object()};
+            FieldWriter fields{entry[name] = Json::object(), document.origin};
             describe(fields, value);
         });
         json["objects"].push_back(std::move(entry));

@@ -5,6 +5,7 @@
 #include "engine/core/replace_file.h"
 #include "engine/files/document_json.h"
 #include "engine/files/sky_file.h"
+#include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
 
 #include <filesystem>
@@ -27,13 +28,24 @@ static Result<std::string> relativeTo(const std::string& project, const std::str
     return relative.generic_string();
 }
 
+/// Counts the world positions of an object from another origin.
+static void moveOrigin(Object& object, const glm::dvec3& from, const glm::dvec3& to) {
+    const auto move = [&](glm::vec3& p) { p = toWorld(to, toFile(from, p)); };
+    if (Light* light = std::get_if<Light>(&object))
+        move(light->position);
+    if (Camera* camera = std::get_if<Camera>(&object))
+        move(camera->eye), move(camera->target);
+}
+
 Result<void> saveProject(const std::string& path, const Document& document) {
     const Result<std::string> scene = relativeTo(path, document.scenePath);
     if (!scene)
         return fail(fmt::format("{}: scene: {}", path, scene.error().message));
     Document stored = document;
     stored.scenePath = *scene;
-    for (auto& [id, object] : stored.objects)
+    for (auto& [id, object] : stored.objects) {
+        if (stored.origin != glm::dvec3(0)) // rounds as the file does
+            moveOrigin(object, stored.origin, stored.origin);
         if (Sky* sky = std::get_if<Sky>(&object)) {
             const Result<std::string> image = relativeTo(path, sky->image);
             if (!image)
@@ -41,6 +53,7 @@ Result<void> saveProject(const std::string& path, const Document& document) {
             sky->image = *image;
             sky->panorama = nullptr; // its file holds it
         }
+    }
     // What would not load again must not replace what does.
     const std::string text = documentToJson(stored);
     const Result<Document> again = documentFromJson(text);
@@ -115,6 +128,10 @@ Result<ImportedScene> loadProject(const std::string& path, const Progress& progr
         scene.repairs.push_back(
             "the scene file changed since the project was saved; its new geometry is used");
     document.sceneHash = scene.document.sceneHash;
+    if (document.origin != scene.document.origin) // the scene moved, or the project is of old
+        for (auto& [id, object] : document.objects)
+            moveOrigin(object, document.origin, scene.document.origin);
+    document.origin = scene.document.origin;
     scene.document = std::move(document);
     dropLost(scene);
     if (const std::string defect = reachDefect(flatten(scene.document, scene.assets));

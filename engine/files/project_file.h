@@ -10,6 +10,9 @@ namespace limn {
 
 /// Document <-> JSON, schema version 1. Missing fields take defaults; unknown fields and wrong
 /// types are errors that name the path of the field ("objects[3].light.color[1]: not a number").
+/// Positions are in the coordinates of the scene file, as doubles; "origin", left out where it is
+/// 0, says about which place the document counted them, so that each comes back as the same float
+/// wherever doubles are fine enough.
 std::string documentToJson(const Document& document);
 Result<Document> documentFromJson(const std::string& json);
 

@@ -4,6 +4,8 @@
 #include "engine/gallery/hostile_shapes.h"
 #include "engine/gallery/random_stream.h"
 #include "engine/scene/mesh_repair.h"
+#include "engine/scene/origin.h"
+#include "engine/scene/placement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,14 +35,15 @@ public:
         addMaterials();
         addShell();
         addObjects();
-        addLights();
-        addSky();
-        addSettings();
         HostileScene scene;
         for (const Material& m : m_materials)
             addObject(scene.document, m);
-        for (auto& node : m_nodes)
-            addObject(scene.document, std::move(node));
+        for (const Node& node : m_nodes)
+            m_ids.push_back(addObject(scene.document, node));
+        scene.document.origin = originOf(scene.document, m_assets.meshes);
+        addLights(scene.document);
+        addSky();
+        addSettings();
         for (auto& light : m_lights)
             addObject(scene.document, std::move(light));
         addObject(scene.document, m_sky);
@@ -113,7 +116,7 @@ private:
     void addNode(std::uint32_t mesh, dvec3 at, Transform t, bool dynamic) {
         Node node;
         node.name = fmt::format("Object {}", m_nodes.size() + 1);
-        t.translation = glm::vec3(at * m_size + m_offset);
+        t.translation = at * m_size + m_offset;
         if (m_scaledByNode)
             t.scale *= float(m_size);
         node.transform = t;
@@ -220,32 +223,34 @@ private:
         }
     }
 
-    dvec3 lightPlace() {
+    /// In world space.
+    glm::vec3 lightPlace(const Document& document) {
         if (isThing(0.15) && !m_nodes.empty()) { // on a triangle, or at its corner
-            const Node& node = m_nodes[std::size_t(m_random.whole(0, int(m_nodes.size()) - 1))];
-            const Mesh& mesh = m_assets.meshes[node.meshes[0]];
+            const auto index = std::size_t(m_random.whole(0, int(m_nodes.size()) - 1));
+            const Mesh& mesh = m_assets.meshes[m_nodes[index].meshes[0]];
             if (mesh.triangleCount() > 0) {
                 const auto k = mesh.triangle(std::size_t(m_random.bits() % mesh.triangleCount()));
                 const glm::vec3 a = mesh.positions[k[0]], b = mesh.positions[k[1]],
                                 c = mesh.positions[k[2]];
                 const glm::vec3 p = isThing(0.3) ? a : (a + b + c) / 3.f;
-                return dvec3(glm::vec3(matrix(node.transform) * glm::vec4(p, 1)));
+                const glm::mat4 placed(Placements(document).of(m_ids[index]).toWorld);
+                return placed * glm::vec4(p, 1);
             }
         }
         dvec3 at = inRoom();
         if (isThing(0.1))
             at[m_random.whole(0, 2)] = m_random.between(-0.3, 0);
-        return at * m_size + m_offset;
+        return toWorld(document.origin, at * m_size + m_offset);
     }
 
-    void addLights() {
+    void addLights(const Document& document) {
         const int count = isThing(0.02) ? m_random.whole(10, 32) : m_random.whole(0, 3);
         for (int k = 0; k < count; ++k) {
             Light l;
             l.name = fmt::format("Light {}", k + 1);
             l.kind = LightKind(m_random.whole(0, 3));
             l.enabled = !isThing(0.05);
-            l.position = glm::vec3(lightPlace());
+            l.position = lightPlace(document);
             l.direction = glm::normalize(glm::vec3(direction()));
             l.color = isThing(0.3) ? glm::vec3(1) : color(1);
             double strength = logBetween(1e-6, 1e6);
@@ -309,6 +314,7 @@ private:
     Assets m_assets;
     std::vector<Material> m_materials;
     std::vector<Node> m_nodes;
+    std::vector<ObjectId> m_ids; ///< of the nodes
     std::vector<Light> m_lights;
     Sky m_sky;
     BakeSettings m_settings;

@@ -111,7 +111,8 @@ std::uint32_t SceneMaker::addLamp(glm::vec3 nits, bool picture) {
 static void append(Mesh& to, const Mesh& from, const Transform& placement) {
     const auto first = std::uint32_t(to.positions.size());
     for (std::size_t i = 0; i < from.positions.size(); ++i) {
-        to.positions.push_back(placement.rotation * from.positions[i] + placement.translation);
+        to.positions.push_back(placement.rotation * from.positions[i] +
+                               glm::vec3(placement.translation));
         to.normals.push_back(placement.rotation * from.normals[i]);
     }
     to.uv0.insert(to.uv0.end(), from.uv0.begin(), from.uv0.end());
@@ -240,7 +241,7 @@ GeneratedScene SceneMaker::finish() {
         if (!traits.scaledByNode) {
             for (glm::vec3& p : mesh.positions)
                 p *= float(traits.scale);
-            node.transform.translation *= float(traits.scale);
+            node.transform.translation *= double(float(traits.scale));
         }
         removeBadTriangles(mesh);
         node.name = mesh.name;

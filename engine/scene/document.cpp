@@ -10,7 +10,17 @@ glm::mat4 matrix(const Transform& t) {
     m[0] *= t.scale.x;
     m[1] *= t.scale.y;
     m[2] *= t.scale.z;
-    m[3] = glm::vec4(t.translation, 1);
+    m[3] = glm::vec4(glm::vec3(t.translation), 1);
+    return m;
+}
+
+glm::dmat4 preciseMatrix(const Transform& t) {
+    // Of unit length in double too: quarter turns, as from z-up to y-up, are exact then.
+    glm::dmat4 m = glm::mat4_cast(glm::normalize(glm::dquat(t.rotation)));
+    m[0] *= double(t.scale.x);
+    m[1] *= double(t.scale.y);
+    m[2] *= double(t.scale.z);
+    m[3] = glm::dvec4(t.translation, 1);
     return m;
 }
 

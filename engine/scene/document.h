@@ -22,7 +22,7 @@ namespace limn {
 using ObjectId = std::uint32_t; ///< Never reused within a document; 0: none.
 
 struct Transform {
-    glm::vec3 translation{0};
+    glm::dvec3 translation{0};      ///< [m], within float; double for places far from the origin
     glm::quat rotation{1, 0, 0, 0}; ///< w, x, y, z; unit
     glm::vec3 scale{1};             ///< may be negative, not 0
 
@@ -30,6 +30,9 @@ struct Transform {
 };
 
 glm::mat4 matrix(const Transform& t);
+
+/// The same in double, with the whole of the translation.
+glm::dmat4 preciseMatrix(const Transform& t);
 
 /// A node of the tree; carries meshes when it is an instance.
 struct Node {
@@ -48,10 +51,12 @@ struct Node {
 
 using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings>;
 
-/// Everything a user can edit. A plain value; heavy, immutable data is in Assets.
+/// Everything a user can edit. A plain value; heavy, immutable data is in Assets. Node transforms
+/// are the file's. Lights and cameras are in world space, whose origin is `origin`.
 struct Document {
     std::string scenePath; ///< glTF file, as opened; the project file stores it relative to itself
     std::uint64_t sceneHash = 0; ///< of the glTF's content (main file and buffers)
+    glm::dvec3 origin{0};        ///< of world space, in the file's coordinates [m]; see origin.h
     std::map<ObjectId, Object> objects;
     ObjectId nextId = 1;
 

@@ -11,12 +11,12 @@ namespace limn {
 Result<void> makeDynamic(Document& document, std::string_view spec) {
     const std::size_t at = spec.rfind('@');
     const std::string_view name = spec.substr(0, at);
-    glm::vec3 by(0);
+    glm::dvec3 by(0);
     if (at != std::string_view::npos) {
         const std::string way(spec.substr(at + 1));
         int end = 0;
-        if (std::sscanf(way.c_str(), "%f,%f,%f%n", &by.x, &by.y, &by.z, &end) != 3 ||
-            std::size_t(end) != way.size() || !std::isfinite(by.x + by.y + by.z))
+        if (std::sscanf(way.c_str(), "%lf,%lf,%lf%n", &by.x, &by.y, &by.z, &end) != 3 ||
+            std::size_t(end) != way.size() || !std::isfinite(float(by.x + by.y + by.z)))
             return fail(fmt::format("dynamic '{}': expected three numbers x,y,z after @", spec));
     }
     bool found = false;

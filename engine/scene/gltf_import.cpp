@@ -126,7 +126,9 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
     scene.document.sceneHash = file->hash;
     for (const Material& material : materials) // first: Mesh::material is their order of id
         addObject(scene.document, material);
-    if (const Result<void> added = addNodes(scene.document, model, *meshes, repairs); !added)
+    if (const Result<void> added =
+            addNodes(scene.document, model, *meshes, assets->meshes, repairs);
+        !added)
         return tl::make_unexpected(added.error());
     addObject(scene.document, Sky{});
     addObject(scene.document, BakeSettings{});

@@ -3,6 +3,7 @@
 
 #include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_lights.h"
+#include "engine/scene/origin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ static constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 
 static bool finite(const Transform& t) {
     for (int c = 0; c < 3; ++c)
-        if (!std::isfinite(t.translation[c]) || !std::isfinite(t.scale[c]))
+        if (!std::isfinite(float(t.translation[c])) || !std::isfinite(t.scale[c]))
             return false;
     return std::isfinite(t.rotation.x + t.rotation.y + t.rotation.z + t.rotation.w);
 }
@@ -49,7 +50,7 @@ static bool normalise(Transform& t, GltfRepairs& repairs) {
 bool decompose(const glm::mat4& m, Transform& transform, GltfRepairs& repairs) {
     const glm::dmat3 a{glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2])};
     glm::dvec3 scale{glm::length(a[0]), glm::length(a[1]), glm::length(a[2])};
-    transform.translation = glm::vec3(m[3]);
+    transform.translation = glm::dvec3(m[3]);
     if (glm::determinant(a) < 0)
         scale.x = -scale.x;
     glm::dmat3 r(1);
@@ -83,11 +84,14 @@ static glm::mat4 toMatrix(const std::vector<double>& values) {
 
 /// The node's own transform; false where it hides the node.
 static bool readTransform(const tinygltf::Node& node, Transform& t, GltfRepairs& repairs) {
-    if (node.matrix.size() == 16)
-        return decompose(toMatrix(node.matrix), t, repairs);
+    if (node.matrix.size() == 16) {
+        const bool visible = decompose(toMatrix(node.matrix), t, repairs);
+        t.translation = {node.matrix[12], node.matrix[13], node.matrix[14]};
+        return visible;
+    }
     for (int c = 0; c < 3; ++c) {
         if (node.translation.size() == 3)
-            t.translation[c] = float(node.translation[std::size_t(c)]);
+            t.translation[c] = node.translation[std::size_t(c)];
         if (node.scale.size() == 3)
             t.scale[c] = float(node.scale[std::size_t(c)]);
     }
@@ -99,11 +103,24 @@ static bool readTransform(const tinygltf::Node& node, Transform& t, GltfRepairs&
 
 namespace {
 
+/// Takes a node into the file's coordinates; `rounded` does for a document whose origin is 0, as in
+/// Placements.
+struct FilePlace {
+    glm::mat4 rounded{1};
+    glm::dmat4 precise{1};
+};
+
 /// A node of the file with what its ancestors gave it.
 struct Visit {
     int node = 0;
     ObjectId parent = 0;
-    glm::mat4 parentToWorld{1};
+    FilePlace parentPlace;
+};
+
+/// The node of a skinned mesh and where its mesh lies in double.
+struct Skinned {
+    ObjectId id = 0;
+    glm::dvec3 translation{0};
 };
 
 /// One run of addNodes.
@@ -112,8 +129,8 @@ struct NodeReader {
     const Model& model;
     const MeshesOfGltf& meshes;
     GltfRepairs& repairs;
-    std::vector<glm::mat4> toWorld; ///< per node of the file
-    std::vector<int> skinned;       ///< nodes whose mesh is placed by its skin
+    std::vector<FilePlace> places; ///< per node of the file
+    std::vector<int> skinned;      ///< nodes whose mesh is placed by its skin
 };
 
 } // namespace
@@ -239,7 +256,8 @@ static Result<ObjectId> addNode(NodeReader& reader, const Visit& visit) {
     node.visible = readTransform(source, node.transform, reader.repairs);
     if (!finite(node.transform))
         return fail(fmt::format("nodes[{}]: transform is not finite", index));
-    reader.toWorld[index] = visit.parentToWorld * matrix(node.transform);
+    reader.places[index] = {visit.parentPlace.rounded * matrix(node.transform),
+                            visit.parentPlace.precise * preciseMatrix(node.transform)};
 
     const auto instancing = source.extensions.find(kInstancing);
     const bool instanced = source.mesh >= 0 && instancing != source.extensions.end();
@@ -258,12 +276,13 @@ static Result<ObjectId> addNode(NodeReader& reader, const Visit& visit) {
 
 /// Places a skinned mesh as it was bound: glTF ignores the node's own transform, and at rest every
 /// joint's matrix times its inverse bind matrix is the same, so the first joint's will do.
-static Result<void> addSkinned(NodeReader& reader, int index) {
+static Result<Skinned> addSkinned(NodeReader& reader, int index) {
     const tinygltf::Node& source = reader.model.nodes[std::size_t(index)];
     const tinygltf::Skin& skin = reader.model.skins[std::size_t(source.skin)];
     Node node;
     node.name = source.name.empty() ? fmt::format("Skinned {}", index) : source.name;
     node.meshes = reader.meshes[std::size_t(source.mesh)];
+    Skinned added;
     if (!skin.joints.empty()) {
         glm::mat4 bind(1);
         if (skin.inverseBindMatrices >= 0) {
@@ -275,18 +294,44 @@ static Result<void> addSkinned(NodeReader& reader, int index) {
             for (int i = 0; i < 16; ++i)
                 bind[i / 4][i % 4] = values->row(0)[std::size_t(i)];
         }
-        node.visible = decompose(reader.toWorld[std::size_t(skin.joints[0])] * bind, node.transform,
-                                 reader.repairs);
+        const FilePlace& joint = reader.places[std::size_t(skin.joints[0])];
+        node.visible = decompose(joint.rounded * bind, node.transform, reader.repairs);
+        added.translation = glm::dvec3((joint.precise * glm::dmat4(bind))[3]);
     }
     if (!finite(node.transform))
         return fail(fmt::format("skins[{}]: bind pose is not finite", source.skin));
     reader.repairs.add("skinned meshes shown in their bind pose");
-    addObject(reader.document, std::move(node));
+    added.id = addObject(reader.document, std::move(node));
+    return added;
+}
+
+static Result<void> addAllSkinned(NodeReader& reader, std::span<const Mesh> placed) {
+    std::vector<Skinned> added;
+    for (const int node : reader.skinned) {
+        const Result<Skinned> one = addSkinned(reader, node);
+        if (!one)
+            return tl::make_unexpected(one.error());
+        added.push_back(*one);
+    }
+    reader.document.origin = originOf(reader.document, placed);
+    if (reader.document.origin != glm::dvec3(0))
+        for (const Skinned& one : added)
+            std::get<Node>(reader.document.objects.at(one.id)).transform.translation =
+                one.translation;
     return {};
 }
 
+/// The node's place in world space.
+static glm::mat4 worldOf(const FilePlace& place, const glm::dvec3& origin) {
+    if (origin == glm::dvec3(0))
+        return place.rounded;
+    glm::dmat4 toWorld = place.precise;
+    toWorld[3] -= glm::dvec4(origin, 0);
+    return glm::mat4(toWorld);
+}
+
 Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
-                      GltfRepairs& repairs) {
+                      std::span<const Mesh> placed, GltfRepairs& repairs) {
     const Result<std::vector<int>> parents = parentsOf(model);
     if (!parents)
         return tl::make_unexpected(parents.error());
@@ -294,10 +339,10 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
     if (!roots)
         return tl::make_unexpected(roots.error());
     NodeReader reader{document, model, meshes, repairs, {}, {}};
-    reader.toWorld.assign(model.nodes.size(), glm::mat4(1));
+    reader.places.assign(model.nodes.size(), FilePlace{});
     std::vector<Visit> stack;
     for (auto root = roots->rbegin(); root != roots->rend(); ++root)
-        stack.push_back({*root, 0, glm::mat4(1)});
+        stack.push_back({*root, 0, {}});
     std::vector<int> visited;
     while (!stack.empty()) {
         const Visit visit = stack.back();
@@ -308,14 +353,13 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
             return tl::make_unexpected(id.error());
         const std::vector<int>& children = model.nodes[std::size_t(visit.node)].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            stack.push_back({*child, *id, reader.toWorld[std::size_t(visit.node)]});
+            stack.push_back({*child, *id, reader.places[std::size_t(visit.node)]});
     }
-    for (const int node : reader.skinned)
-        if (Result<void> added = addSkinned(reader, node); !added)
-            return added;
+    if (Result<void> added = addAllSkinned(reader, placed); !added)
+        return added;
     for (const int node : visited)
-        addLightAndCamera(document, model, std::size_t(node), reader.toWorld[std::size_t(node)],
-                          repairs);
+        addLightAndCamera(document, model, std::size_t(node),
+                          worldOf(reader.places[std::size_t(node)], document.origin), repairs);
     return {};
 }
 

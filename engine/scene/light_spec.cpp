@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/light_spec.h"
 
+#include "engine/scene/origin.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -22,21 +24,23 @@ static std::vector<std::string_view> split(std::string_view text, char separator
     return parts;
 }
 
-static Result<float> parseNumber(std::string_view word, std::string_view text) {
-    float value = 0;
+template <class Number = float>
+static Result<Number> parseNumber(std::string_view word, std::string_view text) {
+    Number value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(float(value)))
         return fail(fmt::format("'{}': '{}' is not a number", word, text));
     return value;
 }
 
-static Result<glm::vec3> parseTriple(std::string_view word, std::string_view text) {
+template <class Number = float>
+static Result<glm::vec<3, Number>> parseTriple(std::string_view word, std::string_view text) {
     const std::vector<std::string_view> parts = split(text, ',');
     if (parts.size() != 3)
         return fail(fmt::format("'{}': expected three numbers x,y,z", word));
-    glm::vec3 v;
+    glm::vec<3, Number> v;
     for (int i = 0; i < 3; ++i) {
-        const Result<float> number = parseNumber(word, parts[std::size_t(i)]);
+        const Result<Number> number = parseNumber<Number>(word, parts[std::size_t(i)]);
         if (!number)
             return tl::make_unexpected(number.error());
         v[i] = *number;
@@ -89,7 +93,7 @@ static Result<glm::vec2> parseSize(std::string_view word, std::string_view text)
 }
 
 /// The kinds that know a key, and the field it sets.
-static Result<void> applyWord(Light& light, std::string_view word) {
+static Result<void> applyWord(Light& light, std::string_view word, const glm::dvec3& origin) {
     const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos)
         return fail(fmt::format("'{}': expected key=value", word));
@@ -110,8 +114,12 @@ static Result<void> applyWord(Light& light, std::string_view word) {
         return store(light.color, parseColor(word, text));
     if ((key == "lux" && sun) || (key == "cd" && !sun && !rect) || (key == "nits" && rect))
         return store(light.strength, parseStrength(word, text));
-    if (key == "pos" && !sun)
-        return store(light.position, parseTriple(word, text));
+    if (key == "pos" && !sun) {
+        glm::dvec3 position(0);
+        const Result<void> stored = store(position, parseTriple<double>(word, text));
+        light.position = toWorld(origin, position);
+        return stored;
+    }
     if (key == "range" && !sun && !rect)
         return store(light.range, parseNonNegative(word, text));
     if (key == "size" && rect)
@@ -143,7 +151,7 @@ static Result<void> applyWord(Light& light, std::string_view word) {
     return fail(fmt::format("'{}': unknown for this kind of light", word));
 }
 
-Result<Light> parseLight(std::string_view spec) {
+Result<Light> parseLight(std::string_view spec, const glm::dvec3& origin) {
     Light light;
     bool first = true;
     for (const std::string_view word : split(spec, ' ')) {
@@ -161,10 +169,12 @@ Result<Light> parseLight(std::string_view spec) {
             else
                 return fail(
                     fmt::format("light '{}': '{}' is not sun, point, spot or rect", spec, word));
+            if (light.kind != LightKind::Directional)
+                light.position = toWorld(origin, light.position);
             first = false;
             continue;
         }
-        if (const Result<void> applied = applyWord(light, word); !applied)
+        if (const Result<void> applied = applyWord(light, word, origin); !applied)
             return fail(fmt::format("light '{}': {}", spec, applied.error().message));
     }
     if (first)

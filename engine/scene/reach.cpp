@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/reach.h"
 
+#include "engine/scene/origin.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,18 +17,22 @@ bool withinReach(glm::vec3 p) {
 
 std::string reachDefect(const Scene& scene) {
     const std::string most = fmt::format("beyond {:g} m of the origin", kMostCoordinate);
+    const auto placed = [&](glm::vec3 p) {
+        return withinReach(glm::vec3(toFile(scene.origin, p)));
+    };
     for (const Instance& instance : scene.instances)
         for (int c = 0; c < 4; ++c)
-            if (!withinReach(glm::vec3(instance.toWorld[c])))
+            if (!(c < 3 ? withinReach(glm::vec3(instance.toWorld[c]))
+                        : placed(glm::vec3(instance.toWorld[c]))))
                 return fmt::format("an object of the mesh '{}' lies or extends {}",
                                    scene.meshOf(instance).name, most);
-    if (!withinReach(scene.bounds.lower) || !withinReach(scene.bounds.upper))
+    if (!placed(scene.bounds.lower) || !placed(scene.bounds.upper))
         return "the scene extends " + most;
     for (const Light& light : scene.lights)
-        if (light.kind != LightKind::Directional && !withinReach(light.position))
+        if (light.kind != LightKind::Directional && !placed(light.position))
             return fmt::format("the light '{}' lies {}", light.name, most);
     for (const Camera& camera : scene.cameras)
-        if (!withinReach(camera.eye) || !withinReach(camera.target))
+        if (!placed(camera.eye) || !placed(camera.target))
             return fmt::format("the camera '{}' or its target lies {}", camera.name, most);
     return {};
 }

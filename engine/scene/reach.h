@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// Nothing may lie further from the origin along an axis [m]: squares of distances, and their
-/// squares, stay within float.
+/// Nothing may lie further from the file's origin along an axis [m]: squares of distances stay
+/// within float, and doubles tell tenths of a millimetre apart there.
 inline constexpr float kMostCoordinate = 1e12f;
 
 /// Whether no coordinate is NaN or beyond kMostCoordinate.

@@ -2,66 +2,16 @@
 #include "engine/scene/scene.h"
 
 #include "engine/core/parallel.h"
+#include "engine/scene/placement.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace limn {
-
-namespace {
-
-/// What a node inherits from its ancestors.
-struct Placement {
-    glm::mat4 toWorld{1};
-    bool visible = true;
-    bool dynamic = false;
-};
-
-/// Placements of nodes, each computed once. Iterative: a chain of nodes may be very long.
-class Placements {
-public:
-    explicit Placements(const Document& document) : m_document(document) {}
-
-    Placement of(ObjectId id) {
-        std::vector<ObjectId> chain;
-        Placement at;
-        for (; id != 0; id = node(id)->parent) {
-            const auto known = m_known.find(id);
-            if (known != m_known.end()) {
-                at = known->second;
-                break;
-            }
-            // A missing parent makes a root; a cycle, which documents must not have, is cut.
-            if (!node(id) || chain.size() > m_document.objects.size())
-                break;
-            chain.push_back(id);
-        }
-        for (auto child = chain.rbegin(); child != chain.rend(); ++child) {
-            const Node& n = *node(*child);
-            at.toWorld = at.toWorld * matrix(n.transform);
-            at.visible = at.visible && n.visible;
-            at.dynamic = at.dynamic || n.dynamic;
-            m_known.emplace(*child, at);
-        }
-        return at;
-    }
-
-private:
-    const Node* node(ObjectId id) const {
-        const auto found = m_document.objects.find(id);
-        return found == m_document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
-    }
-
-    const Document& m_document;
-    std::unordered_map<ObjectId, Placement> m_known;
-};
-
-} // namespace
 
 static glm::mat3 normalMatrix(const glm::mat4& m) {
     const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
@@ -78,8 +28,8 @@ static void addInstances(Scene& scene, const Node& node, ObjectId id, const Plac
         instance.material = scene.assets->meshes[mesh].material;
         instance.node = id;
         instance.dynamic = at.dynamic;
-        instance.toWorld = at.toWorld;
-        instance.normalToWorld = normalMatrix(at.toWorld);
+        instance.toWorld = glm::mat4(at.toWorld);
+        instance.normalToWorld = normalMatrix(instance.toWorld);
         scene.instances.push_back(instance);
     }
 }
@@ -138,6 +88,7 @@ bool showTime(Scene& scene, const Document& document, double seconds) {
 Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, double seconds) {
     Scene scene;
     scene.assets = assets ? std::move(assets) : std::make_shared<const Assets>();
+    scene.origin = document.origin;
     Placements placements(document);
     for (const auto& [id, object] : document.objects) {
         if (const Node* node = std::get_if<Node>(&object)) {

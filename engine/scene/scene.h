@@ -43,7 +43,9 @@ bool shines(const Light& light);
 /// Whether anything within `bounds` can lie in the light's range.
 bool reaches(const Light& light, const Bounds& bounds);
 
-/// The document flattened: what the tracer, baker, reference and viewport read.
+/// The document flattened: what the tracer, baker, reference and viewport read. Everything is in
+/// world space, and nothing of it depends on where `origin` lies: it only tells people where things
+/// are. So the same room at two places has the same scene hash, and may share a bake.
 struct Scene {
     std::shared_ptr<const Assets> assets;
     std::vector<Instance> instances; ///< visible ones, ordered by node id, then mesh
@@ -52,7 +54,8 @@ struct Scene {
     std::vector<Camera> cameras;
     Sky sky;
     BakeSettings bake;
-    Bounds bounds; ///< world space, of all instances; 0 for an empty scene
+    Bounds bounds;        ///< world space, of all instances; 0 for an empty scene
+    glm::dvec3 origin{0}; ///< of world space, in the file's coordinates [m]
 
     const Mesh& meshOf(const Instance& i) const { return assets->meshes[i.mesh]; }
     const Material& materialOf(const Instance& i) const { return materials[i.material]; }

@@ -14,9 +14,7 @@ namespace limn {
 
 namespace {
 
-/// Numbers are floats, written with as many digits as bring the same float back.
-using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
-                                  std::int64_t, std::uint64_t, float>;
+using Json = nlohmann::ordered_json;
 
 Json jsonOf(const std::vector<glm::vec3>& points) {
     Json out = Json::array();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gallery/random_stream.h"
+#include "engine/scene/reach.h"
 #include "engine/stress/oracle.h"
 #include "engine/stress/scene_change.h"
 
@@ -117,6 +118,23 @@ Judgement judgeTranslation(const Subject& subject) {
     return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)));
 }
 
+/// Up to 2^24 sizes away, where floats about the file's origin could not tell its parts apart: the
+/// document says where its world space lies.
+Judgement judgeFar(const Subject& subject) {
+    const Scene& scene = subject.base.scene;
+    if (!subject.document || sizesAway(scene) > kMostSizesAway)
+        return notJudged();
+    RandomStream random(subject.seed + 6);
+    const glm::dvec3 way(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    const double size = double(glm::length(scene.bounds.size()));
+    const glm::dvec3 by = way * size * std::exp2(random.between(4, 24));
+    const Document moved = movedDocument(*subject.document, scene.assets->meshes, by);
+    const Scene far = flatten(moved, scene.assets);
+    if (moved.origin == glm::dvec3(0) || !reachDefect(far).empty())
+        return notJudged(); // nothing static, or not far for what is
+    return judgeAlike(subject, far);
+}
+
 /// x to y to z: no coordinate is rounded.
 Judgement judgeAxes(const Subject& subject) {
     if (!isEven(subject.base.scene.sky))
@@ -154,6 +172,7 @@ Judgement judgeObjects(const Subject& subject) {
 void addChangeOracles(std::vector<Oracle>& to) {
     to.push_back({"scale", "A scene 2^n times as large is lit alike.", judgeScale});
     to.push_back({"translation", "A scene elsewhere is lit alike.", judgeTranslation});
+    to.push_back({"far", "A scene far from its file's origin is lit alike.", judgeFar});
     to.push_back({"axes", "A scene with its axes swapped is lit alike.", judgeAxes});
     to.push_back({"turn", "A scene turned by any angle is lit alike.", judgeTurn});
     to.push_back({"triangles", "The order of triangles changes no light.", judgeTriangles});

@@ -16,8 +16,9 @@ namespace limn {
 struct Subject {
     std::uint64_t seed = 0; ///< of what an oracle draws
     LitScene base;
-    std::string folder; ///< for files that are written and read back
-    Progress progress;  ///< cancelled where a case takes too long
+    std::string folder;                 ///< for files that are written and read back
+    Progress progress;                  ///< cancelled where a case takes too long
+    const Document* document = nullptr; ///< of the scene, where there is one
 };
 
 /// What an oracle says of a subject.

@@ -2,6 +2,7 @@
 #include "engine/stress/scene_change.h"
 
 #include "engine/gallery/random_stream.h"
+#include "engine/scene/origin.h"
 #include "engine/scene/rectangle_light.h"
 
 #include <cmath>
@@ -47,6 +48,18 @@ Scene movedScene(Scene scene, glm::vec3 by) {
         l.position += by;
     setBounds(scene);
     return scene;
+}
+
+Document movedDocument(Document document, std::span<const Mesh> meshes, const glm::dvec3& by) {
+    const glm::dvec3 before = document.origin;
+    for (auto& [id, object] : document.objects)
+        if (Node* node = std::get_if<Node>(&object); node && node->parent == 0)
+            node->transform.translation += by;
+    document.origin = originOf(document, meshes);
+    for (auto& [id, object] : document.objects)
+        if (Light* light = std::get_if<Light>(&object))
+            light->position = toWorld(document.origin, toFile(before, light->position) + by);
+    return document;
 }
 
 /// The roll counts from the horizon, so it is what turns the level width to where it belongs.

@@ -4,6 +4,7 @@
 #include "engine/scene/scene.h"
 
 #include <cstdint>
+#include <span>
 
 #include <glm/mat3x3.hpp>
 
@@ -13,6 +14,10 @@ namespace limn {
 Scene scaledScene(Scene scene, float s);
 
 Scene movedScene(Scene scene, glm::vec3 by);
+
+/// The document with its roots and lights moved in the file's coordinates [m], and the origin that
+/// an import would give it. `meshes` are those of its Assets.
+Document movedDocument(Document document, std::span<const Mesh> meshes, const glm::dvec3& by);
 
 /// Turned about the origin. The sky stays.
 Scene turnedScene(Scene scene, const glm::mat3& rotation);

@@ -57,7 +57,8 @@ CaseResult runCase(const StressCase& c, const std::vector<Oracle>& oracles,
         result.note = base.error().message;
     }
     if (base) {
-        const Subject subject{c.seed, std::move(*base), limits.folder, deadline.progress()};
+        const Subject subject{c.seed, std::move(*base), limits.folder, deadline.progress(),
+                              &c.document};
         for (std::size_t i = 0; i < oracles.size() && !deadline.past(); ++i) {
             const Judgement judgement = oracles[i].judge(subject);
             if (!deadline.past()) // what was cancelled says nothing

@@ -119,6 +119,42 @@ TEST_F(CommandLine, RefusesLightsSkiesAndCamerasThatMakeNoSense) {
     EXPECT_FALSE(fs::exists(path("x.exr")));
 }
 
+// A right triangle in the plane z = 0 whose node is at x = `at`.
+std::string triangleAt(double at) {
+    const nlohmann::json number = at;
+    return R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "translation": [)" +
+           number.dump() + R"(, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" +
+           "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+}
+
+TEST_F(CommandLine, PlacesAreGivenAndPrintedInTheFilesCoordinates) {
+    write(path("near.gltf"), triangleAt(0));
+    write(path("far.gltf"), triangleAt(1e6));
+    const auto picture = [&](const std::string& name, const char* light, const char* camera) {
+        const Outcome out = limn("reference " + path(name + ".gltf") + " --spp 4 --width 32 " +
+                                 "--height 24 --view direct --light 'point cd=3 pos=" + light +
+                                 "' " + camera + " -o " + path(name + ".exr"));
+        EXPECT_EQ(out.exit, 0) << out.err;
+        return contents(path(name + ".exr"));
+    };
+    const std::string near = picture("near", "0.3,0.2,1", "--eye 0.3,0.3,2 --target 0.3,0.3,0");
+    EXPECT_GT(json("info --json " + path("near.exr"))["maximum"], 0.1);
+    EXPECT_EQ(
+        picture("far", "1000000.3,0.2,1", "--eye 1000000.3,0.3,2 --target 1000000.3,0.3,0").size(),
+        near.size());
+    const nlohmann::json compared =
+        json("compare --json " + path("far.exr") + " " + path("near.exr"));
+    EXPECT_LT(compared["nrmse"], 1e-4);
+    const nlohmann::json bounds = json("info --json " + path("far.gltf"))["bounds"];
+    EXPECT_EQ(bounds["lower"], nlohmann::json({1e6, 0, 0}));
+    EXPECT_EQ(bounds["upper"], nlohmann::json({1e6 + 1, 1, 0}));
+}
+
 TEST_F(CommandLine, BakeRefusesWhatItCannotReadOrWrite) {
     expectRefusal("bake nowhere.gltf -o " + path("x.limnbake"), "nowhere.gltf");
     expectRefusal("bake nowhere -o " + path("x.limnbake"), "nowhere");

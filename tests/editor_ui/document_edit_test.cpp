@@ -93,6 +93,23 @@ TEST_F(DocumentEditTest, ANodeDisplacedInTheWorldMovesThatFarUnderItsScaledParen
     EXPECT_NEAR(glm::length(to - from - d), 0, 1e-5f);
 }
 
+TEST_F(DocumentEditTest, WhatLiesFarAwayIsEditedAboutTheScenesOrigin) {
+    const glm::mat4 near = worldMatrix(state.document, idNamed(state, "Left"));
+    state.document.origin = {1e7, 0, -1e7};
+    get<Node>("Group").transform.translation += state.document.origin;
+    select({"Left"});
+    EXPECT_EQ(worldMatrix(state.document, idNamed(state, "Left")), near);
+    glm::vec3 place;
+    ASSERT_TRUE(selectionOrigin(state, place));
+    EXPECT_EQ(place, glm::vec3(near[3]));
+
+    select({"Group"});
+    Object& group = state.document.objects.at(idNamed(state, "Group"));
+    group = displaced(state.document, group, {0.01f, 0, 0});
+    ASSERT_TRUE(selectionOrigin(state, place));
+    EXPECT_NEAR(place.x, 0.01f, 1e-6f);
+}
+
 TEST_F(DocumentEditTest, AChildOfASelectedNodeIsNotMovedTwice) {
     select({"Group", "Left", "Lamp"});
     const auto movable = movableSelection(state);

@@ -39,6 +39,16 @@ TEST(Panels, DrawingNeverChangesTheDocument) {
     EXPECT_TRUE(state.history.edits.empty());
 }
 
+TEST(Panels, DrawingAFarSceneNeverChangesItEither) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    state.document.origin = {1e6 + 32, -4e9, 48};
+    const Document before = state.document;
+    drawWithEverySelection(ui, state);
+    EXPECT_EQ(state.document, before);
+    EXPECT_TRUE(state.history.edits.empty());
+}
+
 TEST(Panels, NamesOfTwoHundredCharactersAndNoneAtAllAreDrawn) {
     HeadlessUi ui;
     EditorState state = fullEditor();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/origin.h"
 #include "tests/scene/gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,8 @@ TEST(GltfRefusal, AChainOfFiftyThousandNodesIsNoProblem) {
     b.json["nodes"] = nodes;
     b.json["scenes"] = {{{"nodes", {50000}}}};
     const ImportedScene scene = imported(b);
-    EXPECT_EQ(flatten(scene.document, scene.assets).bounds.lower.x, 50000);
+    const Scene flat = flatten(scene.document, scene.assets);
+    EXPECT_EQ(toFile(flat.origin, flat.bounds.lower).x, 50000);
 }
 
 TEST(GltfRefusal, WhatDoesNotFitIsRefusedByFieldAndFile) {

@@ -123,7 +123,7 @@ TEST(DynamicSpec, MarksAndMovesObjectsByName) {
     ASSERT_TRUE(makeDynamic(document, "Box @ 2@0,-0.5,2e1"));
     const Node& moved = std::get<Node>(document.objects[box]);
     EXPECT_TRUE(moved.dynamic);
-    EXPECT_EQ(moved.transform.translation, glm::vec3(1, -0.5f, 20));
+    EXPECT_EQ(moved.transform.translation, glm::dvec3(1, -0.5, 20));
     EXPECT_FALSE(std::get<Node>(document.objects[other]).dynamic);
     ASSERT_TRUE(makeDynamic(document, "Box"));
     EXPECT_TRUE(std::get<Node>(document.objects[other]).dynamic);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/placement.h"
+
+#include <vector>
+
+namespace limn {
+
+Placements::Placements(const Document& document)
+    : m_document(document), m_origin(document.origin),
+      m_inDouble(document.origin != glm::dvec3(0)) {}
+
+Placements::Placements(const Document& document, const glm::dvec3& origin)
+    : m_document(document), m_origin(origin), m_inDouble(true) {}
+
+const Node* Placements::node(ObjectId id) const {
+    const auto found = m_document.objects.find(id);
+    return found == m_document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
+}
+
+/// Iterative: a chain of nodes may be very long.
+Placement Placements::of(ObjectId id) {
+    std::vector<ObjectId> chain;
+    Placement at;
+    at.toWorld[3] = glm::dvec4(-m_origin, 1);
+    for (; id != 0; id = node(id)->parent) {
+        const auto known = m_known.find(id);
+        if (known != m_known.end()) {
+            at = known->second;
+            break;
+        }
+        if (!node(id) || chain.size() > m_document.objects.size())
+            break;
+        chain.push_back(id);
+    }
+    for (auto child = chain.rbegin(); child != chain.rend(); ++child) {
+        const Node& n = *node(*child);
+        at.toWorld = m_inDouble ? at.toWorld * preciseMatrix(n.transform)
+                                : glm::dmat4(glm::mat4(at.toWorld) * matrix(n.transform));
+        at.visible = at.visible && n.visible;
+        at.dynamic = at.dynamic || n.dynamic;
+        m_known.emplace(*child, at);
+    }
+    return at;
+}
+
+} // namespace limn
