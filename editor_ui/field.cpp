@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -37,9 +38,41 @@ void fieldLabel(const char* label, const char* tooltip) {
     ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
+static constexpr const char* kMillimetres = "%.3f";
+
+/// Whether three fields beside each other show all digits.
+static bool fitBeside(const glm::dvec3& position) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float each = (ImGui::CalcItemWidth() - 2 * style.ItemInnerSpacing.x) / 3;
+    for (int c = 0; c < 3; ++c) {
+        char digits[400]; // as many as a double can have before its point
+        std::snprintf(digits, sizeof digits, kMillimetres, position[c]);
+        if (ImGui::CalcTextSize(digits).x > each - 2 * style.FramePadding.x)
+            return false;
+    }
+    return true;
+}
+
+/// Three numbers in a row, or in three rows where they are long.
 static bool dragPosition(const char* id, glm::dvec3& position) {
-    return ImGui::DragScalarN(id, ImGuiDataType_Double, &position.x, 3, 0.01f, nullptr, nullptr,
-                              "%.3f");
+    constexpr float kSpeed = 0.01f;
+    if (fitBeside(position))
+        return ImGui::DragScalarN(id, ImGuiDataType_Double, &position.x, 3, kSpeed, nullptr,
+                                  nullptr, kMillimetres);
+    const float width = ImGui::CalcItemWidth();
+    bool changed = false;
+    ImGui::PushID(id);
+    ImGui::BeginGroup();
+    for (int c = 0; c < 3; ++c) {
+        ImGui::PushID(c);
+        ImGui::SetNextItemWidth(width);
+        changed |= ImGui::DragScalar("##axis", ImGuiDataType_Double, &position[c], kSpeed, nullptr,
+                                     nullptr, kMillimetres);
+        ImGui::PopID();
+    }
+    ImGui::EndGroup();
+    ImGui::PopID();
+    return changed;
 }
 
 void positionField(const char* id, glm::vec3& position, const glm::dvec3& origin) {
