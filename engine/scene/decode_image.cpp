@@ -72,10 +72,10 @@ public:
     }
     /// rgba: of the image's size. What a file lacks at its end is grey.
     bool read(std::vector<std::uint8_t>& rgba) {
-        const std::optional<ImageSize> size = this->size();
-        return size && (tjDecompress2(m_jpeg.get(), m_bytes.data(), m_bytes.size(), rgba.data(), 0,
-                                      0, int(size->height), TJPF_RGBA, TJFLAG_LIMITSCANS) == 0 ||
-                        tjGetErrorCode(m_jpeg.get()) == TJERR_WARNING);
+        constexpr int kAsInFile = 0; // width, bytes of a row, height
+        return tjDecompress2(m_jpeg.get(), m_bytes.data(), m_bytes.size(), rgba.data(), kAsInFile,
+                             kAsInFile, kAsInFile, TJPF_RGBA, TJFLAG_LIMITSCANS) == 0 ||
+               tjGetErrorCode(m_jpeg.get()) == TJERR_WARNING;
     }
 
 private:

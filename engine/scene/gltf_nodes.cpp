@@ -4,6 +4,7 @@
 #include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_lights.h"
 #include "engine/scene/origin.h"
+#include "engine/scene/placement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,18 +104,10 @@ static bool readTransform(const tinygltf::Node& node, Transform& t, GltfRepairs&
 
 namespace {
 
-/// Takes a node into the file's coordinates; `rounded` does for a document whose origin is 0, as in
-/// Placements.
-struct FilePlace {
-    glm::mat4 rounded{1};
-    glm::dmat4 precise{1};
-};
-
-/// A node of the file with what its ancestors gave it.
+/// A node of the file and its parent in the document.
 struct Visit {
     int node = 0;
     ObjectId parent = 0;
-    FilePlace parentPlace;
 };
 
 /// The node of a skinned mesh and where its mesh lies in double.
@@ -129,8 +122,8 @@ struct NodeReader {
     const Model& model;
     const MeshesOfGltf& meshes;
     GltfRepairs& repairs;
-    std::vector<FilePlace> places; ///< per node of the file
-    std::vector<int> skinned;      ///< nodes whose mesh is placed by its skin
+    std::vector<ObjectId> ids; ///< per node of the file; 0: not in the scene
+    std::vector<int> skinned;  ///< nodes whose mesh is placed by its skin
 };
 
 } // namespace
@@ -247,7 +240,7 @@ static Result<void> addInstancedMeshes(NodeReader& reader, const tinygltf::Node&
     return {};
 }
 
-static Result<ObjectId> addNode(NodeReader& reader, const Visit& visit) {
+static Result<void> addNode(NodeReader& reader, const Visit& visit) {
     const auto index = std::size_t(visit.node);
     const tinygltf::Node& source = reader.model.nodes[index];
     Node node;
@@ -256,8 +249,6 @@ static Result<ObjectId> addNode(NodeReader& reader, const Visit& visit) {
     node.visible = readTransform(source, node.transform, reader.repairs);
     if (!finite(node.transform))
         return fail(fmt::format("nodes[{}]: transform is not finite", index));
-    reader.places[index] = {visit.parentPlace.rounded * matrix(node.transform),
-                            visit.parentPlace.precise * preciseMatrix(node.transform)};
 
     const auto instancing = source.extensions.find(kInstancing);
     const bool instanced = source.mesh >= 0 && instancing != source.extensions.end();
@@ -266,17 +257,18 @@ static Result<ObjectId> addNode(NodeReader& reader, const Visit& visit) {
         reader.skinned.push_back(visit.node);
     else if (source.mesh >= 0 && !instanced)
         node.meshes = reader.meshes[std::size_t(source.mesh)];
-    const ObjectId id = addObject(reader.document, node);
+    const ObjectId id = reader.ids[index] = addObject(reader.document, node);
     if (instanced && !skinned)
         if (Result<void> added = addInstancedMeshes(reader, source, instancing->second, id, node);
             !added)
             return fail(fmt::format("nodes[{}].{}", index, added.error().message));
-    return id;
+    return {};
 }
 
 /// Places a skinned mesh as it was bound: glTF ignores the node's own transform, and at rest every
 /// joint's matrix times its inverse bind matrix is the same, so the first joint's will do.
-static Result<Skinned> addSkinned(NodeReader& reader, int index) {
+static Result<Skinned> addSkinned(NodeReader& reader, int index, Placements& rounded,
+                                  Placements& precise) {
     const tinygltf::Node& source = reader.model.nodes[std::size_t(index)];
     const tinygltf::Skin& skin = reader.model.skins[std::size_t(source.skin)];
     Node node;
@@ -294,9 +286,10 @@ static Result<Skinned> addSkinned(NodeReader& reader, int index) {
             for (int i = 0; i < 16; ++i)
                 bind[i / 4][i % 4] = values->row(0)[std::size_t(i)];
         }
-        const FilePlace& joint = reader.places[std::size_t(skin.joints[0])];
-        node.visible = decompose(joint.rounded * bind, node.transform, reader.repairs);
-        added.translation = glm::dvec3((joint.precise * glm::dmat4(bind))[3]);
+        const ObjectId joint = reader.ids[std::size_t(skin.joints[0])];
+        node.visible =
+            decompose(glm::mat4(rounded.of(joint).toWorld) * bind, node.transform, reader.repairs);
+        added.translation = glm::dvec3((precise.of(joint).toWorld * glm::dmat4(bind))[3]);
     }
     if (!finite(node.transform))
         return fail(fmt::format("skins[{}]: bind pose is not finite", source.skin));
@@ -306,9 +299,10 @@ static Result<Skinned> addSkinned(NodeReader& reader, int index) {
 }
 
 static Result<void> addAllSkinned(NodeReader& reader, std::span<const Mesh> placed) {
+    Placements rounded(reader.document), precise(reader.document, glm::dvec3(0));
     std::vector<Skinned> added;
     for (const int node : reader.skinned) {
-        const Result<Skinned> one = addSkinned(reader, node);
+        const Result<Skinned> one = addSkinned(reader, node, rounded, precise);
         if (!one)
             return tl::make_unexpected(one.error());
         added.push_back(*one);
@@ -321,15 +315,6 @@ static Result<void> addAllSkinned(NodeReader& reader, std::span<const Mesh> plac
     return {};
 }
 
-/// The node's place in world space.
-static glm::mat4 worldOf(const FilePlace& place, const glm::dvec3& origin) {
-    if (origin == glm::dvec3(0))
-        return place.rounded;
-    glm::dmat4 toWorld = place.precise;
-    toWorld[3] -= glm::dvec4(origin, 0);
-    return glm::mat4(toWorld);
-}
-
 Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
                       std::span<const Mesh> placed, GltfRepairs& repairs) {
     const Result<std::vector<int>> parents = parentsOf(model);
@@ -339,27 +324,27 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
     if (!roots)
         return tl::make_unexpected(roots.error());
     NodeReader reader{document, model, meshes, repairs, {}, {}};
-    reader.places.assign(model.nodes.size(), FilePlace{});
+    reader.ids.assign(model.nodes.size(), 0);
     std::vector<Visit> stack;
     for (auto root = roots->rbegin(); root != roots->rend(); ++root)
-        stack.push_back({*root, 0, {}});
+        stack.push_back({*root, 0});
     std::vector<int> visited;
     while (!stack.empty()) {
         const Visit visit = stack.back();
         stack.pop_back();
         visited.push_back(visit.node);
-        const Result<ObjectId> id = addNode(reader, visit);
-        if (!id)
-            return tl::make_unexpected(id.error());
+        if (Result<void> added = addNode(reader, visit); !added)
+            return added;
         const std::vector<int>& children = model.nodes[std::size_t(visit.node)].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            stack.push_back({*child, *id, reader.places[std::size_t(visit.node)]});
+            stack.push_back({*child, reader.ids[std::size_t(visit.node)]});
     }
     if (Result<void> added = addAllSkinned(reader, placed); !added)
         return added;
+    Placements placements(document);
     for (const int node : visited)
         addLightAndCamera(document, model, std::size_t(node),
-                          worldOf(reader.places[std::size_t(node)], document.origin), repairs);
+                          glm::mat4(placements.of(reader.ids[std::size_t(node)]).toWorld), repairs);
     return {};
 }
 

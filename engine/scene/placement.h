@@ -14,8 +14,8 @@ struct Placement {
     bool dynamic = false;
 };
 
-/// Placements of a document's nodes, each computed once. The document must outlive it and stay as
-/// it is.
+/// Placements of a document's nodes, each computed once. The document must outlive it; what it has
+/// must stay as it is, but objects may be added.
 class Placements {
 public:
     /// In world space about the document's own origin. Where that is 0, matrices are multiplied as

@@ -2,19 +2,18 @@
 // replay FOLDER: calls the target with each file of a corpus, as a test without libFuzzer. Fails
 // where there is none, where one takes too long and where all together take too much memory;
 // crashes where the target does.
+#include "engine/core/process_memory.h"
 #include "tests/fuzz/target.h"
 
 #include <algorithm>
 #include <chrono>
 #include <vector>
 
-#include <sys/resource.h>
-
 using namespace limn;
 
 int main(int argc, char** argv) {
-    constexpr double kMostSeconds = 20;              // as .ci/fuzz allows
-    constexpr long kMostKilobytes = 2 * 1024 * 1024; // of resident memory
+    constexpr double kMostSeconds = 20;               // as .ci/fuzz allows
+    constexpr std::uint64_t kMostMemory = 2ULL << 30; // of resident memory [bytes]
     std::vector<std::filesystem::path> files;
     std::error_code error;
     if (argc == 2)
@@ -33,9 +32,7 @@ int main(int argc, char** argv) {
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
         require(took.count() < kMostSeconds, "an input takes less than 20 s");
     }
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    require(used.ru_maxrss < kMostKilobytes, "a corpus takes less than 2 GiB");
+    require(peakMemory() < kMostMemory, "a corpus takes less than 2 GiB");
     std::fprintf(stderr, "%zu inputs\n", files.size());
     return 0;
 }

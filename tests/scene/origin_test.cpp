@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A turned triangle of 1 m a few decimals from `at`, and a lamp and a camera beside it, all below
-/// a root. `root` says whether that one is placed at `at`, or its children are.
+/// A rotated triangle of 1 m, a point light and a camera within 3 m of `at`, all children of one
+/// node. `root`: that node's translation is `at`; else those of its children are.
 GltfBuilder placedScene(const glm::dvec3& at, bool root) {
     GltfBuilder b = triangleScene();
     const auto place = [&](glm::dvec3 p) {
