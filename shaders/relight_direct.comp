@@ -62,10 +62,10 @@ void main() {
         if (keep)
             unit[places[light] * range.end + i] = e;
         else
-            E += lights[light].strength * e;
+            E += min(lights[light].strength * e, LIGHT_MOST_IRRADIANCE);
     }
     const uint summed = range.workEnd == work ? range.keptLights : 0;
     for (uint k = 0; k < summed; ++k)
-        E += lights[k].strength * unit[places[k] * range.end + i];
+        E += min(lights[k].strength * unit[places[k] * range.end + i], LIGHT_MOST_IRRADIANCE);
     direct[i] = vec4(E, 0);
 }

@@ -13,6 +13,8 @@ namespace limn::render {
 
 using shared::GpuLight;
 
+static_assert(LIGHT_MOST_IRRADIANCE == kMostIrradiance);
+
 static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
     GpuLight g{};
     g.position = light.position;

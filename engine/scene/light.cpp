@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace limn {
@@ -19,7 +20,7 @@ static float spotFalloff(const Light& light, glm::vec3 toLight) {
 }
 
 LightSample sampleLight(const Light& light, glm::vec3 p) {
-    constexpr float kNearest = 1e-5f; // shadowed_light.glsl has its square
+    constexpr float kNearest = 1e-8f; // shadowed_light.glsl has its square
     LightSample s;
     if (!light.enabled || light.kind == LightKind::Rectangle)
         return s;
@@ -42,7 +43,9 @@ LightSample sampleLight(const Light& light, glm::vec3 p) {
     }
     if (light.kind == LightKind::Spot)
         window *= spotFalloff(light, s.toLight);
-    s.irradiance = light.color * (light.strength * window / std::max(d2, kNearest * kNearest));
+    const float intensity = light.strength * window;
+    s.irradiance =
+        glm::min(light.color * (intensity / std::max(d2, kNearest * kNearest)), kMostIrradiance);
     return s;
 }
 

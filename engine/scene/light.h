@@ -15,6 +15,10 @@ enum class LightKind : std::uint8_t { Directional, Point, Spot, Rectangle };
 /// stay within float. The sun's disc has 1.6e9 nits.
 inline constexpr float kMostLight = 1e10f;
 
+/// The most irradiance that a point or spot light brings in each colour, so that sums over lights
+/// and surfaces stay within float.
+inline constexpr float kMostIrradiance = 1e28f;
+
 /// What the edges of a Rectangle may measure [m].
 inline constexpr float kMinLightSize = 1e-6f, kMaxLightSize = 1e6f;
 
@@ -45,8 +49,9 @@ struct LightSample {
     float distance = 0;      ///< [m]; infinity for Directional
 };
 
-/// Strength of `light` at world point `p`, nowhere more than at 10 um. Zero irradiance when out of
-/// range, off, outside the cone, or at d = 0; and from a Rectangle, see rectangle_light.h.
+/// Strength of `light` at world point `p`. Irradiance grows no further within 10 nm of the light
+/// and stays below kMostIrradiance. It is zero when out of range, off, outside the cone, or at
+/// d = 0; and from a Rectangle, see rectangle_light.h.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
 } // namespace limn

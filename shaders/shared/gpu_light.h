@@ -20,6 +20,8 @@ using uint = std::uint32_t;
 #define LIGHT_SPOT 2u
 #define LIGHT_RECTANGLE 3u
 
+#define LIGHT_MOST_IRRADIANCE 1e28f // in each colour
+
 #define SHADOW_SINGLE 1u // views of a light's shadow
 #define SHADOW_CUBE 6u
 #define SHADOW_RECTANGLE 24u // a cube for each quarter of a rectangle

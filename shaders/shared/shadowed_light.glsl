@@ -104,5 +104,5 @@ vec3 lightIrradiance(GpuLight light, vec3 p, out vec3 toLight) {
                               0.0, 1.0);
         window *= t * t;
     }
-    return light.strength * (window / max(d2, 1e-10));
+    return min(light.strength * (window / max(d2, 1e-16)), LIGHT_MOST_IRRADIANCE);
 }

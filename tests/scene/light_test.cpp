@@ -31,6 +31,20 @@ TEST(SampleLight, APointLightFallsWithTheSquareOfTheDistance) {
     }
 }
 
+TEST(SampleLight, APointLightGrowsDownTo10NmAndToTheMostIrradiance) {
+    Light light = pointLight();
+    light.position = {};
+    const auto at = [&](float d) { return sampleLight(light, {d, 0, 0}).irradiance; };
+    EXPECT_FLOAT_EQ(at(1e-7f).x, 1e16f);
+    EXPECT_FLOAT_EQ(at(1e-8f).x, 1e18f);
+    EXPECT_EQ(at(1e-9f), at(1e-8f));
+    light.strength = kMostLight;
+    light.color = {kMostLight, 1, 0};
+    EXPECT_EQ(at(1e-8f).x, kMostIrradiance);
+    EXPECT_FLOAT_EQ(at(1e-8f).y, 1e26f);
+    EXPECT_EQ(at(1e-8f).z, 0);
+}
+
 TEST(SampleLight, TheRangeWindowIsThatOfTheExtension) {
     Light light = pointLight();
     light.position = {};

@@ -60,6 +60,17 @@ TEST(Oracles, AreMetByScenesWhoseLightGrew) {
     }
 }
 
+// Scenes of millimetres and less: a light that grew no further within 10 um was another one there.
+TEST(Oracles, AreMetByScenesSmallerThanAMillimetre) {
+    const TemporaryFolder folder;
+    const std::vector<Oracle> oracles = engineOracles();
+    for (const std::uint64_t seed : {16, 32, 98, 759, 3256, 4096}) {
+        const CaseResult result = runCase(generatedCase(seed), oracles, {60, folder.path.string()});
+        for (std::size_t k = 0; k < oracles.size(); ++k)
+            EXPECT_FALSE(result.judgements[k].failed()) << oracles[k].name << " of seed " << seed;
+    }
+}
+
 /// A closed room with a lamp, of few bounces.
 Subject room(const TemporaryFolder& folder) {
     Scene scene = *litRoom(150, 150);
@@ -127,9 +138,12 @@ TEST(Oracles, SeeSumsThatDependOnTheirOrder) {
     const TemporaryFolder folder;
     Subject subject = room(folder);
     subject.base.scene.lights.push_back(subject.base.scene.lights[0]);
-    // Together they are more than floats hold, and each of them is not.
-    for (Light& l : subject.base.scene.lights)
+    // Together they are more than floats hold, and each of them is not. Only negative light, which
+    // no reader lets through, is not held below kMostIrradiance.
+    for (Light& l : subject.base.scene.lights) {
         l.strength = 3e38f;
+        l.color = {1, -1, 1};
+    }
     EXPECT_TRUE(failing(subject).contains("additivity"));
 }
 
