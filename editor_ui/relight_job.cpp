@@ -2,6 +2,7 @@
 #include "editor_ui/relight_job.h"
 
 #include "editor_ui/background_priority.h"
+#include "engine/bake/input_hash.h"
 #include "engine/relight/bouncing.h"
 
 #include <algorithm>
@@ -16,6 +17,10 @@ bool sameSurface(const Material& a, const Material& b) {
     return a.alphaMode == b.alphaMode && a.alphaCutoff == b.alphaCutoff &&
            a.doubleSided == b.doubleSided && a.baseColor.w == b.baseColor.w &&
            a.baseColorTexture == b.baseColorTexture;
+}
+
+bool sameBakedMaterial(const Material& a, const Material& b) {
+    return sameSurface(a, b) && emits(a) == emits(b);
 }
 
 bool sameObject(const Instance& a, const Instance& b) {
@@ -45,7 +50,8 @@ bool sameStaticGeometry(const Scene& a, const Scene& b) {
 }
 
 bool sameBakeInputs(const Scene& a, const Scene& b) {
-    return sameStaticGeometry(a, b) && a.bake == b.bake;
+    return sameStaticGeometry(a, b) && a.bake == b.bake &&
+           std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
 }
 
 Scene relitScene(const Scene& baked, const Scene& now) {

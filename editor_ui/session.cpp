@@ -231,9 +231,10 @@ void Session::followDocument() {
         m_lightEdited = true;
     }
     const bool sameList = sameInstances(*m_scene, *scene);
+    if (!sameBakeInputs(*m_scene, *scene))
+        state.prediction = predictBake(*scene, true);
     m_scene = std::move(scene);
     state.sceneBounds = m_scene->bounds;
-    state.prediction = predictBake(*m_scene, true);
     if (!sameList)
         fitLayout();
     m_relightJob.setScene(m_scene);

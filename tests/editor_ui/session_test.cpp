@@ -233,6 +233,30 @@ TEST_F(SessionTest, AMovedObjectMakesANewBakeNeededAndTheOldLightStays) {
         runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
 }
 
+// How much a surface emits is light; that it emits at all guides where a bake puts its surfels.
+TEST_F(SessionTest, ASurfaceThatStartsToEmitMakesANewBakeNeeded) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const auto darkMaterial = [&]() -> Material& {
+        for (auto& [id, object] : session.state.document.objects)
+            if (auto* material = std::get_if<Material>(&object);
+                material && material->emission == glm::vec3(0))
+                return *material;
+        throw std::runtime_error("no material that emits nothing");
+    };
+    Material& material = darkMaterial();
+    material.emission = glm::vec3(1);
+    ASSERT_TRUE(
+        runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::Needed; }));
+    runAction(session.state, actionById("bake.start"));
+    ASSERT_TRUE(runUntilIdle(session));
+    ASSERT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+    material.emission = glm::vec3(2);
+    session.update();
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+}
+
 TEST_F(SessionTest, AMovedDynamicObjectNeedsNoBakeAndMovesItsShadow) {
     Session session(options());
     session.open(project);
