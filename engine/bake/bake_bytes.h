@@ -30,10 +30,10 @@ BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std:
 /// set; then it sums the areas of all triangles. Without what leastTexels() says.
 std::uint64_t expectedCaches(const Scene& scene);
 
-/// About how many lightmap texels the scene's static objects need, however few are asked for: every
-/// chart has one at least, but those of an object that face the same way share it when they are
-/// small. So each of the six ways that an object's triangles face costs one, two where both sides
-/// are lit.
+/// About how many lightmap texels the scene's static objects need, however few are asked for. Each
+/// chart needs one, but small charts of an object that face the same way share one. So an object
+/// needs one for each of the axes' six directions that some of its triangles face, two where both
+/// sides are lit.
 std::uint64_t leastTexels(const Scene& scene);
 
 /// What a bake of a scene will take, estimated before it starts. Of 16 scenes and settings, real

@@ -45,9 +45,10 @@ public:
     /// reflect less than they receive and receive no more than is sent, it is below 1.
     double passedOn() const { return m_passedOn; }
 
-    /// Rounds end, too, where light grew in kGrowing of them, one after the other, or kGrown times
-    /// in all of these. For a few rounds the sum over all surfels may grow although no surfel gets
-    /// more than the brightest one sends: some are seen by more rays than their share.
+    /// Rounds end, too, where the sum of all surfels' light grew in kGrowing of them, one after the
+    /// other, or kGrown times in all of these. It may grow for a few rounds although no surfel gets
+    /// more than the brightest one sends: by chance, rays meet some surfels more often than their
+    /// area deserves.
     static constexpr std::uint32_t kGrowing = 12;
     static constexpr double kGrown = 1e6;
     bool grows() const { return m_growing >= kGrowing || m_grown >= kGrown; }
