@@ -169,6 +169,19 @@ struct Quad {
     std::uint64_t found = 0; ///< bit per point
 };
 
+/// Per cell of a quad: its snap; kSnaps where its middle is on one side with no texel.
+using CellSnaps = std::array<std::uint32_t, kCells * kCells>;
+
+/// From a cell to all that lie within a place of it, the nearest first.
+std::vector<glm::ivec2> nearestCells() {
+    std::vector<glm::ivec2> result;
+    for (int y = -kCells; y <= kCells; ++y)
+        for (int x = -kCells; x <= kCells; ++x)
+            result.emplace_back(x, y);
+    std::ranges::stable_sort(result, {}, [](glm::ivec2 d) { return d.x * d.x + d.y * d.y; });
+    return result;
+}
+
 class Snapper {
 public:
     Snapper(const Sides& sides, const std::vector<AtlasTexel>& texels,
@@ -186,13 +199,18 @@ private:
     static constexpr std::uint32_t kNone = ~0U;
 
     std::uint32_t neighbour(std::uint32_t texel, std::uint32_t dx, std::uint32_t dy) const;
+    bool alike(std::uint32_t a, std::uint32_t b) const;
     bool apart(std::uint32_t a, std::uint32_t b) const;
     void findQuads(const Progress& progress);
     void findPoints();
     void addTriangles(std::uint32_t instance, std::uint32_t back);
     void addTriangle(const PlacedTriangle& placed);
     std::uint32_t snapAt(const Quad& quad, int cell) const;
-    std::array<std::uint32_t, kSnapCells> snapsOf(const Quad& quad) const;
+    CellSnaps snapsOf(const Quad& quad) const;
+    std::uint32_t snapLike(const std::vector<CellSnaps>& known, const Quad& quad,
+                           glm::ivec2 cell) const;
+    std::array<std::uint32_t, kSnapCells> rowsOf(const std::vector<CellSnaps>& known,
+                                                 const Quad& quad) const;
 
     const Sides& m_sides;
     const LightmapLayout& m_layout;
@@ -202,7 +220,14 @@ private:
     std::vector<std::uint32_t> m_at;     ///< per place: into m_texels
     std::vector<std::uint32_t> m_quadAt; ///< per place: into m_quads
     std::vector<Quad> m_quads;
+    std::vector<glm::ivec2> m_nearest = nearestCells();
 };
+
+/// Whether they are of the same chart and side.
+bool Snapper::alike(std::uint32_t a, std::uint32_t b) const {
+    const AtlasTexel &s = m_texels[a], &t = m_texels[b];
+    return s.instance == t.instance && s.back == t.back && m_side[a].chart == m_side[b].chart;
+}
 
 /// The texel of the same chart and side beside one; kNone where there is none.
 std::uint32_t Snapper::neighbour(std::uint32_t texel, std::uint32_t dx, std::uint32_t dy) const {
@@ -211,9 +236,7 @@ std::uint32_t Snapper::neighbour(std::uint32_t texel, std::uint32_t dx, std::uin
     if (x >= m_layout.width || y >= m_layout.height)
         return kNone;
     const std::uint32_t other = m_at[std::size_t(y) * m_layout.width + x];
-    const bool same = other != kNone && m_texels[other].instance == t.instance &&
-                      m_texels[other].back == t.back && m_side[other].chart == m_side[texel].chart;
-    return same ? other : kNone;
+    return other != kNone && alike(texel, other) ? other : kNone;
 }
 
 /// Whether a place between two texels may be on one side with one of them alone.
@@ -358,10 +381,9 @@ std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     return chooseSnap(m_sides, m_side, quad.texel, from, f);
 }
 
-/// Every other cell of every other row is looked at, and those between cells that differ. Cells
-/// without a snap of their own, such as those within the wall, take the nearest one's.
-std::array<std::uint32_t, kSnapCells> Snapper::snapsOf(const Quad& quad) const {
-    std::array<std::uint32_t, kCells * kCells> snap;
+/// Every other cell of every other row is looked at, and those between cells that differ.
+CellSnaps Snapper::snapsOf(const Quad& quad) const {
+    CellSnaps snap;
     const auto at = [&](int x, int y) -> std::uint32_t& {
         return snap[std::size_t(y * kCells + x)];
     };
@@ -379,20 +401,54 @@ std::array<std::uint32_t, kSnapCells> Snapper::snapsOf(const Quad& quad) const {
                                at(left, lower) == first && at(right, lower) == first;
             at(x, y) = alike ? first : snapAt(quad, y * kCells + x);
         }
-    std::array<std::uint32_t, kSnapCells> rows{};
-    for (int c = 0; c < kCells * kCells; ++c) {
-        std::uint32_t own = 0;
-        int nearest = std::numeric_limits<int>::max();
-        for (int o = 0; o < kCells * kCells; ++o) {
-            const int dx = o % kCells - c % kCells, dy = o / kCells - c / kCells,
-                      distance = dx * dx + dy * dy;
-            if (snap[std::size_t(o)] < kSnaps && distance < nearest) {
-                nearest = distance;
-                own = snap[std::size_t(o)];
-            }
-        }
-        rows[std::size_t(c / kCells)] |= own << 4 * (c % kCells);
+    return snap;
+}
+
+/// The snap of `quad` that reads those of its texels that are read at `cell`, which is counted from
+/// its own first one and may lie in a place beside it; kSnaps where there are none.
+std::uint32_t Snapper::snapLike(const std::vector<CellSnaps>& known, const Quad& quad,
+                                glm::ivec2 cell) const {
+    const glm::ivec2 beside = (cell + kCells) / kCells - 1,
+                     at = glm::ivec2(int(quad.at % m_layout.width), int(quad.at / m_layout.width)) +
+                          beside;
+    if (at.x < 0 || at.y < 0 || at.x >= int(m_layout.width) || at.y >= int(m_layout.height))
+        return kSnaps;
+    const std::size_t place = std::size_t(at.y) * m_layout.width + std::size_t(at.x);
+    if (m_at[place] == kNone || !alike(m_at[place], quad.texel[0]))
+        return kSnaps;
+    std::uint32_t reads = kReads[0];
+    if (const std::uint32_t there = m_quadAt[place]; there != kNone) {
+        const glm::ivec2 c = cell - beside * kCells;
+        const std::uint32_t snap = known[there][std::size_t(c.y * kCells + c.x)];
+        if (snap == kSnaps || beside == glm::ivec2(0))
+            return snap;
+        reads = kReads[snap];
     }
+    std::uint32_t shared = 0;
+    for (int k = 0; k < 4; ++k) {
+        const glm::ivec2 corner = beside + glm::ivec2(k % 2, k / 2);
+        if (!(reads >> k & 1) || glm::clamp(corner, 0, 1) != corner)
+            continue;
+        const int own = corner.y * 2 + corner.x;
+        const std::uint32_t texel = quad.texel[std::size_t(own)];
+        if (texel != kNone && m_side[texel].open)
+            shared |= 1U << own;
+    }
+    return std::uint32_t(std::ranges::find(kReads, shared) - kReads.begin());
+}
+
+/// Cells without a snap of their own, such as those whose middle lies in the wall, take the nearest
+/// one's, which may lie beside the quad: a strip of such a cell may stand out of the wall there.
+std::array<std::uint32_t, kSnapCells> Snapper::rowsOf(const std::vector<CellSnaps>& known,
+                                                      const Quad& quad) const {
+    std::array<std::uint32_t, kSnapCells> rows{};
+    for (int y = 0; y < kCells; ++y)
+        for (int x = 0; x < kCells; ++x) {
+            std::uint32_t snap = kSnaps;
+            for (auto d = m_nearest.begin(); snap == kSnaps && d != m_nearest.end(); ++d)
+                snap = snapLike(known, quad, glm::ivec2(x, y) + *d);
+            rows[std::size_t(y)] |= (snap < kSnaps ? snap : 0) << 4 * x;
+        }
     return rows;
 }
 
@@ -401,12 +457,19 @@ std::vector<std::uint32_t> Snapper::run(const Progress& progress) {
     if (progress.cancelled())
         return {};
     findPoints();
+    std::vector<CellSnaps> known(m_quads.size());
     std::vector<std::array<std::uint32_t, kSnapCells>> rows(m_quads.size());
     const Progress quiet{.report = {}, .cancel = progress.cancel};
-    parallelRanges(m_quads.size(), 16, quiet, "charts", [&](std::size_t begin, std::size_t end) {
-        for (std::size_t q = begin; q < end; ++q)
-            rows[q] = snapsOf(m_quads[q]);
-    });
+    const auto forQuads = [&](const auto& visit) {
+        return parallelRanges(m_quads.size(), 16, quiet, "charts",
+                              [&](std::size_t begin, std::size_t end) {
+                                  for (std::size_t q = begin; q < end; ++q)
+                                      visit(q);
+                              });
+    };
+    if (!forQuads([&](std::size_t q) { known[q] = snapsOf(m_quads[q]); }) ||
+        !forQuads([&](std::size_t q) { rows[q] = rowsOf(known, m_quads[q]); }))
+        return {};
     std::vector<std::uint32_t> result(m_at.size());
     for (std::size_t q = 0; q < m_quads.size(); ++q)
         if (rows[q] != std::array<std::uint32_t, kSnapCells>{}) {

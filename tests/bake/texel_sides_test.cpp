@@ -71,9 +71,9 @@ TEST(TexelSides, NoTexelHasPointsOnBothSidesOfAWall) {
     EXPECT_GT(before, 100) << "nothing to part";
 }
 
-/// Of random points of the hall, at least a cell's half from the wall: how many lookups read a
+/// Of random points of the hall, at least so many cells from the wall: how many lookups read a
 /// texel that has points beyond it.
-int readsBeyond(const Scene& scene, const Atlas& atlas, float wall) {
+int readsBeyond(const Scene& scene, const Atlas& atlas, float wall, float cells) {
     const LightmapLayout& layout = atlas.layout;
     std::vector<std::uint32_t> at(std::size_t(layout.width) * layout.height, ~0U);
     for (std::uint32_t i = 0; i < atlas.texels.size(); ++i)
@@ -81,13 +81,13 @@ int readsBeyond(const Scene& scene, const Atlas& atlas, float wall) {
     std::mt19937 rng(3);
     std::uniform_real_distribution<float> unit(0, 1);
     const Mesh& mesh = scene.assets->meshes[0];
-    const float cell = 1.1f / (2 * float(kSnapCells) * atlas.texelsPerMetre);
+    const float apart = cells / (float(kSnapCells) * atlas.texelsPerMetre);
     int beyond = 0;
     for (int i = 0; i < 20000; ++i) {
         const auto t = std::uint32_t(rng() % mesh.triangleCount());
         const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
         const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x;
-        if (x > kWall - cell && x < kWall + wall + cell)
+        if (x > kWall - apart && x < kWall + wall + apart)
             continue;
         const Bilinear lookup = bilinearAt(layout, lightmapUv(layout, 0, 0, t, uv.x, uv.y, false));
         bool wrong = false;
@@ -108,9 +108,23 @@ TEST(TexelSides, SnappedLookupsReadNothingBeyondAWall) {
         Atlas atlas = atlasOf(scene);
         TexelSides sides = findTexelSides(trace, atlas, {}, {});
         atlas.texels = std::move(sides.texels);
-        EXPECT_GT(readsBeyond(scene, atlas, wall), 100) << "nothing to snap";
+        EXPECT_GT(readsBeyond(scene, atlas, wall, 0.55f), 100) << "nothing to snap";
         atlas.layout.snaps = std::move(sides.snaps);
-        EXPECT_EQ(readsBeyond(scene, atlas, wall), 0) << wall << " m, " << texels;
+        EXPECT_EQ(readsBeyond(scene, atlas, wall, 0.55f), 0) << wall << " m, " << texels;
+    }
+}
+
+// Where the middle of a cell lies in the wall, and a strip of it does not.
+TEST(TexelSides, LookupsAtTheFootOfAThickWallReadNothingBeyondIt) {
+    for (std::uint32_t texels = 300; texels < 800; texels += 25) {
+        const float wall = 0.5f;
+        const Scene scene = partedHall(wall, texels);
+        const TraceScene trace(scene);
+        Atlas atlas = atlasOf(scene);
+        TexelSides sides = findTexelSides(trace, atlas, {}, {});
+        atlas.texels = std::move(sides.texels);
+        atlas.layout.snaps = std::move(sides.snaps);
+        EXPECT_EQ(readsBeyond(scene, atlas, wall, 0), 0) << texels;
     }
 }
 
