@@ -12,6 +12,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
 #include "engine/files/bake_file.h"
+#include "engine/measure/bake_to_error.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -30,6 +31,8 @@ struct BakeCommand {
     BakeOptions bake;
     StageStoreOptions store{.folder = defaultStageFolder()};
     double storeGib = 4;
+    double error = 0; ///< that is to be held; 0: none
+    CameraOptions camera;
     bool noStore = false;
     std::string output;
     bool json = false;
@@ -74,6 +77,77 @@ void print(const Bake& bake, std::uint64_t file, std::uint64_t peak) {
     fmt::print("hash {}\n", summary["hash"].get<std::string>());
 }
 
+nlohmann::json summaryOf(const Comparison& error) {
+    return {{"nrmse", error.nrmse},
+            {"nrmse_noise", error.nrmseNoise},
+            {"nrmse_without_worst_percent", error.nrmseMost},
+            {"bias", error.bias}};
+}
+
+nlohmann::json countsOf(const BakeSettings& s) {
+    return {{"surfels", s.surfels},
+            {"links", s.links},
+            {"rays", s.rays},
+            {"lightmap", s.lightmapCaches}};
+}
+
+void printStep(const MeasuredBake& made) {
+    const BakeSettings& s = made.bake->settings;
+    double seconds = 0;
+    for (const auto& [stage, t] : made.bake->seconds)
+        seconds += t;
+    endProgressLine();
+    fmt::print(
+        "--lightmap {:<7} --surfels {:<7} --links {:<4} --rays {:<4} {:7.2f} s, error {:.3f} "
+        "({:.3f} without the worst 1 %), bias {:+.1f} %\n",
+        s.lightmapCaches, s.surfels, s.links, s.rays, seconds, made.error.nrmse,
+        made.error.nrmseMost, 100 * made.error.bias);
+    std::fflush(stdout);
+}
+
+/// Why the error asked for is not held; empty where it is.
+std::string shortfall(const MeasuredBake& made, double error) {
+    const char* why = "";
+    switch (made.end) {
+    case MeasuredBake::End::Held:
+        return {};
+    case MeasuredBake::End::NoBetter:
+        why = "more texels hardly lower it";
+        break;
+    case MeasuredBake::End::Memory:
+        why = "a finer bake would need more memory than is allowed (--memory)";
+        break;
+    case MeasuredBake::End::Finest:
+        why = "no settings are finer";
+        break;
+    }
+    return fmt::format("the error is {:.3f}, not {:g}: {}", made.error.nrmse, error, why);
+}
+
+/// The bake, and with `error` its measured error.
+Result<MeasuredBake> make(const BakeCommand& command, const Camera& camera, const TraceScene& trace,
+                          StageStore* store) {
+    const MemoryBudget& memory = command.scene.import.memory;
+    Result<MeasuredBake> made;
+    if (command.error > 0) {
+        const auto step = [&](const MeasuredBake& bake) {
+            if (!command.json)
+                printStep(bake);
+        };
+        made = bakeToError(trace, {command.error, camera}, progressOnStderr(), store, memory, step);
+    } else {
+        Result<Bake> baked = bake(trace, progressOnStderr(), store, nullptr, memory);
+        if (baked)
+            made->bake = std::make_shared<const Bake>(std::move(*baked));
+        else
+            made = tl::make_unexpected(baked.error());
+    }
+    endProgressLine();
+    if (!made)
+        return fail(fmt::format("{}: {}", command.scene.scene, made.error().message));
+    return made;
+}
+
 Exit runBake(const BakeCommand& command) {
     if (const Result<void> writable =
             checkOutputFile(command.output, {".limnbake"}, {command.scene.scene});
@@ -84,6 +158,11 @@ Exit runBake(const BakeCommand& command) {
         return failed(imported.error().message);
     const ThreadLimit threads(command.bake.threads);
     Scene scene = flatten(imported->document, imported->assets);
+    const Result<Camera> camera = chooseCamera(scene, command.camera);
+    if (!camera)
+        return failed(camera.error().message);
+    if (command.error > 0)
+        kBakePresets.front().applyTo(scene.bake);
     applyBakeOptions(command.bake, scene.bake);
     StageStoreOptions options = command.store;
     options.mostDiskBytes = std::uint64_t(command.storeGib * double(1 << 30));
@@ -97,30 +176,35 @@ Exit runBake(const BakeCommand& command) {
     const nlohmann::json predicted = summaryOf(prediction);
     if (!command.json)
         print(scene.bake, predicted);
-    const Result<Bake> baked = bake(trace, progressOnStderr(), command.noStore ? nullptr : &store,
-                                    nullptr, command.scene.import.memory);
-    endProgressLine();
+    const Result<MeasuredBake> made =
+        make(command, *camera, trace, command.noStore ? nullptr : &store);
     store.flush();
     if (const std::string defect = store.defect(); !defect.empty())
         logWarning(fmt::format("{}; this bake was not kept", defect));
-    if (!baked)
-        return failed(fmt::format("{}: {}", command.scene.scene, baked.error().message));
-    if (const Result<void> written = writeBake(command.output, *baked); !written)
+    if (!made)
+        return failed(made.error().message);
+    const Bake& baked = *made->bake;
+    if (const Result<void> written = writeBake(command.output, baked); !written)
         return failed(written.error().message);
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(command.output, error);
     const std::uint64_t file = error ? 0 : size, peak = peakMemory();
     if (command.json) {
-        nlohmann::json summary = bakeSummary(*baked);
+        nlohmann::json summary = bakeSummary(baked);
+        if (command.error > 0) {
+            summary["error"] = summaryOf(made->error);
+            summary["settings"] = countsOf(baked.settings);
+        }
         summary["file_bytes"] = file;
         summary["peak_bytes"] = peak;
         summary["predicted"] = predicted;
         summary["predicted_bytes"] = bytesSummary(prediction.bytes);
         fmt::print("{}\n", summary.dump());
     } else {
-        print(*baked, file, peak);
+        print(baked, file, peak);
     }
-    return Exit::Done;
+    const std::string why = shortfall(*made, command.error);
+    return why.empty() ? Exit::Done : failed(fmt::format("{}: {}", command.output, why));
 }
 
 } // namespace
@@ -138,6 +222,16 @@ void addBakeCommand(CLI::App& app, Run& run) {
     sub->add_flag("--no-cache", command->noStore, "Bake everything, keep nothing")
         ->excludes(folder);
     sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();
+    CLI::Option* error =
+        sub->add_option("--error", command->error,
+                        "nRMSE of the irradiance, in the scene's light and its camera's view, that "
+                        "the bake is to hold: counts grow from those of draft, or those given, "
+                        "until it does")
+            ->check(numberWithin(1e-3, 10.));
+    addViewOptions(*sub, command->camera);
+    for (const char* view : {"--camera", "--eye", "--target", "--fov"})
+        sub->get_option(view)->needs(error);
+    error->excludes(sub->get_option("--texels-per-metre"));
     sub->add_flag("--json", command->json, "One JSON object on stdout");
     sub->callback([command, &run] { run = [command] { return runBake(*command); }; });
 }

@@ -150,7 +150,7 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
     return scene;
 }
 
-void addCameraOptions(CLI::App& command, CameraOptions& options) {
+void addViewOptions(CLI::App& command, CameraOptions& options) {
     CLI::Option* name = command.add_option("--camera", options.name, "name of a camera");
     CLI::Option* eye =
         command.add_option("--eye", options.eye, "x,y,z [m]")->delimiter(',')->expected(3);
@@ -160,6 +160,10 @@ void addCameraOptions(CLI::App& command, CameraOptions& options) {
     target->needs(eye);
     command.add_option("--fov", options.fovDegrees, "vertical field of view [degrees]")
         ->check(numberWithin(0.1, 179.0));
+}
+
+void addCameraOptions(CLI::App& command, CameraOptions& options) {
+    addViewOptions(command, options);
     command.add_option("--width", options.width, "[pixels]")->check(CLI::Range(1, 16384));
     command.add_option("--height", options.height, "[pixels]")->check(CLI::Range(1, 16384));
 }

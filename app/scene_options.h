@@ -52,6 +52,7 @@ struct CameraOptions {
     std::uint32_t width = 1280, height = 720;
 };
 void addCameraOptions(CLI::App& command, CameraOptions& options);
+void addViewOptions(CLI::App& command, CameraOptions& options); ///< all but the picture's size
 
 /// Fails when the named camera does not exist.
 Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options);

@@ -4,9 +4,8 @@
 #include "engine/bake/atlas.h"
 #include "engine/bake/surfel_normals.h"
 #include "engine/core/parallel.h"
+#include "engine/measure/seen_points.h"
 #include "engine/reference/direct_light.h"
-#include "engine/reference/path.h"
-#include "engine/reference/pixel_rays.h"
 #include "engine/relight/cache_light.h"
 #include "engine/relight/surfel_material.h"
 
@@ -23,12 +22,6 @@ namespace {
 
 constexpr std::uint32_t kGrain = 64; ///< pixels or surfels
 
-/// A pixel's point on a surface with a lightmap.
-struct SeenPoint {
-    Hit hit;
-    SurfacePoint surface;
-};
-
 using Irradiances = std::vector<glm::vec3>;
 
 struct Chain {
@@ -42,28 +35,19 @@ struct Chain {
 
     void findSeen();
     glm::vec3 truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) const;
-    std::optional<Irradiances> reference(std::uint32_t seed) const;
     std::optional<Irradiances> atTexels() const;
     std::optional<std::vector<glm::vec4>> trueRadiosity() const;
     Irradiances gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const;
     Irradiances relit(const std::shared_ptr<const Bake>& bake) const;
-    Irradiances lookUp(const IndirectField& field, const LightmapLayout& layout) const;
     std::uint32_t pickCache(const Bilinear& lookup, float u) const;
     SurfacePoint pointOf(std::uint32_t cache, float u, SurfacePoint p) const;
 };
 
 void Chain::findSeen() {
     const LightmapLayout& layout = bakes.bake->lightmap;
-    const PixelRays rays(options.camera, options.width, options.height);
-    for (std::uint32_t i = 0; i < options.width * options.height; ++i) {
-        const Sampler sampler{mixBits(options.seed, i), 0};
-        const glm::vec2 corner(float(i % options.width), float(i / options.width));
-        const Hit hit = trace.closestHit(rays.through(corner + sampler.pair(0)));
-        if (!hit || layout.instances[hit.instance].uv.empty())
-            continue;
-        if (const std::optional<SurfacePoint> p = surfacePoint(trace, hit))
-            seen.push_back({hit, *p});
-    }
+    seen = findSeenPoints(trace, options.camera, options.width, options.height, options.seed);
+    std::erase_if(seen,
+                  [&](const SeenPoint& p) { return layout.instances[p.hit.instance].uv.empty(); });
     cacheOfTexel.assign(std::size_t(layout.width) * layout.height, ~0U);
     const Caches& caches = bakes.bake->caches;
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
@@ -73,18 +57,6 @@ void Chain::findSeen() {
 glm::vec3 Chain::truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) const {
     std::uint64_t rays = 0;
     return sampleIndirectIrradiance(paths, p, {seed, sample}, rays);
-}
-
-std::optional<Irradiances> Chain::reference(std::uint32_t seed) const {
-    Irradiances result(seen.size());
-    const bool done = parallelRanges(
-        seen.size(), kGrain, progress, "reference", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                for (std::uint32_t s = 0; s < options.paths; ++s)
-                    result[i] += truth(seen[i].surface, mixBits(seed, std::uint32_t(i)), s) /
-                                 float(options.paths);
-        });
-    return done ? std::optional(std::move(result)) : std::nullopt;
 }
 
 /// One of the lookup's caches by its weight, or one that fills it; ~0 where there is none.
@@ -175,15 +147,6 @@ std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     return done ? std::optional(std::move(leaves)) : std::nullopt;
 }
 
-Irradiances Chain::lookUp(const IndirectField& field, const LightmapLayout& layout) const {
-    Irradiances result;
-    for (const SeenPoint& p : seen)
-        result.push_back(
-            sampleIrradiance({field, layout, trace.scene(), p.hit.instance, p.hit.triangle, p.hit.u,
-                              p.hit.v, p.surface.position, p.surface.normal, !p.hit.frontFace}));
-    return result;
-}
-
 Irradiances Chain::gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const {
     const int bands = std::min(int(bake.settings.bands), kIrradianceBands);
     const auto n = std::size_t(bands * bands);
@@ -205,7 +168,7 @@ Irradiances Chain::gathered(const Bake& bake, const std::vector<glm::vec4>& leav
     for (std::size_t c = 0; c < bake.caches.lightmapCount; ++c)
         for (std::size_t i = 0; i < n; ++i)
             field.lightmap[i * texels + bake.caches.texel[c]] = glm::vec4(sh[c * n + i], 0);
-    return lookUp(field, bake.lightmap);
+    return lookUpIrradiance(field, bake.lightmap, trace.scene(), seen);
 }
 
 Irradiances Chain::relit(const std::shared_ptr<const Bake>& bake) const {
@@ -213,7 +176,7 @@ Irradiances Chain::relit(const std::shared_ptr<const Bake>& bake) const {
     for (int call = 0; call < 64; ++call)
         if (relighter.relight(trace.scene(), trace, 64, progress).converged)
             break;
-    return lookUp(relighter.field(), bake->lightmap);
+    return lookUpIrradiance(relighter.field(), bake->lightmap, trace.scene(), seen);
 }
 
 double sumOf(glm::vec3 v) {
@@ -245,8 +208,11 @@ EnergyChain measureEnergyChain(const TraceScene& trace, const EnergyBakes& bakes
     chain.findSeen();
     EnergyChain result;
     result.pixels = chain.seen.size();
-    const auto first = chain.reference(options.seed + 1),
-               second = chain.reference(options.seed + 2), texels = chain.atTexels();
+    const auto reference = [&](std::uint32_t seed) {
+        return traceIrradiance(paths, chain.seen, options.paths, seed, progress);
+    };
+    const auto first = reference(options.seed + 1), second = reference(options.seed + 2),
+               texels = chain.atTexels();
     const auto leaves = chain.trueRadiosity();
     if (!first || !second || !texels || !leaves)
         return result;

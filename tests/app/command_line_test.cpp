@@ -17,14 +17,27 @@ namespace {
 const std::string kCoarse = " --surfels 256 --links 32 --rays 64 --lightmap 300 --grid 3x3x3 ";
 
 TEST_F(CommandLine, ExitsWith2OnBadUsage) {
-    for (const char* arguments :
-         {"", "nonsense", "bake", "bake cornell", "bake cornell -o x --frobnicate",
-          "bake cornell -o x --surfels many", "bake cornell -o x --surfels -5",
-          "bake cornell -o x --grid 3x3", "bake cornell -o x --grid -1x3x3",
-          "bake cornell -o x --bands 9", "bake cornell -o x --storage zip",
-          "bake cornell -o x --chroma-bands 9", "bake cornell -o x --preset finest",
-          "reference cornell", "reference cornell -o x.exr --spp none",
-          "reference cornell -o x.exr --view nonsense", "compare one.exr", "info"}) {
+    for (const char* arguments : {"",
+                                  "nonsense",
+                                  "bake",
+                                  "bake cornell",
+                                  "bake cornell -o x --frobnicate",
+                                  "bake cornell -o x --surfels many",
+                                  "bake cornell -o x --surfels -5",
+                                  "bake cornell -o x --grid 3x3",
+                                  "bake cornell -o x --grid -1x3x3",
+                                  "bake cornell -o x --bands 9",
+                                  "bake cornell -o x --storage zip",
+                                  "bake cornell -o x --chroma-bands 9",
+                                  "bake cornell -o x --preset finest",
+                                  "bake cornell -o x --error 0",
+                                  "bake cornell -o x --eye 0,1,2 --target 0,0,0",
+                                  "bake cornell -o x --error 0.1 --texels-per-metre 3",
+                                  "reference cornell",
+                                  "reference cornell -o x.exr --spp none",
+                                  "reference cornell -o x.exr --view nonsense",
+                                  "compare one.exr",
+                                  "info"}) {
         const Outcome run = limn(arguments);
         EXPECT_EQ(run.exit, 2) << "limn " << arguments << "\n" << run.err;
         EXPECT_EQ(run.out, "") << "limn " << arguments;
@@ -105,6 +118,23 @@ TEST_F(CommandLine, WhatWouldNeedTooMuchMemoryIsRefusedBeforeItIsAllocated) {
                   "lower rays, lightmap or grid");
     expectRefusal("bake cornell --json --no-cache --memory 0.125 -o " + path("c.limnbake"),
                   "128 MiB are allowed (--memory)");
+}
+
+TEST_F(CommandLine, BakesUntilAnErrorIsHeldAndSaysWhereItIsNot) {
+    const std::string start =
+        "bake cornell --no-cache --surfels 256 --links 32 --rays 64 --lightmap 100 -o " +
+        path("c.limnbake");
+    const Outcome held = limn(start + " --error 0.1 --json");
+    ASSERT_EQ(held.exit, 0) << held.err;
+    const auto json = nlohmann::json::parse(held.out);
+    EXPECT_LE(json["error"]["nrmse"].get<double>(), 0.1);
+    EXPECT_GT(json["settings"]["lightmap"].get<int>(), 100);
+    expectRefusal(start + " --error 0.1 --camera Nobody", "Nobody");
+    fs::remove(path("c.limnbake"));
+    const Outcome dark = limn(start + " --error 0.1 --eye=0,50,0 --target=0,60,0");
+    EXPECT_EQ(dark.exit, 1);
+    EXPECT_NE(dark.err.find("the camera sees no light"), std::string::npos) << dark.err;
+    EXPECT_FALSE(fs::exists(path("c.limnbake")));
 }
 
 TEST_F(CommandLine, RefusesLightsSkiesAndCamerasThatMakeNoSense) {

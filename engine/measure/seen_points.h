@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/reference/path.h"
+#include "engine/relight/relight.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace limn {
+
+/// A point that a pixel sees. Both light from paths and light from a field can be evaluated there.
+struct SeenPoint {
+    Hit hit;
+    SurfacePoint surface;
+};
+
+/// One random point of each pixel that meets a surface; the backs of one-sided surfaces are left
+/// out.
+std::vector<SeenPoint> findSeenPoints(const TraceScene& trace, const Camera& camera,
+                                      std::uint32_t width, std::uint32_t height,
+                                      std::uint32_t seed);
+
+/// Irradiance of each point but for what comes straight from lights [W m^-2], the mean of `paths`
+/// paths. Nothing when cancelled.
+std::optional<std::vector<glm::vec3>> traceIrradiance(const PathContext& context,
+                                                      const std::vector<SeenPoint>& points,
+                                                      std::uint32_t paths, std::uint32_t seed,
+                                                      const Progress& progress = {});
+
+/// The same of each point as a field has it. `layout` belongs to the field.
+std::vector<glm::vec3> lookUpIrradiance(const IndirectField& field, const LightmapLayout& layout,
+                                        const Scene& scene, const std::vector<SeenPoint>& points);
+
+} // namespace limn
