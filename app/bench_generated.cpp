@@ -8,8 +8,8 @@
 #include "engine/bake/bake_bytes.h"
 #include "engine/files/document_fields.h"
 #include "engine/gallery/gallery.h"
+#include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
-#include "engine/reference/field_render.h"
 #include "engine/relight/relight.h"
 
 #include <algorithm>

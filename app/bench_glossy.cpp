@@ -8,7 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
-#include "engine/reference/field_render.h"
+#include "engine/measure/field_render.h"
 #include "engine/reference/pixel_rays.h"
 #include "engine/reference/reference.h"
 #include "engine/relight/relight.h"

@@ -2,7 +2,7 @@
 #include "app/progress_line.h"
 #include "app/render_image.h"
 
-#include "engine/reference/field_render.h"
+#include "engine/measure/field_render.h"
 #include "engine/scene/tone_map.h"
 
 namespace limn {

@@ -8,6 +8,7 @@
 #include "engine/bake/fine_texels.h"
 #include "engine/bake/input_hash.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/stage_keys.h"
 #include "engine/bake/structure_rules.h"
 #include "engine/bake/surfels.h"
 #include "engine/bake/texel_sides.h"
@@ -33,7 +34,7 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
             for (std::size_t m = begin; m < end; ++m)
                 if (used[m])
                     charts[m] = keptOrMade<MeshCharts>(
-                        store, hashValue(meshes[m], 21), progress,
+                        store, stageKey(Stage::Charts, meshes[m]), progress,
                         [&mesh = scene.assets->meshes[m]](auto& a, auto& c) {
                             chartFields(a, c, &mesh);
                         },
@@ -44,8 +45,7 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
 /// Of all that buildAtlas reads.
 std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes,
                        const BakeSettings& settings, const BakeDensity& density) {
-    std::uint64_t h = hashValue(settings.lightmapCaches, 34);
-    h = hashValue(settings.texelsPerMetre, h);
+    std::uint64_t h = hashValue(settings.texelsPerMetre, settings.lightmapCaches);
     for (const Instance& i : scene.instances) {
         h = hashValue(atlasScale(i), hashValue(meshes[i.mesh], h));
         h = hashValue(std::uint32_t(i.dynamic),
@@ -118,7 +118,7 @@ BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_
                          const std::vector<MeshCharts>& charts, std::uint32_t texels,
                          const Progress& progress, StageStore* store, std::uint64_t& rays) {
     return keptOrMade<BakeDensity>(
-        store, surfacesKey(trace, meshes, hashValue(texels, 35)), progress,
+        store, stageKey(Stage::Density, surfacesKey(trace, meshes, texels)), progress,
         [&](auto& a, auto& d) { bakeDensityFields(a, d, trace.scene(), charts); },
         [&] {
             BakeDensity made = findDensity(trace, charts, texels, progress);
@@ -216,15 +216,16 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
     LaidTexels result;
     result.key = atlasKey(scene, meshes, settings, density);
     result.atlas = keptOrMade<Atlas>(
-        store, result.key, progress, [&](auto& a, auto& t) { atlasFields(a, t, scene, charts); },
+        store, stageKey(Stage::Atlas, result.key), progress,
+        [&](auto& a, auto& t) { atlasFields(a, t, scene, charts); },
         [&] { return buildAtlas(scene, charts, settings, density.texels, progress); });
     result.atlas.layout.meshes = charts;
     if (density.varied.empty() || progress.cancelled())
         return result;
     const std::uint64_t laid = result.atlas.texels.size();
     result.fine = keptOrMade<FineLookups>(
-        store, surfacesKey(trace, meshes, hashValue(result.key, hashValue(most, 36))), progress,
-        [](auto& a, auto& f) { fineFields(a, f); },
+        store, stageKey(Stage::FineTexels, surfacesKey(trace, meshes, hashValue(result.key, most))),
+        progress, [](auto& a, auto& f) { fineFields(a, f); },
         [&] {
             FineLookups made = findFineLookups(
                 trace, result.atlas, density, std::uint32_t(most - std::min(most, laid)), progress);
@@ -287,7 +288,7 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
     Atlas& atlas = laid.atlas;
     const std::vector<PlacedTriangle> placed = addFineTexels(scene, density, laid.fine, atlas);
     TexelSides sides = keptOrMade<TexelSides>(
-        store, surfacesKey(trace, meshes, hashValue(laid.key, 31)), progress,
+        store, stageKey(Stage::TexelSides, surfacesKey(trace, meshes, laid.key)), progress,
         [&](auto& a, auto& s) { sideFields(a, s, scene, atlas); },
         [&] {
             TexelSides made = findTexelSides(trace, atlas, placed, progress);

@@ -13,6 +13,7 @@
 #include "engine/bake/seen_patches.h"
 #include "engine/bake/settings_defect.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/stage_keys.h"
 #include "engine/bake/structure_rules.h"
 #include "engine/bake/surfel_gain.h"
 #include "engine/bake/surfel_normals.h"
@@ -65,8 +66,8 @@ std::uint32_t raysForPatches(const BakeSettings& settings) {
 PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
                            const std::vector<std::uint64_t>& meshes, const Progress& progress,
                            StageStore* store, std::uint64_t& rays) {
-    const std::uint64_t key =
-        hashValue(32, hashRecord(describeTrace(trace, set, owners, {}, {{0}}, 1, meshes)));
+    const std::uint64_t key = stageKey(
+        Stage::PatchSides, hashRecord(describeTrace(trace, set, owners, {}, {{0}}, 1, meshes)));
     const Scene& scene = trace.scene();
     return keptOrMade<PatchSides>(
         store, key, progress,
@@ -98,7 +99,7 @@ SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
     const std::uint64_t rayStarts =
         hashRecord(describeTrace(trace, set, owners, caches, points, std::max(looks, 1U), meshes));
     const std::uint32_t texels = atlas.layout.width * atlas.layout.height;
-    const std::uint64_t key = hashValue(texels, hashValue(rayStarts, 33));
+    const std::uint64_t key = stageKey(Stage::SeenPatches, hashValue(texels, rayStarts));
     const Scene& scene = trace.scene();
     return keptOrMade<SeenPatches>(
         store, key, progress,
@@ -134,7 +135,7 @@ TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, Tr
         a("lamps", t.lamps, rule::count(TracedTraining::kLamps), rule::inReach());
         a("position", t.position, rule::count(surfels.size()), rule::inReach());
     };
-    const auto key = [](std::uint64_t of) { return hashValue(of, 23); };
+    const auto key = [](std::uint64_t of) { return stageKey(Stage::Training, of); };
     return keptOrMade<TracedTraining>(store, key(traced.key), progress, fields, [&] {
         std::optional<EarlierTraining> earlier;
         if (traced.moved)

@@ -3,6 +3,7 @@
 
 #include "engine/bake/clustering.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/stage_keys.h"
 #include "engine/bake/structure_rules.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -36,14 +37,14 @@ MergeTree meshTree(const MeshSurfels& surfels, const BakeSettings& settings,
 
 MergeTree keptMeshTree(const MeshSurfels& surfels, const BakeSettings& settings,
                        const Progress& progress, StageStore* store) {
-    std::uint64_t key = hashVector(surfels.position, hashVector(surfels.normal, 25));
+    std::uint64_t key = hashVector(surfels.position, hashVector(surfels.normal, 0));
     key = hashValue(settings.clusterNormalWeight, hashValue(settings.clusterBalanceWeight, key));
     key = hashValue(std::uint32_t(settings.clustering), key);
     constexpr std::size_t kWorthKeeping = 64; // of fewer, or halved ones, it is as fast to make
     const bool slow =
         settings.clustering == Clustering::Agglomerative && surfels.size() >= kWorthKeeping;
     return keptOrMade<MergeTree>(
-        slow ? store : nullptr, key, progress,
+        slow ? store : nullptr, stageKey(Stage::MeshTree, key), progress,
         [&surfels](auto& a, auto& t) {
             a("left", t.left, rule::any);
             a("right", t.right, rule::holds("no tree", [&](const auto& right) {

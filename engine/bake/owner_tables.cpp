@@ -2,6 +2,7 @@
 #include "engine/bake/owner_tables.h"
 
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/stage_keys.h"
 #include "engine/core/parallel.h"
 #include "engine/scene/triangle_geometry.h"
 
@@ -20,7 +21,8 @@ const SurfelOwners& OwnerTables::of(std::uint32_t mesh) const {
             const std::size_t cells = m.triangleCount() + 9 * m_set.meshes[mesh].size();
             constexpr std::size_t kWorthKeeping = 2048; // fewer are as fast to make
             lazy.owners = keptOrMade<SurfelOwners>(
-                cells < kWorthKeeping ? nullptr : m_store, m_store ? m_keys[mesh] : 0, m_progress,
+                cells < kWorthKeeping ? nullptr : m_store,
+                stageKey(Stage::SurfelOwners, m_store ? m_keys[mesh] : 0), m_progress,
                 [&](auto& a, auto& o) { SurfelOwners::fields(a, o, m, m_set.meshes[mesh]); },
                 [&] { return SurfelOwners(m, m_set.meshes[mesh], m_progress); });
         });

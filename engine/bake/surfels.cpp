@@ -6,6 +6,7 @@
 #include "engine/bake/nearest_point.h"
 #include "engine/bake/relaxation.h"
 #include "engine/bake/stage_archive.h"
+#include "engine/bake/stage_keys.h"
 #include "engine/bake/structure_rules.h"
 #include "engine/bake/surfel_spacing.h"
 #include "engine/core/hash.h"
@@ -161,7 +162,7 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<
 }
 
 std::uint64_t hashDensity(const SurfelDensity& d, std::uint64_t seed) {
-    return hashVector(d.level, hashVector(d.density, hashValue(seed, 24)));
+    return hashVector(d.level, hashVector(d.density, seed));
 }
 
 /// Marsaglia. Xorshift RNGs. 2003: period 2^32 - 1, the triple 13, 17, 5.
@@ -313,7 +314,7 @@ static MeshSurfels meshSurfels(const Scene& scene, std::size_t m, std::uint32_t 
                                         hashValue(count, hashDensity(density, hashMesh(mesh))));
     constexpr std::uint32_t kWorthKeeping = 64; // fewer are as fast to place
     return keptOrMade<MeshSurfels>(
-        count < kWorthKeeping ? nullptr : store, key, progress,
+        count < kWorthKeeping ? nullptr : store, stageKey(Stage::MeshSurfels, key), progress,
         [&mesh, twoSided](auto& a, auto& s) { meshSurfelFields(a, s, mesh, twoSided); },
         [&] { return placeSurfels(mesh, count, twoSided, placement, density, progress); });
 }

@@ -4,6 +4,7 @@
 #include "engine/bake/cluster_tree.h"
 #include "engine/bake/grid_depth.h"
 #include "engine/bake/input_hash.h"
+#include "engine/bake/stage_keys.h"
 #include "engine/bake/trace_record.h"
 #include "engine/core/archive.h"
 #include "engine/core/field_rule.h"
@@ -27,22 +28,22 @@ namespace {
 
 // What of a trace is kept under which key.
 std::uint64_t recordKey(std::uint64_t trace) {
-    return hashValue(trace, 11);
+    return stageKey(Stage::TraceRecord, trace);
 }
 std::uint64_t blockKey(std::uint64_t trace, std::uint32_t block) {
-    return hashValue(block, hashValue(trace, 12));
+    return stageKey(Stage::TraceBlock, hashValue(block, trace));
 }
 
 /// Of what every trace of a document shares, whatever stands where.
 std::uint64_t documentKey(const TraceInput& in) {
-    return hashValue(in.rays, hashVector(in.meshes, 13));
+    return stageKey(Stage::TraceOfDocument, hashValue(in.rays, hashVector(in.meshes, 0)));
 }
 
 std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
-    std::uint64_t h = hashValue(std::uint32_t(in.linker), hashValue(trace, 30));
+    std::uint64_t h = hashValue(std::uint32_t(in.linker), trace);
     for (const Instance& i : in.trace.scene().instances)
         h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
-    return h;
+    return stageKey(Stage::AimedHits, h);
 }
 
 /// A block's caches that differ from an earlier one's, and their hits.

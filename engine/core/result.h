@@ -13,9 +13,12 @@ struct Error {
     std::string message;
 };
 
-/// A value, or the reason there is none.
+/// A value, or the reason there is none. Whoever asks for one must look at it.
 template <class T>
-using Result = tl::expected<T, Error>;
+class [[nodiscard]] Result : public tl::expected<T, Error> {
+public:
+    using tl::expected<T, Error>::expected;
+};
 
 /// `return fail("cannot open {}", path)` is written `return fail(fmt::format(...))`.
 inline tl::unexpected<Error> fail(std::string message) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/direct_light.h"
 
-#include "engine/relight/rectangle_shadow.h"
+#include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
-#include "engine/relight/rectangle_shadow.h"
 #include "engine/scene/light_parts.h"
+#include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gallery/gallery.h"
+#include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
-#include "engine/reference/field_render.h"
 #include "engine/relight/relight.h"
 
 #include <gtest/gtest.h>

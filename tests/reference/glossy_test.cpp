@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/lobe.h"
-#include "engine/reference/field_render.h"
+#include "engine/measure/field_render.h"
 #include "engine/reference/reference.h"
 #include "engine/reference/sampler.h"
 #include "engine/scene/reflection_lobe.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/golden/cornell_golden.h"
 
-#include "engine/reference/field_render.h"
+#include "engine/measure/field_render.h"
 #include "engine/reference/reference.h"
 
 namespace limn {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/relight/rectangle_shadow.h"
+#include "engine/trace/rectangle_shadow.h"
 
 #include "engine/relight/surfel_light.h"
 #include "tests/trace/simple_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/lobe.h"
-#include "engine/reference/field_render.h"
+#include "engine/measure/field_render.h"
 #include "engine/scene/receiver_bands.h"
 #include "engine/scene/reflection_lobe.h"
 #include "tests/render/viewport_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/relight/rectangle_shadow.h"
+#include "engine/trace/rectangle_shadow.h"
 #include "tests/relight_gpu/relit_scene.h"
 #include "tests/render/viewport_fixture.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/viewport_fixture.h"
 
-#include "engine/relight/rectangle_shadow.h"
 #include "engine/render/render_scene.h"
 #include "engine/render/shadow_maps.h"
+#include "engine/trace/rectangle_shadow.h"
 #include "engine/trace/trace_scene.h"
 
 namespace limn {

@@ -17,7 +17,7 @@ cpp='\.(cpp|h)$'
 code='\.(cpp|h|glsl|vert|frag|comp)$'
 
 # Rooms from the bottom up: a room includes itself and the rooms before it.
-rooms='engine/core engine/math engine/scene engine/gallery engine/trace engine/bake engine/overlay engine/relight engine/reference
+rooms='engine/core engine/math engine/scene engine/gallery engine/trace engine/reference engine/bake engine/overlay engine/relight
        engine/files engine/measure engine/stress engine/gpu engine/relight_gpu engine/render editor_ui app'
 
 layers_point_downward() {

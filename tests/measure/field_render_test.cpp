@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/reference/field_render.h"
+#include "engine/measure/field_render.h"
 
 #include "engine/core/parallel.h"
 #include "engine/reference/reference.h"
