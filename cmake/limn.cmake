@@ -27,6 +27,7 @@ function(limn_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(${name} PUBLIC limn_options ${ROOM_DEPENDS})
+  set_property(GLOBAL APPEND PROPERTY LIMN_ROOMS ${name})
 endfunction()
 
 # limn_test(scene_gltf_import_test SOURCES scene/gltf_import_test.cpp DEPENDS limn_scene)

@@ -16,24 +16,59 @@ files() {
 cpp='\.(cpp|h)$'
 code='\.(cpp|h|glsl|vert|frag|comp)$'
 
-# Rooms from the bottom up: a room includes itself and the rooms before it.
-rooms='engine/core engine/math engine/scene engine/gallery engine/trace engine/reference engine/bake engine/overlay engine/relight
-       engine/files engine/measure engine/stress engine/gpu engine/relight_gpu engine/render editor_ui app'
+# A line for each room and each room that it may include, itself among them: what its CMake target depends on, and what that does.
+may_include() {
+    files '^(engine/[a-z_]+|editor_ui)/CMakeLists\.txt$' | xargs awk '
+        function path(target) { sub(/^limn_/, "", target); return target == "editor_ui" ? target : "engine/" target }
+        FNR == 1 { inside = 0 }
+        { gsub(/[()]/, " & ") }
+        {
+            for (i = 1; i <= NF; i++)
+                if ($i == "limn_room") { inside = 1; room = ""; depends = 0 }
+                else if ($i == ")") inside = 0
+                else if (inside && $i != "(") {
+                    if (room == "") { room = path($i); rooms[++n] = room; reach[room, room] = 1 }
+                    else if ($i == "DEPENDS") depends = 1
+                    else if (depends && $i ~ /^limn_/) reach[room, path($i)] = 1
+                }
+        }
+        END {
+            for (k = 1; k <= n; k++)
+                for (i = 1; i <= n; i++)
+                    for (j = 1; j <= n; j++)
+                        if (reach[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) reach[rooms[i], rooms[j]] = 1
+            for (i = 1; i <= n; i++) {
+                for (j = 1; j <= n; j++)
+                    if (reach[rooms[i], rooms[j]]) print rooms[i], rooms[j]
+                print "app", rooms[i]
+            }
+            print "app", "app"
+        }'
+}
 
 layers_point_downward() {
-    files "^(engine|editor_ui|app)/.*$cpp" | xargs awk -v rooms="$rooms" '
+    local allowed
+    allowed=$(may_include)
+    awk '$1 != $2 && ($2, $1) in seen { print $1 " and " $2 " depend on each other"; bad = 1 } { seen[$1, $2] } END { exit bad }' \
+        <<<"$allowed"
+    files "^(engine|editor_ui|app)/.*$cpp" | xargs awk -v allowed="$allowed" '
         function room(path, part) {
             split(path, part, "/")
             return part[1] == "engine" ? part[1] "/" part[2] : part[1]
         }
-        BEGIN { n = split(rooms, list); for (i = 1; i <= n; i++) rank[list[i]] = i }
-        FNR == 1 && !(room(FILENAME) in rank) { print FILENAME ": in no known room"; bad = 1 }
+        BEGIN {
+            n = split(allowed, pair, "\n")
+            for (i = 1; i <= n; i++) { split(pair[i], ends, " "); may[ends[1], ends[2]]; known[ends[1]] }
+        }
+        FNR == 1 && !(room(FILENAME) in known) { print FILENAME ": in no known room"; bad = 1 }
         match($0, /^ *# *include *"[^"]+"/) {
             split($0, quoted, "\"")
             target = room(quoted[2])
             if (target == "shaders") next
-            if (!(target in rank)) { print FILENAME ":" FNR ": include by the path from the root: " quoted[2]; bad = 1 }
-            else if (rank[target] > rank[room(FILENAME)]) { print FILENAME ":" FNR ": includes upward: " quoted[2]; bad = 1 }
+            if (!(target in known)) { print FILENAME ":" FNR ": include by the path from the root: " quoted[2]; bad = 1 }
+            else if (!((room(FILENAME), target) in may)) {
+                print FILENAME ":" FNR ": its target does not depend on that of " quoted[2]; bad = 1
+            }
         }
         END { exit bad }'
 }
@@ -45,9 +80,12 @@ includes_none() {
 engine_knows_no_window() {
     includes_none '^(engine|projects)/' '(imgui|GLFW|editor_ui|app/)'
 }
+# Of the engine, what does not depend on its gpu builds without a driver.
 light_knows_no_vulkan() {
-    includes_none '^engine/(core|math|scene|gallery|trace|bake|overlay|relight|reference|files|measure|stress)/' \
-        '(vulkan|volk|engine/(gpu|render|relight_gpu))'
+    local light
+    light=$(may_include | awk '$2 == "engine/gpu" { gpu[$1] } { room[$1] } END { for (r in room) if (!(r in gpu)) print r }' |
+        grep '^engine/' | paste -sd '|')
+    includes_none "^($light)/" '(vulkan|volk)'
 }
 
 files_have_a_licence_line() {
