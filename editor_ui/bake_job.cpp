@@ -95,6 +95,11 @@ void BakeJob::work(std::shared_ptr<const Scene> scene, std::shared_ptr<const Tra
     m_wake();
 }
 
+bool BakeJob::busy() const {
+    const std::lock_guard lock(m_mutex);
+    return m_running || m_result;
+}
+
 std::optional<Result<BakedScene>> BakeJob::takeResult() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_result, {});

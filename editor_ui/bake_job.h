@@ -42,6 +42,8 @@ public:
                bool preview);
     void cancel() { m_cancel = true; }
     bool running() const { return m_running; }
+    /// While one is running, or what it gave has not been taken.
+    bool busy() const;
 
     /// What the last bake gave, once: the bake, its preview, or why there is none ("cancelled").
     std::optional<Result<BakedScene>> takeResult();

@@ -125,6 +125,11 @@ bool FileJob::save(std::string path, Document document, std::shared_ptr<const Ba
         });
 }
 
+bool FileJob::busy() const {
+    const std::lock_guard lock(m_mutex);
+    return m_running || m_opened || m_sky || m_saved;
+}
+
 std::optional<Result<OpenedFile>> FileJob::takeOpened() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_opened, {});

@@ -34,7 +34,8 @@ public:
     FileJob(const FileJob&) = delete;
     FileJob& operator=(const FileJob&) = delete;
 
-    bool running() const { return m_running; }
+    /// While one is running, or what it gave has not been taken.
+    bool busy() const;
 
     /// Each starts its work and returns true, or false while another is running.
     bool open(std::string what);
@@ -57,7 +58,7 @@ private:
     std::function<void()> m_wake;
     std::thread m_thread;
     std::atomic<bool> m_running{false}, m_cancel{false};
-    std::mutex m_mutex; ///< of what follows
+    mutable std::mutex m_mutex; ///< of what follows
     std::optional<Result<OpenedFile>> m_opened;
     std::optional<Result<Sky>> m_sky;
     std::optional<Result<Document>> m_saved;

@@ -303,7 +303,7 @@ void Session::update() {
 }
 
 bool Session::idle() const {
-    return !m_files.running() && !m_bakeJob.running() && !m_bakeSoon && !state.relight.running &&
+    return !m_files.busy() && !m_bakeJob.busy() && !m_bakeSoon && !state.relight.running &&
            !m_relit.status.running && state.loading.empty();
 }
 

@@ -8,6 +8,7 @@
 #include "engine/files/project_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -348,6 +349,26 @@ TEST_F(SessionTest, WhatIsSavedOpensAgainWithItsBake) {
     EXPECT_EQ(session.state.document.objects, saved.objects);
     EXPECT_EQ(session.bakeSeconds(), 0); // the bake lay beside it
     EXPECT_EQ(session.state.recent.at(0), project);
+}
+
+// Whoever looks at an idle session sees what its jobs gave.
+TEST_F(SessionTest, IsNotIdleBeforeAFinishedJobHasBeenTaken) {
+    std::atomic<int> wakes = 0;
+    SessionOptions woken = options();
+    woken.wake = [&] { ++wakes; };
+    Session session(woken);
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    lamp(session).strength = 3;
+    ASSERT_TRUE(runUntilIdle(session));
+    wakes = 0;
+    runAction(session.state, actionById("file.save"));
+    session.update(); // starts it
+    while (wakes == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_FALSE(session.idle() && hasUnsavedChanges(session.state));
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_FALSE(hasUnsavedChanges(session.state));
 }
 
 TEST_F(SessionTest, LeavingAChangedDocumentAsksFirst) {
