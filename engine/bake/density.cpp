@@ -23,6 +23,8 @@ constexpr double kRaysPerTexel = 16, kMaxRays = double(1 << 19); ///< of all pro
 constexpr double kAlike = 8;
 /// Charts that deserve less than this share of all texels have the density of their instance.
 constexpr double kOwnDensity = 0.01;
+/// Charts that would waste this share of all texels on parts that see nothing near vary.
+constexpr double kWaste = 0.1;
 /// A part of a chart is near if it deserves 4 to this times the texels per metre of most of it.
 constexpr int kFar = 2;
 
@@ -35,6 +37,7 @@ struct Chart {
     double detail = 0;                ///< texels per area that it deserves, relative
     int fours = 0;                    ///< its texels per metre are multiplied by 4^fours
     int usual = 0;                    ///< the class that most of its probes deserve
+    int even = 0;                     ///< the class that it deserves as a whole
     bool varied = false;              ///< parts of it deserve far more
 };
 
@@ -43,7 +46,6 @@ struct Probe {
     MeshPoint point;
     std::uint32_t instance, back, seed;
     bool inSolid = false; ///< most rays meet backs
-    int fours = 0;        ///< as Chart::fours, of the texels about it
 };
 
 /// What a probe's ray met.
@@ -283,16 +285,15 @@ std::vector<VariedChart> DensityFinder::varied() const {
     return result;
 }
 
-/// Sets the densities of a chart and of its probes. Returns what its texels are worth.
+/// Sets the density of a chart. Returns what its texels are worth. A chart varies where its near
+/// parts need a share of all texels, or where one density for all of it would waste one.
 double DensityFinder::chooseChart(Chart& chart, double near) {
-    chart.varied = near >= kOwnDensity * m_worth;
-    chart.fours =
-        chart.varied ? chart.usual : densityClass(std::max(chart.detail, 1e-30), m_result.centre);
-    for (std::uint32_t p = chart.begin; p < chart.end; ++p)
-        m_probes[p].fours = chart.varied
-                                ? std::max(classAt(nearness(p, m_result.nearest)), chart.fours)
-                                : chart.fours;
-    return chart.area * chart.sides * std::exp2(4 * chart.fours) + (chart.varied ? near : 0);
+    const double area = chart.area * chart.sides;
+    chart.even = densityClass(std::max(chart.detail, 1e-30), m_result.centre);
+    const double wasted = area * (std::exp2(4 * chart.even) - std::exp2(4 * chart.usual)) - near;
+    chart.varied = near >= kOwnDensity * m_worth || (near > 0 && wasted >= kWaste * m_worth);
+    chart.fours = chart.varied ? chart.usual : chart.even;
+    return area * std::exp2(4 * chart.fours) + (chart.varied ? near : 0);
 }
 
 /// The width of texels decides what they can resolve, and that their number and so their width.
@@ -330,12 +331,13 @@ std::vector<std::vector<float>> DensityFinder::factors() const {
     return result;
 }
 
-/// Each weighs as much as the texels that its probe stands for.
+/// Each weighs as much as the texels that its probe would stand for if no chart varied: a probe in
+/// a small near part of a chart stands for much more than that part.
 std::vector<MeshHits> DensityFinder::hits() const {
     std::vector<MeshHits> result(m_in.charts.size());
     for (const Chart& c : m_all) {
         for (std::uint32_t p = c.begin; p < c.end; ++p) {
-            const double texels = c.area * c.sides * std::exp2(4 * m_probes[p].fours);
+            const double texels = c.area * c.sides * std::exp2(4 * c.even);
             for (std::uint32_t r = 0; r < m_rays && !m_probes[p].inSolid; ++r)
                 if (const Met& met = m_met[std::size_t(p) * m_rays + r]; met.instance != ~0U) {
                     MeshHits& hits = result[m_scene.instances[met.instance].mesh];

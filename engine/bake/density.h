@@ -54,8 +54,10 @@ double detailOf(double nearness);
 ///
 /// Both densities come in powers of sixteen about what most texels or hits have, so in a room whose
 /// walls are all near each other there is one density, and small moves of objects rarely change
-/// any. A chart some of whose parts deserve 256 times the texels that most of its area does varies:
-/// it has that of most of its area. `texels`: how many there will be. Of no use when cancelled.
+/// any. A chart some of whose parts deserve 256 times the texels that most of its area does varies,
+/// where these parts need a hundredth of all texels or one density for all of it would waste a
+/// tenth: it has that of most of its area. Surfels are as if none varied. `texels`: how many there
+/// will be. Of no use when cancelled.
 BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                         std::uint32_t texels, const Progress& progress = {});
 

@@ -5,6 +5,7 @@
 #include "engine/bake/charts.h"
 #include "engine/bake/surfels.h"
 #include "engine/core/parallel.h"
+#include "engine/gallery/gallery.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -86,6 +87,18 @@ TEST(Density, AWideGroundLeavesItsTexelsAndSurfelsToTheHouse) {
             area += double(set.surfels.area[s]);
         EXPECT_NEAR(area, 40000 * double(scale * scale), 40 * double(scale * scale));
     }
+}
+
+// A house of 494 m on a plane of 40 km, which is its floor, too: the floor's part needs too few
+// texels to count, but the plane would get half of all.
+TEST(Density, AGroundThatWouldWasteTexelsVaries) {
+    const GeneratedScene made = generateScene(307);
+    const Scene scene = flatten(made.document, made.assets);
+    const BakeDensity d = findDensity(TraceScene(scene), chartsOf(scene), 36000);
+    ASSERT_EQ(d.varied.size(), 1U);
+    EXPECT_EQ(d.varied[0].instance, 2U);
+    EXPECT_LE(d.texels[2][0], 1 / 16.f);
+    EXPECT_GE(d.texels[1][0], 1);
 }
 
 TEST(Density, OfTheGroundFallsWithDistance) {
