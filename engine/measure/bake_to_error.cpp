@@ -24,8 +24,8 @@ std::uint32_t times(std::uint32_t count, double factor, std::uint32_t most) {
     return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(most))));
 }
 
-/// Points with their irradiance: straight from lights, and with all bounces by independent paths.
-/// Rows of an image.
+/// What is true at the points that are seen: irradiance straight from lights, and the same with all
+/// bounces, estimated twice by independent paths. Images of one row.
 struct Truth {
     std::vector<SeenPoint> points;
     ImageF direct, first, second;
@@ -70,21 +70,10 @@ bool isDark(const Truth& truth) {
     return std::ranges::all_of(truth.first.rgb, [](glm::vec3 e) { return e == glm::vec3(0); });
 }
 
-/// With as many bounces as it takes, or as the scene asks for.
-void light(const TraceScene& trace, Relighter& relighter, const Progress& progress) {
-    const std::uint32_t most = trace.scene().bake.maxBounces;
-    for (std::uint32_t bounces = 0; bounces < most && !progress.cancelled();) {
-        const RelightStats stats = relighter.relight(trace.scene(), trace, most, progress);
-        if (stats.converged)
-            break;
-        bounces += std::max(stats.bounces, 1U);
-    }
-}
-
 Result<Comparison> measure(const TraceScene& trace, const std::shared_ptr<const Bake>& bake,
                            const Truth& truth, const Progress& progress) {
     Relighter relighter(bake);
-    light(trace, relighter, progress);
+    relighter.relight(trace.scene(), trace, trace.scene().bake.maxBounces, progress);
     if (progress.cancelled())
         return fail("cancelled");
     const Result<Comparison> error =

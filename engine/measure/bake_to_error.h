@@ -27,8 +27,8 @@ struct ErrorGoal {
     Camera camera;      ///< where light is looked at
 };
 
-/// Twice as many texels, and surfels and links that go with them, as the presets have them. Equal
-/// to `settings` where they are the finest.
+/// Settings with twice as many texels, and with more surfels and links in the proportion of the
+/// presets. Equal to `settings` where none are finer.
 BakeSettings finerSettings(const BakeSettings& settings);
 
 /// Bakes with the settings of the scene, and with finer ones again and again until the error in the

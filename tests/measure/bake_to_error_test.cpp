@@ -18,7 +18,7 @@ ErrorGoal goal(const Scene& scene, double nrmse) {
     return {nrmse, chooseCamera(scene, {})};
 }
 
-/// Texels of each bake on the way.
+/// Collects the texel count and the error of each bake that is made.
 struct Way {
     std::vector<std::uint32_t> texels;
     std::vector<double> error;

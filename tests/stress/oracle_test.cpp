@@ -36,39 +36,31 @@ TEST(Oracles, AreMetByThirtyHostileScenes) {
         EXPECT_GT(judged[k], 0) << oracles[k].name << " was never judged";
 }
 
-// Links of needles and far lamps brought 0 / 0 of their light: not finite, not negative, not read
-// back, and not what a baked file may hold.
-TEST(Oracles, AreMetByScenesWhoseLinksWereNoNumbers) {
+void expectAllMet(const std::vector<std::uint64_t>& seeds) {
     const TemporaryFolder folder;
     const std::vector<Oracle> oracles = engineOracles();
-    for (const std::uint64_t seed : {2975, 5618, 9075, 9559}) {
+    for (const std::uint64_t seed : seeds) {
         const CaseResult result = runCase(generatedCase(seed), oracles, {60, folder.path.string()});
         for (std::size_t k = 0; k < oracles.size(); ++k)
             EXPECT_FALSE(result.judgements[k].failed()) << oracles[k].name << " of seed " << seed;
     }
+}
+
+// Links of needles and far lamps brought 0 / 0 of their light: not finite, not negative, not read
+// back, and not what a baked file may hold.
+TEST(Oracles, AreMetByScenesWhoseLinksWereNoNumbers) {
+    expectAllMet({2975, 5618, 9075, 9559});
 }
 
 // Closed rooms of high albedo at a handful of texels: surfels read more light than was sent, and
 // bounces were stopped because light grew, or a furnace was 18 % too bright.
 TEST(Oracles, AreMetByScenesWhoseLightGrew) {
-    const TemporaryFolder folder;
-    const std::vector<Oracle> oracles = engineOracles();
-    for (const std::uint64_t seed : {213, 819, 1409, 1752, 1832, 1944, 2875}) {
-        const CaseResult result = runCase(generatedCase(seed), oracles, {60, folder.path.string()});
-        for (std::size_t k = 0; k < oracles.size(); ++k)
-            EXPECT_FALSE(result.judgements[k].failed()) << oracles[k].name << " of seed " << seed;
-    }
+    expectAllMet({213, 819, 1409, 1752, 1832, 1944, 2875});
 }
 
 // Scenes of millimetres and less: a light that grew no further within 10 um was another one there.
 TEST(Oracles, AreMetByScenesSmallerThanAMillimetre) {
-    const TemporaryFolder folder;
-    const std::vector<Oracle> oracles = engineOracles();
-    for (const std::uint64_t seed : {16, 32, 98, 759, 3256, 4096}) {
-        const CaseResult result = runCase(generatedCase(seed), oracles, {60, folder.path.string()});
-        for (std::size_t k = 0; k < oracles.size(); ++k)
-            EXPECT_FALSE(result.judgements[k].failed()) << oracles[k].name << " of seed " << seed;
-    }
+    expectAllMet({16, 32, 98, 759, 3256, 4096});
 }
 
 /// A closed room with a lamp, of few bounces.
