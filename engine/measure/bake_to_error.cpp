@@ -83,10 +83,11 @@ Result<Comparison> measure(const TraceScene& trace, const std::shared_ptr<const 
     return error;
 }
 
-bool fits(const Scene& scene, const BakeSettings& settings, const MemoryBudget& memory) {
+bool fits(const Scene& scene, const BakeSettings& settings, bool stored,
+          const MemoryBudget& memory) {
     Scene finer = scene;
     finer.bake = settings;
-    return residentMemory() + predictBake(finer).working <= memory.most;
+    return residentMemory() + predictBake(finer, stored).working <= memory.most;
 }
 
 } // namespace
@@ -138,7 +139,7 @@ Result<MeasuredBake> bakeToError(const TraceScene& trace, const ErrorGoal& goal,
             best.end = End::NoBetter;
         else if (finer == settings)
             best.end = End::Finest;
-        else if (!fits(trace.scene(), finer, memory))
+        else if (!fits(trace.scene(), finer, store != nullptr, memory))
             best.end = End::Memory;
         if (best.end != End::Held)
             return best;
