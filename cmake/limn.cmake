@@ -22,9 +22,10 @@ if(LIMN_FUZZ)
   target_compile_definitions(limn_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 
-# limn_room(limn_scene SOURCES a.cpp b.cpp DEPENDS limn_core TBB::tbb)
+# limn_room(limn_render SOURCES a.cpp passes/b.cpp PRIVATE_FOLDERS passes DEPENDS limn_core TBB::tbb)
+# Headers in PRIVATE_FOLDERS are for this room alone, or for the other rooms of its technique.
 function(limn_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PRIVATE_FOLDERS;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(${name} PUBLIC limn_options ${ROOM_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY LIMN_ROOMS ${name})
@@ -42,8 +43,8 @@ function(limn_test name)
     ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0")
 endfunction()
 
-# limn_shaders(limn_render surface.vert surface.frag): compiles shaders/NAME to SPIR-V and embeds it, as
-# `const std::uint32_t kSurfaceFrag[]` of the generated header "shaders/surface.frag.h".
+# limn_shaders(limn_render viewport/surface.frag): compiles shaders/viewport/surface.frag to SPIR-V and embeds it, as
+# `const std::uint32_t kSurfaceFrag[]` of the generated header "shaders/viewport/surface.frag.h".
 # Each is compiled again when any file of shaders/shared changes.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 function(limn_shaders target)
@@ -53,7 +54,10 @@ function(limn_shaders target)
   file(GLOB shared CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/shared/*.glsl)
   set(folder ${CMAKE_BINARY_DIR}/generated/shaders)
   file(MAKE_DIRECTORY ${folder})
-  foreach(shader ${ARGN})
+  foreach(path ${ARGN})
+    get_filename_component(shader ${path} NAME)
+    get_filename_component(parent ${path} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder}/${parent})
     string(REGEX REPLACE "[._]" ";" words ${shader})
     set(variable k)
     foreach(word ${words})
@@ -63,12 +67,12 @@ function(limn_shaders target)
       string(APPEND variable ${head}${tail})
     endforeach()
     add_custom_command(
-      OUTPUT ${folder}/${shader}.h
+      OUTPUT ${folder}/${path}.h
       COMMAND ${GLSLANG_VALIDATOR} -V --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR} --vn ${variable}
-              -o ${folder}/${shader}.h ${CMAKE_SOURCE_DIR}/shaders/${shader}
-      DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${shader} ${shared}
+              -o ${folder}/${path}.h ${CMAKE_SOURCE_DIR}/shaders/${path}
+      DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${path} ${shared}
       VERBATIM)
-    target_sources(${target} PRIVATE ${folder}/${shader}.h)
+    target_sources(${target} PRIVATE ${folder}/${path}.h)
   endforeach()
   target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
 endfunction()

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/editor.h"
 
-#include "editor_ui/action.h"
-#include "editor_ui/chrome.h"
 #include "editor_ui/editor_state.h"
-#include "editor_ui/inspector_panel.h"
-#include "editor_ui/outliner_panel.h"
-#include "editor_ui/overlay_panel.h"
-#include "editor_ui/statistics_panel.h"
-#include "editor_ui/theme.h"
-#include "editor_ui/viewport_panel.h"
+#include "editor_ui/panels/action.h"
+#include "editor_ui/panels/chrome.h"
+#include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/outliner_panel.h"
+#include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/statistics_panel.h"
+#include "editor_ui/panels/theme.h"
+#include "editor_ui/panels/viewport_panel.h"
 
 #include <imgui.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editor_ui/keys.h"
+#include "editor_ui/panels/keys.h"
 
 #include <span>
 

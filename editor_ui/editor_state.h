@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editor_ui/edit_history.h"
-#include "editor_ui/file_browser.h"
-#include "editor_ui/gesture.h"
-#include "editor_ui/gizmo_math.h"
-#include "editor_ui/keys.h"
-#include "editor_ui/overlay_state.h"
-#include "editor_ui/statistics.h"
-#include "engine/bake/bake_bytes.h"
+#include "editor_ui/document/edit_history.h"
+#include "editor_ui/document/gesture.h"
+#include "editor_ui/panels/file_browser.h"
+#include "editor_ui/panels/keys.h"
+#include "editor_ui/panels/statistics.h"
+#include "editor_ui/view/gizmo_math.h"
+#include "editor_ui/view/overlay_state.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
 #include "engine/trace/trace_scene.h"
 
 #include <memory>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/session.h"
 
-#include "editor_ui/document_edit.h"
-#include "editor_ui/overlay_panel.h"
-#include "editor_ui/recent_files.h"
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/jobs/recent_files.h"
+#include "editor_ui/panels/overlay_panel.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editor_ui/background_priority.h"
-#include "editor_ui/bake_job.h"
 #include "editor_ui/editor_state.h"
-#include "editor_ui/file_job.h"
-#include "editor_ui/relight_job.h"
+#include "editor_ui/jobs/background_priority.h"
+#include "editor_ui/jobs/bake_job.h"
+#include "editor_ui/jobs/file_job.h"
+#include "editor_ui/jobs/relight_job.h"
 
 namespace limn {
 

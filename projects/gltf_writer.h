@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/mesh.h"
+#include "engine/scene/mesh/mesh.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // save_project SCENE.gltf PROJECT.limn [--sky R,G,B]
 // [--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]...: writes the project of a sample scene.
 #include "engine/files/project_file.h"
-#include "engine/scene/light_spec.h"
+#include "engine/scene/light/light_spec.h"
 
 #include <cstdio>
 #include <string>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/files/enum_names.h"
-#include "engine/scene/light.h"
-#include "engine/scene/material.h"
+#include "engine/scene/light/light.h"
+#include "engine/scene/surface/material.h"
 
 #include <limits>
 

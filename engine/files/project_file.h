@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/scene/gltf_import.h"
+#include "engine/gltf/gltf_import.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #include "engine/files/sky_file.h"
 
 #include "engine/files/image_file.h"
-#include "engine/scene/light.h"
+#include "engine/scene/light/light.h"
 
 #include <algorithm>
 #include <cmath>

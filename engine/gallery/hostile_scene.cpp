@@ -3,7 +3,7 @@
 
 #include "engine/gallery/hostile_shapes.h"
 #include "engine/gallery/random_stream.h"
-#include "engine/scene/mesh_repair.h"
+#include "engine/scene/mesh/mesh_repair.h"
 #include "engine/scene/origin.h"
 #include "engine/scene/placement.h"
 

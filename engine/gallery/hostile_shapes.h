@@ -3,7 +3,7 @@
 
 #include "engine/gallery/mesh_builder.h"
 #include "engine/gallery/random_stream.h"
-#include "engine/scene/mesh.h"
+#include "engine/scene/mesh/mesh.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,7 +2,7 @@
 #include "engine/gallery/scene_maker.h"
 
 #include "engine/gallery/mesh_builder.h"
-#include "engine/scene/mesh_repair.h"
+#include "engine/scene/mesh/mesh_repair.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,15 +2,15 @@
 #include "engine/measure/field_render.h"
 
 #include "engine/core/parallel.h"
+#include "engine/field/sample_field.h"
 #include "engine/math/lobe.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
 #include "engine/reference/pixel_rays.h"
 #include "engine/reference/sampler.h"
 #include "engine/reference/surface_point.h"
-#include "engine/relight/relight.h"
-#include "engine/scene/receiver_bands.h"
-#include "engine/scene/reflection_lobe.h"
+#include "engine/scene/surface/receiver_bands.h"
+#include "engine/scene/surface/reflection_lobe.h"
 
 #include <cassert>
 #include <optional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/lightmap_layout.h"
 #include "engine/core/progress.h"
-#include "engine/relight/indirect_field.h"
+#include "engine/field/indirect_field.h"
+#include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/seams.h"
 
-#include "engine/relight/relight.h"
-#include "engine/scene/mesh_topology.h"
-#include "engine/scene/triangle_geometry.h"
+#include "engine/field/sample_field.h"
+#include "engine/scene/mesh/mesh_topology.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/lightmap_layout.h"
-#include "engine/relight/indirect_field.h"
+#include "engine/field/indirect_field.h"
+#include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/scene.h"
 
 namespace limn {

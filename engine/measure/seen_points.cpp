@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/seen_points.h"
+#include "engine/field/sample_field.h"
 
 #include "engine/core/parallel.h"
 #include "engine/reference/pixel_rays.h"

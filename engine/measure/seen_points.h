@@ -2,8 +2,9 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/field/indirect_field.h"
+#include "engine/lightmap/lightmap_layout.h"
 #include "engine/reference/path.h"
-#include "engine/relight/relight.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/surface_point.h"
 
-#include "engine/scene/triangle_geometry.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/specular.h"
+#include "engine/scene/surface/specular.h"
 #include "engine/trace/trace_scene.h"
 
 #include <optional>

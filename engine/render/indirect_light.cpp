@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/indirect_light.h"
 
-#include "engine/bake/grid_depth.h"
 #include "engine/core/log.h"
+#include "engine/field/field_packing.h"
+#include "engine/field/grid_depth.h"
 #include "engine/gpu/uploader.h"
-#include "engine/relight/field_packing.h"
-#include "engine/scene/reflection_lobe.h"
+#include "engine/scene/surface/reflection_lobe.h"
 
 #include <algorithm>
 #include <cassert>

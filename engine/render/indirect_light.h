@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/relight/indirect_field.h"
-#include "engine/relight_gpu/gpu_field.h"
+#include "engine/field/indirect_field.h"
+#include "engine/render/gpu_field.h"
 #include "shaders/shared/gpu_frame.h"
 
 #include <memory>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/bake/lightmap_layout.h"
 #include "engine/core/result.h"
-#include "engine/relight/indirect_field.h"
-#include "engine/relight_gpu/gpu_field.h"
-#include "engine/relight_gpu/shadowed_lights.h"
+#include "engine/field/indirect_field.h"
+#include "engine/lightmap/lightmap_layout.h"
+#include "engine/render/gpu_field.h"
+#include "engine/render/shadowed_lights.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 

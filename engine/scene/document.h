@@ -3,9 +3,9 @@
 
 #include "engine/scene/bake_settings.h"
 #include "engine/scene/camera.h"
-#include "engine/scene/light.h"
-#include "engine/scene/material.h"
+#include "engine/scene/light/light.h"
 #include "engine/scene/sky.h"
+#include "engine/scene/surface/material.h"
 
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/origin.h"
 
-#include "engine/scene/bounds.h"
+#include "engine/scene/mesh/bounds.h"
 #include "engine/scene/placement.h"
 #include "engine/scene/reach.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/scene/document.h"
-#include "engine/scene/mesh.h"
+#include "engine/scene/mesh/mesh.h"
 
 #include <span>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/bounds.h"
 #include "engine/scene/document.h"
 #include "engine/scene/image.h"
-#include "engine/scene/mesh.h"
-#include "engine/scene/texture.h"
+#include "engine/scene/mesh/bounds.h"
+#include "engine/scene/mesh/mesh.h"
+#include "engine/scene/surface/texture.h"
 
 #include <memory>
 #include <optional>

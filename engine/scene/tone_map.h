@@ -7,7 +7,7 @@
 namespace limn {
 
 /// Scene-referred linear Rec. 709 >= 0 to display-referred linear in [0, 1]; the same curves as
-/// shaders/tonemap.frag.
+/// shaders/viewport/tonemap.frag.
 glm::vec3 toneMapped(glm::vec3 color, Tonemap curve);
 
 /// The sRGB transfer function, linear [0, 1] to encoded.

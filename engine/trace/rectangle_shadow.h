@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/rectangle_light.h"
+#include "engine/scene/light/rectangle_light.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>

@@ -31,7 +31,7 @@ using uint = std::uint32_t;
 #define SHADOW_NEAR 1e-4 // near plane of perspective views, in parts of the far plane
 
 // clang-format off
-/// sampleLight() of engine/scene/light.cpp reads the same numbers.
+/// sampleLight() of engine/scene/light/light.cpp reads the same numbers.
 struct GpuLight {
     vec3 position;  float inverseRange; // m; 1/m, 0: unlimited
     vec3 direction; uint kind;          // unit, the way light travels; LIGHT_*

@@ -42,7 +42,7 @@ using uint = std::uint32_t;
 // clang-format off
 /// What a surfel keeps of its bake.
 struct GpuSurfel {
-    vec3 position; float seenShare; // m; seenShares() of engine/relight/bouncing.h
+    vec3 position; float seenShare; // m; seenShares() of engine/techniques/illuminance/relight/bouncing.h
     vec3 normal; float area; // unit; m^2
     uvec4 cache;             // where it reads bounced light; ~0: none
     vec4 cacheWeight;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the cells of the grid see of a point; as engine/bake/grid_depth.h. Needs gridDepth[], two numbers a word.
+// What the cells of the grid see of a point; as engine/field/grid_depth.h. Needs gridDepth[], two numbers a word.
 #define GRID_DEPTH_SIDE 16
 #define GRID_DEPTH_SCALE 64.0
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rectangles that shine: irradiance and where their highlight lies. engine/scene/rectangle_light.h has the same in
+// Rectangles that shine: irradiance and where their highlight lies. engine/scene/light/rectangle_light.h has the same in
 // double precision.
 
 struct Rectangle {

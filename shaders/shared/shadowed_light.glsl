@@ -84,7 +84,7 @@ float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias,
     return visible;
 }
 
-// sampleLight() of engine/scene/light.cpp.
+// sampleLight() of engine/scene/light/light.cpp.
 vec3 lightIrradiance(GpuLight light, vec3 p, out vec3 toLight) {
     toLight = -light.direction;
     if (light.kind == LIGHT_DIRECTIONAL)

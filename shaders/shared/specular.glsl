@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Glossy reflection of light in spherical harmonics: engine/scene/reflection_lobe.h, whose table this reads.
+// Glossy reflection of light in spherical harmonics: engine/scene/surface/reflection_lobe.h, whose table this reads.
 
 const float kPi = 3.14159265358979;
 
-/// ReflectionLobe of engine/scene/reflection_lobe.h; of the factors only those of so many bands are read.
+/// ReflectionLobe of engine/scene/surface/reflection_lobe.h; of the factors only those of so many bands are read.
 struct ReflectionLobe {
     vec2 share, towards;
     float factors[8];

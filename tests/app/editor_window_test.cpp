@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Starts the editor on a screen without a monitor and uses it with real mouse and key events.
-#include "editor_ui/gizmo_math.h"
+#include "editor_ui/view/gizmo_math.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "tests/app/virtual_screen.h"

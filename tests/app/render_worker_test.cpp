@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pictures that light their bake themselves, one request after the other, without the thread.
-#include "app/render_worker.h"
+#include "app/editor/render_worker.h"
 
-#include "tests/relight/lit_room.h"
+#include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
 

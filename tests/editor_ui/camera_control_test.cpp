@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/camera_control.h"
+#include "editor_ui/view/camera_control.h"
 
 #include <cmath>
 

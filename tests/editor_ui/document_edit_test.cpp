@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/document_edit.h"
+#include "editor_ui/document/document_edit.h"
 
 #include "tests/editor_ui/headless.h"
 

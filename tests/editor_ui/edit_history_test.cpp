@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/edit_history.h"
+#include "editor_ui/document/edit_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/gesture.h"
+#include "editor_ui/document/gesture.h"
 
 #include "tests/editor_ui/headless.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/gizmo_math.h"
+#include "editor_ui/view/gizmo_math.h"
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/editor_ui/headless.h"
 
-#include "editor_ui/theme.h"
+#include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
 

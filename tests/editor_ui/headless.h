@@ -3,7 +3,7 @@
 
 #include "editor_ui/editor.h"
 #include "editor_ui/editor_state.h"
-#include "editor_ui/input_queue.h"
+#include "editor_ui/view/input_queue.h"
 
 namespace limn {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/input_queue.h"
+#include "editor_ui/view/input_queue.h"
 
 #include "tests/editor_ui/headless.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/object_rules.h"
+#include "editor_ui/document/object_rules.h"
 
 #include <cmath>
 #include <functional>

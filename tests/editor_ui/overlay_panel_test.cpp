@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/overlay_panel.h"
+#include "editor_ui/panels/overlay_panel.h"
 
-#include "editor_ui/action.h"
+#include "editor_ui/panels/action.h"
 #include "tests/editor_ui/headless.h"
 
 #include <glm/geometric.hpp>

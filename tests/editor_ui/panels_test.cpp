@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/action.h"
-#include "editor_ui/document_edit.h"
-#include "editor_ui/object_rules.h"
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/object_rules.h"
+#include "editor_ui/panels/action.h"
 #include "tests/editor_ui/headless.h"
 
 #include <imgui.h>

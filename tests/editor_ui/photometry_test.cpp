@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/photometry.h"
+#include "editor_ui/document/photometry.h"
 
 #include <algorithm>
 #include <cmath>

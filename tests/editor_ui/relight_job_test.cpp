@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/relight_job.h"
+#include "editor_ui/jobs/relight_job.h"
 
-#include "tests/relight/lit_room.h"
+#include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
 

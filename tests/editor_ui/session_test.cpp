@@ -2,8 +2,8 @@
 // The document with its jobs beside it: opening, baking, relighting, saving. No window, no GPU.
 #include "editor_ui/session.h"
 
-#include "editor_ui/action.h"
-#include "editor_ui/document_edit.h"
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/panels/action.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 

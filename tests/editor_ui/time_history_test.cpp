@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor_ui/time_history.h"
+#include "editor_ui/panels/time_history.h"
 
 #include <algorithm>
 

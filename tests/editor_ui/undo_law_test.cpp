@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Drives the whole interface with random mouse and keys, without a window or a GPU.
-#include "editor_ui/document_edit.h"
-#include "editor_ui/object_rules.h"
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/object_rules.h"
 #include "tests/editor_ui/headless.h"
 
 #include <imgui.h>

@@ -2,7 +2,7 @@
 #include "engine/files/exr_check.h"
 #include "engine/files/image_file.h"
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/gltf/gltf_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "engine/files/image_file.h"
 
 #include "tests/core/full_disk.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/gltf/gltf_builder.h"
 
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Killed at any moment, each writer leaves one whole file, and nothing beside it.
-#include "engine/bake/stage_store.h"
-#include "engine/files/bake_file.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
-#include "engine/files/relight_choice.h"
+#include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/relight/relight_choice.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/trace/simple_scene.h"
 

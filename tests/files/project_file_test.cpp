@@ -4,7 +4,7 @@
 #include "engine/files/image_file.h"
 #include "engine/files/sky_file.h"
 #include "tests/core/temporary_folder.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/gltf/gltf_builder.h"
 
 #include <limits>
 

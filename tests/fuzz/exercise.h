@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/relight/relight.h"
 #include "engine/scene/scene.h"
+#include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/trace/trace_scene.h"
 #include "tests/fuzz/target.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A glTF, as text or binary, imported, baked and lit.
-#include "engine/scene/gltf_import.h"
+#include "engine/gltf/gltf_import.h"
 #include "tests/fuzz/exercise.h"
 
 using namespace limn;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The command line of a bake, one argument a line, on a fixed scene; an input that begins as JSON
 // is the file of remembered relighting times.
-#include "app/bake_options.h"
-#include "app/scene_options.h"
-#include "engine/files/relight_choice.h"
+#include "app/commands/bake_options.h"
+#include "app/commands/scene_options.h"
+#include "engine/techniques/illuminance/relight/relight_choice.h"
 #include "tests/fuzz/exercise.h"
 #include "tests/fuzz/project_files.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/gltf/gltf_builder.h"
 #include "tests/scene/small_png.h"
 
 #include <string>

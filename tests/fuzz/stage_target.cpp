@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finished stages of a bake that are damaged, or of another bake, under a right checksum: a list of
 // changes to what a bake keeps, which a second bake then finds.
-#include "engine/bake/stage_store.h"
+#include "engine/stages/stage_store.h"
 #include "tests/fuzz/changes.h"
 #include "tests/fuzz/exercise.h"
 #include "tests/fuzz/small_room.h"

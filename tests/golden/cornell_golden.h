@@ -4,7 +4,7 @@
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/measure/compare.h"
-#include "engine/relight/relight.h"
+#include "engine/techniques/illuminance/relight/relight.h"
 
 #include <cmath>
 #include <memory>

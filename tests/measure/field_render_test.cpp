@@ -3,7 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/reference/reference.h"
-#include "engine/relight/relight.h"
+#include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

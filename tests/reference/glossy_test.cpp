@@ -3,7 +3,7 @@
 #include "engine/measure/field_render.h"
 #include "engine/reference/reference.h"
 #include "engine/reference/sampler.h"
-#include "engine/scene/reflection_lobe.h"
+#include "engine/scene/surface/reflection_lobe.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "engine/bake/grid_depth.h"
-#include "tests/relight_gpu/relit_scene.h"
+#include "engine/field/grid_depth.h"
+#include "engine/field/sample_field.h"
 #include "tests/render/viewport_fixture.h"
+#include "tests/techniques/illuminance/gpu/relit_scene.h"
 
 #include <random>
 

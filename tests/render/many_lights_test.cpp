@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/sampling.h"
-#include "engine/render/light_table.h"
-#include "engine/render/shadow_maps.h"
-#include "tests/relight_gpu/relit_scene.h"
+#include "engine/render/shadows/light_table.h"
+#include "engine/render/shadows/shadow_maps.h"
 #include "tests/render/viewport_fixture.h"
+#include "tests/techniques/illuminance/gpu/relit_scene.h"
 
 #include <set>
 

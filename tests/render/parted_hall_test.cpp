@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/relight/relight.h"
-#include "tests/bake/house_on_ground.h"
-#include "tests/bake/parted_hall.h"
+#include "engine/field/sample_field.h"
+#include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/render/viewport_fixture.h"
+#include "tests/techniques/illuminance/bake/house_on_ground.h"
+#include "tests/techniques/illuminance/bake/parted_hall.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "tests/render/viewport_fixture.h"
 
 #include "engine/measure/field_render.h"
-#include "engine/render/shadow_cascades.h"
+#include "engine/render/shadows/shadow_cascades.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/viewport_fixture.h"
 
-#include "engine/render/render_scene.h"
-#include "engine/render/shadow_maps.h"
+#include "engine/render/shadows/shadow_maps.h"
+#include "engine/render/surfaces/render_scene.h"
 #include "engine/trace/rectangle_shadow.h"
 #include "engine/trace/trace_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/overlay/overlay.h"
+#include "engine/techniques/illuminance/overlay/overlay.h"
 #include "tests/render/viewport_fixture.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/viewport_fixture.h"
 
-#include "engine/scene/rectangle_light.h"
+#include "engine/scene/light/rectangle_light.h"
 
 #include <algorithm>
 #include <random>

@@ -16,22 +16,29 @@ files() {
 cpp='\.(cpp|h)$'
 code='\.(cpp|h|glsl|vert|frag|comp)$'
 
-# A line for each room and each room that it may include, itself among them: what its CMake target depends on, and what that does.
-may_include() {
-    files '^(engine/[a-z_]+|editor_ui)/CMakeLists\.txt$' | xargs awk '
-        function path(target) { sub(/^limn_/, "", target); return target == "editor_ui" ? target : "engine/" target }
-        FNR == 1 { inside = 0 }
+# The rooms as their CMakeLists.txt say: "room FOLDER TARGET", "private FOLDER" and "edge TARGET TARGET", a line each.
+declared_rooms() {
+    files '^(engine|editor_ui)/(.*/)?CMakeLists\.txt$' | xargs awk '
+        FNR == 1 { inside = 0; folder = FILENAME; sub(/\/CMakeLists\.txt$/, "", folder) }
         { gsub(/[()]/, " & ") }
         {
             for (i = 1; i <= NF; i++)
-                if ($i == "limn_room") { inside = 1; room = ""; depends = 0 }
+                if ($i == "limn_room") { inside = 1; room = list = "" }
                 else if ($i == ")") inside = 0
                 else if (inside && $i != "(") {
-                    if (room == "") { room = path($i); rooms[++n] = room; reach[room, room] = 1 }
-                    else if ($i == "DEPENDS") depends = 1
-                    else if (depends && $i ~ /^limn_/) reach[room, path($i)] = 1
+                    if (room == "") { room = $i; print "room", folder, room }
+                    else if ($i ~ /^(SOURCES|PRIVATE_FOLDERS|DEPENDS)$/) list = $i
+                    else if (list == "DEPENDS" && $i ~ /^limn_/) print "edge", room, $i
+                    else if (list == "PRIVATE_FOLDERS") print "private", folder "/" $i
                 }
-        }
+        }'
+}
+
+# A line for each room and each room that it may include, itself among them: what its CMake target depends on, and what that does.
+may_include() {
+    declared_rooms | awk '
+        $1 == "room" { folder[$3] = $2; rooms[++n] = $3; reach[$3, $3] = 1 }
+        $1 == "edge" { reach[$2, $3] = 1 }
         END {
             for (k = 1; k <= n; k++)
                 for (i = 1; i <= n; i++)
@@ -39,35 +46,50 @@ may_include() {
                         if (reach[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) reach[rooms[i], rooms[j]] = 1
             for (i = 1; i <= n; i++) {
                 for (j = 1; j <= n; j++)
-                    if (reach[rooms[i], rooms[j]]) print rooms[i], rooms[j]
-                print "app", rooms[i]
+                    if (reach[rooms[i], rooms[j]]) print folder[rooms[i]], folder[rooms[j]]
+                print "app", folder[rooms[i]]
             }
             print "app", "app"
         }'
 }
 
 layers_point_downward() {
-    local allowed
+    local allowed private
     allowed=$(may_include)
+    private=$(declared_rooms | awk '$1 == "private" { print $2 }')
     awk '$1 != $2 && ($2, $1) in seen { print $1 " and " $2 " depend on each other"; bad = 1 } { seen[$1, $2] } END { exit bad }' \
         <<<"$allowed"
-    files "^(engine|editor_ui|app)/.*$cpp" | xargs awk -v allowed="$allowed" '
-        function room(path, part) {
-            split(path, part, "/")
-            return part[1] == "engine" ? part[1] "/" part[2] : part[1]
+    files "^(engine|editor_ui|app)/.*$cpp" | xargs awk -v allowed="$allowed" -v private="$private" '
+        # The innermost folder above the file that is a room.
+        function room(path) {
+            while (sub(/\/[^\/]*$/, "", path))
+                if (path in known) return path
+            return ""
         }
+        # Rooms of one technique are one house.
+        function house(folder, part) {
+            split(folder, part, "/")
+            return part[2] == "techniques" ? part[1] "/" part[2] "/" part[3] : folder
+        }
+        function folder(path) { sub(/\/[^\/]*$/, "", path); return path }
         BEGIN {
             n = split(allowed, pair, "\n")
             for (i = 1; i <= n; i++) { split(pair[i], ends, " "); may[ends[1], ends[2]]; known[ends[1]] }
+            n = split(private, list, "\n")
+            for (i = 1; i <= n; i++) hidden[list[i]]
         }
-        FNR == 1 && !(room(FILENAME) in known) { print FILENAME ": in no known room"; bad = 1 }
+        FNR == 1 && !room(FILENAME) { print FILENAME ": in no known room"; bad = 1 }
         match($0, /^ *# *include *"[^"]+"/) {
             split($0, quoted, "\"")
+            if (quoted[2] ~ /^shaders\//) next
+            from = room(FILENAME)
             target = room(quoted[2])
-            if (target == "shaders") next
-            if (!(target in known)) { print FILENAME ":" FNR ": include by the path from the root: " quoted[2]; bad = 1 }
-            else if (!((room(FILENAME), target) in may)) {
+            if (!target) { print FILENAME ":" FNR ": include by the path from the root: " quoted[2]; bad = 1 }
+            else if (!((from, target) in may)) {
                 print FILENAME ":" FNR ": its target does not depend on that of " quoted[2]; bad = 1
+            }
+            else if (folder(quoted[2]) in hidden && house(from) != house(target)) {
+                print FILENAME ":" FNR ": private to " target ": " quoted[2]; bad = 1
             }
         }
         END { exit bad }'

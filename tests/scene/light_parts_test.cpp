@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/light_parts.h"
+#include "engine/scene/light/light_parts.h"
 
-#include "engine/scene/rectangle_light.h"
+#include "engine/scene/light/rectangle_light.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

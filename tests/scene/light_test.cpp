@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/light.h"
-#include "engine/scene/light_spec.h"
+#include "engine/scene/light/light.h"
+#include "engine/scene/light/light_spec.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/origin.h"
 
-#include "engine/scene/light_spec.h"
+#include "engine/scene/light/light_spec.h"
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/gltf/gltf_builder.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/reach.h"
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/gltf/gltf_builder.h"
 
 #include <limits>
 

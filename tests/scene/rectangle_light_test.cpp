@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/rectangle_light.h"
+#include "engine/scene/light/rectangle_light.h"
 
 #include <cmath>
 #include <limits>

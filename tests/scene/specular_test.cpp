@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/specular.h"
+#include "engine/scene/surface/specular.h"
 
 #include "engine/math/sampling.h"
 
 #include "engine/math/lobe.h"
-#include "engine/scene/receiver_bands.h"
-#include "engine/scene/reflection_lobe.h"
+#include "engine/scene/surface/receiver_bands.h"
+#include "engine/scene/surface/reflection_lobe.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

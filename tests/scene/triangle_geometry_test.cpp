@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/triangle_geometry.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/commands/command.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+void addEnergyBench(CLI::App& bench, Run& run);
+void addErrorBench(CLI::App& bench, Run& run);
+void addFrameBench(CLI::App& bench, Run& run);
+void addGlossyBench(CLI::App& bench, Run& run);
+void addLinksBench(CLI::App& bench, Run& run);
+void addRelightBench(CLI::App& bench, Run& run);
+void addStressBench(CLI::App& bench, Run& run);
+
+/// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made
+/// where it is missing, and on stdout where `json` is asked for.
+Exit writeRows(const Json& rows, const std::string& folder, const std::string& name, bool json);
+
+/// Of a table that people read.
+struct Column {
+    const char* title;
+    int width;       ///< negative: flush left, and cut off there
+    const char* key; ///< of a row
+    int decimals = 2;
+    double scale = 1; ///< times the number
+};
+inline constexpr double kMiB = 1.0 / (1 << 20);
+void printTitles(std::span<const Column> columns);
+void printRow(std::span<const Column> columns, const Json& row);
+
+/// Precondition: the name is one of `names`.
+template <class Enum, class Names>
+Enum named(const Names& names, const std::string& name) {
+    return Enum(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// An option of several values between commas.
+template <class Values, class Check>
+void addList(CLI::App& command, const char* flag, Values& values, const char* text,
+             const Check& check) {
+    command.add_option(flag, values, text)->delimiter(',')->check(check);
+}
+
+template <class Names>
+CLI::IsMember oneOf(const Names& names) {
+    return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+} // namespace limn

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench_bakes.h"
+
+#include "app/commands/progress_line.h"
+
+#include "engine/core/parallel.h"
+#include "engine/files/document_fields.h"
+#include "engine/stages/stage_store.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& o) {
+    CLI::Option* scenes =
+        command.add_option("scenes", o.scenes, ".gltf, .glb or .limn files, or names of projects");
+    scenes->required();
+    addLightOptions(command, o.common);
+    addList(command, "--surfels", o.surfels, "n_S, a list", CLI::Range(64, 1 << 20));
+    addList(command, "--links", o.links, "n_L, a list", CLI::Range(1, 4096));
+    addList(command, "--bands", o.bands, "SH bands, a list", CLI::Range(2, 8));
+    addList(command, "--chroma-bands", o.chromaBands, "of colour, a list; 0: all",
+            CLI::Range(0, 8));
+    addList(command, "--storage", o.storages, "a list of link storages", oneOf(kStorageNames));
+    command.add_option("--rays", o.rays, "of a cache")->check(CLI::Range(16, 65536));
+    command.add_option("--lightmap", o.lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));
+    command.add_option("--threads", o.threads, "0: all")->check(CLI::Range(0, 1024));
+    return scenes;
+}
+
+static std::vector<BakeSettings> sweep(const BenchBakes& o) {
+    std::vector<BakeSettings> rows;
+    BakeSettings s;
+    s.rays = o.rays;
+    s.lightmapCaches = o.lightmap;
+    for (const std::uint32_t surfels : o.surfels)
+        for (const std::uint32_t links : o.links)
+            for (const std::string& storage : o.storages)
+                for (const std::uint32_t bands : o.bands)
+                    for (const std::uint32_t chroma : o.chromaBands) {
+                        if (chroma > bands)
+                            continue;
+                        s.surfels = surfels;
+                        s.links = links;
+                        s.storage = named<LinkStorage>(kStorageNames, storage);
+                        s.bands = bands;
+                        s.chromaBands = chroma;
+                        rows.push_back(s);
+                    }
+    return rows;
+}
+
+static Result<void> bakeScene(const BenchBakes& o, const std::string& path,
+                              const std::function<Result<void>(const BenchBake&)>& measure) {
+    SceneOptions options = o.common;
+    options.scene = path;
+    const Result<ImportedScene> imported = openScene(options);
+    if (!imported)
+        return tl::make_unexpected(imported.error());
+    const Scene scene = flatten(imported->document, imported->assets);
+    const TraceScene trace(scene);
+    StageStore store;
+    for (const BakeSettings& settings : sweep(o)) {
+        Result<Bake> made = bake(trace, progressOnStderr(), &store, &settings);
+        endProgressLine();
+        if (!made)
+            return fail(fmt::format("{}: {}", path, made.error().message));
+        const Result<void> measured =
+            measure({std::filesystem::path(path).stem().string(), scene, trace,
+                     std::make_shared<const Bake>(std::move(*made))});
+        if (!measured)
+            return fail(fmt::format("{}: {}", path, measured.error().message));
+    }
+    return {};
+}
+
+Result<void> forEachBake(const BenchBakes& options,
+                         const std::function<Result<void>(const BenchBake&)>& measure) {
+    const ThreadLimit threads(options.threads);
+    for (const std::string& scene : options.scenes)
+        if (Result<void> measured = bakeScene(options, scene, measure); !measured)
+            return measured;
+    return {};
+}
+
+Json settingsOf(const BenchBake& baked) {
+    const BakeSettings& s = baked.bake->settings;
+    return {{"surfels", s.surfels},
+            {"links", s.links},
+            {"bands", s.bands},
+            {"chroma_bands", chromaBandsOf(s)},
+            {"storage", kStorageNames[std::size_t(s.storage)]}};
+}
+
+Spread spreadOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double share) {
+        return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
+    };
+    return {at(0.5), at(0.95)};
+}
+
+void addSpread(Json& row, const std::string& name, const std::vector<double>& ms) {
+    const Spread spread = spreadOf(ms);
+    const std::string key = name.empty() ? name : name + "_";
+    row[key + "median_ms"] = spread.median;
+    row[key + "p95_ms"] = spread.p95;
+}
+
+} // namespace limn

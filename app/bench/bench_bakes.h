@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/bench/bench.h"
+#include "app/commands/scene_options.h"
+#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace limn {
+
+/// Scenes, and the settings each is baked with: every combination of the lists.
+struct BenchBakes {
+    SceneOptions common; ///< lights and sky of every scene
+    std::vector<std::string> scenes;
+    std::vector<std::uint32_t> surfels = {32768}, links = {128}, bands = {3};
+    std::vector<std::uint32_t> chromaBands = {0}; ///< 0: as many as bands
+    std::vector<std::string> storages = {"rtp", "sh"};
+    std::uint32_t rays = 1024, lightmap = 10000;
+    int threads = 0; ///< 0: all
+};
+/// Returns the option of the scenes, which is required.
+CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& options);
+
+struct BenchBake {
+    std::string name; ///< of the scene: its file's, without the ending
+    const Scene& scene;
+    const TraceScene& trace; ///< of `scene`
+    std::shared_ptr<const Bake> bake;
+};
+
+/// Bakes, with progress on stderr, and calls `measure`, whose first failure ends it. Failures name
+/// the scene.
+Result<void> forEachBake(const BenchBakes& options,
+                         const std::function<Result<void>(const BenchBake&)>& measure);
+
+/// The settings that tell rows apart, in the order of their columns.
+Json settingsOf(const BenchBake& baked);
+
+struct Spread {
+    double median = 0, p95 = 0;
+};
+/// Precondition: there are values.
+Spread spreadOf(std::vector<double> values);
+
+/// Adds "NAME_median_ms" and "NAME_p95_ms" to a row; without a name "median_ms" and "p95_ms".
+void addSpread(Json& row, const std::string& name, const std::vector<double>& ms);
+
+} // namespace limn

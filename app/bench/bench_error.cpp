@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench.h"
+#include "app/bench/bench_generated.h"
+#include "app/commands/progress_line.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/core/parallel.h"
+#include "engine/files/document_fields.h"
+#include "engine/lightmap/atlas_stage.h"
+#include "engine/measure/seams.h"
+#include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/measure/cache_error.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct ErrorBench {
+    SceneOptions common; ///< lights and sky of every scene
+    std::vector<std::string> scenes;
+    std::string output;
+    GeneratedBench generated; ///< instead of scenes, where it has some
+    std::vector<std::uint32_t> surfels = {16384, 32768, 131072}, links = {32, 64, 128, 256, 512};
+    std::vector<std::string> linkers = {"gather"};
+    std::vector<std::string> cuts = {"solid-angle", "detail"};
+    std::vector<std::string> clusterings = {"kd", "agglomerative"};
+    std::vector<std::uint32_t> rays = {1024}, lightmaps = {10000};
+    std::uint32_t bands = 3;
+    std::uint32_t caches = 1000, referenceRays = 16384;
+    int threads = 0;
+    bool json = false;
+};
+
+/// The settings of every row, so that what is traced stays known from row to row.
+std::vector<BakeSettings> sweep(const ErrorBench& o) {
+    std::vector<BakeSettings> rows = {BakeSettings{}};
+    rows.front().bands = o.bands;
+    const auto vary = [&](const auto& values, const auto& set) {
+        std::vector<BakeSettings> varied;
+        for (const BakeSettings& row : rows)
+            for (const auto& value : values)
+                set(varied.emplace_back(row), value);
+        rows = std::move(varied);
+    };
+    using S = BakeSettings;
+    vary(o.lightmaps, [](S& s, std::uint32_t n) { s.lightmapCaches = n; });
+    vary(o.rays, [](S& s, std::uint32_t n) { s.rays = n; });
+    vary(o.surfels, [](S& s, std::uint32_t n) { s.surfels = n; });
+    vary(o.linkers, [](S& s, const std::string& l) { s.linker = named<Linker>(kLinkerNames, l); });
+    vary(o.clusterings,
+         [](S& s, const std::string& c) { s.clustering = named<Clustering>(kClusteringNames, c); });
+    vary(o.cuts, [](S& s, const std::string& c) { s.cut = named<CutCriterion>(kCutNames, c); });
+    vary(o.links, [](S& s, std::uint32_t n) { s.links = n; });
+    return rows;
+}
+
+/// What was not given on the command line has the document's default, not the sweep's.
+void useDefaults(const CLI::App& command, ErrorBench& o) {
+    const BakeSettings s;
+    const auto single = [&](const char* flag, auto& values, auto value) {
+        if (command.count(flag) == 0)
+            values = {std::move(value)};
+    };
+    single("--surfels", o.surfels, s.surfels);
+    single("--links", o.links, s.links);
+    single("--rays", o.rays, s.rays);
+    single("--lightmap", o.lightmaps, s.lightmapCaches);
+    single("--linker", o.linkers, std::string(kLinkerNames[std::size_t(s.linker)]));
+    single("--cut", o.cuts, std::string(kCutNames[std::size_t(s.cut)]));
+    single("--clustering", o.clusterings, std::string(kClusteringNames[std::size_t(s.clustering)]));
+}
+
+/// What the same bake gives with a link to every sender in sight, to tell the cut's own error.
+CacheReference withoutCut(const TraceScene& trace, const std::shared_ptr<const Bake>& bake) {
+    Relighter relighter(bake, LitBands::All);
+    relighter.relight(trace.scene(), trace, 1); // reflected once
+    const std::vector<glm::vec3>& sh = relighter.cacheSh();
+    const int bands = int(bake->settings.bands);
+    CacheReference result;
+    for (std::uint32_t c = 0; c < bake->caches.lightmapCount; ++c) {
+        result.cache.push_back(c);
+        result.irradiance.push_back(cacheIrradiance(bake->caches, bands, sh, c));
+    }
+    return result;
+}
+
+Json describe(const std::string& scene, const BakeSettings& s, const Bake& bake,
+              const CacheError& error, const CacheError& cutError) {
+    double seconds = 0, cut = 0;
+    for (const auto& [stage, t] : bake.seconds) {
+        seconds += t;
+        cut = stage == "cut" ? t : cut;
+    }
+    return {{"name", scene},
+            {"surfels", s.surfels},
+            {"linker", kLinkerNames[std::size_t(s.linker)]},
+            {"clustering", kClusteringNames[std::size_t(s.clustering)]},
+            {"cut", kCutNames[std::size_t(s.cut)]},
+            {"links", s.links},
+            {"nrmse", error.nrmse},
+            {"nrmse_without_worst_percent", error.nrmseMost},
+            {"bias", error.bias},
+            {"cut_nrmse", cutError.nrmse},
+            {"cut_nrmse_without_worst_percent", cutError.nrmseMost},
+            {"seconds", seconds},
+            {"cut_seconds", cut},
+            {"rays", bake.counts.rays},
+            {"links_in_all", bake.counts.links},
+            {"bytes", bytesOf(bake).total()}};
+}
+
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"surfels", 7, "surfels"},
+                               {"linker", -11, "linker"},
+                               {"clustering", -13, "clustering"},
+                               {"cut", -11, "cut"},
+                               {"links", 5, "links"},
+                               {"nRMSE", 8, "nrmse", 4},
+                               {"-1 %", 8, "nrmse_without_worst_percent", 4},
+                               {"bias [%]", 8, "bias", 2, 100},
+                               {"cut only", 8, "cut_nrmse", 4},
+                               {"-1 %", 8, "cut_nrmse_without_worst_percent", 4},
+                               {"seam", 6, "seam", 3},
+                               {"bake [s]", 8, "seconds"},
+                               {"cut [s]", 7, "cut_seconds"},
+                               {"MiB", 8, "bytes", 2, kMiB}};
+
+Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& rows) {
+    SceneOptions options = o.common;
+    options.scene = path;
+    const Result<ImportedScene> imported = openScene(options);
+    if (!imported)
+        return tl::make_unexpected(imported.error());
+    Scene scene = flatten(imported->document, imported->assets);
+    const std::string name = std::filesystem::path(path).stem().string();
+    StageStore store;
+    CacheReference reference, uncut;
+    BakeSettings uncutFor;
+    uncutFor.surfels = 0;
+    for (const BakeSettings& settings : sweep(o)) {
+        scene.bake = settings;
+        const TraceScene trace(scene);
+        if (reference.cache.empty()) {
+            std::uint64_t rays = 0;
+            const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, &store, rays);
+            CachePoints points;
+            const Caches caches = placeCaches(scene, atlas->atlas, points);
+            reference = referenceIrradiance(trace, caches, points, o.caches, o.referenceRays,
+                                            progressOnStderr());
+            endProgressLine();
+            if (!o.json)
+                fmt::print("{}: {} of {} caches, noise of the reference {:.4f}\n", name,
+                           reference.cache.size(), caches.size(), reference.noise);
+        }
+        if (uncutFor.surfels != settings.surfels || uncutFor.linker != settings.linker ||
+            uncutFor.clustering != settings.clustering) {
+            uncutFor = settings;
+            scene.bake.cut = CutCriterion::SolidAngle;
+            scene.bake.links = 4096;
+            const TraceScene whole(scene);
+            Result<Bake> made = bake(whole, {}, &store);
+            if (!made)
+                return fail(fmt::format("{}: {}", path, made.error().message));
+            uncut = withoutCut(whole, std::make_shared<const Bake>(std::move(*made)));
+        }
+        Result<Bake> made = bake(trace, {}, &store);
+        if (!made)
+            return fail(fmt::format("{}: {}", path, made.error().message));
+        const auto baked = std::make_shared<const Bake>(std::move(*made));
+        Relighter relighter(baked, LitBands::All);
+        relighter.relight(trace.scene(), trace, 1); // reflected once
+        const std::vector<glm::vec3>& sh = relighter.cacheSh();
+        const int bands = int(settings.bands);
+        Json row =
+            describe(name, settings, *baked, compareCaches(reference, baked->caches, bands, sh),
+                     compareCaches(uncut, baked->caches, bands, sh));
+        row["seam"] = measureSeams(scene, baked->lightmap, relighter.field()).relative();
+        row["reference_noise"] = reference.noise;
+        if (!o.json)
+            printRow(kColumns, row);
+        rows.push_back(std::move(row));
+    }
+    return {};
+}
+
+Exit runErrorBench(const ErrorBench& o) {
+    const ThreadLimit threads(o.threads);
+    if (o.generated.scenes > 0)
+        return runGeneratedBench(o.generated, sweep(o));
+    if (!o.json)
+        printTitles(kColumns);
+    Json rows = Json::array();
+    for (const std::string& scene : o.scenes)
+        if (const Result<void> measured = measureScene(o, scene, rows); !measured)
+            return failed(measured.error().message);
+    return writeRows(rows, o.output, "error", o.json);
+}
+
+} // namespace
+
+void addErrorBench(CLI::App& bench, Run& run) {
+    const auto o = std::make_shared<ErrorBench>();
+    CLI::App* command = bench.add_subcommand(
+        "error", "Irradiance of caches against a converged gather, over a sweep of settings");
+    command->add_option("scenes", o->scenes,
+                        ".gltf, .glb or .limn files, names of projects, or "
+                        "generated:SEED");
+    addGeneratedOptions(*command, o->generated);
+    addLightOptions(*command, o->common);
+    command->add_option("-o,--output", o->output, "folder of error.csv and error.json")->required();
+    addList(*command, "--surfels", o->surfels, "n_S, a list", CLI::Range(64, 1 << 20));
+    addList(*command, "--links", o->links, "n_L, a list", CLI::Range(1, 4096));
+    addList(*command, "--linker", o->linkers, "a list of linkers", oneOf(kLinkerNames));
+    addList(*command, "--cut", o->cuts, "a list of cuts", oneOf(kCutNames));
+    addList(*command, "--clustering", o->clusterings, "a list of clusterings",
+            oneOf(kClusteringNames));
+    addList(*command, "--rays", o->rays, "of a cache, a list with --generated",
+            CLI::Range(16, 65536));
+    command->add_option("--bands", o->bands, "SH bands")->check(CLI::Range(2, 8));
+    addList(*command, "--lightmap", o->lightmaps, "wanted caches, a list with --generated",
+            CLI::Range(1, 1 << 24));
+    command->add_option("--caches", o->caches, "how many are compared")
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--reference-rays", o->referenceRays, "of a cache that is compared")
+        ->check(CLI::Range(64, 1 << 24));
+    command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, command, &run] {
+        if (o->scenes.empty() == (o->generated.scenes == 0))
+            throw CLI::ValidationError("scenes", "give either scenes or --generated");
+        if (o->generated.scenes > 0)
+            useDefaults(*command, *o);
+        else if (o->rays.size() != 1 || o->lightmaps.size() != 1)
+            throw CLI::ValidationError("--rays, --lightmap", "are lists with --generated only");
+        o->generated.output = o->output;
+        o->generated.json = o->json;
+        run = [o] { return runErrorBench(*o); };
+    });
+}
+
+} // namespace limn

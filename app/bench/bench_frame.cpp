@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench_bakes.h"
+#include "app/bench/moving_lights.h"
+
+#include "engine/gpu/device.h"
+#include "engine/techniques/illuminance/gpu/viewport_relighter.h"
+#include "engine/techniques/illuminance/relight/relight_choice.h"
+#include "engine/techniques/illuminance/relight/seen_caches.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+struct FrameBench {
+    BenchBakes bakes;
+    CameraOptions camera;
+    std::string output, device, view = "lit";
+    std::vector<std::uint32_t> lights = {0};      ///< points in the scene; 0: its own lights
+    std::vector<std::string> relightOn = {"gpu"}; ///< "cpu", "gpu"
+    std::vector<std::string> caches = {"seen"};   ///< "all", "seen"
+    std::uint32_t bounces = 1;                    ///< a frame
+    int runs = 15;
+    bool coarse = false; ///< shadow maps, as the editor has them while things move
+    bool movingCamera = false;
+    bool json = false;
+};
+
+/// What a frame took: passes in the GPU's time, but for relighting on the CPU [ms].
+struct FrameTimes {
+    double shadowMaps = 0;
+    double lightsOnSurfels = 0; ///< from shadow maps, or by rays on the CPU
+    double surfels = 0, pull = 0, caches = 0, field = 0;
+    double upload = 0; ///< of the field where it comes from the CPU
+    double geometry = 0, indirect = 0, direct = 0, tonemap = 0;
+    double perLight = 0; ///< shadow maps and lights on surfels over the lights
+    double total = 0;    ///< of the clock on the wall
+    std::uint32_t cachesUnseen = 0;
+};
+
+struct Pass {
+    const char* name;
+    double FrameTimes::*ms;
+};
+constexpr Pass kPasses[] = {{"shadow_maps", &FrameTimes::shadowMaps},
+                            {"lights_on_surfels", &FrameTimes::lightsOnSurfels},
+                            {"surfels", &FrameTimes::surfels},
+                            {"pull", &FrameTimes::pull},
+                            {"caches", &FrameTimes::caches},
+                            {"field", &FrameTimes::field},
+                            {"upload", &FrameTimes::upload},
+                            {"geometry", &FrameTimes::geometry},
+                            {"indirect", &FrameTimes::indirect},
+                            {"direct", &FrameTimes::direct},
+                            {"tonemap", &FrameTimes::tonemap},
+                            {"per_light", &FrameTimes::perLight},
+                            {"", &FrameTimes::total}};
+
+/// A viewport with bounced light from one device or the other.
+struct FrameScene {
+    gpu::Device& device;
+    Viewport viewport{device};
+    ViewportOptions options;
+    const TraceScene& trace;
+    std::unique_ptr<Relighter> cpu;
+    std::unique_ptr<ViewportRelighter> gpu; ///< null: `cpu` is not
+    std::optional<CacheFlags> seen;         ///< caches to light; none: all
+
+    FrameTimes draw(const Scene& lit, std::uint32_t bounces);
+};
+
+FrameTimes FrameScene::draw(const Scene& lit, std::uint32_t bounces) {
+    const auto start = std::chrono::steady_clock::now();
+    viewport.setLighting(lit);
+    const CacheFlags* wanted = seen ? &*seen : nullptr;
+    const RelightStats light = gpu ? gpu->relight(viewport, lit, bounces, {}, wanted)
+                                   : cpu->relight(lit, trace, bounces, {}, wanted);
+    if (cpu)
+        viewport.setIndirect(cpu->field());
+    viewport.render(options);
+    device.waitIdle();
+    const std::chrono::duration<double, std::milli> total =
+        std::chrono::steady_clock::now() - start;
+    const ViewportStats& drawn = viewport.stats();
+    FrameTimes t;
+    t.shadowMaps = drawn.shadowMs + (gpu ? drawn.relightShadowMs : 0);
+    t.lightsOnSurfels = light.directMs - (gpu ? drawn.relightShadowMs : 0);
+    t.surfels = light.surfelLightMs + light.surfelReadMs;
+    t.pull = light.pullMs;
+    t.caches = light.cacheLightMs;
+    t.field = light.fieldMs;
+    t.upload = drawn.uploadMs;
+    t.geometry = drawn.geometryMs;
+    t.indirect = drawn.indirectMs;
+    t.direct = drawn.directMs;
+    t.tonemap = drawn.tonemapMs;
+    if (!lit.lights.empty())
+        t.perLight = (t.shadowMaps + t.lightsOnSurfels) / double(lit.lights.size());
+    t.total = total.count();
+    t.cachesUnseen = light.cachesUnseen;
+    return t;
+}
+
+Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& frame,
+              const Scene& scene, const std::vector<FrameTimes>& frames) {
+    const ViewportStats& stats = frame.viewport.stats();
+    Json row = {{"name", baked.name},
+                {"device", frame.device.properties.deviceName},
+                {"relight", frame.gpu ? "gpu" : "cpu"},
+                {"view", o.view},
+                {"width", frame.options.width},
+                {"height", frame.options.height}};
+    row.update(settingsOf(baked));
+    row.update({{"lights", scene.lights.size()},
+                {"lights_left_out", stats.lightsLeftOut},
+                {"coarse_shadows", o.coarse},
+                {"bounces", o.bounces},
+                {"caches_lit", frame.seen ? "seen" : "all"},
+                {"caches_unseen", frames.back().cachesUnseen},
+                {"frames", frames.size()},
+                {"geometry_drawn", stats.geometryDrawn - 1}, // but for the first
+                {"bytes", stats.gpuBytes}});
+    for (const Pass& pass : kPasses) {
+        std::vector<double> ms;
+        for (const FrameTimes& t : frames)
+            ms.push_back(t.*pass.ms);
+        addSpread(row, pass.name, ms);
+    }
+    return row;
+}
+
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"relight", -7, "relight"},
+                               {"lit", -4, "caches_lit"},
+                               {"unseen", 6, "caches_unseen"},
+                               {"lights", 6, "lights"},
+                               {"surfels", 7, "surfels"},
+                               {"links", 5, "links"},
+                               {"bands", 5, "bands"},
+                               {"kind", -4, "storage"},
+                               {"shadows", 7, "shadow_maps_median_ms"},
+                               {"direct", 7, "lights_on_surfels_median_ms"},
+                               {"surfels", 7, "surfels_median_ms"},
+                               {"pull", 7, "pull_median_ms"},
+                               {"caches", 7, "caches_median_ms"},
+                               {"field", 7, "field_median_ms"},
+                               {"drawn", 5, "geometry_drawn"},
+                               {"geom", 7, "geometry_median_ms"},
+                               {"bounced", 7, "indirect_median_ms"},
+                               {"shade", 7, "direct_median_ms"},
+                               {"tone", 7, "tonemap_median_ms"},
+                               {"/light", 8, "per_light_median_ms", 3},
+                               {"all [ms]", 8, "median_ms"},
+                               {"p95", 8, "p95_ms"}};
+
+/// To the right, unit.
+glm::vec3 across(const Camera& camera) {
+    return glm::normalize(rayDirection(camera, 1, 1, 0) - rayDirection(camera, 1, 0, 0));
+}
+
+Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Device& device,
+                           std::uint32_t lights, const std::string& relightOn,
+                           const std::string& caches) {
+    Scene lit = baked.scene;
+    if (lights > 0)
+        lit.lights = pointsOver(lit, baked.bake->surfels, lights);
+    const Result<Camera> camera = chooseCamera(lit, o.camera);
+    if (!camera)
+        return tl::make_unexpected(camera.error());
+    FrameScene frame{.device = device, .trace = baked.trace};
+    frame.options.view = named<View>(kViewNames, o.view);
+    frame.options.camera = *camera;
+    frame.options.width = o.camera.width;
+    frame.options.height = o.camera.height;
+    if (relightOn == "gpu") {
+        auto made = ViewportRelighter::create(device, baked.bake);
+        if (!made)
+            return tl::make_unexpected(made.error());
+        frame.gpu = std::move(*made);
+    } else {
+        frame.cpu = std::make_unique<Relighter>(baked.bake);
+    }
+    if (caches == "seen")
+        frame.seen = seenCaches(cacheFootprints(lit, *baked.bake), *camera,
+                                float(o.camera.width) / float(o.camera.height));
+    frame.viewport.setCoarseShadows(o.coarse);
+    frame.viewport.setScene(lit, {baked.bake, &baked.bake->lightmap});
+    std::vector<FrameTimes> frames;
+    const std::vector<Light> standing = lit.lights;
+    for (int k = 0; k <= o.runs; ++k) {
+        lit.lights = movedLights(standing, k);
+        if (o.movingCamera) // a step to the side and back
+            frame.options.camera.eye = camera->eye + 0.1f * float(k % 2) * across(*camera);
+        const FrameTimes times = frame.draw(lit, o.bounces);
+        if (k > 0) // the first lights materials and makes pipelines too
+            frames.push_back(times);
+    }
+    return describe(o, baked, frame, lit, frames);
+}
+
+Exit runFrameBench(const FrameBench& o) {
+    const auto device = gpu::createDevice({.name = o.device});
+    if (!device)
+        return failed("--device: " + device.error().message);
+    Json rows = Json::array();
+    if (!o.json)
+        printTitles(kColumns);
+    const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
+        for (const std::uint32_t lights : o.lights)
+            for (const std::string& on : o.relightOn)
+                for (const std::string& caches : o.caches) {
+                    Result<Json> row = measureFrames(o, baked, **device, lights, on, caches);
+                    if (!row)
+                        return tl::make_unexpected(row.error());
+                    rows.push_back(std::move(*row));
+                    if (!o.json)
+                        printRow(kColumns, rows.back());
+                }
+        return {};
+    });
+    if (!measured)
+        return failed(measured.error().message);
+    return writeRows(rows, o.output, "frame", o.json);
+}
+
+} // namespace
+
+void addFrameBench(CLI::App& bench, Run& run) {
+    const auto o = std::make_shared<FrameBench>();
+    o->bakes.storages = {"rtp"};
+    CLI::App* command =
+        bench.add_subcommand("frame", "Time of each pass of the viewport while all lights move");
+    addBenchBakes(*command, o->bakes);
+    addCameraOptions(*command, o->camera);
+    command->add_option("-o,--output", o->output, "folder of frame.csv and frame.json")->required();
+    command->add_option("--view", o->view, "what it shows")->check(oneOf(kViewNames));
+    addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+            CLI::Range(0, 4096));
+    addList(*command, "--relight", o->relightOn,
+            "a list: where bounced light is worked out, gpu or cpu",
+            CLI::IsMember(std::vector<std::string>{"gpu", "cpu"}));
+    addList(*command, "--caches", o->caches,
+            "a list: light those caches that the picture looks up (seen), or all",
+            CLI::IsMember(std::vector<std::string>{"all", "seen"}));
+    command->add_option("--bounces", o->bounces, "of a frame")->check(CLI::Range(1, 64));
+    command->add_option("--device", o->device, "part of a Vulkan device's name");
+    command->add_option("--runs", o->runs, "frames, of which the median is printed")
+        ->check(CLI::Range(9, 100000));
+    command->add_flag("--coarse-shadows", o->coarse,
+                      "half as many texels across, as in the editor while things move");
+    command->add_flag("--moving-camera", o->movingCamera,
+                      "steps of 10 cm to the side: triangles are drawn in every frame");
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return runFrameBench(*o); }; });
+}
+
+} // namespace limn

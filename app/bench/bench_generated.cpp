@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench_generated.h"
+
+#include "app/commands/progress_line.h"
+#include "app/commands/render_image.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/files/document_fields.h"
+#include "engine/gallery/gallery.h"
+#include "engine/measure/field_render.h"
+#include "engine/measure/reference_set.h"
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kFirstSamples = 32; ///< per pixel of a reference, before it is known how
+                                            ///< many it takes
+
+std::optional<glm::uvec2> sizeOf(const std::string& text) {
+    glm::uvec2 size{0};
+    char rest = 0;
+    if (text.find('-') != std::string::npos ||
+        std::sscanf(text.c_str(), "%5ux%5u%c", &size.x, &size.y, &rest) != 2 || size.x < 1 ||
+        size.y < 1 || std::max(size.x, size.y) > 16384)
+        return {};
+    return size;
+}
+
+/// One generated scene, its references, and who draws it.
+struct Measured {
+    const GeneratedBench& options;
+    std::uint64_t seed;
+    GeneratedScene generated;
+    Scene scene;
+    TraceScene trace;
+    ReferenceOptions view;
+    ReferenceSet truth;
+
+    Measured(const GeneratedBench& o, std::uint64_t s)
+        : options(o), seed(s), generated(generateScene(s)),
+          scene(flatten(generated.document, generated.assets)), trace(scene) {
+        const glm::uvec2 size = *sizeOf(o.size);
+        view.view = View::Irradiance;
+        view.camera = scene.cameras.front();
+        view.width = size.x;
+        view.height = size.y;
+        view.samplesPerPixel = std::min(kFirstSamples, o.samplesPerPixel) / 2;
+    }
+
+    /// The error of a picture, with as many samples of the references as make it sure.
+    Comparison errorOf(const ImageF& picture) {
+        if (truth.samplesPerPixel == 0)
+            truth = *renderReferenceSet(trace, view, progressOnStderr()); // never cancelled
+        Comparison c = *compareImages(picture, truth);                    // of the same size
+        while (!isSure(c) && 4 * truth.samplesPerPixel <= options.samplesPerPixel) {
+            refine(truth, trace, view, progressOnStderr());
+            c = *compareImages(picture, truth);
+        }
+        endProgressLine();
+        return c;
+    }
+};
+
+double meanOf(const ImageF& image) {
+    double sum = 0;
+    for (const glm::vec3 p : image.rgb)
+        sum += double(p.x) + double(p.y) + double(p.z);
+    return sum / (3 * double(image.rgb.size()));
+}
+
+Json settingsOf(const BakeSettings& s) {
+    return {{"surfels", s.surfels},
+            {"lightmap", s.lightmapCaches},
+            {"links", s.links},
+            {"rays", s.rays},
+            {"bands", s.bands},
+            {"linker", kLinkerNames[std::size_t(s.linker)]},
+            {"clustering", kClusteringNames[std::size_t(s.clustering)]},
+            {"cut", kCutNames[std::size_t(s.cut)]}};
+}
+
+/// What a bake makes of the scene, from one camera.
+ImageF drawn(const Measured& m, const Camera& camera, const IndirectField& field,
+             const LightmapLayout& layout) {
+    FieldRenderOptions options;
+    options.view = View::Irradiance;
+    options.camera = camera;
+    options.width = m.view.width;
+    options.height = m.view.height;
+    return renderField(m.trace, field, layout, options);
+}
+
+void addErrors(Json& row, const std::string& prefix, const Comparison& c) {
+    row[prefix + "nrmse"] = c.nrmse;
+    row[prefix + "nrmse_without_worst_percent"] = c.nrmseMost;
+    row[prefix + "bias"] = c.bias;
+}
+
+/// `draw`: by Vulkan; null where that is not asked for.
+Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPicture* draw) {
+    Result<Bake> made = bake(m.trace, progressOnStderr(), nullptr, &settings);
+    endProgressLine();
+    if (!made)
+        return fail(fmt::format("generated:{}: {}", m.seed, made.error().message));
+    const auto baked = std::make_shared<const Bake>(std::move(*made));
+    Relighter relighter(baked, LitBands::All);
+    const RelightStats lit = relighter.relight(m.scene, m.trace, settings.maxBounces);
+    const IndirectField& field = relighter.field();
+    double seconds = 0;
+    for (const auto& [stage, t] : baked->seconds)
+        seconds += t;
+    Json row = {{"name", fmt::format("generated:{}", m.seed)},
+                {"kind", kSceneKindNames[std::size_t(m.generated.kind)]},
+                {"half", m.seed % 2 == 0 ? "tuned" : "untuned"}};
+    row.update(settingsOf(settings));
+    const Comparison c = m.errorOf(drawn(m, m.view.camera, field, baked->lightmap));
+    addErrors(row, "", c);
+    if (draw) {
+        RenderRequest request;
+        request.view = View::Irradiance;
+        request.camera = m.view.camera;
+        request.width = m.view.width;
+        request.height = m.view.height;
+        request.bake = baked;
+        request.relight = [&] { return CpuLight{field, lit}; };
+        const Result<RenderedImage> picture = (*draw)(m.scene, request);
+        if (!picture)
+            return tl::make_unexpected(picture.error());
+        addErrors(row, "viewport_", m.errorOf(picture->linear));
+    }
+    row["leak"] = nullptr;
+    if (m.generated.darkCamera) {
+        const ImageF dark = drawn(m, *m.generated.darkCamera, field, baked->lightmap);
+        row["leak"] = meanOf(dark) / meanOf(meanImage(m.truth.first(), m.truth.second()));
+    }
+    row["reference_spp"] = 2 * m.truth.samplesPerPixel; // of either of the two
+    row["reference_noise"] = c.referenceNoise;
+    row["nrmse_noise"] = c.nrmseNoise;
+    row["bias_noise"] = c.biasNoise;
+    row["sure"] = isSure(c);
+    row["seconds"] = seconds;
+    row["bytes"] = bytesOf(*baked).total();
+    row["description"] = m.generated.description;
+    return row;
+}
+
+constexpr Column kColumns[] = {
+    {"seed", -14, "name"},           {"kind", -14, "kind"},
+    {"surfels", 7, "surfels"},       {"texels", 7, "lightmap"},
+    {"links", 5, "links"},           {"rays", 5, "rays"},
+    {"bias [%]", 8, "bias", 2, 100}, {"+-", 5, "bias_noise", 2, 100},
+    {"nRMSE", 7, "nrmse", 4},        {"-1 %", 7, "nrmse_without_worst_percent", 4},
+    {"+-", 6, "nrmse_noise", 4},     {"leak [%]", 8, "leak", 2, 100},
+    {"spp", 5, "reference_spp"},     {"sure", -5, "sure"},
+    {"bake [s]", 8, "seconds"},      {"MiB", 7, "bytes", 1, kMiB}};
+
+/// Median, 90th percentile, between neighbours where it falls between two, and largest magnitude of
+/// one number of the rows that have it.
+void addDistribution(Json& to, const std::vector<const Json*>& rows, const std::string& key) {
+    std::vector<double> values;
+    for (const Json* row : rows)
+        if (const auto value = row->find(key); value != row->end() && value->is_number())
+            values.push_back(std::abs(value->get<double>()));
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double share) -> Json {
+        if (values.empty())
+            return nullptr;
+        const double place = share * double(values.size() - 1);
+        const auto below = std::size_t(place);
+        const double above = values[std::min(below + 1, values.size() - 1)];
+        return values[below] + (place - double(below)) * (above - values[below]);
+    };
+    to[key + "_median"] = at(0.5);
+    to[key + "_p90"] = at(0.9);
+    to[key + "_worst"] = at(1);
+}
+
+Json distributionOf(const std::string& group, const Json& settings,
+                    const std::vector<const Json*>& rows, bool viewport) {
+    Json result = {{"group", group}, {"scenes", rows.size()}};
+    result.update(settings);
+    std::vector<std::string> keys = {"bias", "nrmse", "nrmse_without_worst_percent", "leak",
+                                     "seconds"};
+    if (viewport)
+        keys.insert(keys.end(), {"viewport_bias", "viewport_nrmse"});
+    for (const std::string& key : keys)
+        addDistribution(result, rows, key);
+    result["unsure"] = std::count_if(rows.begin(), rows.end(),
+                                     [](const Json* row) { return !(*row)["sure"].get<bool>(); });
+    return result;
+}
+
+constexpr Column kDistributionColumns[] = {{"group", -14, "group"},
+                                           {"n", 4, "scenes"},
+                                           {"unsure", 6, "unsure"},
+                                           {"surfels", 7, "surfels"},
+                                           {"texels", 7, "lightmap"},
+                                           {"links", 5, "links"},
+                                           {"rays", 5, "rays"},
+                                           {"|bias| 50", 9, "bias_median", 2, 100},
+                                           {"90", 6, "bias_p90", 2, 100},
+                                           {"worst", 7, "bias_worst", 2, 100},
+                                           {"nRMSE 50", 8, "nrmse_median", 4},
+                                           {"90", 7, "nrmse_p90", 4},
+                                           {"worst", 7, "nrmse_worst", 4},
+                                           {"-1 % 50", 8, "nrmse_without_worst_percent_median", 4},
+                                           {"leak 50", 7, "leak_median", 2, 100},
+                                           {"90", 6, "leak_p90", 2, 100},
+                                           {"worst", 6, "leak_worst", 2, 100},
+                                           {"bake 50", 8, "seconds_median"}};
+
+constexpr Column kViewportColumns[] = {{"viewport", -14, "group"},
+                                       {"n", 4, "scenes"},
+                                       {"|bias| 50", 9, "viewport_bias_median", 2, 100},
+                                       {"90", 6, "viewport_bias_p90", 2, 100},
+                                       {"worst", 7, "viewport_bias_worst", 2, 100},
+                                       {"nRMSE 50", 8, "viewport_nrmse_median", 4},
+                                       {"90", 7, "viewport_nrmse_p90", 4},
+                                       {"worst", 7, "viewport_nrmse_worst", 4}};
+
+void printGroups(std::span<const Column> columns, const Json& groups) {
+    printTitles(columns);
+    for (const Json& group : groups)
+        printRow(columns, group);
+}
+
+/// Of each group of scenes with each settings.
+Json distributions(const Json& rows, const std::vector<BakeSettings>& settings, bool viewport) {
+    Json result = Json::array();
+    for (const BakeSettings& s : settings) {
+        const Json wanted = settingsOf(s);
+        const auto addGroup = [&](const std::string& group, const char* key) {
+            std::vector<const Json*> members;
+            for (const Json& row : rows) {
+                const bool same =
+                    std::all_of(wanted.items().begin(), wanted.items().end(),
+                                [&](const auto& item) { return row[item.key()] == item.value(); });
+                if (same && (!key || row[key] == group))
+                    members.push_back(&row);
+            }
+            if (!members.empty())
+                result.push_back(distributionOf(group, wanted, members, viewport));
+        };
+        addGroup("all", nullptr);
+        addGroup("tuned", "half");
+        addGroup("untuned", "half");
+        for (const std::string_view kind : kSceneKindNames)
+            addGroup(std::string(kind), "kind");
+    }
+    return result;
+}
+
+Exit writeAll(const GeneratedBench& o, const Json& rows, const Json& groups) {
+    if (!o.json) {
+        fmt::print("\nEven seeds are the tuned half. Bias, leak [%]; percentiles of magnitudes.\n");
+        printGroups(kDistributionColumns, groups);
+        if (o.viewport)
+            printGroups(kViewportColumns, groups);
+    }
+    if (const Exit exit = writeRows(rows, o.output, "generated", false); exit != Exit::Done)
+        return exit;
+    if (const Exit exit = writeRows(groups, o.output, "generated-distribution", false);
+        exit != Exit::Done)
+        return exit;
+    if (o.json)
+        fmt::print("{}\n", Json{{"rows", rows}, {"distribution", groups}}.dump());
+    return Exit::Done;
+}
+
+} // namespace
+
+void addGeneratedOptions(CLI::App& command, GeneratedBench& o) {
+    auto* generated =
+        command
+            .add_option("--generated", o.scenes,
+                        "pictures of this many generated scenes instead, at default settings but "
+                        "for those given")
+            ->check(CLI::Range(1, 100000));
+    command.add_option("--first-seed", o.firstSeed, "of the generated scenes")->needs(generated);
+    command
+        .add_option(
+            "--spp", o.samplesPerPixel,
+            "samples per pixel of a reference, at most; fewer where that makes figures sure")
+        ->needs(generated)
+        ->check(CLI::Range(2, 1 << 20));
+    command.add_option("--size", o.size, "of pictures, WxH")
+        ->needs(generated)
+        ->check([](const std::string& text) {
+            return sizeOf(text) ? "" : fmt::format("\"{}\" is not WxH", text);
+        });
+#ifdef LIMN_HAS_VIEWPORT
+    auto* viewport = command.add_flag("--viewport", o.viewport, "pictures by Vulkan as well");
+    viewport->needs(generated);
+    command.add_option("--device", o.device, "part of its name; default: the best")
+        ->needs(viewport);
+#endif
+}
+
+Exit runGeneratedBench(const GeneratedBench& o, const std::vector<BakeSettings>& settings) {
+    DrawPicture draw;
+#ifdef LIMN_HAS_VIEWPORT
+    if (o.viewport) {
+        Result<DrawPicture> made = drawingOnGpu(o.device);
+        if (!made)
+            return failed(made.error().message);
+        draw = std::move(*made);
+    }
+#endif
+    if (!o.json)
+        printTitles(kColumns);
+    Json rows = Json::array();
+    for (std::uint32_t k = 0; k < o.scenes; ++k) {
+        Measured measured(o, o.firstSeed + k);
+        for (const BakeSettings& s : settings) {
+            Result<Json> row = measure(measured, s, draw ? &draw : nullptr);
+            if (!row)
+                return failed(row.error().message);
+            if (!o.json)
+                printRow(kColumns, *row);
+            rows.push_back(std::move(*row));
+        }
+    }
+    return writeAll(o, rows, distributions(rows, settings, o.viewport));
+}
+
+} // namespace limn

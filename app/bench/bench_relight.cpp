@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench_bakes.h"
+#include "app/bench/bench_relight_gpu.h"
+#include "app/bench/moving_lights.h"
+
+#include "engine/measure/read_bandwidth.h"
+#include "engine/techniques/illuminance/relight/bouncing.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/seen_caches.h"
+
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+struct RelightBench {
+    BenchBakes bakes;
+    std::string output;
+    std::vector<std::uint32_t> lights = {0};    ///< points in the scene; 0: its own lights
+    std::vector<std::string> devices = {"cpu"}; ///< "cpu", "gpu", or part of a device's name
+    LitBands lit = LitBands::All;
+    std::vector<std::string> caches = {"all"}; ///< "all", "seen" by the camera
+    CameraOptions camera;
+    std::uint32_t bounces = 1; ///< a run
+    bool anew = false;         ///< each run begins without bounced light
+    int runs = 31;
+    bool json = false;
+};
+
+/// What a run took, step by step.
+struct Step {
+    const char* name;
+    double RelightStats::*ms;
+};
+constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
+                           {"dimming", &RelightStats::dimMs},
+                           {"surfel_light", &RelightStats::surfelLightMs},
+                           {"pull", &RelightStats::pullMs},
+                           {"cache_light", &RelightStats::cacheLightMs},
+                           {"surfel_read", &RelightStats::surfelReadMs},
+                           {"field", &RelightStats::fieldMs},
+                           {"", &RelightStats::totalMs}};
+
+/// What a device did with a bake.
+struct Measured {
+    std::string device, caches;
+    std::vector<RelightStats> runs;
+    std::optional<double> nrmse; ///< of the field at what is seen, against that of "all"
+};
+
+/// Adds up the field of caches that are seen, and by how much it differs from another's.
+struct FieldDifference {
+    double square = 0, difference = 0;
+
+    void add(const Caches& caches, const CacheFlags& seen, const IndirectField& field,
+             const IndirectField& all) {
+        const std::size_t texels = std::size_t(all.lightmapWidth) * all.lightmapHeight;
+        for (std::size_t c = 0; c < seen.size(); ++c)
+            for (std::size_t i = 0; seen[c] != 0 && i < all.coefficients(); ++i) {
+                const std::size_t at = i * texels + caches.texel[c];
+                const glm::vec4 d = field.lightmap[at] - all.lightmap[at];
+                square += double(glm::dot(all.lightmap[at], all.lightmap[at]));
+                difference += double(glm::dot(d, d));
+            }
+    }
+    double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
+};
+
+/// With every light and dynamic object moved.
+Scene sceneAt(const RelightBench& o, const Scene& scene, int k) {
+    Scene moved = scene;
+    if (o.anew)
+        moved.bake.maxBounces = o.bounces;
+    moved.lights = movedLights(scene.lights, k);
+    moveObjects(moved, scene, k);
+    return moved;
+}
+
+constexpr std::uint32_t kToRest = 64; ///< bounces
+
+/// With every light and dynamic object moved each run. What is to be compared takes turns.
+Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& scene,
+                                           const BenchBake& baked) {
+    const Result<Camera> camera = chooseCamera(scene, o.camera);
+    if (!camera)
+        return tl::make_unexpected(camera.error());
+    const CacheFlags seen = seenCaches(cacheFootprints(scene, *baked.bake), *camera,
+                                       float(o.camera.width) / float(o.camera.height));
+    std::vector<Measured> all;
+    std::vector<std::unique_ptr<Relighter>> relighters;
+    std::vector<FieldDifference> differences(o.caches.size());
+    std::size_t whole = o.caches.size(); // the one that lights all
+    for (const std::string& caches : o.caches) {
+        if (caches == "all")
+            whole = all.size();
+        all.push_back({"cpu", caches, {}, {}});
+        relighters.push_back(std::make_unique<Relighter>(baked.bake, o.lit));
+    }
+    for (int k = 0; k <= o.runs; ++k) {
+        const Scene lit = sceneAt(o, scene, k);
+        const TraceScene trace(lit, baked.trace);
+        for (std::size_t m = 0; m < all.size(); ++m) {
+            // The first lights materials too, until the light rests; without lights it would stay
+            // so.
+            const bool first = k == 0, toRest = first && !lit.lights.empty();
+            const bool every = first || all[m].caches == "all";
+            const RelightStats stats = relighters[m]->relight(
+                lit, trace, toRest ? kToRest : o.bounces, {}, every ? nullptr : &seen);
+            if (k > 0)
+                all[m].runs.push_back(stats);
+        }
+        for (std::size_t m = 0; k > 0 && whole < all.size() && m < all.size(); ++m)
+            differences[m].add(baked.bake->caches, seen, relighters[m]->field(),
+                               relighters[whole]->field());
+    }
+    for (std::size_t m = 0; whole < all.size() && m < all.size(); ++m)
+        all[m].nrmse = differences[m].nrmse();
+    return all;
+}
+
+double passedOverPercent(const RelightStats& run) {
+    return 100 * double(run.linksPassedOver) / double(std::max<std::uint64_t>(run.links, 1));
+}
+
+Json describe(const RelightBench& o, const BenchBake& baked, const Measured& measured,
+              const Scene& scene, double bytesPerSecond) {
+    const std::vector<RelightStats>& runs = measured.runs;
+    const Caches& caches = baked.bake->caches;
+    const std::uint64_t bytes = caches.links.size() * sizeof(Link) +
+                                caches.shNode.size() * sizeof(std::uint32_t) +
+                                caches.shCoefficients.size() * sizeof(std::uint16_t);
+    Json row = {{"name", baked.name}, {"device", measured.device}};
+    row.update(settingsOf(baked));
+    row.update({{"bands_lit", runs.back().bandsLit},
+                {"lights", scene.lights.size()},
+                {"bounces", o.bounces},
+                {"anew", o.anew},
+                {"caches", caches.size()},
+                {"caches_lit", measured.caches},
+                {"caches_unseen", runs.back().cachesUnseen},
+                {"caches_unread", runs.back().cachesUnread},
+                {"nrmse", measured.nrmse ? Json(*measured.nrmse) : Json()},
+                {"links_in_all", caches.linkCount()},
+                {"links_of_run", runs.back().links},
+                {"links_passed_over", runs.back().linksPassedOver},
+                {"passed_over_percent", passedOverPercent(runs.back())},
+                {"bytes", bytes},
+                {"bytes_per_second", bytesPerSecond},
+                {"floor_ms", 1000 * double(bytes) / bytesPerSecond},
+                {"shadow_rays", runs.back().shadowRays},
+                {"caches_dimmed", runs.back().cachesDimmed},
+                {"links_dimmed", runs.back().linksDimmed}});
+    for (const Step& step : kSteps) {
+        std::vector<double> ms;
+        for (const RelightStats& r : runs)
+            ms.push_back(r.*step.ms);
+        addSpread(row, step.name, ms);
+    }
+    return row;
+}
+
+constexpr Column kColumns[] = {{"scene", -14, "name"},
+                               {"device", -8, "device"},
+                               {"lit", -4, "caches_lit"},
+                               {"unseen", 6, "caches_unseen"},
+                               {"lights", 6, "lights"},
+                               {"surfels", 7, "surfels"},
+                               {"links", 5, "links"},
+                               {"bands", 5, "bands"},
+                               {"chroma", 6, "chroma_bands"},
+                               {"kind", -4, "storage"},
+                               {"MiB", 8, "bytes", 2, kMiB},
+                               {"over [%]", 8, "passed_over_percent", 1},
+                               {"floor", 7, "floor_ms"},
+                               {"direct", 7, "direct_median_ms"},
+                               {"dimming", 7, "dimming_median_ms"},
+                               {"surfels", 7, "surfel_light_median_ms"},
+                               {"pull", 7, "pull_median_ms"},
+                               {"caches", 7, "cache_light_median_ms"},
+                               {"read", 7, "surfel_read_median_ms"},
+                               {"field", 7, "field_median_ms"},
+                               {"all [ms]", 8, "median_ms"},
+                               {"p95", 8, "p95_ms"}};
+
+Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBench& o,
+                                     const Scene& scene, const BenchBake& baked) {
+    if (device == "cpu")
+        return relightOnCpu(o, scene, baked);
+#ifdef LIMN_HAS_VIEWPORT
+    Result<GpuRuns> gpu =
+        relightOnGpu(device == "gpu" ? "" : device, baked.trace, baked.bake, o.lit, o.bounces,
+                     o.runs, [&](int k) { return sceneAt(o, scene, k); });
+    if (!gpu)
+        return tl::make_unexpected(gpu.error());
+    return std::vector<Measured>{{gpu->device, "all", std::move(gpu->runs), {}}};
+#else
+    return fail("this build has no Vulkan");
+#endif
+}
+
+Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& rows) {
+    const double bandwidth = measureReadBandwidth(std::size_t(256) << 20);
+    for (const std::uint32_t lights : o.lights) {
+        Scene lit = baked.scene;
+        if (lights > 0)
+            lit.lights = pointsOver(lit, baked.bake->surfels, lights);
+        for (const std::string& wanted : o.devices) {
+            const Result<std::vector<Measured>> measured = runsOn(wanted, o, lit, baked);
+            if (!measured)
+                return fail(fmt::format("on {}: {}", wanted, measured.error().message));
+            for (const Measured& m : *measured) {
+                rows.push_back(describe(o, baked, m, lit, bandwidth));
+                if (!o.json)
+                    printRow(kColumns, rows.back());
+            }
+        }
+    }
+    return {};
+}
+
+Exit runRelightBench(const RelightBench& o) {
+    if (o.anew && o.bounces > kFewBounces)
+        return failed(fmt::format("--anew: at most {} bounces", kFewBounces));
+    if (!o.json)
+        printTitles(kColumns);
+    Json rows = Json::array();
+    const Result<void> measured =
+        forEachBake(o.bakes, [&](const BenchBake& baked) { return measureBake(o, baked, rows); });
+    if (!measured)
+        return failed(measured.error().message);
+    return writeRows(rows, o.output, "relight", o.json);
+}
+
+} // namespace
+
+void addRelightBench(CLI::App& bench, Run& run) {
+    const auto o = std::make_shared<RelightBench>();
+    CLI::App* command = bench.add_subcommand(
+        "relight", "Time of each step of relighting while all lights and dynamic objects move");
+    addBenchBakes(*command, o->bakes);
+    addDynamicOption(*command, o->bakes.common);
+    command->add_option("-o,--output", o->output, "folder of relight.csv and relight.json")
+        ->required();
+    addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+            CLI::Range(0, 4096));
+    command->add_option("--device", o->devices, "a list: cpu, gpu, or part of a device's name")
+        ->delimiter(',');
+    command->add_flag_callback(
+        "--needed-bands", [o] { o->lit = LitBands::Needed; },
+        "light only the bands that the scene's surfaces need; without it, all");
+    addList(*command, "--caches", o->caches,
+            "a list: all, or those that the camera's picture looks up (cpu); with both, nrmse is "
+            "how far the light of what is seen differs",
+            CLI::IsMember(std::vector<std::string>{"all", "seen"}));
+    addCameraOptions(*command, o->camera);
+    command->add_option("--bounces", o->bounces, "of a run")->check(CLI::Range(1, 64));
+    command->add_flag("--anew", o->anew,
+                      fmt::format("let each run begin without bounced light, as where the bake "
+                                  "section asks for so few bounces, at most {}",
+                                  kFewBounces));
+    command->add_option("--runs", o->runs, "of which the median is printed")
+        ->check(CLI::Range(1, 100000));
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return runRelightBench(*o); }; });
+}
+
+} // namespace limn

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench_oracles.h"
+#ifdef LIMN_HAS_VIEWPORT
+#include "app/bench/bench_shake.h"
+#endif
+
+#include <memory>
+
+namespace limn {
+
+namespace {
+
+struct StressBench {
+    OracleBench oracles;
+#ifdef LIMN_HAS_VIEWPORT
+    ShakeBench shake;
+#endif
+};
+
+} // namespace
+
+void addStressBench(CLI::App& bench, Run& run) {
+    const auto o = std::make_shared<StressBench>();
+    CLI::App* command = bench.add_subcommand(
+        "stress", "Lights, materials and objects change by chance under Vulkan validation; fails "
+                  "if there is a message, a number that is not finite, or growing memory. With "
+                  "--generated, oracles judge hostile scenes instead");
+    addOracleOptions(*command, o->oracles);
+    command->add_option("-o,--output", o->oracles.output, "folder of stress.csv and stress.json")
+        ->required();
+    command->add_flag("--json", o->oracles.json, "one JSON object on stdout");
+#ifdef LIMN_HAS_VIEWPORT
+    addShakeOptions(*command, o->shake);
+    command->add_option("--device", o->oracles.device, "part of a Vulkan device's name");
+#endif
+    command->callback([o, &run] {
+        const bool judge = o->oracles.scenes > 0 || !o->oracles.caseFile.empty();
+#ifdef LIMN_HAS_VIEWPORT
+        if (o->shake.bakes.scenes.empty() != judge)
+            throw CLI::ValidationError("scenes", "give either scenes, --generated or --case");
+        o->shake.output = o->oracles.output;
+        o->shake.device = o->oracles.device;
+        o->shake.json = o->oracles.json;
+        run = [o, judge] { return judge ? runOracleBench(o->oracles) : runShakeBench(o->shake); };
+#else
+        if (!judge)
+            throw CLI::ValidationError("--generated", "give that or --case");
+        run = [o] { return runOracleBench(o->oracles); };
+#endif
+    });
+}
+
+} // namespace limn

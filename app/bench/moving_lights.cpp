@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/moving_lights.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+std::vector<Light> pointsOver(const Scene& scene, const Surfels& surfels, std::uint32_t count) {
+    std::vector<Light> lights(count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::size_t s = (2 * std::size_t(k) + 1) * surfels.size() / (2 * std::size_t(count));
+        lights[k].position =
+            surfels.position[s] + surfels.normal[s] * (0.05f * glm::length(scene.bounds.size()));
+        lights[k].strength = 10;
+    }
+    return lights;
+}
+
+std::vector<Light> movedLights(std::vector<Light> lights, int k) {
+    const float a = 0.01f * float(k);
+    const glm::vec3 d(std::sin(a), 0, std::cos(a) - 1);
+    for (Light& light : lights) {
+        light.position += d * 0.1f;
+        light.direction = glm::normalize(light.direction + d * 0.1f);
+    }
+    return lights;
+}
+
+void moveObjects(Scene& scene, const Scene& standing, int k) {
+    const float a = 0.1f * float(k), radius = 0.05f * glm::length(standing.bounds.size());
+    const glm::vec4 by(radius * std::sin(a), 0, radius * (std::cos(a) - 1), 0);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (scene.instances[i].dynamic)
+            scene.instances[i].toWorld[3] = standing.instances[i].toWorld[3] + by;
+}
+
+} // namespace limn

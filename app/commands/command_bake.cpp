@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/bake_options.h"
+#include "app/commands/command.h"
+#include "app/commands/number_range.h"
+#include "app/commands/output_file.h"
+#include "app/commands/progress_line.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/core/log.h"
+#include "engine/core/memory_budget.h"
+#include "engine/core/parallel.h"
+#include "engine/core/process_memory.h"
+#include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/measure/bake_to_error.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct BakeCommand {
+    SceneOptions scene;
+    BakeOptions bake;
+    StageStoreOptions store{.folder = defaultStageFolder()};
+    double storeGib = 4;
+    double error = 0; ///< that is to be held; 0: none
+    CameraOptions camera;
+    bool noStore = false;
+    std::string output;
+    bool json = false;
+};
+
+void printBytes(const nlohmann::json& bytes) {
+    for (const auto& [name, count] : bytes.items())
+        fmt::print("{:<10} {:8.2f} MiB\n", name, double(count.get<std::uint64_t>()) / (1 << 20));
+}
+
+/// {"caches", "least_texels", "file_bytes", "peak_bytes"}; the peak is the process'.
+nlohmann::json summaryOf(const BakePrediction& p) {
+    return {{"caches", p.caches},
+            {"least_texels", p.leastTexels},
+            {"file_bytes", p.file},
+            {"peak_bytes", std::max(residentMemory() + p.working, peakMemory())}};
+}
+
+void print(const BakeSettings& settings, const nlohmann::json& predicted) {
+    if (const auto least = predicted["least_texels"].get<std::uint64_t>())
+        fmt::print("{} texels are asked for, but the objects need at least about {}: one for each "
+                   "way that an object faces\n",
+                   settings.lightmapCaches, least);
+    fmt::print("About {} caches, a file of {} and a peak of {} of memory\n",
+               predicted["caches"].get<std::uint64_t>(),
+               bytesText(predicted["file_bytes"].get<std::uint64_t>()),
+               bytesText(predicted["peak_bytes"].get<std::uint64_t>()));
+    std::fflush(stdout);
+}
+
+void print(const Bake& bake, std::uint64_t file, std::uint64_t peak) {
+    const nlohmann::json summary = bakeSummary(bake);
+    for (const auto& [stage, seconds] : bake.seconds)
+        fmt::print("{:<10} {:8.2f} s\n", stage, seconds);
+    fmt::print("{:<10} {:8.2f} s\n", "total", summary["seconds"]["total"].get<double>());
+    for (const auto& [name, count] : summary["counts"].items())
+        fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
+    printBytes(summary["bytes"]);
+    printBytes({{"file", file}, {"peak", peak}});
+    for (const std::string& note : bake.notes)
+        fmt::print("{}\n", note);
+    fmt::print("hash {}\n", summary["hash"].get<std::string>());
+}
+
+nlohmann::json summaryOf(const Comparison& error) {
+    return {{"nrmse", error.nrmse},
+            {"nrmse_noise", error.nrmseNoise},
+            {"nrmse_without_worst_percent", error.nrmseMost},
+            {"bias", error.bias}};
+}
+
+nlohmann::json countsOf(const BakeSettings& s) {
+    return {{"surfels", s.surfels},
+            {"links", s.links},
+            {"rays", s.rays},
+            {"lightmap", s.lightmapCaches}};
+}
+
+void printStep(const MeasuredBake& made) {
+    const BakeSettings& s = made.bake->settings;
+    double seconds = 0;
+    for (const auto& [stage, t] : made.bake->seconds)
+        seconds += t;
+    endProgressLine();
+    fmt::print(
+        "--lightmap {:<7} --surfels {:<7} --links {:<4} --rays {:<4} {:7.2f} s, error {:.3f} "
+        "({:.3f} without the worst 1 %), bias {:+.1f} %\n",
+        s.lightmapCaches, s.surfels, s.links, s.rays, seconds, made.error.nrmse,
+        made.error.nrmseMost, 100 * made.error.bias);
+    std::fflush(stdout);
+}
+
+/// Why the error asked for is not held; empty where it is.
+std::string shortfall(const MeasuredBake& made, double error) {
+    const char* why = "";
+    switch (made.end) {
+    case MeasuredBake::End::Held:
+        return {};
+    case MeasuredBake::End::NoBetter:
+        why = "more texels hardly lower it";
+        break;
+    case MeasuredBake::End::Memory:
+        why = "a finer bake would need more memory than is allowed (--memory)";
+        break;
+    case MeasuredBake::End::Finest:
+        why = "no settings are finer";
+        break;
+    }
+    return fmt::format("the error is {:.3f}, not {:g}: {}", made.error.nrmse, error, why);
+}
+
+/// The bake, and with `error` its measured error.
+Result<MeasuredBake> make(const BakeCommand& command, const Camera& camera, const TraceScene& trace,
+                          StageStore* store) {
+    const MemoryBudget& memory = command.scene.import.memory;
+    Result<MeasuredBake> made;
+    if (command.error > 0) {
+        const auto step = [&](const MeasuredBake& bake) {
+            if (!command.json)
+                printStep(bake);
+        };
+        made = bakeToError(trace, {command.error, camera}, progressOnStderr(), store, memory, step);
+    } else {
+        Result<Bake> baked = bake(trace, progressOnStderr(), store, nullptr, memory);
+        if (baked)
+            made->bake = std::make_shared<const Bake>(std::move(*baked));
+        else
+            made = tl::make_unexpected(baked.error());
+    }
+    endProgressLine();
+    if (!made)
+        return fail(fmt::format("{}: {}", command.scene.scene, made.error().message));
+    return made;
+}
+
+Exit runBake(const BakeCommand& command) {
+    if (const Result<void> writable =
+            checkOutputFile(command.output, {".limnbake"}, {command.scene.scene});
+        !writable)
+        return failed(writable.error().message);
+    Result<ImportedScene> imported = openScene(command.scene);
+    if (!imported)
+        return failed(imported.error().message);
+    const ThreadLimit threads(command.bake.threads);
+    Scene scene = flatten(imported->document, imported->assets);
+    const Result<Camera> camera = chooseCamera(scene, command.camera);
+    if (!camera)
+        return failed(camera.error().message);
+    if (command.error > 0)
+        kBakePresets.front().applyTo(scene.bake);
+    applyBakeOptions(command.bake, scene.bake);
+    StageStoreOptions options = command.store;
+    options.mostDiskBytes = std::uint64_t(command.storeGib * double(1 << 30));
+    if (command.noStore)
+        options.folder.clear();
+    options.mostMemoryBytes = 0; // nothing asks for a stage twice
+    StageStore store(options);
+    const TraceScene trace(scene);
+    releaseFreedMemory(); // what reading the scene left behind; residentMemory() would count it
+    const BakePrediction prediction = predictBake(scene, !command.noStore);
+    const nlohmann::json predicted = summaryOf(prediction);
+    if (!command.json)
+        print(scene.bake, predicted);
+    const Result<MeasuredBake> made =
+        make(command, *camera, trace, command.noStore ? nullptr : &store);
+    store.flush();
+    if (const std::string defect = store.defect(); !defect.empty())
+        logWarning(fmt::format("{}; this bake was not kept", defect));
+    if (!made)
+        return failed(made.error().message);
+    const Bake& baked = *made->bake;
+    if (const Result<void> written = writeBake(command.output, baked); !written)
+        return failed(written.error().message);
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(command.output, error);
+    const std::uint64_t file = error ? 0 : size, peak = peakMemory();
+    if (command.json) {
+        nlohmann::json summary = bakeSummary(baked);
+        if (command.error > 0) {
+            summary["error"] = summaryOf(made->error);
+            summary["settings"] = countsOf(baked.settings);
+        }
+        summary["file_bytes"] = file;
+        summary["peak_bytes"] = peak;
+        summary["predicted"] = predicted;
+        summary["predicted_bytes"] = bytesSummary(prediction.bytes);
+        fmt::print("{}\n", summary.dump());
+    } else {
+        print(baked, file, peak);
+    }
+    const std::string why = shortfall(*made, command.error);
+    return why.empty() ? Exit::Done : failed(fmt::format("{}: {}", command.output, why));
+}
+
+} // namespace
+
+void addBakeCommand(CLI::App& app, Run& run) {
+    auto command = std::make_shared<BakeCommand>();
+    CLI::App* sub = app.add_subcommand("bake", "Precompute a scene's light transport");
+    addSceneOptions(*sub, command->scene);
+    addBakeOptions(*sub, command->bake);
+    CLI::Option* folder = sub->add_option(
+        "--cache", command->store.folder,
+        "Folder that keeps finished stages for later bakes; default ~/.cache/limn/bake");
+    sub->add_option("--cache-size", command->storeGib, "Most that the folder may hold [GiB]")
+        ->check(numberWithin(0.001, 1e6));
+    sub->add_flag("--no-cache", command->noStore, "Bake everything, keep nothing")
+        ->excludes(folder);
+    sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();
+    CLI::Option* error =
+        sub->add_option("--error", command->error,
+                        "nRMSE of the irradiance, in the scene's light and its camera's view, that "
+                        "the bake is to hold: counts grow from those of draft, or those given, "
+                        "until it does")
+            ->check(numberWithin(1e-3, 10.));
+    addViewOptions(*sub, command->camera);
+    for (const char* view : {"--camera", "--eye", "--target", "--fov"})
+        sub->get_option(view)->needs(error);
+    error->excludes(sub->get_option("--texels-per-metre"));
+    sub->add_flag("--json", command->json, "One JSON object on stdout");
+    sub->callback([command, &run] { run = [command] { return runBake(*command); }; });
+}
+
+} // namespace limn

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/command.h"
+#include "app/commands/output_file.h"
+
+#include "engine/files/image_file.h"
+#include "engine/measure/compare.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct Options {
+    std::string test, reference, reference2, heatmap;
+    bool json = false;
+};
+
+nlohmann::ordered_json report(const Comparison& c, bool twoReferences) {
+    nlohmann::ordered_json json;
+    json["nrmse"] = c.nrmse; // null: the reference is black
+    json["nrmse_without_worst_percent"] = c.nrmseMost;
+    json["relmse"] = c.relmse;
+    json["bias"] = c.bias;
+    json["ssim"] = c.ssim;
+    json["flip"] = c.flip;
+    if (twoReferences) {
+        json["reference_noise"] = c.referenceNoise;
+        json["nrmse_noise"] = c.nrmseNoise;
+        json["bias_noise"] = c.biasNoise;
+    }
+    json["invalid_pixels"] = c.invalidPixels;
+    return json;
+}
+
+Exit runCompare(const Options& o) {
+    if (!o.heatmap.empty())
+        if (const Result<void> writable =
+                checkOutputFile(o.heatmap, {".png"}, {o.test, o.reference, o.reference2});
+            !writable)
+            return failed(writable.error().message);
+    const Result<ImageF> test = readFloatImage(o.test);
+    if (!test)
+        return failed(test.error().message);
+    const Result<ImageF> reference = readFloatImage(o.reference);
+    if (!reference)
+        return failed(reference.error().message);
+    const bool two = !o.reference2.empty();
+    const Result<ImageF> reference2 = two ? readFloatImage(o.reference2) : ImageF{};
+    if (!reference2)
+        return failed(reference2.error().message);
+    const Result<Comparison> c =
+        two ? compareImages(*test, *reference, *reference2) : compareImages(*test, *reference);
+    if (!c)
+        return failed(fmt::format("{}, {}: {}", o.test,
+                                  two ? o.reference + ", " + o.reference2 : o.reference,
+                                  c.error().message));
+    if (!o.heatmap.empty()) {
+        const ImageF truth = two ? meanImage(*reference, *reference2) : *reference;
+        if (const Result<void> written = writePng(o.heatmap, errorHeatmap(*test, truth)); !written)
+            return failed(written.error().message);
+    }
+    const nlohmann::ordered_json json = report(*c, two);
+    if (o.json)
+        fmt::print("{}\n", json.dump());
+    else
+        for (const auto& [key, value] : json.items())
+            fmt::print("{:<28} {}\n", key, value.dump());
+    return Exit::Done;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& app, Run& run) {
+    const auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("compare", "Measures the error of a render");
+    command->add_option("test", o->test, "linear .exr or .hdr")->required();
+    command->add_option("reference", o->reference, "of the same size")->required();
+    command->add_option("--reference2", o->reference2,
+                        "a second reference with another seed: its noise and that of the first do "
+                        "not count as errors");
+    command->add_option("--heatmap", o->heatmap,
+                        "error map .png: blue too dark, orange too bright");
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return runCompare(*o); }; });
+}
+
+} // namespace limn

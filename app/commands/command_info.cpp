@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/bake_options.h"
+#include "app/commands/command.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/core/hash.h"
+#include "engine/files/document_fields.h"
+#include "engine/files/image_file.h"
+#include "engine/files/project_file.h"
+#include "engine/scene/origin.h"
+#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/bake/surfel_spacing.h"
+#include "engine/techniques/illuminance/bake/tree_shape.h"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+static std::uint64_t bytesOf(const Mesh& mesh) {
+    const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
+    return bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.uv0) +
+           bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
+}
+
+static Json toJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+static Json describe(const ImportedScene& imported) {
+    const Scene scene = flatten(imported.document, imported.assets);
+    std::uint64_t triangles = 0, vertices = 0, geometry = 0, images = 0, nodes = 0;
+    for (const Instance& instance : scene.instances)
+        triangles += scene.meshOf(instance).triangleCount();
+    for (const Mesh& mesh : imported.assets->meshes) {
+        vertices += mesh.positions.size();
+        geometry += bytesOf(mesh);
+    }
+    for (const Image& image : imported.assets->images)
+        images += image.rgba.size();
+    for (const auto& [id, object] : imported.document.objects)
+        nodes += std::holds_alternative<Node>(object);
+    Json json;
+    json["kind"] = "scene";
+    json["scene"] = imported.document.scenePath;
+    json["hash"] = hexHash(imported.document.sceneHash);
+    json["nodes"] = nodes;
+    json["instances"] = scene.instances.size();
+    json["meshes"] = imported.assets->meshes.size();
+    json["triangles"] = triangles; // as instanced
+    json["vertices"] = vertices;
+    json["materials"] = scene.materials.size();
+    json["images"] = imported.assets->images.size();
+    json["lights"] = scene.lights.size();
+    json["cameras"] = scene.cameras.size();
+    json["bounds"] = {{"lower", toJson(toFile(scene.origin, scene.bounds.lower))},
+                      {"upper", toJson(toFile(scene.origin, scene.bounds.upper))}};
+    json["bytes"] = {{"geometry", geometry}, {"images", images}, {"total", geometry + images}};
+    json["repairs"] = imported.repairs;
+    return json;
+}
+
+static Json describe(const ImageF& image) {
+    std::uint64_t invalid = 0;
+    float least = image.rgb[0].x, most = least;
+    double sum = 0;
+    for (const glm::vec3& p : image.rgb)
+        for (int c = 0; c < 3; ++c) {
+            if (!std::isfinite(p[c])) {
+                ++invalid;
+                continue;
+            }
+            least = std::min(least, p[c]);
+            most = std::max(most, p[c]);
+            sum += double(p[c]);
+        }
+    Json json;
+    json["kind"] = "float image";
+    json["width"] = image.width;
+    json["height"] = image.height;
+    json["minimum"] = least;
+    json["maximum"] = most;
+    json["mean"] = sum / double(std::max<std::uint64_t>(image.rgb.size() * 3 - invalid, 1));
+    json["invalid_numbers"] = invalid;
+    return json;
+}
+
+static Json describe(const Image& image) {
+    Json json;
+    json["kind"] = "image";
+    json["width"] = image.width;
+    json["height"] = image.height;
+    return json;
+}
+
+template <class T>
+static Result<Json> describeResult(const Result<T>& read) {
+    if (!read)
+        return tl::make_unexpected(read.error());
+    return describe(*read);
+}
+
+// What the bake's links and all of it would take in either storage, as Table 4 of Jendersie, Kuri,
+// Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition with Chrominance
+// Compression. 2016
+static Json storageTable(const Bake& bake) {
+    Json table = Json::array();
+    for (std::uint32_t bands = 2; bands <= 8; ++bands) {
+        const BakeBytes rtp = bytesOf(bake, LinkStorage::Rtp, bands),
+                        sh = bytesOf(bake, LinkStorage::Sh, bands);
+        table.push_back({{"bands", bands},
+                         {"rtp_links", rtp.links},
+                         {"sh_links", sh.links},
+                         {"rtp_total", rtp.total()},
+                         {"sh_total", sh.total()}});
+    }
+    return table;
+}
+
+static Json describe(const Bake& bake) {
+    Json json;
+    json["kind"] = "bake";
+    const BakeSettings& s = bake.settings;
+    json["settings"] = {{"surfels", s.surfels},
+                        {"links", s.links},
+                        {"bands", s.bands},
+                        {"rays", s.rays},
+                        {"placement", kPlacementNames[std::size_t(s.placement)]},
+                        {"linker", kLinkerNames[std::size_t(s.linker)]},
+                        {"storage", kStorageNames[std::size_t(s.storage)]},
+                        {"chroma_bands", chromaBandsOf(s)},
+                        {"cut", kCutNames[std::size_t(s.cut)]},
+                        {"clustering", kClusteringNames[std::size_t(s.clustering)]},
+                        {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
+    const LightmapLayout& map = bake.lightmap;
+    json["lightmap"] = {{"width", map.width},
+                        {"height", map.height},
+                        {"utilisation", double(bake.caches.lightmapCount) /
+                                            std::max(1., double(map.width) * double(map.height))}};
+    const SurfelSpacing spacing = surfelSpacing(bake.surfels);
+    json["spacing"] = {{"mean", spacing.mean}, {"spread", spacing.spread}};
+    const TreeShape tree = treeShapeOf(bake.tree);
+    json["tree"] = {
+        {"most_depth", tree.mostDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};
+    json["input"] = hexHash(bake.sceneHash);
+    const nlohmann::json summary = bakeSummary(bake);
+    for (const auto& [key, value] : summary.items())
+        json[key] = value;
+    json["storage_bytes"] = storageTable(bake);
+    return json;
+}
+
+/// What a file holds, by its extension; anything without one of ours is opened as a scene.
+static Result<Json> describeFile(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".exr" || extension == ".hdr")
+        return describeResult(readFloatImage(file));
+    if (extension == ".png")
+        return describeResult(readPng(file));
+    if (extension == ".limnbake")
+        return describeResult(readBake(file));
+    return describeResult(openAny(file, projectsFolder()));
+}
+
+static std::string valueText(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+static void printStorageTable(const Json& table) {
+    fmt::print("\n{:>5} {:>15} {:>14} {:>15} {:>14}\n", "bands", "RTP links [MiB]",
+               "SH links [MiB]", "RTP total [MiB]", "SH total [MiB]");
+    const auto mib = [](const Json& bytes) {
+        return double(bytes.get<std::uint64_t>()) / (1 << 20);
+    };
+    for (const Json& row : table)
+        fmt::print("{:>5} {:>15.2f} {:>14.2f} {:>15.2f} {:>14.2f}\n", row["bands"].dump(),
+                   mib(row["rtp_links"]), mib(row["sh_links"]), mib(row["rtp_total"]),
+                   mib(row["sh_total"]));
+}
+
+static void printForPeople(const Json& json) {
+    for (const auto& [key, value] : json.items()) {
+        if (key == "storage_bytes") {
+            printStorageTable(value);
+        } else if (value.is_object()) {
+            for (const auto& [inner, number] : value.items())
+                fmt::print("{:<12} {} {}\n", key, inner, valueText(number));
+        } else if (value.is_array()) {
+            for (const Json& line : value)
+                fmt::print("{:<12} {}\n", key, valueText(line));
+        } else {
+            fmt::print("{:<12} {}\n", key, valueText(value));
+        }
+    }
+}
+
+void addInfoCommand(CLI::App& app, Run& run) {
+    struct Options {
+        std::string file;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("info", "Says what a scene, project, bake or image holds");
+    command->add_option("file", options->file, "the file, or the name of a project")->required();
+    command->add_flag("--json", options->json, "one JSON object on stdout");
+    command->callback([options, &run] {
+        run = [options] {
+            const Result<Json> json = describeFile(options->file);
+            if (!json)
+                return failed(json.error().message);
+            if (options->json)
+                fmt::print("{}\n", json->dump(-1, ' ', false, Json::error_handler_t::replace));
+            else
+                printForPeople(*json);
+            return Exit::Done;
+        };
+    });
+}
+
+} // namespace limn

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/command.h"
+#include "app/commands/output_file.h"
+#include "app/commands/progress_line.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/core/parallel.h"
+#include "engine/files/image_file.h"
+#include "engine/measure/compare.h"
+#include "engine/reference/reference.h"
+
+#include <chrono>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    SceneOptions scene;
+    CameraOptions camera;
+    std::string view = "lit", output;
+    ReferenceOptions reference;
+    int threads = 0;
+    bool json = false;
+};
+
+View viewOf(const std::string& name) {
+    for (std::size_t i = 0; i < kViewNames.size(); ++i)
+        if (name == kViewNames[i])
+            return View(i);
+    return View::Lit;
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Json report(const ReferenceResult& r, const std::string& view, double seconds) {
+    Json json;
+    json["seconds"] = seconds; // without reading the scene
+    json["device"] = "cpu";
+    json["view"] = view;
+    json["width"] = r.image.width;
+    json["height"] = r.image.height;
+    json["invalid_pixels"] = countInvalidPixels(r.image);
+    json["samples_per_pixel"] = r.samplesPerPixel;
+    json["noise"] = r.noise; // null: fewer than 2 samples
+    json["rays"] = r.rays;
+    return json;
+}
+
+Exit runReference(Options& o) {
+    if (const Result<void> writable =
+            checkOutputFile(o.output, {".exr"}, {o.scene.scene, o.scene.sky});
+        !writable)
+        return failed(writable.error().message);
+    const ThreadLimit limit(o.threads);
+    const Result<ImportedScene> imported = openScene(o.scene);
+    if (!imported)
+        return failed(imported.error().message);
+    const Scene scene = flatten(imported->document, imported->assets, o.scene.seconds);
+    const Result<Camera> camera = chooseCamera(scene, o.camera);
+    if (!camera)
+        return failed(camera.error().message);
+    o.reference.camera = *camera;
+    o.reference.width = o.camera.width;
+    o.reference.height = o.camera.height;
+    o.reference.view = viewOf(o.view);
+
+    const auto start = std::chrono::steady_clock::now();
+    const TraceScene trace(scene);
+    const ReferenceResult r = renderReference(trace, o.reference, progressOnStderr());
+    endProgressLine();
+    const Json json = report(r, o.view, secondsSince(start));
+    if (const Result<void> written = writeExr(o.output, r.image); !written)
+        return failed(written.error().message);
+    if (o.json)
+        fmt::print("{}\n", json.dump());
+    else
+        fmt::print("{}: {} x {}, {} samples per pixel, noise {:.3g}, {} M rays, {:.1f} s\n",
+                   o.output, r.image.width, r.image.height, r.samplesPerPixel, r.noise,
+                   r.rays / 1000000, json["seconds"].get<double>());
+    return Exit::Done;
+}
+
+} // namespace
+
+void addReferenceCommand(CLI::App& app, Run& run) {
+    const auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("reference", "Path-traces ground truth");
+    addSceneOptions(*command, o->scene);
+    addTimeOption(*command, o->scene);
+    addCameraOptions(*command, o->camera);
+    command->add_option("--view", o->view, "lit, direct, indirect, irradiance or albedo")
+        ->check(CLI::IsMember({"lit", "direct", "indirect", "irradiance", "albedo"}));
+    command->add_option("--spp", o->reference.samplesPerPixel, "samples per pixel")
+        ->check(CLI::Range(1, 1 << 24));
+    command
+        ->add_option("--bounces", o->reference.maxBounces, "path segments after the first surface")
+        ->check(CLI::Range(0, 100000));
+    command->add_option("--seed", o->reference.seed, "another seed, other noise");
+    command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
+    command->add_option("-o,--output", o->output, "linear 32-bit .exr")->required();
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return runReference(*o); }; });
+}
+
+} // namespace limn

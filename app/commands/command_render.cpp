@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/command.h"
+#include "app/commands/number_range.h"
+#include "app/commands/output_file.h"
+#include "app/commands/overlay_options.h"
+#include "app/commands/progress_line.h"
+#include "app/commands/render_image.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/core/log.h"
+#include "engine/files/image_file.h"
+#include "engine/measure/compare.h"
+#include "engine/techniques/illuminance/bake/bake_defect.h"
+#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/seen_caches.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    CameraOptions camera;
+    OverlayFlags overlay;
+    std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
+    float exposureEv = 0;
+    std::uint32_t frames = 1;
+    double framesPerSecond = 24;
+    bool noDimming = false, allCaches = false, json = false;
+};
+
+/// What a picture needs of a bake: indirect light, and what is drawn over it. Empty: nothing.
+struct Baked {
+    std::shared_ptr<const Bake> bake;
+    std::shared_ptr<const TraceScene> trace;
+    bool light = false;                   ///< the picture shows bounced light
+    std::optional<CacheFlags> seen;       ///< caches that the picture looks up; none: light all
+    std::unique_ptr<Relighter> relighter; ///< made when the CPU has to light the bake
+    std::shared_ptr<const OverlayData> overlay;
+};
+
+template <class Names>
+std::size_t indexOf(const Names& names, const std::string& name) {
+    return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+template <class Names>
+std::vector<std::string> strings(const Names& names) {
+    return {names.begin(), names.end()};
+}
+
+bool needsIndirect(View view) {
+    switch (view) {
+    case View::Lit:
+    case View::Indirect:
+    case View::Irradiance:
+        return true;
+    case View::Direct:
+    case View::Albedo:
+    case View::Normals:
+        return false;
+    }
+    return false;
+}
+
+// Reads the bake, or makes one with the document's settings.
+Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& trace) {
+    if (options.bake.empty()) {
+        Result<Bake> made = bake(trace, progressOnStderr());
+        endProgressLine();
+        return made;
+    }
+    Result<Bake> read = readBake(options.bake, options.scene.import.memory);
+    if (!read)
+        return read;
+    const bool dimming = scene.bake.dimming; // the document's, not that of the time of the bake
+    scene.bake = read->settings;
+    scene.bake.dimming = dimming;
+    if (read->sceneHash != bakeInputHash(scene))
+        return fail(
+            fmt::format("{}: is the bake of another scene than {}, or of an older state of it",
+                        options.bake, options.scene.scene));
+    if (const std::string defect = bakeDefect(*read, &scene); !defect.empty())
+        return fail(fmt::format("{}: {}", options.bake, defect));
+    return read;
+}
+
+CpuLight relight(const Scene& scene, Baked& baked) {
+    if (!baked.relighter) // an overlay of light has one already
+        baked.relighter = std::make_unique<Relighter>(baked.bake);
+    const RelightStats stats =
+        baked.relighter->relight(scene, *baked.trace, baked.bake->settings.maxBounces,
+                                 progressOnStderr(), baked.seen ? &*baked.seen : nullptr);
+    endProgressLine();
+    return {baked.relighter->field(), stats};
+}
+
+Result<void> addOverlay(const Options& options, const Scene& scene, const TraceScene& trace,
+                        const Camera& camera, Baked& baked) {
+    const Result<OverlayOptions> wanted = overlayOptions(
+        options.overlay, *baked.bake, trace, camera, options.camera.width, options.camera.height);
+    if (!wanted)
+        return tl::make_unexpected(wanted.error());
+    std::optional<LitBake> lit;
+    if (showsLight(wanted->kind)) {
+        relight(scene, baked);
+        const Relighter& r = *baked.relighter;
+        lit = {r.radiosity(), r.cacheSh(), int(r.field().bands)};
+    }
+    baked.overlay = std::make_shared<const OverlayData>(
+        makeOverlay(*baked.bake, scene, *wanted, lit ? &*lit : nullptr));
+    return {};
+}
+
+Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& camera) {
+    const bool light = needsIndirect(View(indexOf(kViewNames, options.view)));
+    if (scene.instances.empty() || !(light || options.overlay.wanted()))
+        return Baked{}; // nothing receives light, or nobody asks
+    Baked baked;
+    baked.trace = std::make_shared<const TraceScene>(scene);
+    Result<Bake> made = obtainBake(options, scene, *baked.trace);
+    if (!made)
+        return tl::make_unexpected(made.error());
+    baked.bake = std::make_shared<const Bake>(std::move(*made));
+    if (options.overlay.wanted())
+        if (const Result<void> added = addOverlay(options, scene, *baked.trace, camera, baked);
+            !added)
+            return tl::make_unexpected(added.error());
+    baked.light = light;
+    if (light && !options.allCaches)
+        baked.seen = seenCaches(cacheFootprints(scene, *baked.bake), camera,
+                                float(options.camera.width) / float(options.camera.height));
+    return baked;
+}
+
+// Before anything is read or baked for it.
+Result<void> checkOverlay(const Options& options) {
+    if (!options.overlay.wanted())
+        return checkOverlayFlags(options.overlay);
+    if (std::filesystem::path(options.output).extension() != ".png")
+        return fail("--overlay: is drawn on a tone-mapped picture; -o must be a .png");
+    if (options.device == "cpu")
+        return fail("--overlay: needs a Vulkan device");
+    if (options.frames > 1)
+        return fail("--overlay: is of one picture; not with --frames");
+    return checkOverlayFlags(options.overlay);
+}
+
+Result<void> checkRelight(const Options& options) {
+    if (options.relight == "gpu" && options.device == "cpu")
+        return fail("--relight gpu: needs a Vulkan device that draws; not --device cpu");
+    return {};
+}
+
+// "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
+Result<DrawPicture> chooseDrawing(const Options& options) {
+    const bool cpuWillDo =
+        options.device == "auto" && !options.overlay.wanted() && options.relight != "gpu";
+    if (options.device == "cpu")
+        return renderOnCpu;
+#ifdef LIMN_HAS_VIEWPORT
+    Result<DrawPicture> onGpu = drawingOnGpu(options.device == "auto" ? "" : options.device);
+    if (!cpuWillDo)
+        return onGpu;
+    if (!onGpu) {
+        logWarning(fmt::format("drawing on the CPU: {}", onGpu.error().message));
+        return renderOnCpu;
+    }
+    return
+        [gpu = *onGpu](const Scene& scene, const RenderRequest& request) -> Result<RenderedImage> {
+            Result<RenderedImage> image = gpu(scene, request);
+            if (image)
+                return image;
+            logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
+            return renderOnCpu(scene, request);
+        };
+#else
+    if (!cpuWillDo)
+        return fail("--device: this program was built without Vulkan; there is: cpu");
+    return renderOnCpu;
+#endif
+}
+
+RenderRequest requestOf(const Options& options, const Scene& scene, const Camera& camera,
+                        Baked& baked) {
+    RenderRequest request;
+    request.view = View(indexOf(kViewNames, options.view));
+    request.camera = camera;
+    request.width = options.camera.width;
+    request.height = options.camera.height;
+    request.tonemap = Tonemap(indexOf(kTonemapNames, options.tonemap));
+    request.exposureEv = options.exposureEv;
+    request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
+    if (baked.light)
+        request.relight = [&] { return relight(scene, baked); };
+    request.bake = baked.bake;
+    request.seen = baked.seen ? &*baked.seen : nullptr;
+    request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));
+    request.overlay = baked.overlay;
+    return request;
+}
+
+nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& image,
+                                  const OverlayData* overlay, double seconds) {
+    nlohmann::ordered_json json;
+    json["seconds"] = seconds; // without reading the scene
+    json["device"] = image.device;
+    json["view"] = options.view;
+    json["width"] = image.linear.width;
+    json["height"] = image.linear.height;
+    json["invalid_pixels"] = countInvalidPixels(image.linear);
+    if (!image.relightDevice.empty())
+        json["relight"] = {{"device", image.relightDevice},
+                           {"ms", image.relight.totalMs},
+                           {"bounces", image.relight.bounces},
+                           {"converged", image.relight.converged},
+                           {"passed_on", image.relight.passedOn},
+                           {"grows", image.relight.grows},
+                           {"caches_unseen", image.relight.cachesUnseen},
+                           {"caches_unread", image.relight.cachesUnread}};
+    if (overlay)
+        json["overlay"] = legendJson(overlay->legend);
+    return json;
+}
+
+void printReport(const std::string& path, const Options& options, const RenderedImage& image,
+                 const OverlayData* overlay, double seconds) {
+    std::string relit;
+    if (!image.relightDevice.empty())
+        relit =
+            fmt::format("relit on {} in {:.1f} ms, ", image.relightDevice, image.relight.totalMs);
+    fmt::print("{}: {}, {} x {} on {}, {}{} invalid pixels, {:.1f} s\n", path, options.view,
+               image.linear.width, image.linear.height, image.device, relit,
+               countInvalidPixels(image.linear), seconds);
+    if (overlay)
+        fmt::print("{}", legendText(overlay->legend));
+}
+
+// "film.png" of frame 3 of 100: "film-03.png"; the only frame keeps the name.
+std::string framePath(const Options& options, std::uint32_t frame) {
+    if (options.frames == 1)
+        return options.output;
+    std::filesystem::path path = options.output;
+    const std::size_t digits = std::to_string(options.frames - 1).size();
+    path.replace_filename(
+        fmt::format("{}-{:0{}}{}", path.stem().string(), frame, digits, path.extension().string()));
+    return path.string();
+}
+
+Result<void> writePicture(const std::string& path, const RenderedImage& image) {
+    return path.ends_with(".png") ? writePng(path, image.picture) : writeExr(path, image.linear);
+}
+
+// Each frame is lit from the one before: films change little in between.
+Result<void> renderFrames(const Options& options, const Document& document, Scene& scene,
+                          const Camera& camera) {
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start = Clock::now();
+    Result<Baked> baked = prepareBake(options, scene, camera);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
+    const Result<DrawPicture> draw = chooseDrawing(options);
+    if (!draw)
+        return tl::make_unexpected(draw.error());
+    const RenderRequest request = requestOf(options, scene, camera, *baked);
+    auto frames = nlohmann::ordered_json::array();
+    for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
+        const double time = options.scene.seconds + frame / options.framesPerSecond;
+        showTime(scene, document, time);
+        const Result<RenderedImage> image = (*draw)(scene, request);
+        if (!image)
+            return tl::make_unexpected(image.error());
+        if (image->relight.grows)
+            logWarning("bounced light grew with every bounce and was stopped: bake again");
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const std::string path = framePath(options, frame);
+        if (const Result<void> written = writePicture(path, *image); !written)
+            return written;
+        if (options.json) {
+            frames.push_back(reportJson(options, *image, baked->overlay.get(), seconds));
+            if (options.frames > 1)
+                frames.back()["time"] = time, frames.back()["file"] = path;
+        } else {
+            printReport(path, options, *image, baked->overlay.get(), seconds);
+        }
+        start = Clock::now();
+    }
+    if (options.json)
+        fmt::print(
+            "{}\n",
+            (options.frames > 1 ? nlohmann::ordered_json{{"frames", frames}} : frames[0]).dump());
+    return {};
+}
+
+Exit runRender(const Options& options) {
+    for (const Result<void>& possible :
+         {checkOutputFile(options.output, {".exr", ".png"},
+                          {options.scene.scene, options.scene.sky, options.bake}),
+          checkOverlay(options), checkRelight(options)})
+        if (!possible)
+            return failed(possible.error().message);
+    const Result<ImportedScene> imported = openScene(options.scene);
+    if (!imported)
+        return failed(imported.error().message);
+    Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
+    scene.bake.dimming = scene.bake.dimming && !options.noDimming;
+    const Result<Camera> camera = chooseCamera(scene, options.camera);
+    if (!camera)
+        return failed(camera.error().message);
+    const Result<void> done = renderFrames(options, imported->document, scene, *camera);
+    return done ? Exit::Done : failed(done.error().message);
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& app, Run& run) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "render", "Draws a picture, or frames of a film, as the viewport shows it");
+    addSceneOptions(*command, options->scene);
+    addTimeOption(*command, options->scene);
+    command
+        ->add_option("--frames", options->frames,
+                     "pictures of films in materials, from --time on; their numbers are put before "
+                     "the extension of the output")
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--fps", options->framesPerSecond, "frames per second of --frames [1/s]")
+        ->check(numberWithin(0.001, 10000.0));
+    addCameraOptions(*command, options->camera);
+    addOverlayFlags(*command, options->overlay);
+    command->add_option("--bake", options->bake,
+                        ".limnbake of this scene; without it, one is made in memory if needed");
+    command
+        ->add_option("-o,--output", options->output, "picture: .exr (linear) or .png (tone-mapped)")
+        ->required();
+    command->add_option("--view", options->view, "what it shows")
+        ->check(CLI::IsMember(strings(kViewNames)));
+    command->add_option("--exposure", options->exposureEv, "stops before tone mapping [EV]")
+        ->check(numberWithin(-64.0, 64.0));
+    command->add_option("--tonemap", options->tonemap, "curve of a .png")
+        ->check(CLI::IsMember(strings(kTonemapNames)));
+    command->add_option("--device", options->device,
+                        "auto, cpu, or part of a Vulkan device's name");
+    command
+        ->add_option(
+            "--relight", options->relight,
+            "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or "
+            "auto, which the editor has found faster here; cpu until it has")
+        ->check(CLI::IsMember(strings(kRelightOnNames)));
+    command->add_flag("--no-dimming", options->noDimming,
+                      "dynamic objects do not keep bounced light off what is behind them");
+    command->add_flag("--all-caches", options->allCaches,
+                      "light the whole lightmap, not only what the picture looks up");
+    command->add_flag("--json", options->json, "one JSON object on stdout");
+    command->callback([options, &run] { run = [options] { return runRender(*options); }; });
+}
+
+} // namespace limn

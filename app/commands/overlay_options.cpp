@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/overlay_options.h"
+
+#include "engine/techniques/illuminance/overlay/link_cut.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
+    std::vector<std::string> names;
+    for (const OverlayName& overlay : kOverlays)
+        names.emplace_back(overlay.name);
+    command.add_option("--overlay", flags.name, "what of the bake is drawn over a .png")
+        ->check(CLI::IsMember(names));
+    command.add_option("--overlay-depth", flags.depth,
+                       "depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
+                       "(default: 6)");
+    CLI::Option* pick = command
+                            .add_option("--pick", flags.pick,
+                                        "x,y of the pixel whose cache 'links' or 'lobes' show")
+                            ->delimiter(',')
+                            ->expected(2);
+    command.add_option("--cache", flags.cache, "number of the cache that 'links' or 'lobes' show")
+        ->excludes(pick);
+}
+
+static Overlay kindOf(const OverlayFlags& flags) {
+    const auto at = std::ranges::find(kOverlays, flags.name,
+                                      [](const OverlayName& o) { return std::string(o.name); });
+    return Overlay(at - kOverlays.begin());
+}
+
+Result<void> checkOverlayFlags(const OverlayFlags& flags) {
+    const Overlay kind = kindOf(flags);
+    const bool picked = !flags.pick.empty() || flags.cache;
+    if (flags.depth && !hasDepth(kind))
+        return fail("--overlay-depth: is for --overlay clusters and lit-clusters");
+    if (picked && !hasCache(kind))
+        return fail("--pick, --cache: are for --overlay links and lobes");
+    if (!picked && kind == Overlay::Links)
+        return fail("--overlay links: needs --pick X,Y or --cache N");
+    return {};
+}
+
+static Result<std::uint32_t> pickedCache(const OverlayFlags& flags, const Bake& bake,
+                                         const TraceScene& trace, const Camera& camera,
+                                         glm::vec2 size) {
+    const glm::vec2 at(float(flags.pick[0]), float(flags.pick[1]));
+    if (at.x >= size.x || at.y >= size.y)
+        return fail(fmt::format("--pick: the picture has {} x {} pixels", size.x, size.y));
+    const glm::vec2 ndc = (at + 0.5f) / size * 2.f - 1.f;
+    const glm::vec3 d = rayDirection(camera, size.x / size.y, ndc.x, -ndc.y);
+    const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)});
+    const auto cache = hit ? cacheAt(bake, trace.scene(), hit) : std::nullopt;
+    if (!cache)
+        return fail("--pick: there is no cache at this pixel");
+    return *cache;
+}
+
+Result<OverlayOptions> overlayOptions(const OverlayFlags& flags, const Bake& bake,
+                                      const TraceScene& trace, const Camera& camera,
+                                      std::uint32_t width, std::uint32_t height) {
+    OverlayOptions options;
+    options.kind = kindOf(flags);
+    options.depth = flags.depth.value_or(options.depth);
+    if (flags.cache) {
+        if (*flags.cache >= bake.caches.size())
+            return fail(fmt::format("--cache: the bake has {} caches, from 0", bake.caches.size()));
+        options.cache = *flags.cache;
+    } else if (!flags.pick.empty()) {
+        const Result<std::uint32_t> cache =
+            pickedCache(flags, bake, trace, camera, glm::vec2(width, height));
+        if (!cache)
+            return tl::make_unexpected(cache.error());
+        options.cache = *cache;
+    }
+    return options;
+}
+
+static std::string hexColor(std::uint32_t c) {
+    return fmt::format("#{:02x}{:02x}{:02x}", c & 255, c >> 8 & 255, c >> 16 & 255);
+}
+
+nlohmann::ordered_json legendJson(const OverlayLegend& legend) {
+    nlohmann::ordered_json json;
+    json["title"] = legend.title;
+    json["colors"] = nlohmann::ordered_json::array();
+    for (const OverlayLegend::Entry& e : legend.entries)
+        json["colors"].push_back({{"color", hexColor(e.color)}, {"meaning", e.text}});
+    json["notes"] = legend.notes;
+    return json;
+}
+
+std::string legendText(const OverlayLegend& legend) {
+    std::string text = legend.title + "\n";
+    for (const OverlayLegend::Entry& e : legend.entries)
+        text += fmt::format("  {}  {}\n", hexColor(e.color), e.text);
+    for (const std::string& note : legend.notes)
+        text += fmt::format("  {}\n", note);
+    return text;
+}
+
+} // namespace limn

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/techniques/illuminance/overlay/overlay.h"
+#include "engine/trace/trace_scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace limn {
+
+/// Flags that say what is drawn over a picture.
+struct OverlayFlags {
+    std::string name = "none";
+    std::optional<std::uint32_t> depth, cache;
+    std::vector<std::uint32_t> pick; ///< x, y [pixels]; empty: none
+
+    bool wanted() const { return name != "none"; }
+};
+void addOverlayFlags(CLI::App& command, OverlayFlags& flags);
+
+/// Fails where a flag does not go with the overlay named, or one that it needs is missing.
+Result<void> checkOverlayFlags(const OverlayFlags& flags);
+
+/// Precondition: checkOverlayFlags passed. Fails where there is no such cache, or nothing to pick
+/// at the pixel of a picture of that size.
+Result<OverlayOptions> overlayOptions(const OverlayFlags& flags, const Bake& bake,
+                                      const TraceScene& trace, const Camera& camera,
+                                      std::uint32_t width, std::uint32_t height);
+
+/// Title, colours as #rrggbb with their meaning, and notes.
+nlohmann::ordered_json legendJson(const OverlayLegend& legend);
+std::string legendText(const OverlayLegend& legend);
+
+} // namespace limn

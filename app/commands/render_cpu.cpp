@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/progress_line.h"
+#include "app/commands/render_image.h"
+
+#include "engine/measure/field_render.h"
+#include "engine/scene/tone_map.h"
+
+namespace limn {
+
+RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
+    FieldRenderOptions options;
+    options.view = request.view;
+    options.camera = request.camera;
+    options.width = request.width;
+    options.height = request.height;
+    static const IndirectField noField;
+    static const LightmapLayout noLayout;
+    RenderedImage result;
+    result.device = "cpu";
+    const IndirectField* field = &noField;
+    if (request.relight) {
+        const CpuLight light = request.relight();
+        field = &light.field;
+        result.relightDevice = "cpu";
+        result.relight = light.stats;
+    }
+    result.linear =
+        renderField(TraceScene(scene), *field, request.bake ? request.bake->lightmap : noLayout,
+                    options, progressOnStderr());
+    endProgressLine();
+    if (!request.tonemapped)
+        return result;
+    const bool data = request.view == View::Albedo || request.view == View::Normals;
+    result.picture = toneMappedImage(result.linear, data ? Tonemap::None : request.tonemap,
+                                     data ? 0 : request.exposureEv); // as the viewport shows data
+    return result;
+}
+
+} // namespace limn

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/render_image.h"
+
+#include "engine/core/log.h"
+#include "engine/gpu/device.h"
+#include "engine/techniques/illuminance/gpu/viewport_relighter.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+// Nothing is measured for one picture: that would take longer than to relight it on either.
+static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
+    const VkPhysicalDeviceProperties& p = device.properties;
+    return chooseRelight(
+        request.relightOn, true,
+        rememberedRelightTimes(defaultRelightTimesFile(),
+                               relightTimesKey(p.deviceName, p.driverVersion, *request.bake)));
+}
+
+namespace {
+
+/// One device with what it keeps between pictures.
+struct GpuDrawing {
+    std::unique_ptr<gpu::Device> device;
+    Viewport viewport;
+    std::unique_ptr<ViewportRelighter> relighter; ///< null: bounced light is the CPU's
+    bool chosen = false;                          ///< which of the two
+
+    explicit GpuDrawing(std::unique_ptr<gpu::Device> on)
+        : device(std::move(on)), viewport(*device) {}
+
+    Result<void> chooseRelighter(const RenderRequest& request);
+    Result<void> relight(const Scene& scene, const RenderRequest& request, RenderedImage& result);
+    Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request);
+};
+
+Result<void> GpuDrawing::chooseRelighter(const RenderRequest& request) {
+    chosen = true;
+    if (choose(*device, request) == RelightOn::Cpu)
+        return {};
+    auto made = ViewportRelighter::create(*device, request.bake);
+    if (made)
+        relighter = std::move(*made);
+    else if (request.relightOn == RelightOn::Gpu)
+        return fail("--relight: " + made.error().message);
+    else
+        logWarning(fmt::format("relighting on the CPU: {}", made.error().message));
+    return {};
+}
+
+// Bounces until nothing changes, as the CPU does.
+Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& request,
+                                 RenderedImage& result) {
+    if (!request.relight)
+        return {};
+    if (!chosen)
+        if (const Result<void> done = chooseRelighter(request); !done)
+            return done;
+    if (!relighter) {
+        const CpuLight light = request.relight();
+        viewport.setIndirect(light.field);
+        result.relightDevice = "cpu";
+        result.relight = light.stats;
+        return {};
+    }
+    result.relight =
+        relighter->relight(viewport, scene, request.bake->settings.maxBounces, {}, request.seen);
+    result.relightDevice = device->properties.deviceName;
+    return {};
+}
+
+Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& request) {
+    const VkPhysicalDeviceProperties& properties = device->properties;
+    const std::uint32_t limit = properties.limits.maxImageDimension2D;
+    if (std::max(request.width, request.height) > limit)
+        return fail(fmt::format("--width, --height: {} draws at most {} pixels a side",
+                                properties.deviceName, limit));
+    RenderedImage result;
+    if (request.bake) // the layout lives as long as the bake
+        viewport.setScene(scene, {request.bake, &request.bake->lightmap});
+    else
+        viewport.setScene(scene, nullptr);
+    if (const auto lit = relight(scene, request, result); !lit)
+        return tl::make_unexpected(lit.error());
+    viewport.setOverlay(request.overlay);
+    ViewportOptions options;
+    options.view = request.view;
+    options.camera = request.camera;
+    options.width = request.width;
+    options.height = request.height;
+    options.tonemap = request.tonemap;
+    options.exposureEv = request.exposureEv;
+    viewport.render(options);
+    result.device = properties.deviceName;
+    result.linear = viewport.readLinear();
+    if (request.tonemapped)
+        result.picture = viewport.readTonemapped();
+    return result;
+}
+
+} // namespace
+
+Result<DrawPicture> drawingOnGpu(const std::string& device) {
+    auto made = gpu::createDevice({.name = device});
+    if (!made)
+        return fail("--device: " + made.error().message);
+    return [drawing = std::make_shared<GpuDrawing>(std::move(*made))](
+               const Scene& scene, const RenderRequest& request) {
+        return drawing->draw(scene, request);
+    };
+}
+
+} // namespace limn

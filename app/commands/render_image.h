@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/lightmap/lightmap_layout.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/relight_choice.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace limn {
+
+struct OverlayData;
+
+/// Bounced light as a CPU works it out, and what that took.
+struct CpuLight {
+    const IndirectField& field;
+    RelightStats stats;
+};
+
+struct RenderRequest {
+    View view = View::Lit;
+    Camera camera;
+    std::uint32_t width = 1280, height = 720;
+    Tonemap tonemap = Tonemap::Aces;
+    float exposureEv = 0;
+    bool tonemapped = false;          ///< the picture is wanted, not only the numbers
+    std::shared_ptr<const Bake> bake; ///< null: nothing is baked
+    /// Lights `bake` on the CPU. Empty: no indirect light.
+    std::function<CpuLight()> relight;
+    const CacheFlags* seen = nullptr;     ///< caches that the picture looks up; null: light all
+    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the device that draws lights `bake` instead
+    std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
+};
+
+struct RenderedImage {
+    ImageF linear;
+    Image picture; ///< tone-mapped, where asked for
+    std::string device;
+    std::string relightDevice; ///< empty: there is no indirect light
+    RelightStats relight;
+};
+
+/// Draws pictures one after the other and keeps what the next one can use.
+using DrawPicture =
+    std::function<Result<RenderedImage>(const Scene& scene, const RenderRequest& request)>;
+
+/// By the Vulkan viewport, on the device in whose name `device` is; empty: the best. Fails when
+/// there is none. Drawing fails where the picture is larger than the device allows, or the bake too
+/// large to be lit on it. Only in builds with Vulkan.
+Result<DrawPicture> drawingOnGpu(const std::string& device);
+
+/// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
+/// `request.relightOn` is not looked at.
+RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
+
+} // namespace limn

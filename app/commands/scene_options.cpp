@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/scene_options.h"
+#include "app/commands/number_range.h"
+
+#include "engine/core/log.h"
+#include "engine/files/project_file.h"
+#include "engine/files/sky_file.h"
+#include "engine/gallery/gallery.h"
+#include "engine/scene/dynamic_spec.h"
+#include "engine/scene/light/light_spec.h"
+#include "engine/scene/origin.h"
+#include "engine/scene/reach.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+namespace limn {
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("scene", options.scene,
+                    ".gltf, .glb or .limn file, the name of a project, or generated:SEED")
+        ->required();
+    addLightOptions(command, options);
+    addDynamicOption(command, options);
+}
+
+void addImportOptions(CLI::App& command, ImportOptions& options) {
+    command
+        .add_option_function<double>(
+            "--memory",
+            [&options](double gib) { options.memory.most = std::uint64_t(gib * double(1 << 30)); },
+            "most that scenes, pictures and bakes may need [GiB]; default half of the machine's")
+        ->check(numberWithin(0.001, 1e6));
+    command.add_flag_callback(
+        "--outside-files", [&options] { options.reach = FileReach::Anywhere; },
+        "a .gltf may name files outside its own folder");
+}
+
+void addDynamicOption(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("--dynamic", options.dynamics,
+                    "NAME or NAME@x,y,z: the object of that name moves freely, here by x,y,z [m]: "
+                    "lit from the grid, casts shadows, sends no bounced light; may be repeated")
+        ->allow_extra_args(false)
+        ->take_all();
+}
+
+void addLightOptions(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("--light", options.lights,
+                    "adds a light: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
+                    "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
+                    "color=r,g,b, name=; may be repeated")
+        ->allow_extra_args(false)
+        ->take_all();
+    command.add_option("--sky", options.sky,
+                       "r,g,b [nits] | gradient up=r,g,b horizon=r,g,b ground=r,g,b | FILE.hdr or "
+                       "FILE.exr, a panorama; replaces the scene's");
+    command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
+        ->check(numberWithin(0., double(kMostLight)));
+    addImportOptions(command, options.import);
+    command
+        .add_option("--sky-rotation", options.skyRotation,
+                    "of the panorama about +Y, from +Z towards +X [degrees]")
+        ->check(numberWithin(-1e6, 1e6));
+}
+
+void addTimeOption(CLI::App& command, SceneOptions& options) {
+    command.add_option("--time", options.seconds, "after the start of films in materials [s]")
+        ->check(numberWithin(-1e6, 1e6));
+}
+
+static Result<Sky> openSky(const std::string& spec, const MemoryBudget& memory) {
+    if (!spec.ends_with(".hdr") && !spec.ends_with(".exr"))
+        return parseSky(spec);
+    Sky sky;
+    sky.kind = SkyKind::Image;
+    sky.image = spec;
+    if (const Result<void> read = readSkyImage(sky, memory); !read)
+        return tl::make_unexpected(read.error());
+    return sky;
+}
+
+/// The document's sky, added if there is none.
+static Sky& skyOf(Document& document) {
+    for (auto& [id, object] : document.objects)
+        if (Sky* known = std::get_if<Sky>(&object))
+            return *known;
+    return std::get<Sky>(document.objects.at(addObject(document, Sky{})));
+}
+
+static constexpr std::string_view kGenerated = "generated:";
+
+static Result<ImportedScene> openGenerated(const std::string& name) {
+    std::uint64_t seed = 0;
+    const char* const end = name.data() + name.size();
+    const auto [rest, error] = std::from_chars(name.data() + kGenerated.size(), end, seed);
+    if (error != std::errc() || rest != end)
+        return fail(name + ": a generated scene is named by a seed, as in generated:17");
+    return importedScene(generateScene(seed));
+}
+
+ImportedScene importedScene(const GeneratedScene& generated) {
+    ImportedScene scene{generated.document, generated.assets, {}};
+    if (generated.darkCamera)
+        addObject(scene.document, *generated.darkCamera);
+    return scene;
+}
+
+Result<ImportedScene> openScene(const SceneOptions& options) {
+    for (const std::string& spec : options.lights) // a wrong flag should not cost an import
+        if (const Result<Light> light = parseLight(spec); !light)
+            return tl::make_unexpected(light.error());
+    std::optional<Sky> sky;
+    if (!options.sky.empty()) {
+        const Result<Sky> parsed = openSky(options.sky, options.import.memory);
+        if (!parsed)
+            return tl::make_unexpected(parsed.error());
+        sky = *parsed;
+    }
+    Result<ImportedScene> scene =
+        options.scene.starts_with(kGenerated)
+            ? openGenerated(options.scene)
+            : openAny(options.scene, projectsFolder(), {}, options.import);
+    if (!scene)
+        return scene;
+    for (const std::string& spec : options.lights)
+        addObject(scene->document, *parseLight(spec, scene->document.origin));
+    if (sky)
+        skyOf(scene->document) = *sky;
+    if (options.skyStrength)
+        skyOf(scene->document).strength = *options.skyStrength;
+    if (options.skyRotation)
+        skyOf(scene->document).rotation = glm::radians(*options.skyRotation);
+    for (const std::string& spec : options.dynamics)
+        if (const Result<void> made = makeDynamic(scene->document, spec); !made)
+            return tl::make_unexpected(made.error());
+    if (const std::string defect = reachDefect(flatten(scene->document, scene->assets));
+        !defect.empty())
+        return fail(fmt::format("{}: {}", options.scene, defect));
+    for (const std::string& repair : scene->repairs)
+        logWarning(fmt::format("{}: {}", options.scene, repair));
+    return scene;
+}
+
+void addViewOptions(CLI::App& command, CameraOptions& options) {
+    CLI::Option* name = command.add_option("--camera", options.name, "name of a camera");
+    CLI::Option* eye =
+        command.add_option("--eye", options.eye, "x,y,z [m]")->delimiter(',')->expected(3);
+    CLI::Option* target =
+        command.add_option("--target", options.target, "x,y,z [m]")->delimiter(',')->expected(3);
+    eye->needs(target)->excludes(name);
+    target->needs(eye);
+    command.add_option("--fov", options.fovDegrees, "vertical field of view [degrees]")
+        ->check(numberWithin(0.1, 179.0));
+}
+
+void addCameraOptions(CLI::App& command, CameraOptions& options) {
+    addViewOptions(command, options);
+    command.add_option("--width", options.width, "[pixels]")->check(CLI::Range(1, 16384));
+    command.add_option("--height", options.height, "[pixels]")->check(CLI::Range(1, 16384));
+}
+
+Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {
+    if (options.name && std::ranges::none_of(scene.cameras, [&](const Camera& c) {
+            return c.name == *options.name;
+        })) {
+        std::string names;
+        for (const Camera& c : scene.cameras)
+            names += (names.empty() ? "" : ", ") + c.name;
+        return fail(fmt::format("--camera: there is no '{}'; there is: {}", *options.name,
+                                names.empty() ? "none" : names));
+    }
+    Camera camera = chooseCamera(scene, options.name);
+    if (options.eye.size() == 3 && options.target.size() == 3) {
+        camera = Camera{};
+        const glm::dvec3 eye(options.eye[0], options.eye[1], options.eye[2]);
+        const glm::dvec3 target(options.target[0], options.target[1], options.target[2]);
+        camera.eye = toWorld(scene.origin, eye);
+        camera.target = toWorld(scene.origin, target);
+        if (!withinReach(glm::vec3(eye)) || !withinReach(glm::vec3(target)))
+            return fail(
+                fmt::format("--eye, --target: beyond {:g} m of the origin", kMostCoordinate));
+        if (camera.eye == camera.target)
+            return fail("--target: may not be the eye");
+    }
+    if (options.fovDegrees)
+        camera.fovY = glm::radians(*options.fovDegrees);
+    return camera;
+}
+
+std::string projectsFolder() {
+    const char* folder = std::getenv("LIMN_PROJECTS");
+    return folder && *folder ? folder : LIMN_SOURCE_DIR "/projects";
+}
+
+} // namespace limn

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gltf/gltf_import.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+struct GeneratedScene;
+
+/// SCENE|PROJECT and the flags that bake, render and reference share for lights, sky and objects.
+struct SceneOptions {
+    std::string scene;
+    std::vector<std::string> lights;
+    std::string sky;
+    std::optional<float> skyStrength, skyRotation; ///< factor, degrees
+    double seconds = 0;                            ///< after the start of films
+    std::vector<std::string> dynamics;
+    ImportOptions import;
+};
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// The flags without the scene.
+void addLightOptions(CLI::App& command, SceneOptions& options);
+
+void addDynamicOption(CLI::App& command, SceneOptions& options);
+
+/// --memory and --outside-files.
+void addImportOptions(CLI::App& command, ImportOptions& options);
+
+void addTimeOption(CLI::App& command, SceneOptions& options);
+
+/// As if it had been imported; the dark room's camera is the second one.
+ImportedScene importedScene(const GeneratedScene& generated);
+
+/// Imports, or generates what is named generated:SEED; adds the lights and the sky, logs the
+/// repairs.
+Result<ImportedScene> openScene(const SceneOptions& options);
+
+struct CameraOptions {
+    std::optional<std::string> name;
+    std::vector<double> eye, target; ///< x,y,z in the file's coordinates [m]
+    std::optional<float> fovDegrees; ///< vertical
+    std::uint32_t width = 1280, height = 720;
+};
+void addCameraOptions(CLI::App& command, CameraOptions& options);
+void addViewOptions(CLI::App& command, CameraOptions& options); ///< all but the picture's size
+
+/// Fails when the named camera does not exist.
+Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options);
+
+/// The folder of sample projects: $LIMN_PROJECTS, else beside the executable's source tree.
+std::string projectsFolder();
+
+} // namespace limn

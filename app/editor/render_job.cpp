@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "app/editor/render_job.h"
+
+#include "app/editor/render_worker.h"
+#include "editor_ui/jobs/background_priority.h"
+
+#include <exception>
+#include <utility>
+
+namespace limn {
+
+RenderJob::RenderJob(bool validate, std::function<void()> wake)
+    : m_wake(std::move(wake)), m_thread([this, validate] { run(validate); }) {}
+
+RenderJob::~RenderJob() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_stop = m_hurry = true;
+    }
+    m_changed.notify_one();
+    m_thread.join();
+}
+
+void RenderJob::draw(PictureRequest request) {
+    {
+        const std::lock_guard lock(m_mutex);
+        const bool newLight =
+            request.relight && (request.scene != m_lastScene || request.lit.bake != m_result.lit);
+        if (newLight) {
+            m_result.relight.running = true;
+            m_result.relight.converged = false;
+        }
+        m_lastScene = request.scene;
+        m_next = std::move(request);
+        m_result.running = m_hurry = true;
+    }
+    m_changed.notify_one();
+}
+
+DrawnPicture RenderJob::result() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result;
+}
+
+std::vector<std::string> RenderJob::validationMessages() const {
+    const std::lock_guard lock(m_mutex);
+    return m_messages;
+}
+
+void RenderJob::publish(RenderWorker& worker, std::shared_ptr<const Image> image) {
+    const std::lock_guard lock(m_mutex);
+    m_result.image = std::move(image);
+    ++m_result.number;
+    m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
+    m_result.stats = worker.viewport.stats();
+    m_result.running = m_next.has_value() || worker.bouncing();
+    m_result.lit = worker.shown.lit.bake;
+    m_result.relight = worker.relight;
+    m_result.refusal = worker.refusal;
+    m_result.times = worker.times;
+    m_messages = worker.device->validationMessages();
+}
+
+void RenderJob::run(bool validate) {
+    lowerThreadPriority(); // a software rasteriser's threads inherit it
+    try {
+        RenderWorker worker(validate);
+        for (;;) {
+            std::unique_lock lock(m_mutex);
+            m_changed.wait(lock, [&] { return m_stop || m_next || worker.bouncing(); });
+            if (m_stop)
+                return;
+            PictureRequest request = m_next ? std::move(*std::exchange(m_next, {})) : worker.shown;
+            m_hurry = false;
+            lock.unlock();
+            publish(worker,
+                    std::make_shared<const Image>(worker.draw(std::move(request), m_hurry)));
+            m_wake();
+        }
+    } catch (
+        const std::exception& e) { // device lost, out of memory: the document can still be saved
+        const std::lock_guard lock(m_mutex);
+        m_result.error = e.what();
+        m_result.running = false;
+    }
+    m_wake();
+}
+
+} // namespace limn

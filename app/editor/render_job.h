@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/jobs/relight_job.h"
+#include "engine/render/viewport.h"
+#include "engine/techniques/illuminance/overlay/overlay.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace limn {
+
+class RenderWorker;
+
+/// What a picture is to show. Pointers stand for their contents.
+struct PictureRequest {
+    std::shared_ptr<const Scene> scene;           ///< not null
+    std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
+    std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
+    ViewportOptions options;
+    bool moving = false; ///< shadow maps that change may be coarse
+    OverlayOptions overlay;
+    std::shared_ptr<const Bake> bake;        ///< that the overlay shows; null: there is no overlay
+    std::shared_ptr<const Scene> bakedScene; ///< that `bake` was made from
+    std::shared_ptr<const LitBake> light;    ///< for overlays that showsLight(), unless `relight`
+    BakedScene lit;       ///< whose bounced light is shown; null members: no bake
+    bool relight = false; ///< it is worked out here, on the viewport's device, instead of `field`
+    /// Of `scene`. Set: how long relighting takes is measured first, on either device. `lit` is of
+    /// `scene`, too.
+    std::shared_ptr<const TraceScene> measure;
+};
+
+struct DrawnPicture {
+    std::shared_ptr<const Image> image; ///< tone-mapped; null: none yet
+    std::uint64_t number = 0;           ///< of this picture, from 1
+    OverlayLegend legend;               ///< of its overlay
+    ViewportStats stats;
+    bool running = false;              ///< another one is being drawn
+    std::shared_ptr<const Bake> lit;   ///< that what follows is about
+    RelightStatus relight;             ///< by this device
+    std::string refusal;               ///< why the device cannot light it; empty: it can
+    std::optional<RelightTimes> times; ///< of bakes like it, measured now or before
+    std::string error;                 ///< why there will be no more pictures
+};
+
+/// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload
+/// nor a slow picture holds up the window: on a software rasteriser everything on one queue would
+/// wait for it. The picture comes back through the CPU. Where it relights, it draws again after a
+/// few bounces until they have converged; then it sleeps.
+class RenderJob {
+public:
+    /// `wake` is called from the thread when there is a new result().
+    RenderJob(bool validate, std::function<void()> wake);
+    ~RenderJob();
+    RenderJob(const RenderJob&) = delete;
+    RenderJob& operator=(const RenderJob&) = delete;
+
+    /// The newest picture wanted; those it had no time for are dropped.
+    void draw(PictureRequest request);
+
+    DrawnPicture result() const;
+    std::vector<std::string> validationMessages() const;
+
+private:
+    void run(bool validate);
+    void publish(RenderWorker& worker, std::shared_ptr<const Image> image);
+
+    std::function<void()> m_wake;
+    std::atomic<bool> m_hurry{false}; ///< another picture is wanted, or none
+    mutable std::mutex m_mutex;       ///< of what follows
+    std::condition_variable m_changed;
+    std::optional<PictureRequest> m_next;
+    std::shared_ptr<const Scene> m_lastScene; ///< asked for
+    DrawnPicture m_result;
+    std::vector<std::string> m_messages;
+    bool m_stop = false;
+    std::thread m_thread; ///< last: starts when everything else is there
+};
+
+} // namespace limn

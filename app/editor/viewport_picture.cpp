@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "app/editor/viewport_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <glm/common.hpp>
+
+namespace limn {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr double kMovingMs = 60;       // a picture while things move should take no longer
+constexpr double kRestSeconds = 0.25;  // how long nothing moves before all pixels are drawn
+constexpr float kLeastScale = 0.25f;   // of the window's pixels, per axis
+constexpr float kScaleStep = 1.f / 16; // so that the size does not change with every picture
+
+} // namespace
+
+float ViewportPicture::chooseScale(glm::uvec2 full) const {
+    const double all = m_msPerPixel * double(full.x) * double(full.y),
+                 most = std::max(kMovingMs - m_shadowMs, kMovingMs / 4);
+    if (all <= most)
+        return 1;
+    const float wanted = float(std::sqrt(most / all));
+    return std::clamp(std::floor(wanted / kScaleStep) * kScaleStep, kLeastScale, 1.f);
+}
+
+void ViewportPicture::takeRelit(Session& session) {
+    EditorState& state = session.state;
+    RelightPlace& place = state.relightPlace;
+    if (m_drawn.lit == session.baked().bake) {
+        if (place.refusal != m_drawn.refusal && !m_drawn.refusal.empty())
+            state.log.push_back(
+                {LogLine::Level::Warning, "Bounced light stays on the CPU: " + m_drawn.refusal});
+        place.refusal = m_drawn.refusal;
+        if (m_drawn.lit)
+            place.times = m_drawn.times;
+    }
+    place.gpuCan = m_drawn.error.empty() && place.refusal.empty();
+    if (session.viewportRelights())
+        state.relight = m_drawn.relight;
+}
+
+void ViewportPicture::takeDrawn(Session& session) {
+    EditorState& state = session.state;
+    DrawnPicture drawn = m_job.result();
+    if (!drawn.error.empty() && m_drawn.error.empty())
+        state.log.push_back({LogLine::Level::Error, "No more pictures: " + drawn.error});
+    m_drawn = std::move(drawn);
+    takeRelit(session);
+    if (!m_drawn.image)
+        return;
+    const Image& image = *m_drawn.image;
+    const ViewportStats& stats = m_drawn.stats;
+    m_shadowMs = stats.shadowMs;
+    m_msPerPixel = (stats.totalMs - stats.shadowMs) / (double(image.width) * double(image.height));
+    FrameStatus& frame = state.frame;
+    frame.uploadMs = stats.uploadMs;
+    frame.shadowMs = stats.shadowMs;
+    frame.surfacesMs = stats.geometryMs;
+    frame.shadeMs = stats.indirectMs + stats.directMs;
+    frame.viewportMs = stats.totalMs;
+    frame.shadowMapsDrawn = stats.shadowMapsDrawn;
+    frame.surfacesDrawn = stats.geometryDrawn;
+    frame.gpuBytes = stats.gpuBytes;
+    frame.width = image.width;
+    frame.height = image.height;
+    frame.pictures = m_drawn.number;
+    state.overlay.legend = m_drawn.legend;
+}
+
+/// Once per bake, when nothing else is done whose time it would take or spoil.
+bool ViewportPicture::measureNow(const Session& session) {
+    const EditorState& state = session.state;
+    const RelightPlace& place = state.relightPlace;
+    const bool due = place.wanted == RelightOn::Auto && place.gpuCan && !place.times &&
+                     session.baked().bake && !session.baked().preview && state.trace &&
+                     m_drawn.lit == session.baked().bake && m_measured != session.baked().bake;
+    if (!due || m_drawn.running || m_reduced || !session.idle() ||
+        state.bake.freshness != BakeFreshness::UpToDate)
+        return false;
+    m_measured = session.baked().bake;
+    return true;
+}
+
+void ViewportPicture::update(Session& session) {
+    EditorState& state = session.state;
+    takeDrawn(session);
+    const ViewState& view = state.view;
+    const glm::uvec2 full = glm::max(glm::uvec2(view.size), glm::uvec2(1));
+    Shown shown{
+        view.view,       view.tonemap,         view.exposureEv,           view.camera, full,
+        session.scene(), session.layout(),     session.field(),           {},          nullptr,
+        session.lit(),   session.baked().bake, session.viewportRelights()};
+    if (state.overlay.options.kind != Overlay::None) {
+        shown.overlay = state.overlay.options;
+        shown.bake = state.overlay.bake;
+    }
+    const bool changed = m_shown != shown;
+    const auto now = Clock::now();
+    const bool resting = std::chrono::duration<double>(now - m_changed).count() >= kRestSeconds;
+    const bool measure = !changed && measureNow(session);
+    if (!changed && !measure && !(m_reduced && resting))
+        return;
+    if (changed)
+        m_changed = now;
+    const float scale = changed ? chooseScale(full) : 1;
+    m_reduced = scale < 1;
+    const glm::uvec2 size = glm::max(glm::uvec2(glm::vec2(full) * scale), glm::uvec2(1));
+    m_job.draw({shown.scene, shown.layout, shown.field,
+                ViewportOptions{.view = view.view,
+                                .camera = view.camera,
+                                .width = size.x,
+                                .height = size.y,
+                                .tonemap = view.tonemap,
+                                .exposureEv = view.exposureEv},
+                m_reduced, shown.overlay, shown.bake, state.overlay.scene, shown.light,
+                session.baked(), shown.relight, measure ? state.trace : nullptr});
+    m_drawn = m_job.result();
+    if (shown.relight)
+        state.relight = m_drawn.relight;
+    m_shown = std::move(shown);
+}
+
+WindowPicture ViewportPicture::record(VkCommandBuffer cmd, const ViewState& view) {
+    if (!m_drawn.image)
+        return {};
+    const Image& image = *m_drawn.image;
+    if (m_onDevice != m_drawn.number) {
+        gpu::ImageDesc desc = gpu::ImageDesc::texture(image.width, image.height,
+                                                      VK_FORMAT_R8G8B8A8_UNORM, 1, "picture");
+        desc.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+        m_image = gpu::Image(m_device, desc);
+        gpu::uploadImage(m_device, cmd, m_image, std::as_bytes(std::span(image.rgba)));
+        m_onDevice = m_drawn.number;
+    }
+    const glm::ivec2 begin(view.origin);
+    return {m_image.handle, {image.width, image.height}, begin, begin + glm::ivec2(view.size)};
+}
+
+double ViewportPicture::secondsToNext() const {
+    if (!m_reduced)
+        return -1;
+    const double since = std::chrono::duration<double>(Clock::now() - m_changed).count();
+    return std::max(kRestSeconds - since, 0.005);
+}
+
+} // namespace limn

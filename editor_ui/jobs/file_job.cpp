@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/jobs/file_job.h"
+
+#include "editor_ui/jobs/background_priority.h"
+#include "engine/files/project_file.h"
+#include "engine/files/sky_file.h"
+#include "engine/techniques/illuminance/bake/bake_defect.h"
+#include "engine/techniques/illuminance/bake/bake_file.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace limn {
+
+namespace fs = std::filesystem;
+
+std::vector<Bounds> boundsOfMeshes(const Assets& assets) {
+    std::vector<Bounds> all;
+    for (const Mesh& mesh : assets.meshes) {
+        Bounds b;
+        if (!mesh.positions.empty())
+            b.lower = b.upper = mesh.positions[0];
+        for (glm::vec3 p : mesh.positions) {
+            b.lower = glm::min(b.lower, p);
+            b.upper = glm::max(b.upper, p);
+        }
+        all.push_back(b);
+    }
+    return all;
+}
+
+std::string bakePathOf(const std::string& projectPath) {
+    return fs::path(projectPath).replace_extension(".limnbake").string();
+}
+
+FileJob::FileJob(std::string projectsFolder, ImportOptions options, std::function<void()> wake)
+    : m_projectsFolder(std::move(projectsFolder)), m_options(options), m_wake(std::move(wake)) {}
+
+FileJob::~FileJob() {
+    m_cancel = true; // of an import; a save is always finished
+    if (m_thread.joinable())
+        m_thread.join();
+}
+
+bool FileJob::start(std::function<void()> work) {
+    if (m_running)
+        return false;
+    if (m_thread.joinable())
+        m_thread.join(); // has finished
+    m_running = true;
+    m_thread = std::thread([this, work = std::move(work)] {
+        lowerThreadPriority();
+        work();
+        m_running = false;
+        m_wake();
+    });
+    return true;
+}
+
+/// The bake beside a project, if there is one that fits what the project now holds.
+static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene& imported,
+                             const MemoryBudget& memory) {
+    std::error_code error;
+    const std::string path = bakePathOf(projectPath);
+    if (!fs::exists(path, error))
+        return {};
+    Result<Bake> bake = readBake(path, memory);
+    auto scene = std::make_shared<const Scene>(flatten(imported.document, imported.assets));
+    if (!bake || bake->sceneHash != bakeInputHash(*scene) ||
+        !bakeDefect(*bake, scene.get()).empty())
+        return {};
+    return {std::make_shared<const Bake>(std::move(*bake)), scene,
+            std::make_shared<const TraceScene>(*scene)};
+}
+
+static Result<OpenedFile> openFile(const std::string& what, const std::string& projectsFolder,
+                                   const Progress& progress, const ImportOptions& options) {
+    Result<ImportedScene> imported = openAny(what, projectsFolder, progress, options);
+    if (!imported)
+        return tl::make_unexpected(imported.error());
+    OpenedFile file;
+    file.what = what;
+    file.imported = std::move(*imported);
+    file.meshBounds = boundsOfMeshes(*file.imported.assets);
+    if (fs::path(what).extension() == ".limn") {
+        file.projectPath = fs::absolute(what).string();
+        file.baked = bakeBeside(file.projectPath, file.imported, options.memory);
+    }
+    return file;
+}
+
+bool FileJob::open(std::string what) {
+    return start([this, what = std::move(what)] {
+        Progress progress;
+        progress.cancel = &m_cancel;
+        auto opened = openFile(what, m_projectsFolder, progress, m_options);
+        const std::lock_guard lock(m_mutex);
+        m_opened = std::move(opened);
+    });
+}
+
+bool FileJob::openSkyImage(std::string path) {
+    return start([this, path = std::move(path)] {
+        Sky sky{.kind = SkyKind::Image, .image = path};
+        const Result<void> read = readSkyImage(sky, m_options.memory);
+        const std::lock_guard lock(m_mutex);
+        if (read)
+            m_sky = std::move(sky);
+        else
+            m_sky = tl::make_unexpected(read.error());
+    });
+}
+
+bool FileJob::save(std::string path, Document document, std::shared_ptr<const Bake> bake) {
+    return start(
+        [this, path = std::move(path), document = std::move(document), bake = std::move(bake)] {
+            Result<void> written = saveProject(path, document);
+            if (written && bake)
+                written = writeBake(bakePathOf(path), *bake);
+            const std::lock_guard lock(m_mutex);
+            if (written)
+                m_saved = document;
+            else
+                m_saved = tl::make_unexpected(written.error());
+        });
+}
+
+bool FileJob::busy() const {
+    const std::lock_guard lock(m_mutex);
+    return m_running || m_opened || m_sky || m_saved;
+}
+
+std::optional<Result<OpenedFile>> FileJob::takeOpened() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_opened, {});
+}
+
+std::optional<Result<Sky>> FileJob::takeSky() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_sky, {});
+}
+
+std::optional<Result<Document>> FileJob::takeSaved() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_saved, {});
+}
+
+} // namespace limn

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/jobs/bake_job.h"
+#include "engine/gltf/gltf_import.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace limn {
+
+/// What opening a file gave.
+struct OpenedFile {
+    std::string what;        ///< as asked for
+    std::string projectPath; ///< where Save writes; empty for a scene and for sample projects
+    ImportedScene imported;
+    std::vector<Bounds> meshBounds; ///< object space, as Assets::meshes
+    BakedScene baked;               ///< the bake that lay beside the project, if it fits
+};
+
+/// Reads and writes files on a thread, one at a time. No call waits for the disk but the
+/// destructor.
+class FileJob {
+public:
+    /// `projectsFolder`: where sample projects are looked for by name.
+    FileJob(std::string projectsFolder, ImportOptions options, std::function<void()> wake);
+    ~FileJob();
+    FileJob(const FileJob&) = delete;
+    FileJob& operator=(const FileJob&) = delete;
+
+    /// While one is running, or what it gave has not been taken.
+    bool busy() const;
+
+    /// Each starts its work and returns true, or false while another is running.
+    bool open(std::string what);
+    bool openSkyImage(std::string path);
+    /// Writes the project and, beside it, the bake if there is one.
+    bool save(std::string path, Document document, std::shared_ptr<const Bake> bake);
+
+    /// What the last open() gave, once.
+    std::optional<Result<OpenedFile>> takeOpened();
+    /// The panorama that the last openSkyImage() read, once, or why not.
+    std::optional<Result<Sky>> takeSky();
+    /// The document that was written, once, or why not.
+    std::optional<Result<Document>> takeSaved();
+
+private:
+    bool start(std::function<void()> work);
+
+    std::string m_projectsFolder;
+    ImportOptions m_options;
+    std::function<void()> m_wake;
+    std::thread m_thread;
+    std::atomic<bool> m_running{false}, m_cancel{false};
+    mutable std::mutex m_mutex; ///< of what follows
+    std::optional<Result<OpenedFile>> m_opened;
+    std::optional<Result<Sky>> m_sky;
+    std::optional<Result<Document>> m_saved;
+};
+
+/// Box of each mesh in its own space; 0 for an empty mesh.
+std::vector<Bounds> boundsOfMeshes(const Assets& assets);
+
+/// Where the bake of a project lies: NAME.limnbake beside NAME.limn.
+std::string bakePathOf(const std::string& projectPath);
+
+} // namespace limn

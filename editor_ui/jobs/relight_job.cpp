@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/jobs/relight_job.h"
+
+#include "editor_ui/jobs/background_priority.h"
+#include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/relight/bouncing.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace limn {
+
+namespace {
+
+bool sameSurface(const Material& a, const Material& b) {
+    return a.alphaMode == b.alphaMode && a.alphaCutoff == b.alphaCutoff &&
+           a.doubleSided == b.doubleSided && a.baseColor.w == b.baseColor.w &&
+           a.baseColorTexture == b.baseColorTexture;
+}
+
+bool sameBakedMaterial(const Material& a, const Material& b) {
+    return sameSurface(a, b) && emits(a) == emits(b);
+}
+
+bool sameObject(const Instance& a, const Instance& b) {
+    return a.mesh == b.mesh && a.material == b.material && a.node == b.node &&
+           a.dynamic == b.dynamic;
+}
+
+bool sameInstance(const Instance& a, const Instance& b) {
+    return sameObject(a, b) && a.toWorld == b.toWorld;
+}
+
+bool sameBakedInstance(const Instance& a, const Instance& b) {
+    return sameObject(a, b) && (a.dynamic || a.toWorld == b.toWorld);
+}
+
+} // namespace
+
+bool sameGeometry(const Scene& a, const Scene& b) {
+    return a.assets == b.assets && std::ranges::equal(a.instances, b.instances, sameInstance) &&
+           std::ranges::equal(a.materials, b.materials, sameSurface);
+}
+
+bool sameStaticGeometry(const Scene& a, const Scene& b) {
+    return a.assets == b.assets &&
+           std::ranges::equal(a.instances, b.instances, sameBakedInstance) &&
+           std::ranges::equal(a.materials, b.materials, sameSurface);
+}
+
+bool sameBakeInputs(const Scene& a, const Scene& b) {
+    return sameStaticGeometry(a, b) && a.bake == b.bake &&
+           std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
+}
+
+Scene relitScene(const Scene& baked, const Scene& now) {
+    Scene scene = baked;
+    scene.lights = now.lights;
+    scene.sky = now.sky;
+    scene.bake.maxBounces = now.bake.maxBounces;
+    scene.bake.dimming = now.bake.dimming;
+    if (scene.materials.size() == now.materials.size())
+        scene.materials = now.materials;
+    return scene;
+}
+
+/// The thread's own state; nobody else touches it.
+struct RelightJob::Worker {
+    std::shared_ptr<const Scene> scene; ///< newest
+    std::shared_ptr<const TraceScene> trace;
+    std::uint64_t inputHash = 0;
+    BakedScene baked;
+    std::unique_ptr<Relighter> relighter;
+    std::array<std::shared_ptr<IndirectField>, 3>
+        pool; ///< fields nobody looks at any more are used again
+    RelightStatus status;
+    std::shared_ptr<const LitBake> lit; ///< null: nobody asks
+    bool lighting = true;
+    bool whole = false;            ///< the field has the newest light everywhere
+    bool everWhole = false;        ///< it had some of this bake's
+    std::optional<Viewpoint> view; ///< newest; none: all is looked at
+    SeenFrom seen;                 ///< of the bake
+
+    bool hasWork() const { return lighting && relighter && scene && !(status.converged && whole); }
+    const CacheFlags* seenNow();
+    void setLighting(bool here);
+    void takeScene(std::shared_ptr<const Scene> next);
+    void takeBake(BakedScene next);
+    void relight(const Progress& progress);
+    std::shared_ptr<const IndirectField> copyField();
+    std::shared_ptr<const LitBake> copyLit() const;
+};
+
+void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
+    const bool sameRays = scene && sameGeometry(*scene, *next);
+    const bool sameFixed = scene && sameStaticGeometry(*scene, *next);
+    const bool sameInputs = scene && sameBakeInputs(*scene, *next);
+    scene = std::move(next);
+    if (!sameRays)
+        trace = sameFixed ? std::make_shared<const TraceScene>(*scene, *trace)
+                          : std::make_shared<const TraceScene>(*scene);
+    if (!sameInputs)
+        inputHash = bakeInputHash(*scene);
+    status.converged = whole = false;
+    status.bounces = 0;
+}
+
+void RelightJob::Worker::takeBake(BakedScene next) {
+    baked = std::move(next);
+    relighter = baked.bake ? std::make_unique<Relighter>(baked.bake) : nullptr;
+    seen = {};
+    status.converged = whole = everWhole = false;
+    status.bounces = 0;
+}
+
+void RelightJob::Worker::setLighting(bool here) {
+    if (here && !lighting)
+        status = {};
+    lighting = here;
+}
+
+/// Null: all, as at first, so that there is light wherever somebody looks later.
+const CacheFlags* RelightJob::Worker::seenNow() {
+    return view && everWhole ? &seenFrom(seen, *baked.scene, *baked.bake, *view) : nullptr;
+}
+
+void RelightJob::Worker::relight(const Progress& progress) {
+    const bool rest = status.converged; // is left
+    const std::uint32_t bounces = rest ? 0 : bouncesPerCall(scene->bake.maxBounces);
+    const CacheFlags* wanted = rest ? nullptr : seenNow();
+    const bool fresh = inputHash == baked.bake->sceneHash;
+    const RelightStats stats = fresh ? relighter->relight(*scene, *trace, bounces, progress, wanted)
+                                     : relighter->relight(relitScene(*baked.scene, *scene),
+                                                          *baked.trace, bounces, progress, wanted);
+    whole = stats.cachesUnseen == 0;
+    everWhole |= whole;
+    if (rest) // the panels go on to show what bounces took
+        return;
+    status.last = stats;
+    countUpdate(status, scene->bake.maxBounces);
+}
+
+std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
+    for (auto& field : pool) {
+        if (field && field.use_count() > 1)
+            continue;
+        if (!field)
+            field = std::make_shared<IndirectField>();
+        *field = relighter->field();
+        return field;
+    }
+    return std::make_shared<const IndirectField>(relighter->field());
+}
+
+/// Empty where nothing is lit here.
+std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
+    auto copy = std::make_shared<LitBake>();
+    if (relighter && lighting)
+        *copy = {relighter->radiosity(), relighter->cacheSh(), int(relighter->field().bands)};
+    return copy;
+}
+
+std::uint32_t bouncesPerCall(std::uint32_t maxBounces) {
+    return maxBounces <= kFewBounces ? maxBounces : 2;
+}
+
+void countUpdate(RelightStatus& status, std::uint32_t maxBounces) {
+    ++status.calls;
+    status.history.add(status.last);
+    status.bounces += status.last.bounces;
+    status.converged = status.last.converged || status.bounces >= maxBounces;
+}
+
+RelightJob::RelightJob(std::function<void()> wake)
+    : m_wake(std::move(wake)), m_thread([this] { run(); }) {}
+
+RelightJob::~RelightJob() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_stop = true;
+        m_cancel = true;
+    }
+    m_changed.notify_one();
+    m_thread.join();
+}
+
+void RelightJob::setScene(std::shared_ptr<const Scene> scene) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_nextScene = std::move(scene);
+        m_result.status.running = true;
+        m_result.status.converged = false;
+    }
+    m_changed.notify_one();
+}
+
+void RelightJob::setBake(BakedScene baked) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_result.status.running = m_result.status.running || baked.bake;
+        m_result.status.converged = false;
+        m_nextBake = std::move(baked);
+    }
+    m_changed.notify_one();
+}
+
+void RelightJob::setLighting(bool here) {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (here == m_lighting)
+            return;
+        m_lighting = here;
+        m_cancel = !here; // what is under way is of no use any more
+        m_result.status.running |= here;
+    }
+    m_changed.notify_one();
+}
+
+void RelightJob::setView(const Viewpoint& view) {
+    const std::lock_guard lock(m_mutex);
+    m_view = view; // looked at by the next bounces
+}
+
+void RelightJob::keepLit(bool keep) {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (keep == m_keepLit)
+            return;
+        m_keepLit = keep;
+        if (!keep)
+            m_result.lit = nullptr;
+    }
+    m_changed.notify_one();
+}
+
+Relit RelightJob::result() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result;
+}
+
+void RelightJob::run() {
+    lowerThreadPriority();
+    Worker worker;
+    const Progress progress{.report = {}, .cancel = &m_cancel};
+    std::unique_lock lock(m_mutex);
+    for (;;) {
+        m_changed.wait(lock, [&] {
+            return m_stop || m_nextScene || m_nextBake || m_lighting != worker.lighting ||
+                   m_keepLit != (worker.lit != nullptr) || worker.hasWork();
+        });
+        if (m_stop)
+            return;
+        worker.setLighting(m_lighting);
+        auto scene = std::exchange(m_nextScene, nullptr);
+        auto baked = std::exchange(m_nextBake, {});
+        const bool keepLit = m_keepLit;
+        worker.view = keepLit ? std::nullopt : m_view;
+        lock.unlock();
+        if (scene)
+            worker.takeScene(std::move(scene));
+        if (baked)
+            worker.takeBake(std::move(*baked));
+        std::shared_ptr<const IndirectField> field;
+        if (worker.hasWork()) {
+            worker.relight(progress);
+            field = worker.copyField();
+        }
+        if (!keepLit)
+            worker.lit = nullptr;
+        else if (field || !worker.lit)
+            worker.lit = worker.copyLit();
+        lock.lock();
+        if (field || !worker.relighter || !worker.lighting)
+            m_result.field = worker.lighting ? std::move(field) : nullptr;
+        m_result.lit = worker.lit;
+        m_result.trace = worker.trace;
+        m_result.hashedScene = worker.scene;
+        m_result.inputHash = worker.inputHash;
+        m_result.status = worker.status;
+        m_result.status.running = worker.hasWork() || m_nextScene;
+        m_result.status.converged = worker.status.converged && worker.whole && !m_nextScene;
+        lock.unlock();
+        m_wake();
+        lock.lock();
+    }
+}
+
+} // namespace limn

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/action.h"
+
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/object_rules.h"
+#include "editor_ui/editor_state.h"
+#include "editor_ui/view/camera_control.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace limn {
+
+namespace {
+
+bool always(const EditorState&) {
+    return true;
+}
+bool canUndo(const EditorState& s) {
+    return s.history.applied > 0 || s.gesture;
+}
+bool canRedo(const EditorState& s) {
+    return s.history.applied < s.history.edits.size();
+}
+bool baking(const EditorState& s) {
+    return s.bake.running;
+}
+bool canBake(const EditorState& s) {
+    return !s.bake.running && s.loading.empty();
+}
+bool hasSelection(const EditorState& s) {
+    return !s.selection.empty();
+}
+
+bool hasDeletable(const EditorState& s) {
+    return std::ranges::any_of(s.selection, [&](ObjectId id) {
+        const auto it = s.document.objects.find(id);
+        return it != s.document.objects.end() && canDelete(it->second);
+    });
+}
+
+bool canRename(const EditorState& s) {
+    const auto it = s.document.objects.find(activeId(s));
+    if (it == s.document.objects.end())
+        return false;
+    Object copy = it->second;
+    return nameOf(copy) != nullptr;
+}
+
+const Camera* firstCamera(const EditorState& s) {
+    for (const auto& [id, object] : s.document.objects)
+        if (const auto* camera = std::get_if<Camera>(&object))
+            return camera;
+    return nullptr;
+}
+
+bool hasCamera(const EditorState& s) {
+    return firstCamera(s) != nullptr;
+}
+
+void request(EditorState& s, Request::Kind kind, std::string path = {}) {
+    s.requests.push_back({kind, std::move(path)});
+}
+
+void newFromScene(EditorState& s) {
+    openFileBrowser(s, FileBrowser::Purpose::NewFromScene);
+}
+void open(EditorState& s) {
+    openFileBrowser(s, FileBrowser::Purpose::Open);
+}
+void saveAs(EditorState& s) {
+    openFileBrowser(s, FileBrowser::Purpose::SaveAs);
+}
+void save(EditorState& s) {
+    if (s.projectPath.empty())
+        saveAs(s);
+    else
+        request(s, Request::Kind::Save, s.projectPath);
+}
+void quit(EditorState& s) {
+    request(s, Request::Kind::Quit);
+}
+
+void undoAction(EditorState& s) {
+    undoEdit(s);
+}
+void redoAction(EditorState& s) {
+    redoEdit(s);
+}
+void selectNone(EditorState& s) {
+    s.selection.clear();
+    s.outliner.renaming = 0;
+}
+void selectAll(EditorState& s) {
+    s.selection.clear();
+    for (const auto& [id, object] : s.document.objects)
+        if (canDelete(object))
+            s.selection.push_back(id);
+}
+void startRename(EditorState& s) {
+    Object* object = findObject(s, activeId(s));
+    s.outliner.renaming = activeId(s);
+    s.outliner.newName = *nameOf(*object);
+    s.outliner.focusName = true;
+}
+
+void addOfKind(EditorState& s, LightKind kind, const char* name, float strength) {
+    Light light;
+    light.kind = kind;
+    light.name = name;
+    light.strength = strength;
+    light.position = s.view.camera.target;
+    if (kind == LightKind::Directional)
+        light.direction = {-0.48f, -0.8f, -0.36f}; // unit: 0.48^2 + 0.8^2 + 0.36^2 = 1
+    addLight(s, light);
+}
+void addSun(EditorState& s) {
+    addOfKind(s, LightKind::Directional, "Sun", 10);
+}
+void addPoint(EditorState& s) {
+    addOfKind(s, LightKind::Point, "Point light", 100);
+}
+void addSpot(EditorState& s) {
+    addOfKind(s, LightKind::Spot, "Spot light", 300);
+}
+void addRectangle(EditorState& s) {
+    addOfKind(s, LightKind::Rectangle, "Rectangle light", 30);
+}
+
+void focusSelection(EditorState& s) {
+    focus(s.view.camera, selectionBounds(s));
+}
+void sceneCamera(EditorState& s) {
+    const auto it = s.document.objects.find(activeId(s));
+    const Camera* active =
+        it == s.document.objects.end() ? nullptr : std::get_if<Camera>(&it->second);
+    s.view.camera = active ? *active : *firstCamera(s);
+}
+template <Side side>
+void lookFromSide(EditorState& s) {
+    lookFrom(s.view.camera, side);
+}
+template <View view>
+void showView(EditorState& s) {
+    s.view.view = view;
+}
+template <View view>
+bool showsView(const EditorState& s) {
+    return s.view.view == view;
+}
+template <Tool tool>
+void setTool(EditorState& s) {
+    s.view.tool = tool;
+}
+template <Tool tool>
+bool hasTool(const EditorState& s) {
+    return s.view.tool == tool;
+}
+template <Overlay overlay>
+void showOverlay(EditorState& s) {
+    s.overlay.options.kind = overlay;
+}
+template <Overlay overlay>
+bool showsOverlay(const EditorState& s) {
+    return s.overlay.options.kind == overlay;
+}
+template <Overlay overlay>
+constexpr Action overlayAction(const char* id) {
+    return {id,
+            kOverlays[std::size_t(overlay)].label,
+            Menu::Overlay,
+            {},
+            {},
+            false,
+            always,
+            showOverlay<overlay>,
+            showsOverlay<overlay>};
+}
+void toggleLights(EditorState& s) {
+    s.view.showLights = !s.view.showLights;
+}
+bool lightsShown(const EditorState& s) {
+    return s.view.showLights;
+}
+void resetLayout(EditorState& s) {
+    s.layout = {};
+}
+void screenshot(EditorState& s) {
+    request(s, Request::Kind::Screenshot);
+}
+void palette(EditorState& s) {
+    s.paletteOpen = true;
+    s.paletteFilter.clear();
+}
+void startBake(EditorState& s) {
+    request(s, Request::Kind::Bake);
+}
+void cancelBake(EditorState& s) {
+    request(s, Request::Kind::CancelBake);
+}
+bool hasFilm(const EditorState& s) {
+    return std::ranges::any_of(s.document.objects, [](const auto& entry) {
+        const Material* m = std::get_if<Material>(&entry.second);
+        return m && isAnimated(*m);
+    });
+}
+bool plays(const EditorState& s) {
+    return s.playing;
+}
+void togglePlay(EditorState& s) {
+    s.playing = !s.playing;
+}
+void rewindFilms(EditorState& s) {
+    s.seconds = 0;
+}
+void toggleAutoBake(EditorState& s) {
+    s.autoBake = !s.autoBake;
+}
+bool autoBakes(const EditorState& s) {
+    return s.autoBake;
+}
+
+constexpr Shortcut kNoKey{};
+constexpr Shortcut plain(int k) {
+    return {k, kNoMods};
+}
+constexpr Shortcut ctrl(int k) {
+    return {k, kCtrl};
+}
+constexpr Shortcut shift(int k) {
+    return {k, kShift};
+}
+constexpr Shortcut alt(int k) {
+    return {k, kAlt};
+}
+constexpr Shortcut ctrlShift(int k) {
+    return {k, kCtrl | kShift};
+}
+
+// clang-format off
+constexpr Action kActions[] = {
+    {"file.new", "New from scene\u2026", Menu::File, ctrl('N'), kNoKey, false, always, newFromScene},
+    {"file.open", "Open\u2026", Menu::File, ctrl('O'), kNoKey, false, always, open},
+    {"file.save", "Save", Menu::File, ctrl('S'), kNoKey, true, always, save},
+    {"file.save_as", "Save as\u2026", Menu::File, ctrlShift('S'), kNoKey, false, always, saveAs},
+    {"file.screenshot", "Screenshot", Menu::File, plain(key::kF12), kNoKey, true, always, screenshot},
+    {"file.quit", "Quit", Menu::File, ctrl('Q'), kNoKey, true, always, quit},
+    {"edit.undo", "Undo", Menu::Edit, ctrl('Z'), kNoKey, false, canUndo, undoAction},
+    {"edit.redo", "Redo", Menu::Edit, ctrlShift('Z'), ctrl('Y'), false, canRedo, redoAction},
+    {"edit.duplicate", "Duplicate", Menu::Edit, ctrl('D'), shift('D'), true, hasDeletable, duplicateSelection},
+    {"edit.rename", "Rename", Menu::Edit, plain(key::kF2), kNoKey, false, canRename, startRename},
+    {"edit.delete", "Delete", Menu::Edit, plain(key::kDelete), kNoKey, false, hasDeletable, deleteSelection},
+    {"edit.hide", "Hide or show", Menu::Edit, plain('H'), kNoKey, true, hasSelection, toggleHidden},
+    {"edit.show_all", "Show all", Menu::Edit, alt('H'), kNoKey, false, always, showAll},
+    {"edit.select_all", "Select all", Menu::Edit, ctrl('A'), kNoKey, true, always, selectAll},
+    {"edit.select_none", "Select nothing", Menu::Edit, plain(key::kEscape), kNoKey, false, hasSelection, selectNone},
+    {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, palette},
+    {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
+    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, addPoint},
+    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, addSpot},
+    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, addRectangle},
+    {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, showView<View::Lit>, showsView<View::Lit>},
+    {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Direct>, showsView<View::Direct>},
+    {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Indirect>, showsView<View::Indirect>},
+    {"view.irradiance", "Irradiance", Menu::View, kNoKey, kNoKey, false, always, showView<View::Irradiance>, showsView<View::Irradiance>},
+    {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, showView<View::Albedo>, showsView<View::Albedo>},
+    {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, showView<View::Normals>, showsView<View::Normals>},
+    {"view.focus", "Focus selection", Menu::View, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
+    {"view.camera", "Scene camera", Menu::View, plain(key::kPad0), kNoKey, false, hasCamera, sceneCamera},
+    {"view.front", "From the front", Menu::View, plain(key::kPad1), kNoKey, true, always, lookFromSide<Side::Front>},
+    {"view.back", "From the back", Menu::View, ctrl(key::kPad1), kNoKey, false, always, lookFromSide<Side::Back>},
+    {"view.right", "From the right", Menu::View, plain(key::kPad3), kNoKey, false, always, lookFromSide<Side::Right>},
+    {"view.left", "From the left", Menu::View, ctrl(key::kPad3), kNoKey, false, always, lookFromSide<Side::Left>},
+    {"view.top", "From the top", Menu::View, plain(key::kPad7), kNoKey, false, always, lookFromSide<Side::Top>},
+    {"view.bottom", "From below", Menu::View, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
+    {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, setTool<Tool::Select>, hasTool<Tool::Select>},
+    {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, setTool<Tool::Move>, hasTool<Tool::Move>},
+    {"view.play", "Play films", Menu::View, plain(key::kSpace), kNoKey, true, hasFilm, togglePlay, plays},
+    {"view.rewind", "Rewind films", Menu::View, kNoKey, kNoKey, false, hasFilm, rewindFilms},
+    {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
+    {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
+    overlayAction<Overlay::None>("overlay.none"),
+    overlayAction<Overlay::Surfels>("overlay.surfels"),
+    overlayAction<Overlay::SurfelNormals>("overlay.surfel_normals"),
+    overlayAction<Overlay::SurfelOwners>("overlay.surfel_owners"),
+    overlayAction<Overlay::Clusters>("overlay.clusters"),
+    overlayAction<Overlay::Links>("overlay.links"),
+    overlayAction<Overlay::Caches>("overlay.caches"),
+    overlayAction<Overlay::Charts>("overlay.charts"),
+    overlayAction<Overlay::Density>("overlay.density"),
+    overlayAction<Overlay::Overlap>("overlay.overlap"),
+    overlayAction<Overlay::LitSurfels>("overlay.lit_surfels"),
+    overlayAction<Overlay::LitClusters>("overlay.lit_clusters"),
+    overlayAction<Overlay::Lobes>("overlay.lobes"),
+    {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
+    {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
+    {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
+};
+// clang-format on
+
+} // namespace
+
+std::span<const Action> actions() {
+    return kActions;
+}
+
+const Action& actionById(const char* id) {
+    const auto* found = std::ranges::find_if(
+        kActions, [&](const Action& action) { return std::strcmp(action.id, id) == 0; });
+    assert(found != std::end(kActions));
+    return *found;
+}
+
+void runAction(EditorState& state, const Action& action) {
+    commitGesture(state);
+    state.view.drag.reset();
+    if (action.enabled(state))
+        action.run(state);
+}
+
+std::string actionLabel(const EditorState& state, const Action& action) {
+    const EditHistory& h = state.history;
+    if (action.run == undoAction && state.gesture)
+        return "Undo " + state.gesture->label;
+    if (action.run == undoAction && h.applied > 0)
+        return "Undo " + h.edits[h.applied - 1].label;
+    if (action.run == redoAction && h.applied < h.edits.size())
+        return "Redo " + h.edits[h.applied].label;
+    return action.label;
+}
+
+bool runShortcut(EditorState& state, const Shortcut& pressed) {
+    for (const Action& action : kActions)
+        if (action.shortcut == pressed || action.alternative == pressed) {
+            runAction(state, action);
+            return true;
+        }
+    return false;
+}
+
+} // namespace limn

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/panels/keys.h"
+
+#include <span>
+#include <string>
+
+namespace limn {
+
+struct EditorState;
+
+/// Menus that list actions, in the order of the menu bar; Overlay is a part of View.
+enum class Menu { File, Edit, Add, View, Overlay, Bake };
+
+/// One thing the user can do. Menus, shortcuts and the palette read the same table.
+struct Action {
+    const char* id;    ///< "edit.undo"
+    const char* label; ///< "Undo"
+    Menu menu;
+    Shortcut shortcut;
+    Shortcut alternative; ///< a second key for the same thing
+    bool separator;       ///< a line above it in its menu
+    bool (*enabled)(const EditorState&);
+    void (*run)(EditorState&);
+    bool (*checked)(const EditorState&) = nullptr; ///< of a toggle or a choice
+};
+
+std::span<const Action> actions();
+
+/// The action with this id; asserts that there is one.
+const Action& actionById(const char* id);
+
+/// Ends the gesture, then runs the action if it is enabled.
+void runAction(EditorState& state, const Action& action);
+
+/// "Undo Move Key light": the label with what it would act on.
+std::string actionLabel(const EditorState& state, const Action& action);
+
+/// Runs the action whose shortcut this is. Returns false when there is none.
+bool runShortcut(EditorState& state, const Shortcut& pressed);
+
+} // namespace limn

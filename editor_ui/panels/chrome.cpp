@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/chrome.h"
+
+#include "editor_ui/editor_state.h"
+#include "editor_ui/panels/action.h"
+#include "editor_ui/panels/field.h"
+#include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/theme.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+static void actionItem(EditorState& state, const Action& action) {
+    const std::string label = actionLabel(state, action);
+    const std::string keys = shortcutText(action.shortcut);
+    const bool checked = action.checked && action.checked(state);
+    if (ImGui::MenuItem((label + "###" + action.id).c_str(), keys.c_str(), checked,
+                        action.enabled(state)))
+        runAction(state, action);
+}
+
+static void recentMenu(EditorState& state) {
+    if (!ImGui::BeginMenu("Recent", !state.recent.empty()))
+        return;
+    for (const std::string& path : std::vector<std::string>(state.recent)) {
+        const std::string name = std::filesystem::path(path).filename().string();
+        if (ImGui::MenuItem((name + "##" + path).c_str()))
+            state.requests.push_back({Request::Kind::Open, path});
+        wrappedTooltip(path.c_str());
+    }
+    ImGui::EndMenu();
+}
+
+static void menu(EditorState& state, const char* label, Menu which) {
+    if (!ImGui::BeginMenu(label))
+        return;
+    for (const Action& action : actions()) {
+        if (action.menu != which)
+            continue;
+        if (action.separator)
+            ImGui::Separator();
+        actionItem(state, action);
+        if (which == Menu::File && std::string_view(action.id) == "file.open")
+            recentMenu(state);
+    }
+    if (which == Menu::View)
+        menu(state, "Overlay", Menu::Overlay);
+    ImGui::EndMenu();
+}
+
+static std::string documentTitle(const EditorState& state) {
+    std::string path = state.projectPath.empty() ? state.document.scenePath : state.projectPath;
+    std::string name = std::filesystem::path(path).filename().string();
+    if (name.empty())
+        name = "Untitled";
+    return hasUnsavedChanges(state) ? name + " (not saved)" : name;
+}
+
+void menuBar(EditorState& state) {
+    if (!ImGui::BeginMainMenuBar())
+        return;
+    menu(state, "File", Menu::File);
+    menu(state, "Edit", Menu::Edit);
+    menu(state, "Add", Menu::Add);
+    menu(state, "View", Menu::View);
+    menu(state, "Bake", Menu::Bake);
+    const std::string title = documentTitle(state);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, room - 20);
+    if (width > 20) {
+        ImGui::SameLine(ImGui::GetCursorPosX() + room - width - 4);
+        ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+        elidedText(title, width + 1);
+        ImGui::PopStyleColor();
+    }
+    ImGui::EndMainMenuBar();
+}
+
+static void toolButton(EditorState& state, const char* id, const char* label) {
+    const Action& action = actionById(id);
+    const bool active = action.checked(state);
+    if (active)
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (ImGui::Button(label))
+        runAction(state, action);
+    if (active)
+        ImGui::PopStyleColor();
+    wrappedTooltip(
+        (std::string(action.label) + " (" + shortcutText(action.shortcut) + ")").c_str());
+    ImGui::SameLine();
+}
+
+static void viewCombo(EditorState& state) {
+    static constexpr const char* kViews[] = {"Lit",        "Direct only", "Indirect only",
+                                             "Irradiance", "Albedo",      "Normals"};
+    static_assert(std::size(kViews) == kViewNames.size());
+    int view = int(state.view.view);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+    if (ImGui::Combo("##view", &view, kViews, int(std::size(kViews))))
+        state.view.view = View(view);
+    wrappedTooltip("What the picture shows");
+    ImGui::SameLine();
+}
+
+static void tonemapCombo(EditorState& state) {
+    static constexpr const char* kTonemaps[] = {"No tone mapping", "ACES fitted", "AgX",
+                                                "Khronos PBR Neutral"};
+    static_assert(std::size(kTonemaps) == kTonemapNames.size());
+    int tonemap = int(state.view.tonemap);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+    if (ImGui::Combo("##tonemap", &tonemap, kTonemaps, int(std::size(kTonemaps))))
+        state.view.tonemap = Tonemap(tonemap);
+    wrappedTooltip("How scene light becomes display colours");
+    ImGui::SameLine();
+}
+
+void viewBar(EditorState& state) {
+    toolButton(state, "tool.select", "Select");
+    toolButton(state, "tool.move", "Move");
+    viewCombo(state);
+    overlayCombo(state);
+    ImGui::SameLine();
+    tonemapCombo(state);
+    ImGui::SetNextItemWidth(
+        std::clamp(ImGui::GetContentRegionAvail().x, 60.f, ImGui::GetFontSize() * 11));
+    ImGui::SliderFloat("##exposure", &state.view.exposureEv, -10, 10, "%+.2f EV",
+                       ImGuiSliderFlags_AlwaysClamp);
+    wrappedTooltip(
+        "Exposure: light is multiplied by 2 to this power before tone mapping. Double-click or "
+        "Ctrl-click to type");
+}
+
+static void bakeProgress(EditorState& state) {
+    const BakeStatus& bake = state.bake;
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("%s: %s", bake.preview ? "Refining" : "Baking",
+                bake.stage.empty() ? "starting" : bake.stage.c_str());
+    ImGui::SameLine(ImGui::GetFontSize() * 11);
+    const std::string percent = fmt::format("{:.0f} % of the stage, {:.0f} % in all",
+                                            100 * bake.stageFraction, 100 * bake.fraction);
+    ImGui::ProgressBar(bake.fraction, {ImGui::GetFontSize() * 18, 0}, percent.c_str());
+    ImGui::SameLine();
+    if (bake.secondsLeft >= 0)
+        ImGui::Text("about %s left", durationText(bake.secondsLeft).c_str());
+    else
+        ImGui::TextUnformatted("estimating...");
+    ImGui::SameLine();
+    const Action& cancel = actionById("bake.cancel");
+    if (ImGui::Button("Cancel"))
+        runAction(state, cancel);
+    wrappedTooltip("Stops the bake; the last good one stays in place");
+}
+
+static void bakeWords(EditorState& state) {
+    if (state.assets->meshes.empty()) {
+        ImGui::TextDisabled("Nothing to bake");
+        return;
+    }
+    switch (state.bake.freshness) {
+    case BakeFreshness::None:
+        ImGui::TextColored(ImColor(color::kWarning), "Bake needed: nothing baked yet");
+        break;
+    case BakeFreshness::Checking:
+        ImGui::TextDisabled("Checking the bake");
+        break;
+    case BakeFreshness::UpToDate:
+        ImGui::TextDisabled("Bake up to date");
+        break;
+    case BakeFreshness::Needed:
+        ImGui::TextColored(ImColor(color::kWarning), "Bake needed");
+        break;
+    }
+    if (state.bake.freshness != BakeFreshness::None &&
+        state.bake.freshness != BakeFreshness::Needed)
+        return;
+    const Action& start = actionById("bake.start");
+    if (!start.enabled(state))
+        return;
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Bake now"))
+        runAction(state, start);
+}
+
+static void idleWords(EditorState& state) {
+    ImGui::AlignTextToFramePadding();
+    bakeWords(state);
+    if (state.bake.freshness == BakeFreshness::None)
+        return;
+    ImGui::SameLine(0, 24);
+    const RelightStatus& r = state.relight;
+    if (r.last.grows)
+        ImGui::TextUnformatted("Light grew with every bounce and was stopped: bake again");
+    else if (r.converged)
+        ImGui::TextDisabled("Light converged after %u bounce%s", r.bounces,
+                            r.bounces == 1 ? "" : "s");
+    else if (r.running)
+        ImGui::Text("Light bouncing: %u", r.bounces);
+}
+
+void statusBar(EditorState& state) {
+    if (!state.loading.empty()) {
+        ImGui::AlignTextToFramePadding();
+        elidedText("Opening " + state.loading, ImGui::GetContentRegionAvail().x);
+    } else if (state.bake.running) {
+        bakeProgress(state);
+    } else {
+        idleWords(state);
+    }
+}
+
+static bool matches(const std::string& filter, const Action& action) {
+    const auto lower = [](std::string s) {
+        std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+        return s;
+    };
+    return lower(action.label).find(lower(filter)) != std::string::npos ||
+           lower(action.id).find(lower(filter)) != std::string::npos;
+}
+
+static const Action* paletteList(EditorState& state, bool enter) {
+    const Action* chosen = nullptr;
+    bool first = true;
+    for (const Action& action : actions()) {
+        if (!matches(state.paletteFilter, action) || !action.enabled(state))
+            continue;
+        if (ImGui::Selectable((std::string(action.label) + "###" + action.id).c_str(), first))
+            chosen = &action;
+        const std::string keys = shortcutText(action.shortcut);
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x);
+        ImGui::TextDisabled("%s", keys.c_str());
+        if (first && enter)
+            chosen = &action;
+        first = false;
+    }
+    if (first)
+        ImGui::TextDisabled("No action matches");
+    return chosen;
+}
+
+void palettePopup(EditorState& state) {
+    if (state.paletteOpen) {
+        ImGui::OpenPopup("All actions");
+        state.paletteOpen = false;
+    }
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({display.x / 2, display.y * 0.15f}, ImGuiCond_Always, {0.5f, 0});
+    ImGui::SetNextWindowSize({std::min(420.f, display.x), std::min(420.f, display.y * 0.7f)});
+    if (!ImGui::BeginPopup("All actions"))
+        return;
+    if (ImGui::IsWindowAppearing())
+        ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const bool enter =
+        ImGui::InputTextWithHint("##filter", "Type to find an action", &state.paletteFilter,
+                                 ImGuiInputTextFlags_EnterReturnsTrue);
+    const Action* chosen = nullptr;
+    if (ImGui::BeginChild("list"))
+        chosen = paletteList(state, enter);
+    ImGui::EndChild();
+    if (chosen)
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    if (chosen)
+        runAction(state, *chosen);
+}
+
+void confirmDialog(EditorState& state) {
+    constexpr const char* kTitle = "Discard changes?";
+    if (!state.confirm)
+        return;
+    if (!ImGui::IsPopupOpen(kTitle))
+        ImGui::OpenPopup(kTitle);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(kTitle, nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+        return;
+    ImGui::TextUnformatted("The document has changes that are not saved.");
+    ImGui::Spacing();
+    const bool discard = ImGui::Button("Discard them");
+    ImGui::SameLine();
+    const bool keep = ImGui::Button("Go back") || ImGui::IsKeyPressed(key::kEscape);
+    if (discard) {
+        commitGesture(state);
+        state.saved = state.document.objects; // asked and answered
+        state.requests.push_back(*state.confirm);
+    }
+    if (discard || keep) {
+        state.confirm.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace limn

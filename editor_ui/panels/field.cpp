@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/field.h"
+
+#include "editor_ui/document/object_rules.h"
+#include "editor_ui/editor_state.h"
+#include "engine/scene/origin.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+FieldEdit::FieldEdit(EditorState& editor, ObjectId object)
+    : state(editor), id(object), seen(editor.document.objects.at(object)) {}
+
+void wrappedTooltip(const char* text) {
+    if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void fieldLabel(const char* label, const char* tooltip) {
+    const float left = ImGui::GetCursorPosX();
+    const float width = std::max(ImGui::GetContentRegionAvail().x * 0.42f, 60.f);
+    ImGui::AlignTextToFramePadding();
+    elidedText(label, width - ImGui::GetStyle().ItemSpacing.x);
+    wrappedTooltip(tooltip);
+    ImGui::SameLine(left + width);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+static constexpr const char* kMillimetres = "%.3f";
+
+/// Whether three fields beside each other show all digits.
+static bool fitBeside(const glm::dvec3& position) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float each = (ImGui::CalcItemWidth() - 2 * style.ItemInnerSpacing.x) / 3;
+    for (int c = 0; c < 3; ++c) {
+        char digits[400]; // as many as a double can have before its point
+        std::snprintf(digits, sizeof digits, kMillimetres, position[c]);
+        if (ImGui::CalcTextSize(digits).x > each - 2 * style.FramePadding.x)
+            return false;
+    }
+    return true;
+}
+
+/// Three numbers in a row, or in three rows where they are long.
+static bool dragPosition(const char* id, glm::dvec3& position) {
+    constexpr float kSpeed = 0.01f;
+    if (fitBeside(position))
+        return ImGui::DragScalarN(id, ImGuiDataType_Double, &position.x, 3, kSpeed, nullptr,
+                                  nullptr, kMillimetres);
+    const float width = ImGui::CalcItemWidth();
+    bool changed = false;
+    ImGui::PushID(id);
+    ImGui::BeginGroup();
+    for (int c = 0; c < 3; ++c) {
+        ImGui::PushID(c);
+        ImGui::SetNextItemWidth(width);
+        changed |= ImGui::DragScalar("##axis", ImGuiDataType_Double, &position[c], kSpeed, nullptr,
+                                     nullptr, kMillimetres);
+        ImGui::PopID();
+    }
+    ImGui::EndGroup();
+    ImGui::PopID();
+    return changed;
+}
+
+void positionField(const char* id, glm::vec3& position, const glm::dvec3& origin) {
+    glm::dvec3 shown = toFile(origin, position);
+    if (dragPosition(id, shown))
+        position = toWorld(origin, shown);
+}
+
+void positionField(const char* id, glm::dvec3& translation) {
+    dragPosition(id, translation);
+}
+
+void fieldEdited(FieldEdit& edit, const char* label) {
+    Object& now = edit.state.document.objects.at(edit.id);
+    if (!isValid(now))
+        now = edit.seen;
+    trackEdit(edit.state, edit.id, edit.seen, label);
+}
+
+/// Longest prefix of whole UTF-8 characters that fits.
+static std::size_t fittingPrefix(const std::string& text, float width) {
+    const char* end = text.data() + text.size();
+    const char* cut = nullptr;
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), width, 0, text.data(), end, &cut);
+    return cut ? std::size_t(cut - text.data()) : text.size();
+}
+
+void elidedText(const std::string& text, float width) {
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (ImGui::CalcTextSize(begin, end).x <= width) {
+        ImGui::TextUnformatted(begin, end);
+        return;
+    }
+    const float dots = ImGui::CalcTextSize("...").x;
+    const std::string cut = text.substr(0, fittingPrefix(text, std::max(width - dots, 1.f)));
+    ImGui::TextUnformatted((cut + "...").c_str());
+    wrappedTooltip(text.c_str());
+}
+
+std::string groupedNumber(unsigned long long n) {
+    std::string digits = std::to_string(n), out;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0)
+            out += ' ';
+        out += digits[i];
+    }
+    return out;
+}
+
+std::string byteText(unsigned long long bytes) {
+    const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+    double value = double(bytes);
+    std::size_t unit = 0;
+    while (value >= 1024 && unit + 1 < std::size(units))
+        value /= 1024, ++unit;
+    return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} {}", value, units[unit]);
+}
+
+std::string durationText(double seconds) {
+    if (seconds <= 0)
+        return "0 s";
+    if (seconds < 1)
+        return fmt::format("{:.{}f} ms", seconds * 1e3, seconds < 0.01 ? 2 : 0);
+    if (seconds < 60)
+        return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<unsigned long long>(std::lround(seconds));
+    return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+} // namespace limn

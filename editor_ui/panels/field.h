@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/document/gesture.h"
+
+#include <string>
+
+namespace limn {
+
+/// One object being edited by the widgets of a section. Made before the first of them.
+struct FieldEdit {
+    EditorState& state;
+    ObjectId id;
+    Object seen;
+
+    FieldEdit(EditorState& editor, ObjectId object);
+};
+
+/// The label on the left of a row, with a tooltip; the next widget fills the rest of the row.
+/// Labels carry units: "Strength (cd)".
+void fieldLabel(const char* label, const char* tooltip);
+
+/// The row's widget for a world position, shown and typed in the file's coordinates [m]: three
+/// numbers to drag.
+void positionField(const char* id, glm::vec3& position, const glm::dvec3& origin);
+
+/// Of a node's translation [m].
+void positionField(const char* id, glm::dvec3& translation);
+
+/// After the row's widget: values that the object's rules forbid are undone, the others become part
+/// of the gesture.
+void fieldEdited(FieldEdit& edit, const char* label);
+
+/// Text cut to `width` pixels with an ellipsis; the whole of it is in a tooltip when it was cut.
+void elidedText(const std::string& text, float width);
+
+/// A tooltip of `text`, wrapped, while the last item is hovered.
+void wrappedTooltip(const char* text);
+
+/// "12 345 678"
+std::string groupedNumber(unsigned long long n);
+
+/// "512 B", "1.5 MiB"
+std::string byteText(unsigned long long bytes);
+
+/// "0.42 ms", "1.3 s", "2 min 05 s"
+std::string durationText(double seconds);
+
+} // namespace limn

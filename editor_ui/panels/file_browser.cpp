@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/file_browser.h"
+
+#include "editor_ui/editor_state.h"
+#include "editor_ui/panels/field.h"
+#include "editor_ui/panels/theme.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace limn {
+
+namespace fs = std::filesystem;
+
+static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
+    const bool scene = extension == ".gltf" || extension == ".glb";
+    switch (purpose) {
+    case FileBrowser::Purpose::NewFromScene:
+        return scene;
+    case FileBrowser::Purpose::Open:
+        return scene || extension == ".limn";
+    case FileBrowser::Purpose::SaveAs:
+        return extension == ".limn";
+    case FileBrowser::Purpose::SkyImage:
+        return extension == ".hdr" || extension == ".exr";
+    }
+    return false;
+}
+
+void readFolder(FileBrowser& browser, const std::string& folder) {
+    std::error_code error;
+    fs::path path = fs::weakly_canonical(folder, error);
+    if (error)
+        path = folder;
+    fs::directory_iterator it(path, fs::directory_options::skip_permission_denied, error);
+    if (error) {
+        browser.error = "Cannot read " + path.string() + ": " + error.message();
+        return;
+    }
+    browser.folder = path.string();
+    browser.entries.clear();
+    browser.error.clear();
+    for (; it != fs::directory_iterator(); it.increment(error)) {
+        if (error)
+            break;
+        const std::string name = it->path().filename().string();
+        const bool isFolder = it->is_directory(error);
+        if (name.starts_with('.') ||
+            (!isFolder && !fits(browser.purpose, it->path().extension().string())))
+            continue;
+        browser.entries.push_back({name, isFolder});
+    }
+    std::ranges::sort(browser.entries, [](const auto& a, const auto& b) {
+        return a.isFolder != b.isFolder ? a.isFolder : a.name < b.name;
+    });
+}
+
+void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
+    FileBrowser browser;
+    browser.purpose = purpose;
+    const std::string image = singleton<Sky>(state.document).image;
+    const fs::path current = purpose == FileBrowser::Purpose::SkyImage && !image.empty() ? image
+                             : state.projectPath.empty() ? state.document.scenePath
+                                                         : state.projectPath;
+    if (purpose == FileBrowser::Purpose::SaveAs)
+        browser.name = current.empty() ? "untitled.limn" : current.stem().string() + ".limn";
+    std::error_code error;
+    readFolder(browser, current.has_parent_path() ? current.parent_path().string()
+                                                  : fs::current_path(error).string());
+    state.fileBrowser = std::move(browser);
+}
+
+static const char* title(FileBrowser::Purpose purpose) {
+    switch (purpose) {
+    case FileBrowser::Purpose::NewFromScene:
+        return "New from scene";
+    case FileBrowser::Purpose::Open:
+        return "Open";
+    case FileBrowser::Purpose::SaveAs:
+        return "Save as";
+    case FileBrowser::Purpose::SkyImage:
+        return "Sky image";
+    }
+    return "";
+}
+
+static void pathRow(FileBrowser& browser) {
+    if (ImGui::Button("Up"))
+        readFolder(browser, fs::path(browser.folder).parent_path().string());
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    elidedText(browser.folder, ImGui::GetContentRegionAvail().x);
+}
+
+/// True when a file was double-clicked.
+static bool entryList(FileBrowser& browser) {
+    bool chosen = false;
+    std::string enter;
+    const float footer =
+        2 * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing();
+    if (ImGui::BeginChild("entries", {0, -footer}, true)) {
+        for (const FileBrowser::Entry& entry : browser.entries) {
+            ImGui::PushID(entry.name.c_str());
+            const ImVec2 start = ImGui::GetCursorPos();
+            if (ImGui::Selectable("##entry", !entry.isFolder && entry.name == browser.name,
+                                  ImGuiSelectableFlags_AllowDoubleClick)) {
+                if (!entry.isFolder)
+                    browser.name = entry.name;
+                else if (ImGui::IsMouseDoubleClicked(0))
+                    enter = entry.name;
+                browser.overwrite = false;
+                chosen = !entry.isFolder && ImGui::IsMouseDoubleClicked(0);
+            }
+            ImGui::SetCursorPos(start);
+            elidedText(entry.isFolder ? entry.name + "/" : entry.name,
+                       ImGui::GetContentRegionAvail().x);
+            ImGui::PopID();
+        }
+        if (browser.entries.empty())
+            ImGui::TextDisabled("No folder and no file that fits");
+    }
+    ImGui::EndChild();
+    if (!enter.empty())
+        readFolder(browser, (fs::path(browser.folder) / enter).string());
+    return chosen;
+}
+
+/// The request for the chosen file; sets browser.error when there is none yet.
+static std::optional<Request> accepted(FileBrowser& browser) {
+    if (browser.name.empty()) {
+        browser.error = "Choose a file or type its name";
+        return {};
+    }
+    fs::path path = fs::path(browser.folder) / browser.name;
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+        readFolder(browser, path.string());
+        browser.name.clear();
+        return {};
+    }
+    if (browser.purpose == FileBrowser::Purpose::SaveAs) {
+        if (path.extension() != ".limn")
+            path += ".limn";
+        if (fs::exists(path, error) && !browser.overwrite) {
+            browser.overwrite = true;
+            browser.error = "The file exists. Press Save again to replace it";
+            return {};
+        }
+        return Request{Request::Kind::Save, path.string()};
+    }
+    if (!fs::exists(path, error)) {
+        browser.error = "There is no " + path.string();
+        return {};
+    }
+    if (browser.purpose == FileBrowser::Purpose::SkyImage)
+        return Request{Request::Kind::OpenSkyImage, path.string()};
+    const bool fresh = browser.purpose == FileBrowser::Purpose::NewFromScene;
+    return Request{fresh ? Request::Kind::NewFromScene : Request::Kind::Open, path.string()};
+}
+
+void fileBrowserDialog(EditorState& state) {
+    if (!state.fileBrowser)
+        return;
+    FileBrowser& browser = *state.fileBrowser;
+    const std::string id = std::string(title(browser.purpose)) + "###file browser";
+    if (!ImGui::IsPopupOpen("###file browser"))
+        ImGui::OpenPopup("###file browser");
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize(
+        {std::min(640.f, display.x * 0.9f), std::min(480.f, display.y * 0.9f)});
+    if (!ImGui::BeginPopupModal(id.c_str(), nullptr,
+                                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+        return;
+    pathRow(browser);
+    bool accept = entryList(browser);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    accept |= ImGui::InputTextWithHint("##name", "File name", &browser.name,
+                                       ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
+    elidedText(browser.error.empty() ? " " : browser.error, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    accept |= ImGui::Button(browser.purpose == FileBrowser::Purpose::SaveAs ? "Save" : "Open");
+    ImGui::SameLine();
+    const bool cancel = ImGui::Button("Cancel") || ImGui::IsKeyPressed(key::kEscape);
+    const auto request = accept ? accepted(browser) : std::nullopt;
+    if (request || cancel)
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    if (request)
+        state.requests.push_back(*request);
+    if (request || cancel)
+        state.fileBrowser.reset();
+}
+
+} // namespace limn

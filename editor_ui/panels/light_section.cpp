@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/document/photometry.h"
+#include "editor_ui/editor_state.h"
+#include "editor_ui/panels/field.h"
+#include "editor_ui/panels/inspector_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace limn {
+
+static void colorRows(FieldEdit& edit, Light& light) {
+    fieldLabel("Colour", "Linear Rec. 709; multiplies the strength");
+    ImGui::ColorEdit3("##color", &light.color.x, ImGuiColorEditFlags_Float);
+    fieldEdited(edit, "Light colour");
+    float kelvin = nearestKelvin(light.color);
+    fieldLabel("Temperature (K)",
+               "Sets the colour of a black body. Shows the nearest temperature of a colour that "
+               "was chosen otherwise [K]");
+    if (ImGui::SliderFloat("##kelvin", &kelvin, 1700, 15000, "%.0f K",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        light.color = blackbodyColor(kelvin);
+    fieldEdited(edit, "Light temperature");
+}
+
+static void strengthRows(FieldEdit& edit, Light& light) {
+    const bool sun = light.kind == LightKind::Directional,
+               rectangle = light.kind == LightKind::Rectangle;
+    fieldLabel(sun         ? "Strength (lux)"
+               : rectangle ? "Radiance (nits)"
+                           : "Strength (cd)",
+               sun         ? "Illuminance of a surface that faces the sun [lux]. Ctrl-click to type"
+               : rectangle ? "Luminance of the rectangle; a larger one shines more light [nits]. "
+                             "Ctrl-click to type"
+                           : "Luminous intensity [cd]. Ctrl-click to type");
+    ImGui::SliderFloat("##strength", &light.strength, 0, 1e5f,
+                       sun         ? "%.2f lux"
+                       : rectangle ? "%.2f nits"
+                                   : "%.2f cd",
+                       ImGuiSliderFlags_Logarithmic);
+    fieldEdited(edit, "Light strength");
+    if (sun)
+        return;
+    float flux = lumen(light);
+    fieldLabel("Flux (lm)", "The same strength as luminous flux over all directions [lm]");
+    if (ImGui::SliderFloat("##flux", &flux, 0, 1e6f, "%.1f lm", ImGuiSliderFlags_Logarithmic))
+        light.strength = strengthForLumen(light, flux);
+    fieldEdited(edit, "Light flux");
+}
+
+/// Where the light comes from: height above the horizon and compass direction.
+static void directionRows(FieldEdit& edit, Light& light) {
+    const glm::vec3 from = -light.direction;
+    float elevation = glm::degrees(std::asin(std::clamp(from.y, -1.f, 1.f)));
+    float azimuth = glm::degrees(std::atan2(from.x, from.z));
+    fieldLabel("Elevation (\u00b0)",
+               "Height above the horizon of where the light comes from [degrees]");
+    bool changed = ImGui::SliderFloat("##elevation", &elevation, -89.9f, 89.9f, "%.1f\u00b0",
+                                      ImGuiSliderFlags_AlwaysClamp);
+    const auto set = [&] {
+        const float e = glm::radians(elevation), a = glm::radians(azimuth);
+        light.direction =
+            -glm::vec3(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a));
+    };
+    if (changed)
+        set();
+    fieldEdited(edit, "Light elevation");
+    fieldLabel("Azimuth (\u00b0)", "Direction the light comes from, from +Z towards +X [degrees]");
+    changed = ImGui::SliderFloat("##azimuth", &azimuth, -180, 180, "%.1f\u00b0",
+                                 ImGuiSliderFlags_AlwaysClamp);
+    if (changed)
+        set();
+    fieldEdited(edit, "Light azimuth");
+}
+
+static void spotRows(FieldEdit& edit, Light& light) {
+    float outer = glm::degrees(light.outerAngle), inner = glm::degrees(light.innerAngle);
+    fieldLabel("Cone (\u00b0)", "Half-angle where the light ends [degrees]");
+    if (ImGui::SliderFloat("##outer", &outer, 0.5f, 90, "%.1f\u00b0",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+        light.outerAngle = std::min(glm::radians(outer), glm::half_pi<float>());
+        light.innerAngle = std::min(light.innerAngle, 0.99f * light.outerAngle);
+    }
+    fieldEdited(edit, "Light cone");
+    fieldLabel("Full inside (\u00b0)",
+               "Half-angle of full strength; softens towards the cone's edge [degrees]");
+    if (ImGui::SliderFloat("##inner", &inner, 0, 90, "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
+        light.innerAngle = std::min(glm::radians(inner), 0.99f * light.outerAngle);
+    fieldEdited(edit, "Light inner cone");
+}
+
+static void rectangleRows(FieldEdit& edit, Light& light) {
+    fieldLabel("Size (m)", "Width and height of the rectangle; its shadows soften with it [m]");
+    ImGui::DragFloat2("##size", &light.size.x, 0.01f, kMinLightSize, kMaxLightSize, "%.3f",
+                      ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Light size");
+    float degrees = glm::degrees(light.roll);
+    fieldLabel("Roll (\u00b0)", "Turns the rectangle about its direction [degrees]");
+    if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
+        light.roll = glm::radians(degrees);
+    fieldEdited(edit, "Light roll");
+}
+
+static void rangeRow(FieldEdit& edit, Light& light) {
+    fieldLabel("Range (m)", "Where the light fades to nothing; 0: reaches any distance [m]");
+    ImGui::SliderFloat("##range", &light.range, 0, 1000, light.range > 0 ? "%.2f m" : "unlimited",
+                       ImGuiSliderFlags_Logarithmic);
+    fieldEdited(edit, "Light range");
+}
+
+void lightSection(FieldEdit& edit, Light& light) {
+    fieldLabel("On", "Light that is off costs nothing (H)");
+    ImGui::Checkbox("##on", &light.enabled);
+    fieldEdited(edit, "Light on or off");
+    int kind = int(light.kind);
+    fieldLabel("Kind",
+               "Sun: parallel rays. Point: all directions. Spot: a cone. Rectangle: one side "
+               "of a surface, with soft shadows");
+    if (ImGui::Combo("##kind", &kind, "Sun\0Point\0Spot\0Rectangle\0"))
+        light.kind = LightKind(kind);
+    fieldEdited(edit, "Light kind");
+    ImGui::Separator();
+    colorRows(edit, light);
+    strengthRows(edit, light);
+    ImGui::Separator();
+    fieldLabel("Position (m)", light.kind == LightKind::Directional
+                                   ? "Only where the icon stands: a sun shines everywhere [m]"
+                                   : "In the coordinates of the scene file [m]");
+    positionField("##position", light.position, edit.state.document.origin);
+    fieldEdited(edit, "Move");
+    if (light.kind != LightKind::Point)
+        directionRows(edit, light);
+    if (light.kind == LightKind::Spot)
+        spotRows(edit, light);
+    if (light.kind == LightKind::Rectangle)
+        rectangleRows(edit, light);
+    if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
+        rangeRow(edit, light);
+}
+
+} // namespace limn

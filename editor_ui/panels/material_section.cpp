@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/editor_state.h"
+#include "editor_ui/panels/field.h"
+#include "editor_ui/panels/file_browser.h"
+#include "editor_ui/panels/inspector_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace limn {
+
+static void colorAndStrength(FieldEdit& edit, glm::vec3& radiance, const char* what,
+                             const char* colorLabel, const char* strengthLabel,
+                             const char* tooltip) {
+    ImGui::PushID(colorLabel);
+    float strength = std::max({radiance.x, radiance.y, radiance.z});
+    glm::vec3 color = strength > 0 ? radiance / strength : glm::vec3(1);
+    fieldLabel(colorLabel, "Linear Rec. 709, brightest component 1");
+    if (ImGui::ColorEdit3("##radianceColor", &color.x, ImGuiColorEditFlags_Float))
+        radiance = color * strength;
+    fieldEdited(edit, what);
+    fieldLabel(strengthLabel, tooltip);
+    if (ImGui::SliderFloat("##radiance", &strength, 0, 1e5f, "%.3f nits",
+                           ImGuiSliderFlags_Logarithmic))
+        radiance = color * strength;
+    fieldEdited(edit, what);
+    ImGui::PopID();
+}
+
+static void textureLine(const EditorState& state, const char* use, const TextureRef& texture) {
+    if (texture.image < 0 || std::size_t(texture.image) >= state.assets->images.size())
+        return;
+    const Image& image = state.assets->images[std::size_t(texture.image)];
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    elidedText(std::string(use) + ": " + image.name + ", " + std::to_string(image.width) +
+                   " \u00d7 " + std::to_string(image.height),
+               ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+}
+
+static void filmRows(FieldEdit& edit, Flipbook& film) {
+    int grid[2] = {int(film.columns), int(film.rows)};
+    fieldLabel("Film frames", "Columns and rows of frames in the emissive image: a film that plays "
+                              "row after row from the upper left [1, 256]");
+    if (ImGui::DragInt2("##frames", grid, 0.05f, 1, 256, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+        film.columns = std::uint32_t(grid[0]);
+        film.rows = std::uint32_t(grid[1]);
+    }
+    fieldEdited(edit, "Film frames");
+    fieldLabel("Speed (frames/s)", "0: the first frame stands still [0, 1000]");
+    ImGui::SliderFloat("##speed", &film.framesPerSecond, 0, 60, "%.1f");
+    fieldEdited(edit, "Film speed");
+}
+
+void materialSection(FieldEdit& edit, Material& material) {
+    fieldLabel("Base colour", "Linear; multiplies the texture. Bounced light takes its colour");
+    ImGui::ColorEdit3("##base", &material.baseColor.x, ImGuiColorEditFlags_Float);
+    fieldEdited(edit, "Base colour");
+    fieldLabel("Metallic", "0: dielectric, 1: metal; metal sends no diffuse light [0, 1]");
+    ImGui::SliderFloat("##metallic", &material.metallic, 0, 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Metallic");
+    fieldLabel("Roughness", "0: mirror, 1: matte [0, 1]");
+    ImGui::SliderFloat("##roughness", &material.roughness, 0, 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Roughness");
+    ImGui::Separator();
+    ImGui::TextDisabled("Emission");
+    colorAndStrength(edit, material.emission, "Emission", "Colour", "Emission (nits)",
+                     "Radiance the surface sends out [nits]; lights the scene without a new bake");
+    if (material.emissiveTexture.image >= 0)
+        filmRows(edit, material.emissiveFilm);
+    ImGui::Separator();
+    fieldLabel("Double sided", "Seen and lit from both sides; changing it needs a new bake");
+    ImGui::Checkbox("##double", &material.doubleSided);
+    fieldEdited(edit, "Double sided");
+    const EditorState& state = edit.state;
+    textureLine(state, "Base colour", material.baseColorTexture);
+    textureLine(state, "Metal, roughness", material.metallicRoughnessTexture);
+    textureLine(state, "Normal", material.normalTexture);
+    textureLine(state, "Emission", material.emissiveTexture);
+}
+
+static void skyImageRows(FieldEdit& edit, Sky& sky) {
+    fieldLabel("Image", "A panorama in latitude and longitude, .hdr or .exr");
+    const std::string file = sky.image.substr(sky.image.rfind('/') + 1);
+    const std::string shown = !sky.panorama && !file.empty() ? file + " (not found)" : file;
+    if (ImGui::Button("Choose\u2026"))
+        openFileBrowser(edit.state, FileBrowser::Purpose::SkyImage);
+    wrappedTooltip(sky.image.empty() ? "Opens a panorama" : sky.image.c_str());
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    elidedText(shown.empty() ? "none" : shown, ImGui::GetContentRegionAvail().x);
+    fieldLabel("Strength", "Times the image's radiance");
+    ImGui::SliderFloat("##strength", &sky.strength, 0, 100, "%.3f", ImGuiSliderFlags_Logarithmic);
+    fieldEdited(edit, "Sky strength");
+    float degrees = glm::degrees(sky.rotation);
+    fieldLabel("Rotation (\u00b0)",
+               "Turns the image about the vertical; lights the scene without a new bake [degrees]");
+    if (ImGui::SliderFloat("##rotation", &degrees, -180, 180, "%.1f\u00b0"))
+        sky.rotation = glm::radians(degrees);
+    fieldEdited(edit, "Sky rotation");
+}
+
+void skySection(FieldEdit& edit, Sky& sky) {
+    int kind = int(sky.kind);
+    fieldLabel("Kind", "Changing it lights the scene anew, without a bake");
+    if (ImGui::Combo("##kind", &kind, "Colour\0Gradient\0Image\0"))
+        sky.kind = SkyKind(kind);
+    fieldEdited(edit, "Sky kind");
+    switch (sky.kind) {
+    case SkyKind::Color:
+        colorAndStrength(
+            edit, sky.radiance, "Sky", "Colour", "Radiance (nits)",
+            "The same from every direction [nits]; lights the scene without a new bake");
+        break;
+    case SkyKind::Gradient:
+        colorAndStrength(edit, sky.radiance, "Sky", "Up", "Up (nits)", "Straight up [nits]");
+        colorAndStrength(edit, sky.horizon, "Sky", "Horizon", "Horizon (nits)",
+                         "From the horizon [nits]");
+        colorAndStrength(edit, sky.ground, "Sky", "Down", "Down (nits)", "Straight down [nits]");
+        break;
+    case SkyKind::Image:
+        skyImageRows(edit, sky);
+        break;
+    }
+}
+
+void cameraSection(FieldEdit& edit, Camera& camera) {
+    fieldLabel("Eye (m)", "In the coordinates of the scene file [m]");
+    positionField("##eye", camera.eye, edit.state.document.origin);
+    fieldEdited(edit, "Camera position");
+    fieldLabel("Target (m)", "The point looked at, in the coordinates of the scene file [m]");
+    positionField("##target", camera.target, edit.state.document.origin);
+    fieldEdited(edit, "Camera target");
+    float degrees = glm::degrees(camera.fovY);
+    fieldLabel("Field of view (\u00b0)", "Vertical, from edge to edge [degrees]");
+    if (ImGui::SliderFloat("##fov", &degrees, 1, 150, "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
+        camera.fovY = glm::radians(degrees);
+    fieldEdited(edit, "Field of view");
+    ImGui::Spacing();
+    if (ImGui::Button("Look through it", {-FLT_MIN, 0}))
+        edit.state.view.camera = camera;
+    wrappedTooltip("Shows the picture of this camera (Numpad 0)");
+    if (ImGui::Button("Take the view's place", {-FLT_MIN, 0})) {
+        const std::string name = camera.name;
+        camera = edit.state.view.camera;
+        camera.name = name;
+    }
+    wrappedTooltip("Moves this camera to where the picture is seen from");
+    fieldEdited(edit, "Camera from view");
+}
+
+} // namespace limn

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/panels/time_history.h"
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/relight_choice.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limn {
+
+/// How the bake stands to the document.
+enum class BakeFreshness {
+    None,     ///< nothing baked yet
+    Checking, ///< the document changed; its hash is being computed
+    UpToDate,
+    Needed, ///< objects, masks or settings changed since
+};
+
+/// What the panels show of the baker.
+struct BakeStatus {
+    bool running = false;
+    std::string stage;       ///< of the running bake
+    float stageFraction = 0; ///< [0, 1]
+    float fraction = 0;      ///< of the whole bake, estimated [0, 1]
+    double elapsedSeconds = 0;
+    double secondsLeft = -1; ///< < 0: not known yet
+    BakeFreshness freshness = BakeFreshness::None;
+    /// Of the last good bake.
+    BakeCounts counts;
+    BakeBytes bytes;
+    std::vector<std::pair<std::string, double>> seconds; ///< per stage
+    double totalSeconds = 0;
+    std::vector<std::string> notes; ///< what it made again and why
+    bool preview = false;           ///< it is a first look; the full one is being made
+    bool lightEdited = false;       ///< since the scene was opened
+    double secondsSinceLightEdit =
+        0;             ///< spent baking since a light, material or sky was last edited
+    std::string error; ///< why the last bake gave nothing; empty: it gave something
+};
+
+/// What the panels show of the relighting thread.
+struct RelightStatus {
+    RelightStats last;
+    TimeHistory history;
+    std::uint64_t calls = 0;   ///< of relight() since the scene was opened
+    std::uint32_t bounces = 0; ///< since the last edit
+    bool running = false;
+    bool converged = false;
+};
+
+/// Where bounced light is worked out: by RelightJob, or by whoever draws the viewport, on its
+/// device.
+struct RelightPlace {
+    RelightOn wanted = RelightOn::Auto;
+    bool gpuCan = false;               ///< there is a device that draws, and it can light the bake
+    std::string refusal;               ///< why it cannot; empty: it can, or there is none
+    std::optional<RelightTimes> times; ///< of bakes like this one; not known until measured
+
+    /// Never Auto.
+    RelightOn used() const { return chooseRelight(wanted, gpuCan, times); }
+};
+
+/// What the panels show of the window and its viewport.
+struct FrameStatus {
+    /// Of the last picture.
+    double uploadMs = 0, shadowMs = 0, surfacesMs = 0, shadeMs = 0, viewportMs = 0;
+    std::uint32_t shadowMapsDrawn = 0;
+    std::uint64_t gpuBytes = 0;
+    std::uint32_t width = 0, height = 0; ///< of the last picture [px]
+    std::uint64_t pictures = 0;          ///< viewport renders
+    std::uint64_t surfacesDrawn = 0;     ///< of those, how many drew triangles
+    std::uint64_t uiFrames = 0;
+    double uiMs = 0;        ///< last UI frame, without waiting for events
+    double longestUiMs = 0; ///< since the start
+    double longestUiWhileRelightingMs = 0;
+    double longestLatencyMs =
+        0; ///< from the event to the submitted frame, waits for the GPU included
+};
+
+} // namespace limn

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/statistics_panel.h"
+
+#include "editor_ui/editor_state.h"
+#include "editor_ui/panels/field.h"
+#include "editor_ui/panels/theme.h"
+
+#include <imgui.h>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+/// `square`: colour of a square left of the value, as the plot has it; 0: none.
+static void row(const char* label, const std::string& value, const char* tooltip,
+                std::uint32_t square = 0) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    elidedText(label, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    wrappedTooltip(tooltip);
+    ImGui::TableNextColumn();
+    if (square != 0) {
+        const float side = ImGui::GetFontSize() * 0.6f;
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float y = at.y + ImGui::GetFontSize() * 0.25f;
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, square);
+    }
+    const float indent = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
+    if (indent > 0)
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
+    ImGui::TextUnformatted(value.c_str());
+}
+
+static bool beginTable(const char* id, const char* heading) {
+    ImGui::TextUnformatted(heading);
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_RowBg))
+        return false;
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.53f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.47f);
+    return true;
+}
+
+static std::string ms(double milliseconds) {
+    return fmt::format("{:.2f} ms", milliseconds);
+}
+
+static void timeTable(const EditorState& state) {
+    const RelightStats& r = state.relight.last;
+    const FrameStatus& f = state.frame;
+    if (!beginTable("time", "Time per step"))
+        return;
+    for (const RelightStep& step : kRelightSteps)
+        row(step.label, ms(step.ms(r)), step.tooltip, step.color);
+    row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
+    row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
+    row("Surfaces", ms(f.surfacesMs),
+        "Triangles that the camera sees; kept while it, objects and materials stand still");
+    row("Shade", ms(f.shadeMs), "The picture from caches and direct light");
+    ImGui::EndTable();
+}
+
+static void historyPlot(const EditorState& state) {
+    timeHistory(state.relight.history);
+}
+
+static std::string measuredMs(const RelightPlace& place, RelightOn device) {
+    if (!place.times)
+        return "–";
+    return ms(device == RelightOn::Gpu ? place.times->gpuMs : place.times->cpuMs);
+}
+
+static const char* placeTooltip(RelightOn device) {
+    switch (device) {
+    case RelightOn::Auto:
+        return "Whichever is faster here. Measured once per device and size of bake, when all else "
+               "is done, and remembered; the CPU where dynamic objects dim bounced light";
+    case RelightOn::Cpu:
+        return "By this machine's processor, with traced shadows";
+    case RelightOn::Gpu:
+        return "By the device that draws the picture, with the picture's shadow maps; nothing is "
+               "uploaded";
+    }
+    return "";
+}
+
+/// Which device relights, with what either takes.
+static void placeRow(RelightPlace& place) {
+    constexpr const char* kLabels[] = {"Auto", "CPU", "GPU"};
+    const bool onGpu = place.used() == RelightOn::Gpu;
+    const std::string shown = place.wanted == RelightOn::Auto
+                                  ? fmt::format("Auto: {}", onGpu ? "GPU" : "CPU")
+                              : onGpu ? "GPU"
+                                      : "CPU";
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    elidedText("Relight on", ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    wrappedTooltip("Which device works bounced light out");
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
+    const bool open =
+        ImGui::BeginCombo("##relight on", shown.c_str(), ImGuiComboFlags_NoArrowButton);
+    ImGui::PopStyleVar();
+    if (!open)
+        wrappedTooltip(placeTooltip(place.wanted));
+    for (const RelightOn on : {RelightOn::Auto, RelightOn::Cpu, RelightOn::Gpu}) {
+        if (!open)
+            break;
+        std::string label = kLabels[std::size_t(on)];
+        if (on != RelightOn::Auto)
+            label += "  " + measuredMs(place, on);
+        const bool possible = on != RelightOn::Gpu || place.gpuCan;
+        if (ImGui::Selectable(label.c_str(), place.wanted == on,
+                              possible ? 0 : ImGuiSelectableFlags_Disabled))
+            place.wanted = on;
+        wrappedTooltip(possible || place.refusal.empty() ? placeTooltip(on)
+                                                         : place.refusal.c_str());
+    }
+    if (open)
+        ImGui::EndCombo();
+}
+
+static void relightTable(EditorState& state) {
+    const RelightStatus& r = state.relight;
+    if (!beginTable("relight", "Bounced light"))
+        return;
+    row("State",
+        r.last.grows  ? "stopped"
+        : r.converged ? "converged"
+        : r.running   ? "bouncing"
+                      : "idle",
+        r.last.grows ? "Every bounce brought more light than the one before: bake again"
+                     : "Converged: another bounce would change nothing");
+    placeRow(state.relightPlace);
+    for (const RelightOn on : {RelightOn::Cpu, RelightOn::Gpu})
+        row(on == RelightOn::Cpu ? "  CPU" : "  GPU", measuredMs(state.relightPlace, on),
+            "One update of one bounce with every light moved: what Auto compares");
+    row("Bounces", std::to_string(r.bounces), "Since the last edit");
+    row("Passed on", r.last.passedOn > 0 ? fmt::format("{:.3f}", r.last.passedOn) : "\u2013",
+        "Share of the light of a bounce that the next one hands on, below 1 where no light comes "
+        "from nowhere; known from the third bounce after an edit on");
+    row("Last update", ms(r.last.totalMs), "One call: a few bounces");
+    row("Shadow rays", groupedNumber(r.last.shadowRays),
+        "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps");
+    row("Lit anew", groupedNumber(r.last.lightsTraced),
+        "Lights that the last call worked out, because they or an object moved; 0 where only their "
+        "colour or strength changed");
+    row("Lights off", groupedNumber(r.last.lightsOff),
+        "Off, black or out of reach of every surface: they cost nothing");
+    row("Links", groupedNumber(r.last.links),
+        "Of the caches that the last call lit, once for each bounce");
+    row("  passed over", groupedNumber(r.last.linksPassedOver),
+        "What they come from sends no light: a black sky or, where the CPU reads cones, surfaces "
+        "in the dark. Nothing is lost without them");
+    row("Bands lit",
+        std::to_string(r.last.bandsLit) + " of " +
+            std::to_string(r.last.bandsLit + r.last.bandsSkipped),
+        "The others would be seen in glossy reflections only, and no surface needs them");
+    row("Grid skipped", groupedNumber(r.last.gridCachesSkipped),
+        "Cells not lit, because no object reads them: none is dynamic or without lightmap");
+    row("Unseen", groupedNumber(r.last.cachesUnseen),
+        "Caches of the lightmap that the last bounce did not light, because the picture does not "
+        "show them; they are lit when the light stands still");
+    row("Unread", groupedNumber(r.last.cachesUnread),
+        "Caches of the lightmap that the bounces before the last did not light, because no surfel "
+        "reads them");
+    row("Dimmed", groupedNumber(r.last.cachesDimmed),
+        "Caches that dynamic objects take bounced light from; 0 where there are none");
+    row("  links", groupedNumber(r.last.linksDimmed), "Of those caches");
+    row("Dimming", ms(r.last.dimMs),
+        "Finding what dynamic objects hide, by the last call; 0 while they stand still");
+    row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
+    row("Since edit",
+        state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",
+        "Bake seconds since a light, a material or the sky was last edited: 0, editing light "
+        "never bakes");
+    ImGui::EndTable();
+}
+
+static void windowTable(const EditorState& state) {
+    const FrameStatus& f = state.frame;
+    if (!beginTable("window", "Window"))
+        return;
+    row("UI frame", ms(f.uiMs), "The whole last frame of the window");
+    row("Longest", ms(f.longestUiMs), "Longest UI frame since the start");
+    row("  relighting", ms(f.longestUiWhileRelightingMs),
+        "Longest UI frame while light was bouncing: the window never waits for it");
+    row("UI frames", groupedNumber(f.uiFrames), "Stands still while nothing happens");
+    row("Pictures", groupedNumber(f.pictures),
+        "Drawn by the viewport; stands still while nothing changes");
+    row("  redrawn", groupedNumber(f.surfacesDrawn),
+        "Pictures for which triangles were drawn; light that changes needs none");
+    row("Size", fmt::format("{} \u00d7 {}", f.width, f.height),
+        "Pixels of the picture; fewer while things move on a slow device");
+    ImGui::EndTable();
+}
+
+static void countTable(const EditorState& state) {
+    const BakeCounts& c = state.bake.counts;
+    if (!beginTable("counts", "Counts"))
+        return;
+    row("Triangles", groupedNumber(c.triangles), "Of the baked scene");
+    row("Surfels", groupedNumber(c.surfels), "");
+    row("Clusters", groupedNumber(c.clusters), "");
+    row("Caches", groupedNumber(c.caches), "Lightmap texels and grid cells");
+    row("  invalid", groupedNumber(c.invalidCaches), "Inside walls; filled from their neighbours");
+    row("Links", groupedNumber(c.links), "");
+    row("Rays", groupedNumber(c.rays), "Traced by the last bake");
+    ImGui::EndTable();
+}
+
+static void byteTable(const EditorState& state) {
+    const BakeBytes& b = state.bake.bytes;
+    if (!beginTable("bytes", "Memory"))
+        return;
+    row("Surfels", byteText(b.surfels), "");
+    row("Clusters", byteText(b.clusters), "");
+    row("Links", byteText(b.links), "");
+    row("Caches", byteText(b.caches), "");
+    row("Bake, total", byteText(b.total()), "");
+    row("Graphics", byteText(state.frame.gpuBytes), "Buffers and images of the viewport");
+    ImGui::EndTable();
+}
+
+static void bakeTable(const EditorState& state) {
+    if (!beginTable("bake", "Last bake"))
+        return;
+    for (const auto& [stage, seconds] : state.bake.seconds)
+        row(stage.c_str(), durationText(seconds), "");
+    row("total", durationText(state.bake.totalSeconds), "");
+    ImGui::EndTable();
+}
+
+void statisticsPanel(EditorState& state) {
+    constexpr int kColumns = 7;
+    const float minimum = ImGui::GetFontSize() * 11.6f;
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool wide = room >= kColumns * minimum;
+    const ImVec2 size(wide ? 0 : kColumns * minimum, 0);
+    if (!ImGui::BeginTable("columns", kColumns,
+                           ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_ScrollX |
+                               ImGuiTableFlags_ScrollY,
+                           {0, 0}, size.x))
+        return;
+    ImGui::TableNextRow();
+    const auto column = [&](auto* table) {
+        ImGui::TableNextColumn();
+        table(state);
+    };
+    column(timeTable);
+    column(historyPlot);
+    column(relightTable);
+    for (auto* table : {windowTable, countTable, byteTable, bakeTable})
+        column(table);
+    ImGui::EndTable();
+}
+
+void logPanel(const EditorState& state) {
+    if (state.log.empty()) {
+        ImGui::TextDisabled("Nothing was repaired and nothing went wrong");
+        return;
+    }
+    if (ImGui::BeginChild("lines")) {
+        ImGui::PushTextWrapPos(0);
+        for (const LogLine& line : state.log) {
+            switch (line.level) {
+            case LogLine::Level::Info:
+                ImGui::TextUnformatted(line.text.c_str());
+                break;
+            case LogLine::Level::Warning:
+                ImGui::TextColored(ImColor(color::kWarning), "Warning: %s", line.text.c_str());
+                break;
+            case LogLine::Level::Error:
+                ImGui::TextColored(ImColor(color::kError), "Error: %s", line.text.c_str());
+                break;
+            }
+        }
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::EndChild();
+}
+
+} // namespace limn

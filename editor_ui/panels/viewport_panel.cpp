@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/viewport_panel.h"
+
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/panels/icon.h"
+#include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/theme.h"
+#include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/gizmo.h"
+#include "editor_ui/view/picking.h"
+#include "engine/scene/light/rectangle_light.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr int kLeft = 0, kRight = 1, kMiddle = 2;
+constexpr float kRadiansPerPixel = 0.006f;
+constexpr float kClickPixels = 4;
+
+glm::vec2 mousePosition() {
+    const ImVec2 m = ImGui::GetIO().MousePos;
+    return {m.x, m.y};
+}
+
+} // namespace
+
+static int buttonOf(const EditorState& state) {
+    if (state.view.navigation == Navigation::Fly)
+        return kRight;
+    return ImGui::IsMouseDown(kMiddle) ? kMiddle : kLeft;
+}
+
+static void startNavigation(EditorState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    Navigation& navigation = state.view.navigation;
+    if (navigation != Navigation::None || state.view.drag)
+        return;
+    if (ImGui::IsMouseClicked(kMiddle))
+        navigation = io.KeyShift ? Navigation::Pan : Navigation::Orbit;
+    else if (ImGui::IsMouseClicked(kLeft) && io.KeyAlt)
+        navigation = Navigation::Orbit;
+    else if (ImGui::IsMouseClicked(kRight))
+        navigation = Navigation::Fly;
+}
+
+static void flyKeys(EditorState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto axis = [](char plus, char minus) {
+        return float(ImGui::IsKeyDown(key::of(plus))) - float(ImGui::IsKeyDown(key::of(minus)));
+    };
+    const glm::vec3 direction(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
+    state.view.animating = direction != glm::vec3(0);
+    const float pace = io.KeyShift ? 4.f : io.KeyCtrl ? 0.25f : 1.f;
+    const float step =
+        state.view.flySpeed * pace * std::min(io.DeltaTime, 0.1f); // after a sleep: no leap
+    fly(state.view.camera, direction.x * step, direction.y * step, direction.z * step);
+}
+
+static void navigate(EditorState& state) {
+    ViewState& view = state.view;
+    const ImGuiIO& io = ImGui::GetIO();
+    view.animating = false;
+    if (view.navigation == Navigation::None)
+        return;
+    if (!ImGui::IsMouseDown(buttonOf(state))) {
+        view.navigation = Navigation::None;
+        return;
+    }
+    const glm::vec2 d(io.MouseDelta.x, io.MouseDelta.y);
+    switch (view.navigation) {
+    case Navigation::None:
+        break;
+    case Navigation::Orbit:
+        if (d != glm::vec2(0))
+            orbit(view.camera, -d.x * kRadiansPerPixel, d.y * kRadiansPerPixel);
+        break;
+    case Navigation::Pan:
+        if (d != glm::vec2(0))
+            pan(view.camera, -d.x / view.size.y, d.y / view.size.y);
+        break;
+    case Navigation::Fly:
+        if (d != glm::vec2(0))
+            look(view.camera, d.x * kRadiansPerPixel / 2, -d.y * kRadiansPerPixel / 2);
+        flyKeys(state);
+        break;
+    }
+}
+
+static void wheel(EditorState& state) {
+    const float steps = ImGui::GetIO().MouseWheel;
+    if (steps == 0)
+        return;
+    if (state.view.navigation == Navigation::Fly)
+        state.view.flySpeed = std::clamp(state.view.flySpeed * std::pow(1.2f, steps), 1e-3f, 1e4f);
+    else
+        zoom(state.view.camera, steps);
+}
+
+static void press(EditorState& state) {
+    if (!ImGui::IsMouseClicked(kLeft) || state.view.navigation != Navigation::None ||
+        state.view.drag)
+        return;
+    state.view.pressed = true;
+    state.view.pressedAt = mousePosition();
+}
+
+static void release(EditorState& state) {
+    ViewState& view = state.view;
+    if (!view.pressed || ImGui::IsMouseDown(kLeft))
+        return;
+    view.pressed = false;
+    const ImGuiIO& io = ImGui::GetIO();
+    if (glm::length(mousePosition() - view.pressedAt) > kClickPixels)
+        return;
+    pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
+    if (hasCache(state.overlay.options.kind))
+        pickCacheAt(state, view.pressedAt);
+}
+
+static Icon lightIcon(const Light& light) {
+    switch (light.kind) {
+    case LightKind::Directional:
+        return Icon::Sun;
+    case LightKind::Point:
+        return Icon::Point;
+    case LightKind::Spot:
+        return Icon::Spot;
+    case LightKind::Rectangle:
+        return Icon::Rectangle;
+    }
+    return Icon::Point;
+}
+
+static void directionLine(ImDrawList& list, const Picture& picture, const Light& light,
+                          ImU32 color) {
+    const float length = 0.7f * arrowLength(picture, light.position);
+    const auto from = toPixel(picture, light.position);
+    const auto to = toPixel(picture, light.position + light.direction * length);
+    if (from && to)
+        list.AddLine({from->x, from->y}, {to->x, to->y}, color, 1.5f);
+}
+
+static void rectangleOutline(ImDrawList& list, const Picture& picture, const Light& light,
+                             ImU32 color) {
+    const LightRectangle rectangle = lightRectangle(light);
+    std::array<std::optional<glm::vec2>, 4> corner;
+    for (std::size_t i = 0; i < 4; ++i)
+        corner[i] = toPixel(picture, rectangle.at({i == 1 || i == 2, i >= 2}));
+    for (std::size_t i = 0; i < 4; ++i)
+        if (const auto& a = corner[i], &b = corner[(i + 1) % 4]; a && b)
+            list.AddLine({a->x, a->y}, {b->x, b->y}, color, 1.5f);
+}
+
+static void lightIcons(const EditorState& state) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const Picture picture = state.view.picture();
+    for (const auto& [id, object] : state.document.objects) {
+        const auto* light = std::get_if<Light>(&object);
+        const auto pixel = light ? toPixel(picture, light->position) : std::nullopt;
+        if (!pixel)
+            continue;
+        const bool selected = std::ranges::find(state.selection, id) != state.selection.end();
+        const ImU32 ink = selected         ? color::kHandleLit
+                          : light->enabled ? IM_COL32(255, 255, 255, 230)
+                                           : IM_COL32(150, 150, 150, 200);
+        const ImVec2 centre(pixel->x, pixel->y);
+        if (light->kind == LightKind::Rectangle)
+            rectangleOutline(list, picture, *light, ink);
+        list.AddCircleFilled(centre, 12, IM_COL32(20, 22, 26, 170));
+        if (selected)
+            list.AddCircle(centre, 12.5f, ink, 0, 1.5f);
+        if (selected && light->kind != LightKind::Point)
+            directionLine(list, picture, *light, ink);
+        drawIcon(list, lightIcon(*light), centre, 15, ink);
+    }
+}
+
+/// Corners of the selected meshes' boxes, so that a picked node can be seen.
+static void selectionBoxes(const EditorState& state) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const Picture picture = state.view.picture();
+    for (ObjectId id : state.selection) {
+        const auto it = state.document.objects.find(id);
+        const Node* node =
+            it == state.document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
+        for (std::uint32_t mesh : node ? node->meshes : std::vector<std::uint32_t>{}) {
+            if (mesh >= state.meshBounds.size())
+                continue;
+            const Bounds& b = state.meshBounds[mesh];
+            const glm::mat4 m = worldMatrix(state.document, id);
+            std::array<std::optional<glm::vec2>, 8> corner;
+            for (std::size_t i = 0; i < 8; ++i)
+                corner[i] = toPixel(picture, m * glm::vec4(i & 1 ? b.upper.x : b.lower.x,
+                                                           i & 2 ? b.upper.y : b.lower.y,
+                                                           i & 4 ? b.upper.z : b.lower.z, 1));
+            for (std::size_t i = 0; i < 8; ++i)
+                for (std::size_t bit : {1u, 2u, 4u})
+                    if (!(i & bit) && corner[i] && corner[i | bit])
+                        list.AddLine({corner[i]->x, corner[i]->y},
+                                     {corner[i | bit]->x, corner[i | bit]->y},
+                                     IM_COL32(255, 225, 110, 130));
+        }
+    }
+}
+
+static void emptyHint(const EditorState& state) {
+    const bool anything = std::ranges::any_of(state.document.objects, [](const auto& entry) {
+        return std::holds_alternative<Node>(entry.second);
+    });
+    if (anything || !state.loading.empty())
+        return;
+    const char* hint = "Drop a .gltf, .glb or .limn here, or press Ctrl-O";
+    const ImVec2 size = ImGui::CalcTextSize(hint);
+    ImGui::GetWindowDrawList()->AddText({state.view.origin.x + (state.view.size.x - size.x) / 2,
+                                         state.view.origin.y + (state.view.size.y - size.y) / 2},
+                                        color::kDim, hint);
+}
+
+void viewportPanel(EditorState& state) {
+    const ImVec2 origin = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+    state.view.origin = {origin.x, origin.y};
+    state.view.size = {std::max(size.x, 1.f), std::max(size.y, 1.f)};
+    const bool hovered = ImGui::IsWindowHovered();
+    if (hovered)
+        startNavigation(state);
+    navigate(state);
+    if (hovered)
+        wheel(state);
+    ImGui::PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
+    selectionBoxes(state);
+    if (state.view.showLights)
+        lightIcons(state);
+    moveGizmo(state, hovered && state.view.navigation == Navigation::None);
+    emptyHint(state);
+    ImGui::PopClipRect();
+    if (hovered)
+        press(state);
+    release(state);
+}
+
+} // namespace limn

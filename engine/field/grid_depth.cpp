@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "engine/field/grid_depth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr int kSide = int(kGridDepthSide);
+
+/// A texel beyond the map's border is one within it: the square's sides are folded at their middle.
+std::uint32_t texelAt(int x, int y) {
+    if (x < 0 || x >= kSide) {
+        x = x < 0 ? -1 - x : 2 * kSide - 1 - x;
+        y = kSide - 1 - y;
+    }
+    if (y < 0 || y >= kSide) {
+        y = y < 0 ? -1 - y : 2 * kSide - 1 - y;
+        x = kSide - 1 - x;
+    }
+    return std::uint32_t(y * kSide + x);
+}
+
+} // namespace
+
+float norm1(glm::vec3 v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+GridDepthLookup gridDepthLookup(glm::vec3 d) {
+    glm::vec2 p = glm::vec2(d) / norm1(d);
+    if (d.z < 0)
+        p = {std::copysign(1 - std::abs(p.y), d.x), std::copysign(1 - std::abs(p.x), d.y)};
+    const glm::vec2 at = (p * 0.5f + 0.5f) * float(kSide) - 0.5f;
+    const glm::vec2 base = glm::floor(at), f = at - base;
+    const int x = int(base.x), y = int(base.y);
+    return {{texelAt(x, y), texelAt(x + 1, y), texelAt(x, y + 1), texelAt(x + 1, y + 1)},
+            {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
+}
+
+glm::vec3 gridDepthPoint(std::uint32_t texel) {
+    const glm::vec2 p = (glm::vec2(texel % kSide, texel / kSide) + 0.5f) * (2.f / kSide) - 1.f;
+    const float z = 1 - std::abs(p.x) - std::abs(p.y), fold = std::max(-z, 0.f);
+    return {p.x - std::copysign(fold, p.x), p.y - std::copysign(fold, p.y), z};
+}
+
+float gridReach(const Bounds& bounds, glm::uvec3 size) {
+    return norm1(bounds.size() / glm::vec3(glm::max(size, glm::uvec3(1))));
+}
+
+float seenFromCell(const std::uint16_t* texels, glm::vec3 way, float reach) {
+    const float length = norm1(way);
+    if (!(length > 0))
+        return texels[0] == 0xffff ? 0.f : 1.f;
+    float inverse = 0;
+    const GridDepthLookup at = gridDepthLookup(way);
+    for (std::size_t k = 0; k < 4; ++k)
+        inverse += at.weight[k] * float(texels[at.texel[k]]);
+    const float share = length * inverse * (kGridDepthScale / 65535 / reach);
+    return std::clamp((1.15f - share) * 10, 0.f, 1.f);
+}
+
+} // namespace limn

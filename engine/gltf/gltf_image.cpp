@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_image.h"
+
+#include "engine/core/parallel.h"
+#include "engine/gltf/gltf_accessor.h"
+#include "engine/scene/decode_image.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+static std::string imageName(const tinygltf::Image& image, std::size_t index) {
+    if (!image.name.empty())
+        return image.name;
+    return image.uri.empty() ? fmt::format("images[{}]", index) : image.uri;
+}
+
+Result<std::span<const std::uint8_t>> encodedImage(const GltfFile& file, std::size_t index) {
+    const tinygltf::Image& source = file.model.images[index];
+    if (source.bufferView >= 0)
+        return viewBytes(file.model, source.bufferView);
+    return std::span<const std::uint8_t>(file.encodedImages[index]);
+}
+
+static Result<Image> decodeOne(GltfFile& file, std::size_t index) {
+    if (!file.imageProblems[index].empty())
+        return fail(file.imageProblems[index]);
+    const Result<std::span<const std::uint8_t>> bytes = encodedImage(file, index);
+    if (!bytes)
+        return tl::make_unexpected(bytes.error());
+    Result<Image> image = decodeImage(*bytes);
+    std::vector<std::uint8_t>().swap(file.encodedImages[index]);
+    return image;
+}
+
+std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs) {
+    std::vector<Image> images(file.model.images.size());
+    std::vector<std::string> problems(images.size());
+    parallelRanges(images.size(), 1, progress, "images", [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (Result<Image> image = decodeOne(file, i))
+                images[i] = std::move(*image);
+            else
+                problems[i] = image.error().message;
+            images[i].name = imageName(file.model.images[i], i);
+        }
+    });
+    for (std::size_t i = 0; i < images.size(); ++i)
+        if (!problems[i].empty()) {
+            images[i].width = images[i].height = 1;
+            images[i].rgba.assign(4, 255);
+            repairs.sentences.push_back(
+                fmt::format("image {} '{}' {}; it is white", i, images[i].name, problems[i]));
+        }
+    return images;
+}
+
+} // namespace limn

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/memory_budget.h"
+#include "engine/core/progress.h"
+#include "engine/core/result.h"
+#include "engine/gltf/gltf_uri.h"
+#include "engine/scene/scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+struct ImportedScene {
+    Document document;
+    std::shared_ptr<const Assets> assets;
+    std::vector<std::string>
+        repairs; ///< one sentence each: what was mended or left out, with counts
+};
+
+struct ImportOptions {
+    FileReach reach = FileReach::Folder; ///< of the files that a glTF names
+    MemoryBudget memory;
+};
+
+/// Reads a .gltf or .glb (glTF 2.0). Fails with file and field on what cannot be repaired:
+/// malformed JSON, indices or accessors out of range, missing buffers, required extensions we lack,
+/// cycles; and on what would not fit into memory.
+Result<ImportedScene> importGltf(const std::string& path, const Progress& progress = {},
+                                 const ImportOptions& options = {});
+
+} // namespace limn

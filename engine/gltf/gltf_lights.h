@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gltf/gltf_repairs.h"
+#include "engine/scene/document.h"
+
+#include <cstddef>
+
+#include <tiny_gltf.h>
+
+namespace limn {
+
+/// Adds the KHR_lights_punctual light and the perspective camera of nodes[index], if it has them,
+/// in world space, into which `toWorld` takes the node. Both look down -Z of the node; its scale
+/// changes neither.
+void addLightAndCamera(Document& document, const tinygltf::Model& model, std::size_t index,
+                       const glm::mat4& toWorld, GltfRepairs& repairs);
+
+} // namespace limn

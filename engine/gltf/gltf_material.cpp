@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_material.h"
+
+#include "engine/scene/light/light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+static const tinygltf::Value* member(const tinygltf::Value& object, const char* key) {
+    return object.IsObject() && object.Has(key) ? &object.Get(key) : nullptr;
+}
+
+static const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions,
+                                        const char* name) {
+    const auto found = extensions.find(name);
+    return found == extensions.end() ? nullptr : &found->second;
+}
+
+static float number(const tinygltf::Value* value, float missing) {
+    return value && value->IsNumber() ? float(value->GetNumberAsDouble()) : missing;
+}
+
+static glm::vec2 pair(const tinygltf::Value* value, glm::vec2 missing) {
+    if (!value || !value->IsArray() || value->ArrayLen() != 2)
+        return missing;
+    return {number(&value->Get(0), missing.x), number(&value->Get(1), missing.y)};
+}
+
+static Wrap wrapOf(int mode) {
+    switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+        return Wrap::Clamp;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+        return Wrap::Mirror;
+    default:
+        return Wrap::Repeat;
+    }
+}
+
+static void applyTransform(TextureRef& texture, const tinygltf::Value& transform,
+                           GltfRepairs& repairs) {
+    const glm::vec2 offset = pair(member(transform, "offset"), {0, 0});
+    const glm::vec2 scale = pair(member(transform, "scale"), {1, 1});
+    const float rotation = number(member(transform, "rotation"), 0);
+    if (!std::isfinite(offset.x + offset.y + scale.x + scale.y + rotation)) {
+        repairs.add("texture transforms not finite left out");
+        return;
+    }
+    texture.offset = offset;
+    texture.scale = scale;
+    texture.rotation = rotation;
+    const float set = number(member(transform, "texCoord"), float(texture.texCoord));
+    texture.texCoord = set >= 0 && set < 16 ? std::uint32_t(set) : 2;
+}
+
+template <class Info>
+static TextureRef readTexture(const tinygltf::Model& model, const Info& info,
+                              GltfRepairs& repairs) {
+    TextureRef texture;
+    if (info.index < 0 || std::size_t(info.index) >= model.textures.size())
+        return texture;
+    const tinygltf::Texture& source = model.textures[std::size_t(info.index)];
+    if (source.source < 0 || std::size_t(source.source) >= model.images.size()) {
+        repairs.add("textures without a readable image left out");
+        return texture;
+    }
+    texture.image = source.source;
+    texture.texCoord = info.texCoord < 0 ? 0 : std::uint32_t(info.texCoord);
+    if (source.sampler >= 0 && std::size_t(source.sampler) < model.samplers.size()) {
+        const tinygltf::Sampler& sampler = model.samplers[std::size_t(source.sampler)];
+        texture.wrapU = wrapOf(sampler.wrapS);
+        texture.wrapV = wrapOf(sampler.wrapT);
+        texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    if (const tinygltf::Value* transform = extension(info.extensions, "KHR_texture_transform"))
+        applyTransform(texture, *transform, repairs);
+    if (texture.texCoord > 1) {
+        repairs.add("textures on TEXCOORD_2 or higher left out");
+        return {};
+    }
+    return texture;
+}
+
+/// `value` as a float in [lower, upper]; a repair where it was not.
+static float ranged(double value, float lower, float upper, GltfRepairs& repairs) {
+    const float inside = std::clamp(float(value), lower, upper);
+    if (double(inside) != value && std::abs(double(inside) - value) > 1e-6 * std::abs(value))
+        repairs.add("material numbers out of range brought into it");
+    return inside;
+}
+
+static glm::vec3 readEmission(const tinygltf::Material& source, GltfRepairs& repairs) {
+    glm::vec3 emission(0);
+    if (source.emissiveFactor.size() == 3)
+        for (int c = 0; c < 3; ++c)
+            emission[c] = ranged(source.emissiveFactor[std::size_t(c)], 0, kMostLight, repairs);
+    if (const auto* e = extension(source.extensions, "KHR_materials_emissive_strength"))
+        emission *= ranged(double(number(member(*e, "emissiveStrength"), 1)), 0, 1e7f, repairs);
+    for (int c = 0; c < 3; ++c)
+        emission[c] = ranged(double(emission[c]), 0, kMostLight, repairs);
+    return emission;
+}
+
+Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepairs& repairs) {
+    const tinygltf::Material& source = model.materials[index];
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    Material m;
+    m.name = source.name.empty() ? fmt::format("Material {}", index) : source.name;
+    if (pbr.baseColorFactor.size() == 4)
+        for (int c = 0; c < 4; ++c)
+            m.baseColor[c] = ranged(pbr.baseColorFactor[std::size_t(c)], 0, 1, repairs);
+    m.metallic = ranged(pbr.metallicFactor, 0, 1, repairs);
+    m.roughness = ranged(pbr.roughnessFactor, 0, 1, repairs);
+    m.emission = readEmission(source, repairs);
+    if (source.alphaMode == "MASK")
+        m.alphaMode = AlphaMode::Mask;
+    else if (source.alphaMode == "BLEND")
+        m.alphaMode = AlphaMode::Blend;
+    else if (source.alphaMode != "OPAQUE")
+        repairs.add("materials of unknown alphaMode taken as OPAQUE");
+    m.alphaCutoff = ranged(source.alphaCutoff, 0, 1e30f, repairs);
+    m.doubleSided = source.doubleSided;
+    m.normalScale = float(source.normalTexture.scale);
+    m.baseColorTexture = readTexture(model, pbr.baseColorTexture, repairs);
+    m.metallicRoughnessTexture = readTexture(model, pbr.metallicRoughnessTexture, repairs);
+    m.normalTexture = readTexture(model, source.normalTexture, repairs);
+    m.emissiveTexture = readTexture(model, source.emissiveTexture, repairs);
+    return m;
+}
+
+} // namespace limn

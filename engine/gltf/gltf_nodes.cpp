@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_nodes.h"
+
+#include "engine/gltf/gltf_accessor.h"
+#include "engine/gltf/gltf_lights.h"
+#include "engine/scene/origin.h"
+#include "engine/scene/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+using tinygltf::Model;
+
+static constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+
+static bool finite(const Transform& t) {
+    for (int c = 0; c < 3; ++c)
+        if (!std::isfinite(float(t.translation[c])) || !std::isfinite(t.scale[c]))
+            return false;
+    return std::isfinite(t.rotation.x + t.rotation.y + t.rotation.z + t.rotation.w);
+}
+
+/// Brings the rotation to unit length and scales of 0 to 1; false where there was one.
+static bool normalise(Transform& t, GltfRepairs& repairs) {
+    const glm::dquat q(t.rotation);
+    const double length = glm::length(q);
+    if (!(length > 1e-12)) {
+        t.rotation = glm::quat(1, 0, 0, 0);
+        repairs.add("rotations of length 0 taken as none");
+    } else {
+        if (std::abs(length - 1) > 1e-3)
+            repairs.add("rotations brought to unit length");
+        t.rotation = glm::quat(q / length);
+    }
+    bool visible = true;
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(t.scale[c]) > 1e-20f)) {
+            t.scale[c] = 1;
+            visible = false;
+        }
+    if (!visible)
+        repairs.add("nodes of scale 0 hidden");
+    return visible;
+}
+
+bool decompose(const glm::mat4& m, Transform& transform, GltfRepairs& repairs) {
+    const glm::dmat3 a{glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2])};
+    glm::dvec3 scale{glm::length(a[0]), glm::length(a[1]), glm::length(a[2])};
+    transform.translation = glm::dvec3(m[3]);
+    if (glm::determinant(a) < 0)
+        scale.x = -scale.x;
+    glm::dmat3 r(1);
+    if (scale.x != 0 && scale.y != 0 && scale.z != 0) {
+        // Gram-Schmidt; without shear it changes nothing.
+        r[0] = a[0] / scale.x;
+        r[1] = a[1] / scale.y - r[0] * glm::dot(r[0], a[1] / scale.y);
+        r[1] = glm::length(r[1]) > 1e-6 ? glm::normalize(r[1]) : glm::dvec3(0);
+        r[2] = glm::cross(r[0], r[1]);
+        if (r[1] == glm::dvec3(0))
+            r = glm::dmat3(1);
+    }
+    transform.rotation = glm::quat(glm::normalize(glm::quat_cast(r)));
+    transform.scale = glm::vec3(scale);
+    double error = 0, largest = 0;
+    for (int c = 0; c < 3; ++c) {
+        error = std::max(error, glm::length(r[c] * scale[c] - a[c]));
+        largest = std::max(largest, glm::length(a[c]));
+    }
+    if (error > 1e-3 * largest)
+        repairs.add("matrices with shear, which is left out");
+    return normalise(transform, repairs);
+}
+
+static glm::mat4 toMatrix(const std::vector<double>& values) {
+    glm::mat4 m(1);
+    for (int i = 0; i < 16; ++i)
+        m[i / 4][i % 4] = float(values[std::size_t(i)]);
+    return m;
+}
+
+/// The node's own transform; false where it hides the node.
+static bool readTransform(const tinygltf::Node& node, Transform& t, GltfRepairs& repairs) {
+    if (node.matrix.size() == 16) {
+        const bool visible = decompose(toMatrix(node.matrix), t, repairs);
+        t.translation = {node.matrix[12], node.matrix[13], node.matrix[14]};
+        return visible;
+    }
+    for (int c = 0; c < 3; ++c) {
+        if (node.translation.size() == 3)
+            t.translation[c] = node.translation[std::size_t(c)];
+        if (node.scale.size() == 3)
+            t.scale[c] = float(node.scale[std::size_t(c)]);
+    }
+    if (node.rotation.size() == 4)
+        t.rotation = glm::quat(float(node.rotation[3]), float(node.rotation[0]),
+                               float(node.rotation[1]), float(node.rotation[2]));
+    return normalise(t, repairs);
+}
+
+namespace {
+
+/// A node of the file and its parent in the document.
+struct Visit {
+    int node = 0;
+    ObjectId parent = 0;
+};
+
+/// The node of a skinned mesh and where its mesh lies in double.
+struct Skinned {
+    ObjectId id = 0;
+    glm::dvec3 translation{0};
+};
+
+/// One run of addNodes.
+struct NodeReader {
+    Document& document;
+    const Model& model;
+    const MeshesOfGltf& meshes;
+    GltfRepairs& repairs;
+    std::vector<ObjectId> ids; ///< per node of the file; 0: not in the scene
+    std::vector<int> skinned;  ///< nodes whose mesh is placed by its skin
+};
+
+} // namespace
+
+static Result<std::vector<int>> parentsOf(const Model& model) {
+    std::vector<int> parents(model.nodes.size(), -1);
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+        for (const int child : model.nodes[i].children) {
+            if (child < 0 || std::size_t(child) >= parents.size())
+                return fail(fmt::format("nodes[{}].children: {} is out of range", i, child));
+            if (parents[std::size_t(child)] != -1)
+                return fail(fmt::format("nodes[{}]: has two parents, {} and {}", child,
+                                        parents[std::size_t(child)], i));
+            parents[std::size_t(child)] = int(i);
+        }
+    // Walk up from every node; meeting the walk itself is a cycle, meeting an earlier one is not.
+    std::vector<std::size_t> walk(parents.size(), 0);
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        for (int at = int(i); at >= 0; at = parents[std::size_t(at)]) {
+            std::size_t& mark = walk[std::size_t(at)];
+            if (mark == i + 1)
+                return fail(fmt::format("nodes[{}].children: the node is its own ancestor", at));
+            if (mark != 0)
+                break;
+            mark = i + 1;
+        }
+    return parents;
+}
+
+static Result<std::vector<int>> rootsOf(const Model& model, const std::vector<int>& parents) {
+    std::vector<int> roots;
+    if (model.scenes.empty()) {
+        for (std::size_t i = 0; i < parents.size(); ++i)
+            if (parents[i] < 0)
+                roots.push_back(int(i));
+        return roots;
+    }
+    const std::size_t scene = model.defaultScene < 0 ? 0 : std::size_t(model.defaultScene);
+    if (scene >= model.scenes.size())
+        return fail(fmt::format("scene: {} is out of range", scene));
+    std::vector<bool> seen(model.nodes.size());
+    for (const int node : model.scenes[scene].nodes) {
+        if (node < 0 || std::size_t(node) >= model.nodes.size())
+            return fail(fmt::format("scenes[{}].nodes: {} is out of range", scene, node));
+        if (seen[std::size_t(node)] || parents[std::size_t(node)] >= 0)
+            return fail(
+                fmt::format("scenes[{}].nodes: {} is not a root, or there twice", scene, node));
+        seen[std::size_t(node)] = true;
+        roots.push_back(node);
+    }
+    return roots;
+}
+
+static Result<AccessorValues> instanceAttribute(const Model& model,
+                                                const tinygltf::Value& attributes, const char* name,
+                                                std::uint32_t components) {
+    if (!attributes.Has(name))
+        return AccessorValues{};
+    const tinygltf::Value& index = attributes.Get(name);
+    Result<AccessorValues> values = readNumbers(model, index.IsInt() ? index.GetNumberAsInt() : -1);
+    if (values && values->components != components)
+        return fail(fmt::format("{}: not {} components", name, components));
+    return values;
+}
+
+/// The transforms of EXT_mesh_gpu_instancing.
+static Result<std::vector<Transform>>
+readInstances(const Model& model, const tinygltf::Value& value, GltfRepairs& repairs) {
+    if (!value.IsObject() || !value.Has("attributes") || !value.Get("attributes").IsObject())
+        return fail("attributes: missing");
+    const tinygltf::Value& attributes = value.Get("attributes");
+    const Result<AccessorValues> t = instanceAttribute(model, attributes, "TRANSLATION", 3);
+    const Result<AccessorValues> r = instanceAttribute(model, attributes, "ROTATION", 4);
+    const Result<AccessorValues> s = instanceAttribute(model, attributes, "SCALE", 3);
+    for (const auto* each : {&t, &r, &s})
+        if (!*each)
+            return tl::make_unexpected(each->error());
+    const std::size_t count = std::max({t->count(), r->count(), s->count()});
+    std::vector<Transform> out;
+    for (std::size_t i = 0; i < count; ++i) {
+        Transform one;
+        for (const auto* each : {&t, &r, &s})
+            if ((*each)->count() != 0 && (*each)->count() != count)
+                return fail("attributes: of different counts");
+        if (t->count())
+            one.translation = {t->row(i)[0], t->row(i)[1], t->row(i)[2]};
+        if (r->count())
+            one.rotation = glm::quat(r->row(i)[3], r->row(i)[0], r->row(i)[1], r->row(i)[2]);
+        if (s->count())
+            one.scale = {s->row(i)[0], s->row(i)[1], s->row(i)[2]};
+        if (!finite(one))
+            repairs.add("instances with numbers not finite left out");
+        else if (normalise(one, repairs))
+            out.push_back(one);
+    }
+    return out;
+}
+
+static Result<void> addInstancedMeshes(NodeReader& reader, const tinygltf::Node& source,
+                                       const tinygltf::Value& value, ObjectId id,
+                                       const Node& node) {
+    const Result<std::vector<Transform>> transforms =
+        readInstances(reader.model, value, reader.repairs);
+    if (!transforms)
+        return fail(fmt::format("extensions.{}.{}", kInstancing, transforms.error().message));
+    for (std::size_t i = 0; i < transforms->size(); ++i) {
+        Node instance;
+        instance.name = fmt::format("{} {}", node.name, i);
+        instance.parent = id;
+        instance.transform = (*transforms)[i];
+        instance.meshes = reader.meshes[std::size_t(source.mesh)];
+        addObject(reader.document, std::move(instance));
+    }
+    return {};
+}
+
+static Result<void> addNode(NodeReader& reader, const Visit& visit) {
+    const auto index = std::size_t(visit.node);
+    const tinygltf::Node& source = reader.model.nodes[index];
+    Node node;
+    node.name = source.name.empty() ? fmt::format("Node {}", index) : source.name;
+    node.parent = visit.parent;
+    node.visible = readTransform(source, node.transform, reader.repairs);
+    if (!finite(node.transform))
+        return fail(fmt::format("nodes[{}]: transform is not finite", index));
+
+    const auto instancing = source.extensions.find(kInstancing);
+    const bool instanced = source.mesh >= 0 && instancing != source.extensions.end();
+    const bool skinned = source.mesh >= 0 && source.skin >= 0;
+    if (skinned)
+        reader.skinned.push_back(visit.node);
+    else if (source.mesh >= 0 && !instanced)
+        node.meshes = reader.meshes[std::size_t(source.mesh)];
+    const ObjectId id = reader.ids[index] = addObject(reader.document, node);
+    if (instanced && !skinned)
+        if (Result<void> added = addInstancedMeshes(reader, source, instancing->second, id, node);
+            !added)
+            return fail(fmt::format("nodes[{}].{}", index, added.error().message));
+    return {};
+}
+
+/// Places a skinned mesh as it was bound: glTF ignores the node's own transform, and at rest every
+/// joint's matrix times its inverse bind matrix is the same, so the first joint's will do.
+static Result<Skinned> addSkinned(NodeReader& reader, int index, Placements& rounded,
+                                  Placements& precise) {
+    const tinygltf::Node& source = reader.model.nodes[std::size_t(index)];
+    const tinygltf::Skin& skin = reader.model.skins[std::size_t(source.skin)];
+    Node node;
+    node.name = source.name.empty() ? fmt::format("Skinned {}", index) : source.name;
+    node.meshes = reader.meshes[std::size_t(source.mesh)];
+    Skinned added;
+    if (!skin.joints.empty()) {
+        glm::mat4 bind(1);
+        if (skin.inverseBindMatrices >= 0) {
+            const Result<AccessorValues> values =
+                readNumbers(reader.model, skin.inverseBindMatrices);
+            if (!values || values->components != 16 || values->count() == 0)
+                return fail(fmt::format("skins[{}].inverseBindMatrices: {}", source.skin,
+                                        values ? "not MAT4" : values.error().message));
+            for (int i = 0; i < 16; ++i)
+                bind[i / 4][i % 4] = values->row(0)[std::size_t(i)];
+        }
+        const ObjectId joint = reader.ids[std::size_t(skin.joints[0])];
+        node.visible =
+            decompose(glm::mat4(rounded.of(joint).toWorld) * bind, node.transform, reader.repairs);
+        added.translation = glm::dvec3((precise.of(joint).toWorld * glm::dmat4(bind))[3]);
+    }
+    if (!finite(node.transform))
+        return fail(fmt::format("skins[{}]: bind pose is not finite", source.skin));
+    reader.repairs.add("skinned meshes shown in their bind pose");
+    added.id = addObject(reader.document, std::move(node));
+    return added;
+}
+
+static Result<void> addAllSkinned(NodeReader& reader, std::span<const Mesh> placed) {
+    Placements rounded(reader.document), precise(reader.document, glm::dvec3(0));
+    std::vector<Skinned> added;
+    for (const int node : reader.skinned) {
+        const Result<Skinned> one = addSkinned(reader, node, rounded, precise);
+        if (!one)
+            return tl::make_unexpected(one.error());
+        added.push_back(*one);
+    }
+    reader.document.origin = originOf(reader.document, placed);
+    if (reader.document.origin != glm::dvec3(0))
+        for (const Skinned& one : added)
+            std::get<Node>(reader.document.objects.at(one.id)).transform.translation =
+                one.translation;
+    return {};
+}
+
+Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
+                      std::span<const Mesh> placed, GltfRepairs& repairs) {
+    const Result<std::vector<int>> parents = parentsOf(model);
+    if (!parents)
+        return tl::make_unexpected(parents.error());
+    const Result<std::vector<int>> roots = rootsOf(model, *parents);
+    if (!roots)
+        return tl::make_unexpected(roots.error());
+    NodeReader reader{document, model, meshes, repairs, {}, {}};
+    reader.ids.assign(model.nodes.size(), 0);
+    std::vector<Visit> stack;
+    for (auto root = roots->rbegin(); root != roots->rend(); ++root)
+        stack.push_back({*root, 0});
+    std::vector<int> visited;
+    while (!stack.empty()) {
+        const Visit visit = stack.back();
+        stack.pop_back();
+        visited.push_back(visit.node);
+        if (Result<void> added = addNode(reader, visit); !added)
+            return added;
+        const std::vector<int>& children = model.nodes[std::size_t(visit.node)].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            stack.push_back({*child, reader.ids[std::size_t(visit.node)]});
+    }
+    if (Result<void> added = addAllSkinned(reader, placed); !added)
+        return added;
+    Placements placements(document);
+    for (const int node : visited)
+        addLightAndCamera(document, model, std::size_t(node),
+                          glm::mat4(placements.of(reader.ids[std::size_t(node)]).toWorld), repairs);
+    return {};
+}
+
+} // namespace limn

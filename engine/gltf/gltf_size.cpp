@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_size.h"
+
+#include "engine/gltf/gltf_accessor.h"
+#include "engine/gltf/gltf_image.h"
+#include "engine/scene/decode_image.h"
+#include "engine/scene/mesh/mesh.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+/// As read, and as kept: three floats become as many, with four copies of an attribute at most.
+constexpr std::uint64_t kVertexBytes =
+    2 * (2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2));
+constexpr std::uint64_t kIndexBytes = 2 * sizeof(std::uint32_t);
+/// In the document, in its lists of names, as an instance of the scene, and for its rays.
+constexpr std::uint64_t kNodeBytes = 1024;
+
+/// Of an accessor; 0 where its view is too short to hold them, or where there is none.
+std::uint64_t countOf(const tinygltf::Model& model, int index) {
+    if (index < 0 || std::size_t(index) >= model.accessors.size())
+        return 0;
+    const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
+    const auto view = std::size_t(accessor.bufferView);
+    const std::uint64_t most = accessor.bufferView < 0 ? kMostZeros
+                               : view < model.bufferViews.size()
+                                   ? model.bufferViews[view].byteLength
+                                   : 0;
+    return accessor.count <= most ? accessor.count : 0;
+}
+
+std::uint64_t countOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                      const char* attribute) {
+    const auto at = primitive.attributes.find(attribute);
+    return at == primitive.attributes.end() ? 0 : countOf(model, at->second);
+}
+
+struct Part {
+    std::string what;
+    std::uint64_t bytes = 0;
+};
+
+Part imagesOf(const GltfFile& file) {
+    Part part{fmt::format("decoding its {} images", file.model.images.size())};
+    for (std::size_t i = 0; i < file.model.images.size(); ++i)
+        if (const auto bytes = encodedImage(file, i))
+            if (const Result<ImageSize> size = imageSize(*bytes))
+                part.bytes += std::uint64_t(4) * size->width * size->height;
+    return part;
+}
+
+Part meshesOf(const tinygltf::Model& model) {
+    Part part{fmt::format("its {} meshes", model.meshes.size())};
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            const std::uint64_t vertices = countOf(model, primitive, "POSITION");
+            // Strips and fans have up to three corners for each index.
+            const std::uint64_t corners =
+                primitive.indices >= 0 ? countOf(model, primitive.indices) : vertices;
+            part.bytes += vertices * kVertexBytes + 3 * corners * kIndexBytes;
+        }
+    return part;
+}
+
+Part nodesOf(const tinygltf::Model& model) {
+    std::uint64_t nodes = model.nodes.size();
+    for (const tinygltf::Node& node : model.nodes) {
+        const auto instancing = node.extensions.find("EXT_mesh_gpu_instancing");
+        if (instancing == node.extensions.end() || !instancing->second.IsObject() ||
+            !instancing->second.Has("attributes"))
+            continue;
+        const tinygltf::Value& attributes = instancing->second.Get("attributes");
+        std::uint64_t most = 0;
+        for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"})
+            if (attributes.Has(name) && attributes.Get(name).IsInt())
+                most = std::max(most, countOf(model, attributes.Get(name).GetNumberAsInt()));
+        nodes += most;
+    }
+    return {fmt::format("its {} nodes and instances", nodes), nodes * kNodeBytes};
+}
+
+} // namespace
+
+Result<void> checkGltfSize(const GltfFile& file, const MemoryBudget& memory) {
+    const Part parts[] = {imagesOf(file), meshesOf(file.model), nodesOf(file.model)};
+    std::uint64_t all = 0;
+    for (const Part& part : parts) {
+        if (Result<void> fits = memory.allow(part.what, part.bytes); !fits)
+            return fits;
+        all += part.bytes; // three parts of the budget at most: no overflow
+    }
+    return memory.allow("the scene", all);
+}
+
+std::uint64_t jsonBytes(std::string_view text) {
+    // tinygltf keeps a tree of its own beside that of the JSON, and a node for every object.
+    constexpr std::uint64_t kPerValue = 200, kPerObject = 900;
+    const auto values = std::uint64_t(std::ranges::count(text, ','));
+    const auto objects = std::uint64_t(std::ranges::count(text, '{'));
+    return 2 * text.size() + kPerValue * values + kPerObject * objects;
+}
+
+} // namespace limn

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "engine/lightmap/atlas_stage.h"
+
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+#include "engine/lightmap/charts.h"
+#include "engine/lightmap/density.h"
+#include "engine/lightmap/density_fields.h"
+#include "engine/lightmap/fine_texels.h"
+#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/texel_sides.h"
+#include "engine/scene/mesh/input_hash.h"
+#include "engine/stages/stage_archive.h"
+#include "engine/stages/stage_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limn {
+
+namespace {
+
+/// Charts of every mesh that a static instance uses. Returns false when cancelled.
+bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
+                 const Progress& progress, StageStore* store, std::vector<MeshCharts>& charts) {
+    charts.assign(meshes.size(), {});
+    std::vector<bool> used(charts.size());
+    for (const Instance& i : scene.instances)
+        used[i.mesh] = used[i.mesh] || !i.dynamic;
+    return parallelRanges(
+        charts.size(), 1, progress, "charts", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t m = begin; m < end; ++m)
+                if (used[m])
+                    charts[m] = keptOrMade<MeshCharts>(
+                        store, stageKey(Stage::Charts, meshes[m]), progress,
+                        [&mesh = scene.assets->meshes[m]](auto& a, auto& c) {
+                            chartFields(a, c, &mesh);
+                        },
+                        [&] { return buildCharts(scene.assets->meshes[m], progress); });
+        });
+}
+
+/// Of all that buildAtlas reads.
+std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes,
+                       const BakeSettings& settings, const BakeDensity& density) {
+    std::uint64_t h = hashValue(settings.texelsPerMetre, settings.lightmapCaches);
+    for (const Instance& i : scene.instances) {
+        h = hashValue(atlasScale(i), hashValue(meshes[i.mesh], h));
+        h = hashValue(std::uint32_t(i.dynamic),
+                      hashValue(std::uint32_t(isTwoSided(scene.materialOf(i))), h));
+    }
+    for (const std::vector<float>& factors : density.texels)
+        h = hashVector(factors, h);
+    return h;
+}
+
+/// Of what rays meet, and `seed`.
+std::uint64_t surfacesKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
+                          std::uint64_t seed) {
+    const Scene& scene = trace.scene();
+    std::uint64_t h = hashValue(trace.epsilonAt(glm::vec3(0)), seed);
+    for (const Instance& i : scene.instances) {
+        h = hashValue(std::uint32_t(i.dynamic), hashValue(i.node, hashValue(meshes[i.mesh], h)));
+        h = hashSurface(scene, scene.materialOf(i), hashBytes(&i.toWorld, sizeof i.toWorld, h));
+    }
+    return h;
+}
+
+/// Lamps have one density: caches aim at their surfels by areas, which are exact only then. (Which
+/// materials emit may change without tracing anything again.)
+void evenLamps(const Scene& scene, std::vector<MeshDensity>& surfels) {
+    for (const Instance& i : scene.instances)
+        if (!surfels.empty() && emits(scene.materialOf(i)))
+            surfels[i.mesh] = {};
+}
+
+/// Of an instance that has a place in the atlas.
+bool hasCharts(const Scene& scene, const std::vector<MeshCharts>& charts, std::size_t instance) {
+    return instance < scene.instances.size() && !scene.instances[instance].dynamic &&
+           !charts[scene.instances[instance].mesh].chartSize.empty();
+}
+
+template <class A, class V>
+void variedFields(A& a, V& v, const Scene& scene, const std::vector<MeshCharts>& charts) {
+    a("instance", v.instance,
+      rule::holds("without charts", [&](std::uint32_t i) { return hasCharts(scene, charts, i); }));
+    a("chart", v.chart, rule::holds("out of range", [&](std::uint32_t chart) {
+          return chart < charts[scene.instances[v.instance].mesh].chartSize.size();
+      }));
+    a("at", v.at, rule::each("not on the mesh", [&](std::size_t, const MeshPoint& p) {
+          return isPointOf(scene.meshOf(scene.instances[v.instance]), p);
+      }));
+    a("back", v.back, rule::count(v.at.size()), rule::below(2));
+    a("fours", v.fours, rule::count(v.at.size()),
+      rule::within(kLeastDensityClass, kMostDensityClass));
+}
+
+template <class A, class D>
+void bakeDensityFields(A& a, D& d, const Scene& scene, const std::vector<MeshCharts>& charts) {
+    a.each("texels", d.texels, rule::noneOr(scene.instances.size()), [&](auto& factors) {
+        const auto i = std::size_t(&factors - d.texels.data());
+        a("factors", factors, rule::noneOr(charts[scene.instances[i].mesh].chartSize.size()),
+          rule::within(std::exp2(2 * kLeastDensityClass), std::exp2(2 * kMostDensityClass)));
+    });
+    a.each("surfels", d.surfels, rule::noneOr(scene.assets->meshes.size()), [&](auto& s) {
+        densityFields(a, s, scene.assets->meshes[std::size_t(&s - d.surfels.data())]);
+    });
+    a.each("varied", d.varied, rule::any, [&](auto& v) { variedFields(a, v, scene, charts); });
+    a("baseShare", d.baseShare, rule::within(0, 1));
+    a("centre", d.centre, rule::within(1e-300, 1e300));
+    a("size", d.size, rule::within(0, 1e30));
+    a("nearest", d.nearest, rule::within(0, 1e30));
+}
+
+BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
+                         const std::vector<MeshCharts>& charts, std::uint32_t texels,
+                         const Progress& progress, StageStore* store, std::uint64_t& rays) {
+    return keptOrMade<BakeDensity>(
+        store, stageKey(Stage::Density, surfacesKey(trace, meshes, texels)), progress,
+        [&](auto& a, auto& d) { bakeDensityFields(a, d, trace.scene(), charts); },
+        [&] {
+            BakeDensity made = findDensity(trace, charts, texels, progress);
+            rays += made.rays;
+            return made;
+        });
+}
+
+/// All but the charts, which are kept per mesh.
+template <class A, class T>
+void atlasFields(A& a, T& t, const Scene& scene, const std::vector<MeshCharts>& charts) {
+    auto& l = t.layout;
+    a("width", l.width, rule::any);
+    a("height", l.height, rule::holds("too large for its texels", [&](std::uint32_t height) {
+          return isAtlasSize(l.width, height, t.texels.size());
+      }));
+    a("texels", t.texels, rule::each("out of range", [&](std::size_t i, const AtlasTexel& texel) {
+          return texel.texel < std::uint64_t(l.width) * l.height && texel.back <= 1 &&
+                 (i == 0 || t.texels[i - 1].texel < texel.texel) && texel.width >= 0 &&
+                 texel.width < kMostCoordinate && hasCharts(scene, charts, texel.instance) &&
+                 arePointsOf(scene.meshOf(scene.instances[texel.instance]), texel);
+      }));
+    a("texelsPerMetre", t.texelsPerMetre, rule::within(1e-30, 1e30));
+    a.each("instances", l.instances, rule::count(scene.instances.size()), [&](auto& i) {
+        const auto at = std::size_t(&i - l.instances.data());
+        a("uv", i.uv, rule::within(0, 1),
+          rule::count(hasCharts(scene, charts, at)
+                          ? charts[scene.instances[at].mesh].sourceVertex.size()
+                          : 0));
+        a("backRows", i.backRows, rule::below(l.height));
+    });
+}
+
+/// Those of an atlas' texels.
+template <class A, class S>
+void sideFields(A& a, S& s, const Scene& scene, const Atlas& atlas) {
+    a("texels", s.texels, rule::count(atlas.texels.size()),
+      rule::each("not the atlas'", [&](std::size_t i, const AtlasTexel& texel) {
+          const AtlasTexel& whole = atlas.texels[i];
+          return texel.texel == whole.texel && texel.instance == whole.instance &&
+                 texel.back == whole.back && texel.width == whole.width &&
+                 arePointsOf(scene.meshOf(scene.instances[texel.instance]), texel);
+      }));
+    a("open", s.open, rule::count(atlas.texels.size()), rule::below(2));
+    a("snaps", s.snaps, [&atlas](const auto& snaps) {
+        return snapDefect(snaps, atlas.layout.width, atlas.layout.height);
+    });
+}
+
+/// As many as can be needed, so that the atlas' size stays a number of 31 bits.
+template <class A, class F>
+void fineFields(A& a, F& f) {
+    constexpr std::size_t kMostPlaces = 1 << 24;
+    a.each("levels", f.places,
+           rule::holds("too many",
+                       [&](const auto& levels) {
+                           std::size_t places = 0;
+                           for (const auto& level : levels)
+                               places += level.size();
+                           return levels.size() <= std::size_t(kFineLevels) &&
+                                  places <= kMostPlaces;
+                       }),
+           [&](auto& places) {
+               a("places", places, rule::holds("out of order", [](const auto& level) {
+                     return std::ranges::is_sorted(level);
+                 }));
+           });
+}
+
+/// An atlas of coarse texels, and where finer ones are to be added to it.
+struct LaidTexels {
+    Atlas atlas;
+    FineLookups fine;
+    std::uint64_t key = 0; ///< of both
+};
+
+/// What the texels of a bake follow from, and where they are kept.
+struct TexelInput {
+    const TraceScene& trace;
+    const Scene& scene;
+    const std::vector<std::uint64_t>& meshes;
+    const std::vector<MeshCharts>& charts;
+    const BakeDensity& density;
+    const Progress& progress;
+    StageStore* store;
+    std::uint64_t& rays;
+
+    LaidTexels lay(std::uint32_t base, std::uint64_t most) const;
+};
+
+/// About `base` texels, and finer ones up to `most` in all. Unfinished when cancelled.
+LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
+    BakeSettings settings = scene.bake;
+    settings.lightmapCaches = std::max(base, 1U);
+    LaidTexels result;
+    result.key = atlasKey(scene, meshes, settings, density);
+    result.atlas = keptOrMade<Atlas>(
+        store, stageKey(Stage::Atlas, result.key), progress,
+        [&](auto& a, auto& t) { atlasFields(a, t, scene, charts); },
+        [&] { return buildAtlas(scene, charts, settings, density.texels, progress); });
+    result.atlas.layout.meshes = charts;
+    if (density.varied.empty() || progress.cancelled())
+        return result;
+    const std::uint64_t laid = result.atlas.texels.size();
+    result.fine = keptOrMade<FineLookups>(
+        store, stageKey(Stage::FineTexels, surfacesKey(trace, meshes, hashValue(result.key, most))),
+        progress, [](auto& a, auto& f) { fineFields(a, f); },
+        [&] {
+            FineLookups made = findFineLookups(
+                trace, result.atlas, density, std::uint32_t(most - std::min(most, laid)), progress);
+            rays += made.rays;
+            return made;
+        });
+    for (const std::vector<std::uint32_t>& places : result.fine.places)
+        result.key = hashVector(places, result.key);
+    return result;
+}
+
+/// As many texels as the settings ask for. How many finer ones a scene deserves is not known before
+/// they are laid once; then both kinds are reduced by the same factor.
+LaidTexels layTexels(const TexelInput& in) {
+    const std::uint64_t wanted = in.scene.bake.lightmapCaches;
+    if (in.density.varied.empty())
+        return in.lay(std::uint32_t(wanted), 0);
+    const auto share = [&](double part) {
+        return std::uint32_t(std::lround(double(wanted) * part));
+    };
+    constexpr std::uint64_t kTrial = 4; // times those wanted
+    const LaidTexels trial = in.lay(share(in.density.baseShare), kTrial * wanted);
+    const double base = double(trial.atlas.texels.size()), all = base + double(trial.fine.texels());
+    constexpr double kLeastBase = 0.25;
+    return in.lay(share(std::max(base / std::max(all, 1.), kLeastBase)), wanted);
+}
+
+/// To those that lead to finer texels.
+void addSnaps(std::vector<std::uint32_t> snaps, LightmapLayout& layout) {
+    if (snaps.empty())
+        return;
+    for (std::size_t i = 0; i < layout.snaps.size(); ++i)
+        if (layout.snaps[i] & kFineLookup)
+            snaps[i] = layout.snaps[i];
+    layout.snaps = std::move(snaps);
+}
+
+} // namespace
+
+std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
+                                      const std::vector<std::uint64_t>& meshes,
+                                      const Progress& progress, StageStore* store,
+                                      std::uint64_t& rays) {
+    std::vector<MeshCharts> charts;
+    if (!chartMeshes(scene, meshes, progress, store, charts))
+        return {};
+    const auto texels = std::uint32_t(std::clamp(wantedTexels(scene), 1., double(1U << 24)));
+    BakeDensity density = densityStage(trace, meshes, charts, texels, progress, store, rays);
+    if (progress.cancelled())
+        return {};
+    if (scene.bake.texelsPerMetre > 0)
+        density.texels.clear(), density.varied.clear();
+    evenLamps(scene, density.surfels);
+    LaidTexels laid = layTexels({trace, scene, meshes, charts, density, progress, store, rays});
+    if (progress.cancelled())
+        return {};
+    Atlas& atlas = laid.atlas;
+    const std::vector<PlacedTriangle> placed = addFineTexels(scene, density, laid.fine, atlas);
+    TexelSides sides = keptOrMade<TexelSides>(
+        store, stageKey(Stage::TexelSides, surfacesKey(trace, meshes, laid.key)), progress,
+        [&](auto& a, auto& s) { sideFields(a, s, scene, atlas); },
+        [&] {
+            TexelSides made = findTexelSides(trace, atlas, placed, progress);
+            rays += made.rays;
+            return made;
+        });
+    if (progress.cancelled())
+        return {};
+    atlas.texels = std::move(sides.texels);
+    atlas.open = std::move(sides.open);
+    addSnaps(std::move(sides.snaps), atlas.layout);
+    return PlacedAtlas{std::move(atlas), std::move(density.surfels)};
+}
+
+} // namespace limn

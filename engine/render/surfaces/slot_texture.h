@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/descriptors.h"
+#include "engine/render/surfaces/material_set.h"
+
+#include <array>
+
+namespace limn::render {
+
+/// A descriptor set per frame slot with one texture, texel by texel: of passes that read one image.
+class SlotTexture {
+public:
+    explicit SlotTexture(gpu::Device& device) : m_device(device) {
+        const std::array types = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+        m_layout = gpu::createSetLayout(device, types);
+        m_pool = gpu::createDescriptorPool(device, kFrameSlots, types);
+        for (VkDescriptorSet& set : m_sets)
+            set = gpu::allocateSet(device, m_pool, m_layout);
+        m_sampler = gpu::createSampler(
+            device, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST});
+    }
+
+    VkDescriptorSetLayout layout() const { return m_layout.handle; }
+
+    /// The slot's set with `view`, in SHADER_READ_ONLY_OPTIMAL; no frame in flight uses the slot.
+    VkDescriptorSet with(VkImageView view, std::uint32_t slot) {
+        gpu::writeTexture(m_device, m_sets[slot], 0, view, m_sampler.handle);
+        return m_sets[slot];
+    }
+
+private:
+    gpu::Device& m_device;
+    gpu::DescriptorSetLayout m_layout;
+    gpu::DescriptorPool m_pool;
+    gpu::Sampler m_sampler;
+    std::array<VkDescriptorSet, kFrameSlots> m_sets{};
+};
+
+} // namespace limn::render

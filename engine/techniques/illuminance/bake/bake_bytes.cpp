@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
+
+#include "engine/field/grid_depth.h"
+#include "engine/lightmap/atlas.h"
+#include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
+#include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
+#include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/bake/senders/surfels.h"
+#include "engine/techniques/illuminance/bake/transport/gather.h"
+#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/bake/transport/training_light.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace limn {
+
+namespace {
+
+constexpr auto kBytes = [](const auto&... arrays) {
+    return ((std::uint64_t(arrays.size()) * sizeof arrays[0]) + ... + 0);
+};
+constexpr auto kBytesPerEntry = [](const auto&... arrays) {
+    return (std::uint64_t(sizeof arrays[0]) + ... + 0);
+};
+
+// The arrays with one entry per surfel, inner node, node, and cache.
+
+template <class Use>
+std::uint64_t surfelArrays(const Surfels& s, Use use) {
+    return use(s.position, s.normal, s.area, s.instance, s.triangle, s.barycentric, s.cache,
+               s.cacheWeight);
+}
+
+template <class Use>
+std::uint64_t innerNodeArrays(const ClusterTree& t, Use use) {
+    return use(t.left, t.right, t.leftWeight);
+}
+
+template <class Use>
+std::uint64_t cacheArrays(const Caches& c, Use use) {
+    return use(c.kind, c.position, c.normal, c.texel);
+}
+
+/// Of the axes' six directions, those that some triangle faces more than any other.
+std::uint32_t waysFaced(const Mesh& mesh) {
+    std::uint32_t faced = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount() && faced != 0x3f; ++t) {
+        const glm::vec3 n = triangleNormal(mesh, t), a = glm::abs(n);
+        const int axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+        faced |= 1U << (2 * axis + (n[axis] < 0 ? 1 : 0));
+    }
+    return std::uint32_t(std::popcount(faced));
+}
+
+std::uint64_t linkBytes(const BakeSettings& s, std::uint64_t caches, double links) {
+    const Caches c;
+    return (caches + 1) * kBytesPerEntry(c.linkBegin) + caches * kBytesPerEntry(c.linkExponent) +
+           std::uint64_t(double(caches) * links) * bytesPerLink(s.storage, s.bands);
+}
+
+/// What of a bake depends on what its rays will see, and what its scene adds.
+struct Expected {
+    double leaves;           ///< senders that a cache sees
+    double links;            ///< of a cache
+    double aimed;            ///< rays of a cache that are aimed at senders, and meet them
+    std::uint64_t triangles; ///< of meshes
+    std::uint64_t uv;        ///< of vertices, of all instances
+    std::uint64_t meshVertices;
+};
+
+/// Senders that a cache may aim rays at.
+std::uint64_t targetsOf(const Scene& scene) {
+    const std::uint64_t surfels = scene.bake.surfels;
+    return scene.bake.linker == Linker::Gather
+               ? std::min<std::uint64_t>(expectedLampSurfels(scene, scene.bake.surfels), kMaxAimed)
+               : surfels + kSkyCells;
+}
+
+Expected expect(const Scene& scene) {
+    const BakeSettings& s = scene.bake;
+    Expected e{};
+    // Half of the lamps' surfels, or of all, face a cache; some are hidden. Lamps in an open room
+    // came to 0.6, those in lampshades and in other rooms to 0.1.
+    constexpr double kInSight = 0.4;
+    e.aimed = kInSight * double(targetsOf(scene));
+    // Several rays meet the same sender, the more so the more there are.
+    const double rays = s.rays, senders = 2.2 * std::sqrt(double(s.surfels));
+    e.leaves = (s.linker == Linker::Gather ? rays * senders / (rays + senders) : 0) + e.aimed;
+    // Together they have as many as if each had n_L or, where that is less, one per sender in
+    // sight. That number varies from cache to cache, which rounds off the minimum; those in walls
+    // have none.
+    constexpr double kValid = 0.95;
+    e.links = kValid * std::pow(std::pow(s.links, -4.) + std::pow(e.leaves, -4.), -0.25);
+    for (const Mesh& m : scene.assets->meshes) {
+        e.triangles += m.triangleCount();
+        e.meshVertices += m.positions.size();
+    }
+    for (const Instance& i : scene.instances)
+        if (!i.dynamic)
+            e.uv += scene.meshOf(i).positions.size();
+    return e;
+}
+
+/// Of MeshCharts and InstanceLightmap.
+std::uint64_t chartBytes(const Expected& e) {
+    const MeshCharts m;
+    return 3 * e.triangles * kBytesPerEntry(m.indices) +
+           e.triangles * kBytesPerEntry(m.chartOfTriangle) +
+           e.meshVertices * kBytesPerEntry(m.sourceVertex, m.chartUv) + e.uv * sizeof(glm::vec2);
+}
+
+/// zstd leaves that much of each part, on the mean of the scenes at hand.
+std::uint64_t fileBytes(const BakeBytes& b, const Expected& e) {
+    return std::uint64_t(0.45 * double(b.surfels) + 0.6 * double(b.clusters) +
+                         0.76 * double(b.links + b.caches) + 0.35 * double(chartBytes(e)));
+}
+
+/// The most of the stages' sums. What the scene itself takes is not among them.
+std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const Expected& e,
+                           bool stored) {
+    const auto caches = double(p.caches), surfels = double(s.surfels);
+    // While texels are laid the charts are there twice, and texels as often as five times.
+    const double atlas = 2. * double(chartBytes(e)) + 5. * sizeof(AtlasTexel) * caches;
+    // Each cache's points and, for one ray in 16, where it met which surfel. Each surfel's share of
+    // tables that say which surfel owns a place.
+    constexpr double kPerPoint = 2 * sizeof(glm::vec3), kPerLook = 24, kPerSurfel = 400;
+    const double looks = caches * std::min(s.rays / 16, 32U) * kPerLook,
+                 points = caches * AtlasTexel::kMostPoints * kPerPoint;
+    const double before = atlas + points + kPerSurfel * surfels;
+    const bool detail = s.cut == CutCriterion::Detail;
+    const double hits = caches * s.rays * sizeof(RawHit),
+                 aimed = caches * e.aimed * sizeof(AimedSample),
+                 training = detail ? surfels * sizeof(float) *
+                                         (2 * TrainingLight::kCount + TracedTraining::kCount)
+                                   : 0,
+                 worth = detail ? caches * e.leaves * sizeof(float) : 0,
+                 links = double(p.bytes.links),
+                 packed = links + caches * (e.links * sizeof(float) + sizeof(PackedLinks));
+    // The worth of refinements reuses the memory of the looks. A stage is kept as an archive that
+    // is then packed, into a string that grows by doubling; so is the bake, part by part.
+    const double trace = before + looks + hits + (stored ? 4 : 1) * aimed,
+                 cut = before + hits + aimed + training + std::max(looks, worth) + packed + links,
+                 written =
+                     before + double(p.bytes.total()) + 2 * double(p.bytes.links + p.bytes.caches);
+    return std::uint64_t(std::min(std::max({trace, cut, written}), 1e18));
+}
+
+} // namespace
+
+BakeBytes bytesOf(const Bake& bake) {
+    const ClusterTree& t = bake.tree;
+    const Caches& c = bake.caches;
+    BakeBytes b;
+    b.surfels = surfelArrays(bake.surfels, kBytes);
+    b.clusters = innerNodeArrays(t, kBytes) + kBytes(t.parent, t.skyDirection);
+    b.links = kBytes(c.linkBegin, c.linkExponent, c.links, c.shNode, c.shCoefficients);
+    b.caches = cacheArrays(c, kBytes) + kBytes(c.fillBegin, c.fillSource, c.fillWeight) +
+               kBytes(bake.gridDepth);
+    return b;
+}
+
+BakeBytes bytesOf(const Bake& bake, LinkStorage storage, std::uint32_t bands) {
+    const Caches& c = bake.caches;
+    BakeBytes b = bytesOf(bake);
+    b.links = kBytes(c.linkBegin, c.linkExponent) + c.linkCount() * bytesPerLink(storage, bands);
+    return b;
+}
+
+BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std::uint64_t caches) {
+    const ClusterTree t;
+    const Caches c;
+    const std::uint64_t leaves = surfels + kSkyCells, inner = leaves - 1;
+    BakeBytes b;
+    b.surfels = surfels * surfelArrays({}, kBytesPerEntry);
+    b.clusters = inner * innerNodeArrays(t, kBytesPerEntry) +
+                 (leaves + inner) * kBytesPerEntry(t.parent) +
+                 kSkyCells * kBytesPerEntry(t.skyDirection);
+    b.links = (caches + 1) * kBytesPerEntry(c.linkBegin) +
+              caches * (kBytesPerEntry(c.linkExponent) +
+                        settings.links * bytesPerLink(settings.storage, settings.bands));
+    b.caches = caches * cacheArrays(c, kBytesPerEntry) + (caches + 1) * kBytesPerEntry(c.fillBegin);
+    b.caches += std::uint64_t(settings.grid.x) * settings.grid.y * settings.grid.z *
+                kGridDepthTexels * sizeof(std::uint16_t);
+    return b;
+}
+
+std::uint64_t expectedCaches(const Scene& scene) {
+    LightmapLayout layout; // only as to which instances have a lightmap
+    for (const Instance& i : scene.instances) {
+        layout.instances.emplace_back();
+        if (!i.dynamic)
+            layout.instances.back().uv.emplace_back(0);
+    }
+    const glm::uvec3 grid = chooseGridSize(scene, layout, scene.bake);
+    double texels = wantedTexels(scene);
+    texels += texels / kCachesPerOwn;
+    return std::uint64_t(std::min(texels, 1e15)) + std::uint64_t(grid.x) * grid.y * grid.z;
+}
+
+std::uint64_t leastTexels(const Scene& scene) {
+    std::vector<std::uint32_t> ways(scene.assets->meshes.size(), ~0U);
+    std::uint64_t sum = 0;
+    for (const Instance& i : scene.instances)
+        if (!i.dynamic) {
+            if (ways[i.mesh] == ~0U)
+                ways[i.mesh] = waysFaced(scene.meshOf(i));
+            sum += std::uint64_t(ways[i.mesh]) * (isTwoSided(scene.materialOf(i)) ? 2 : 1);
+        }
+    return sum;
+}
+
+BakePrediction predictBake(const Scene& scene, bool stored) {
+    const BakeSettings& s = scene.bake;
+    BakePrediction p;
+    p.caches = expectedCaches(scene);
+    if (const std::uint64_t least = leastTexels(scene); least > s.lightmapCaches) {
+        const std::uint64_t more = least - s.lightmapCaches;
+        p.leastTexels = s.texelsPerMetre > 0 ? 0 : least;
+        p.caches = s.texelsPerMetre > 0 ? std::max(p.caches, least) : p.caches + more;
+    }
+    const Expected e = expect(scene);
+    p.bytes = predictBytes(s, s.surfels, p.caches);
+    p.bytes.links = linkBytes(s, p.caches, e.links);
+    p.file = fileBytes(p.bytes, e);
+    p.working = workingBytes(s, p, e, stored);
+    return p;
+}
+
+} // namespace limn

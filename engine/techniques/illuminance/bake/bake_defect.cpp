@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/bake_defect.h"
+
+#include "engine/math/packing.h"
+#include "engine/techniques/illuminance/bake/bake_fields.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+bool linksAreBounded(const Caches& c, std::uint32_t bands) {
+    constexpr float kMostTransport = 1024;
+    constexpr int kLargest = 0x7bff; // half; beyond it are infinity and NaN
+    const auto magnitude = [](std::uint16_t half) { return half & 0x7fff; };
+    const std::size_t coefficients = std::size_t(bands) * bands;
+    for (std::size_t cache = 0; cache < c.size(); ++cache) {
+        const float scaled = std::ldexp(kMostTransport, c.linkExponent[cache]);
+        const int most = scaled < 65504 ? floatToHalf(scaled) : kLargest;
+        for (std::size_t k = c.linkBegin[cache]; k < c.linkBegin[cache + 1]; ++k) {
+            if (c.shNode.empty()) {
+                if (magnitude(c.links[k].u) > kLargest || magnitude(c.links[k].transport) > most)
+                    return false;
+                continue;
+            }
+            for (std::size_t i = k * coefficients; i < (k + 1) * coefficients; ++i)
+                if (magnitude(c.shCoefficients[i]) > most)
+                    return false;
+        }
+    }
+    return true;
+}
+
+bool placesAreCaches(const Caches& c, std::uint64_t texels, std::uint64_t cells) {
+    if (c.size() - c.lightmapCount != cells)
+        return false;
+    std::vector<bool> taken(texels);
+    for (std::size_t i = 0; i < c.lightmapCount; ++i) {
+        if (c.texel[i] >= texels || taken[c.texel[i]])
+            return false;
+        taken[c.texel[i]] = true;
+    }
+    for (std::size_t i = 0; i < cells; ++i)
+        if (c.texel[c.lightmapCount + i] != i)
+            return false;
+    return true;
+}
+
+std::string bakeDefect(const Bake& bake, const Scene* scene) {
+    std::string defect;
+    forBakeChunks(scene, [&](std::string name, auto fields) {
+        if (!defect.empty())
+            return;
+        FieldCheck check;
+        fields(check, bake);
+        name.erase(name.find_last_not_of(' ') + 1);
+        if (!check.defect.empty())
+            defect = fmt::format("{}: {}", name, check.defect);
+    });
+    return defect;
+}
+
+} // namespace limn

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+#include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/bake/bake.h"
+
+namespace limn {
+
+namespace {
+
+std::uint64_t hashLayout(const LightmapLayout& layout, std::uint64_t h) {
+    h = hashValue(layout.width, hashValue(layout.height, h));
+    for (const MeshCharts& m : layout.meshes) {
+        h = hashVector(m.sourceVertex, hashVector(m.indices, h));
+        h = hashVector(m.chartOfTriangle, hashVector(m.chartUv, hashVector(m.chartSize, h)));
+    }
+    for (const InstanceLightmap& i : layout.instances)
+        h = hashValue(i.backRows, hashVector(i.uv, h));
+    return hashVector(layout.snaps, h);
+}
+
+std::uint64_t hashSettings(const BakeSettings& s, std::uint64_t h) {
+    for (const std::uint32_t v :
+         {s.surfels, s.links, s.bands, s.rays, s.lightmapCaches, s.grid.x, s.grid.y, s.grid.z})
+        h = hashValue(v, h);
+    h = hashValue(s.placement, hashValue(s.linker, hashValue(s.cut, h)));
+    h = hashValue(s.clustering, hashValue(s.clusterNormalWeight, h));
+    h = hashValue(s.clusterBalanceWeight, h);
+    h = hashValue(s.storage, hashValue(s.chromaBands, h));
+    return hashValue(s.texelsPerMetre, h);
+}
+
+std::uint64_t hashTexture(const Assets& assets, const TextureRef& t, std::uint64_t h) {
+    h = hashValue(t.image, hashValue(t.texCoord, h));
+    for (const float v : {t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation})
+        h = hashValue(v, h);
+    h = hashValue(
+        std::uint32_t(t.wrapU) << 16 | std::uint32_t(t.wrapV) << 8 | std::uint32_t(t.nearest), h);
+    if (t.image >= 0)
+        h = hashVector(assets.images[std::size_t(t.image)].rgba, h);
+    return h;
+}
+
+} // namespace
+
+std::uint64_t Bake::hash() const {
+    std::uint64_t h = hashSettings(settings, hashValue(sceneHash, 1));
+    h = hashLayout(lightmap, h);
+    const Surfels& s = surfels;
+    h = hashVector(s.position, hashVector(s.normal, hashVector(s.area, hashVector(s.instance, h))));
+    h = hashVector(s.triangle,
+                   hashVector(s.barycentric, hashVector(s.cache, hashVector(s.cacheWeight, h))));
+    const ClusterTree& t = tree;
+    h = hashVector(t.left, hashVector(t.right, hashVector(t.leftWeight, hashVector(t.parent, h))));
+    h = hashVector(t.skyDirection, hashValue(t.surfels, h));
+    const Caches& c = caches;
+    h = hashVector(c.kind, hashVector(c.position, hashVector(c.normal, hashVector(c.texel, h))));
+    h = hashVector(c.linkBegin, hashVector(c.links, hashValue(c.lightmapCount, h)));
+    h = hashVector(c.linkExponent, hashVector(c.shNode, hashVector(c.shCoefficients, h)));
+    h = hashVector(gridDepth, h);
+    return hashVector(c.fillBegin, hashVector(c.fillSource, hashVector(c.fillWeight, h)));
+}
+
+std::uint64_t hashMesh(const Mesh& mesh) {
+    const std::uint64_t h = hashVector(mesh.positions, hashVector(mesh.indices, 5));
+    return hashVector(mesh.normals, hashVector(mesh.uv0, hashVector(mesh.uv1, h)));
+}
+
+std::vector<std::uint64_t> hashMeshes(const Scene& scene) {
+    std::vector<std::uint64_t> hashes(scene.assets ? scene.assets->meshes.size() : 0);
+    parallelRanges(hashes.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            hashes[m] = hashMesh(scene.assets->meshes[m]);
+    });
+    return hashes;
+}
+
+std::uint64_t hashSurface(const Scene& scene, const Material& m, std::uint64_t seed) {
+    std::uint64_t h =
+        hashValue(std::uint32_t(m.doubleSided) << 8 | std::uint32_t(m.alphaMode), seed);
+    if (isCutout(m)) {
+        h = hashValue(m.alphaCutoff, hashValue(m.baseColor.w, h));
+        h = hashTexture(*scene.assets, m.baseColorTexture, h);
+    }
+    return h;
+}
+
+bool emits(const Material& m) {
+    return m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
+}
+
+std::uint64_t bakeInputHash(const Scene& scene) {
+    std::uint64_t h = hashSettings(scene.bake, 2);
+    for (const Instance& i : scene.instances) {
+        h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), hashValue(i.node, h)));
+        if (i.dynamic)
+            continue; // where it is and what it is made of is all the same to a bake
+        h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
+        // Whether it emits guides the sampling; how much does not.
+        const Material& m = scene.materialOf(i);
+        h = hashSurface(scene, m, hashValue(std::uint32_t(emits(m)), h));
+    }
+    return hashVector(hashMeshes(scene), h);
+}
+
+} // namespace limn

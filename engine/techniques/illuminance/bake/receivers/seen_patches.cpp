@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
+
+#include "engine/core/parallel.h"
+#include "engine/lightmap/texel_sides.h"
+#include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/transport/gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kPicks = 16; ///< most places of a patch that are compared
+constexpr float kUnlike = 0.1f;      ///< share of the sky that makes caches wrong
+
+/// Where a ray of a cache met a surfel's patch.
+struct Sighting {
+    std::uint32_t surfel = ~0U; ///< ~0: it met none
+    MeshPoint point{};
+    bool near = false; ///< from nearer than the patch is wide
+};
+
+bool isBack(const SurfelSet& set, std::uint32_t surfel, const Scene& scene) {
+    const std::uint32_t instance = set.surfels.instance[surfel];
+    return surfel - set.instanceBegin[instance] >=
+           set.meshes[scene.instances[instance].mesh].frontCount;
+}
+
+WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfel,
+                   const MeshPoint& point) {
+    WorldPoint p = worldPoint(scene, scene.instances[set.surfels.instance[surfel]], point);
+    if (isBack(set, surfel, scene))
+        p.normal = -p.normal;
+    return p;
+}
+
+/// Share of the sky's irradiance, in [0, 1], where `open` sums the cosines of the rays that met
+/// nothing.
+float skyShare(float open, std::uint32_t rays) {
+    return 2 * open / float(std::max(rays, 1U));
+}
+
+struct Sight {
+    const TraceScene& trace;
+    const SurfelSet& set;
+    const OwnerTables& owners;
+    const Caches& caches;
+    const CachePoints& points;
+    std::uint32_t rays;                    ///< of a cache, and of a surfel
+    std::vector<Sighting> sightings = {};  ///< `rays` per cache
+    std::vector<float> sky = {};           ///< share of it that each cache sees
+    std::vector<std::uint32_t> begin = {}; ///< of surfel s: order[begin[s] … begin[s + 1])
+    std::vector<std::uint32_t> order = {}; ///< of sightings
+
+    bool look(const Progress& progress);
+    void sort();
+    std::vector<std::uint32_t> picks(std::uint32_t surfel) const;
+    bool isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
+    MeshPoint placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
+};
+
+bool Sight::look(const Progress& progress) {
+    sightings.resize(std::size_t(caches.lightmapCount) * rays);
+    sky.resize(caches.lightmapCount);
+    const RayGatherer gatherer(trace, set, caches, points, rays, owners);
+    return parallelRanges(
+        caches.lightmapCount, 64, progress, "caches", [&](std::size_t first, std::size_t last) {
+            for (std::size_t c = first; c < last; ++c) {
+                const CacheRays directions = gatherer.directions(std::uint32_t(c));
+                float open = 0;
+                for (std::uint32_t r = 0; r < rays; ++r) {
+                    const Ray ray = gatherer.ray(directions, std::uint32_t(c), r);
+                    const Hit hit = trace.closestHit(ray, TraceMask::Static);
+                    const RawHit met = gatherer.credit(hit, ray.direction);
+                    if (!hit)
+                        open += directions.local.height(r);
+                    else if (!(met & kBack))
+                        sightings[c * rays + r] = {met,
+                                                   {hit.triangle, {hit.u, hit.v}},
+                                                   hit.t * hit.t < set.surfels.area[met]};
+                }
+                sky[c] = skyShare(open, rays);
+            }
+        });
+}
+
+/// By surfel, then by cache.
+void Sight::sort() {
+    const std::size_t count = set.surfels.size();
+    std::vector<bool> seenFromAfar(count);
+    for (const Sighting& s : sightings)
+        if (s.surfel != ~0U && !s.near)
+            seenFromAfar[s.surfel] = true;
+    const auto counts = [&](const Sighting& s) {
+        return s.surfel != ~0U && (!s.near || !seenFromAfar[s.surfel]);
+    };
+    begin.assign(count + 1, 0);
+    for (const Sighting& s : sightings)
+        if (counts(s))
+            ++begin[s.surfel + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    order.resize(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < sightings.size(); ++i)
+        if (counts(sightings[i]))
+            order[next[sightings[i].surfel]++] = i;
+}
+
+/// Some of the surfel's sightings, of caches far and wide.
+std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
+    const std::uint32_t all = begin[surfel + 1] - begin[surfel], count = std::min(all, kPicks);
+    std::vector<std::uint32_t> result(count);
+    for (std::uint32_t k = 0; k < count; ++k)
+        result[k] =
+            order[begin[surfel] + std::uint32_t(std::uint64_t(2 * k + 1) * all / (2 * count))];
+    return result;
+}
+
+/// Asks a few of the caches that see the surfel's patch: whether at least half of them see the
+/// surfel's own position, too.
+bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
+    constexpr std::size_t kAsked = 4;
+    const glm::vec3 place = trace.clearOf(set.surfels.position[surfel], set.surfels.normal[surfel]);
+    std::size_t asked = 0, hidden = 0;
+    for (std::size_t k = 0; k < picked.size();
+         k += std::max<std::size_t>(picked.size() / kAsked, 1)) {
+        const std::uint32_t cache = picked[k] / rays, first = points.begin[cache],
+                            point = first + picked[k] % rays % (points.begin[cache + 1] - first);
+        hidden += trace.blocked(trace.clearOf(points.position[point], points.normal[point]), place,
+                                TraceMask::Static);
+        ++asked;
+    }
+    return 2 * hidden <= asked;
+}
+
+/// Distances count as they do where owners are found (NearestPoint).
+MeshPoint Sight::placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
+    const Surfels& s = set.surfels;
+    const MeshPoint own{s.triangle[surfel], s.barycentric[surfel]};
+    if (picked.size() < 2)
+        return own;
+    std::vector<WorldPoint> at;
+    for (const std::uint32_t i : picked)
+        at.push_back(placeOf(trace.scene(), set, surfel, sightings[i].point));
+    const auto sumTo = [&](glm::vec3 p, glm::vec3 n) {
+        float sum = 0;
+        for (const WorldPoint& o : at)
+            sum += std::sqrt(std::max(glm::dot(o.position - p, o.position - p) +
+                                          16 * s.area[surfel] * (1 - glm::dot(o.normal, n)),
+                                      0.f));
+        return sum;
+    };
+    const float n = float(picked.size());
+    float least = isSeen(surfel, picked) ? sumTo(s.position[surfel], s.normal[surfel]) / n
+                                         : std::numeric_limits<float>::max();
+    MeshPoint best = own;
+    for (std::size_t k = 0; k < picked.size(); ++k)
+        if (const float mean = sumTo(at[k].position, at[k].normal) / (n - 1); mean < least) {
+            least = mean;
+            best = sightings[picked[k]].point;
+        }
+    return best;
+}
+
+float skyAt(const TraceScene& trace, glm::vec3 position, glm::vec3 normal, std::uint32_t rays,
+            std::uint32_t seed) {
+    const DirectionSet directions(rays, false, seed);
+    const glm::mat3 toWorld = basisAround(normal);
+    const glm::vec3 from = trace.clearOf(position, normal);
+    float open = 0;
+    for (std::uint32_t r = 0; r < rays; ++r)
+        if (!trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
+            open += directions.height(r);
+    return skyShare(open, rays);
+}
+
+/// Texels of the atlas that are no cache's.
+std::vector<std::uint32_t> freeTexels(const LightmapLayout& layout, const Caches& caches) {
+    std::vector<bool> used(std::size_t(layout.width) * layout.height);
+    for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
+        used[caches.texel[c]] = true;
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t t = 0; t < used.size(); ++t)
+        if (!used[t])
+            result.push_back(t);
+    return result;
+}
+
+/// How the caches of a surfel are wrong: what it sees of the sky less what they do, times how often
+/// it is seen.
+float wrongness(const Sight& sight, const Surfels& moved, std::uint32_t s) {
+    float read = 0, sum = 0;
+    for (int k = 0; k < 4; ++k)
+        if (moved.cacheWeight[s][k] > 0) {
+            read += moved.cacheWeight[s][k] * sight.sky[moved.cache[s][k]];
+            sum += moved.cacheWeight[s][k];
+        }
+    const std::uint32_t seen = sight.begin[s + 1] - sight.begin[s];
+    if (seen == 0 || !(sum > 0))
+        return 0;
+    const float own =
+        skyAt(sight.trace, moved.position[s], moved.normal[s], sight.rays, mixBits(s + 1));
+    return std::abs(own - read) < kUnlike ? 0 : (own - read) * float(seen);
+}
+
+/// Surfels whose caches are wrong in the same way, close together and facing alike.
+struct WrongGroup {
+    std::uint64_t key = 0;
+    double wrong = 0; ///< > 0, of all
+    std::vector<std::uint32_t> surfels;
+};
+
+/// Strongest cache, darker or brighter than it, and the side that the surfel faces.
+std::uint64_t groupKey(const Surfels& s, std::uint32_t surfel, bool brighter) {
+    const glm::vec4 w = s.cacheWeight[surfel];
+    const glm::vec3 n = s.normal[surfel], a = glm::abs(n);
+    int cache = 0, axis = 0;
+    for (int k = 1; k < 4; ++k)
+        cache = w[k] > w[cache] ? k : cache;
+    for (int k = 1; k < 3; ++k)
+        axis = a[k] > a[axis] ? k : axis;
+    return std::uint64_t(s.cache[surfel][cache]) * 12 + unsigned(6 * int(brighter)) +
+           unsigned(2 * axis + int(n[axis] < 0));
+}
+
+/// The `most` worst groups, by key.
+std::vector<WrongGroup> worstGroups(const Surfels& moved, const std::vector<float>& wrong,
+                                    std::size_t most) {
+    std::vector<WrongGroup> groups;
+    std::unordered_map<std::uint64_t, std::size_t> at;
+    for (std::uint32_t s = 0; s < wrong.size(); ++s) {
+        if (wrong[s] == 0)
+            continue;
+        const std::uint64_t key = groupKey(moved, s, wrong[s] > 0);
+        const auto [entry, isNew] = at.emplace(key, groups.size());
+        if (isNew)
+            groups.push_back({.key = key});
+        WrongGroup& group = groups[entry->second];
+        group.wrong += double(std::abs(wrong[s]));
+        group.surfels.push_back(s);
+    }
+    std::ranges::sort(groups, [](const WrongGroup& a, const WrongGroup& b) {
+        return a.wrong != b.wrong ? a.wrong > b.wrong : a.key < b.key;
+    });
+    groups.resize(std::min(groups.size(), most));
+    std::ranges::sort(groups, {}, &WrongGroup::key);
+    return groups;
+}
+
+/// Points of the surfels' patches that are seen and face as the first surfel does: those in sight
+/// of the surfel's place a little above the surface, so on its side of a wall, or, where none is,
+/// any.
+OwnCache ownCache(const Sight& sight, const Surfels& moved,
+                  const std::vector<std::uint32_t>& surfels) {
+    constexpr float kAlike = 0.9f, kAbove = 0.05f; // [patches' width]
+    const Scene& scene = sight.trace.scene();
+    const std::uint32_t first = surfels.front();
+    OwnCache own{moved.instance[first], isBack(sight.set, first, scene) ? 1U : 0U, 0, {}};
+    const auto add = [&](std::uint32_t s, const MeshPoint& point, bool inSight) {
+        const WorldPoint p = placeOf(scene, sight.set, s, point);
+        const float above = kAbove * std::sqrt(moved.area[s]);
+        if (own.count < AtlasTexel::kMostPoints &&
+            glm::dot(p.normal, moved.normal[first]) > kAlike &&
+            !(inSight &&
+              sight.trace.blocked(p.position + above * p.normal,
+                                  moved.position[s] + above * moved.normal[s], TraceMask::Static)))
+            own.points[own.count++] = point;
+    };
+    std::vector<std::vector<std::uint32_t>> picked;
+    for (const std::uint32_t s : surfels)
+        picked.push_back(sight.picks(s));
+    for (const bool inSight : {true, false})
+        for (std::size_t k = 0; k < kPicks && (inSight || own.count == 0); ++k) // in turn
+            for (std::size_t i = 0; i < surfels.size(); ++i)
+                if (k < picked[i].size())
+                    add(surfels[i], sight.sightings[picked[i][k]].point, inSight);
+    if (own.count == 0)
+        own.points[own.count++] = {moved.triangle[first], moved.barycentric[first]};
+    return own;
+}
+
+} // namespace
+
+SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
+                            const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
+                            const CachePoints& points, std::uint32_t rays,
+                            const Progress& progress) {
+    SeenPatches result;
+    Sight sight{trace, set, owners, caches, points, rays};
+    if (!sight.look(progress))
+        return result;
+    sight.sort();
+    const std::size_t count = set.surfels.size();
+    result.place.resize(count);
+    parallelRanges(count, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t s = first; s < last; ++s)
+            result.place[s] = sight.placeFor(std::uint32_t(s), sight.picks(std::uint32_t(s)));
+    });
+    SurfelSet moved = set;
+    moveSurfels(trace.scene(), result.place, moved);
+    const SideLookup lookup(trace, atlas);
+    connectSurfels(lookup, trace.scene(), atlas.layout, caches, moved.surfels);
+    result.cache = moved.surfels.cache;
+    result.cacheWeight = moved.surfels.cacheWeight;
+    std::vector<float> wrong(count);
+    parallelRanges(count, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t s = first; s < last; ++s)
+            wrong[s] = wrongness(sight, moved.surfels, std::uint32_t(s));
+    });
+    result.ownCache.assign(count, ~0U);
+    for (const WrongGroup& group :
+         worstGroups(moved.surfels, wrong,
+                     std::min(std::size_t(caches.lightmapCount / kCachesPerOwn),
+                              freeTexels(atlas.layout, caches).size()))) {
+        for (const std::uint32_t s : group.surfels)
+            result.ownCache[s] = std::uint32_t(result.own.size());
+        result.own.push_back(ownCache(sight, moved.surfels, group.surfels));
+    }
+    result.rays = std::uint64_t(caches.lightmapCount) * rays + lookup.rays();
+    for (std::size_t s = 0; s < count; ++s)
+        result.rays += sight.begin[s] < sight.begin[s + 1] ? rays : 0;
+    return result;
+}
+
+void placeSeen(const Scene& scene, const SeenPatches& seen, SurfelSet& set) {
+    moveSurfels(scene, seen.place, set);
+    set.surfels.cache = seen.cache;
+    set.surfels.cacheWeight = seen.cacheWeight;
+}
+
+void moveSurfels(const Scene& scene, const std::vector<MeshPoint>& place, SurfelSet& set) {
+    Surfels& s = set.surfels;
+    for (std::uint32_t i = 0; i < s.size(); ++i) {
+        if (s.triangle[i] == place[i].triangle && s.barycentric[i] == place[i].barycentric)
+            continue;
+        const WorldPoint at = placeOf(scene, set, i, place[i]);
+        s.position[i] = at.position;
+        s.normal[i] = at.normal;
+        s.triangle[i] = place[i].triangle;
+        s.barycentric[i] = place[i].barycentric;
+    }
+}
+
+void addOwnCaches(const Scene& scene, const LightmapLayout& layout, const SeenPatches& seen,
+                  Surfels& surfels, Caches& caches, CachePoints& points) {
+    const std::vector<std::uint32_t> texels = freeTexels(layout, caches);
+    const std::uint32_t first = caches.lightmapCount;
+    for (std::size_t i = 0; i < seen.own.size(); ++i) {
+        const OwnCache& own = seen.own[i];
+        addSurfaceCache(scene, {texels[i], own.instance, own.back, 0, own.count, own.points},
+                        caches, points);
+    }
+    for (std::size_t s = 0; s < surfels.size(); ++s)
+        if (seen.ownCache[s] != ~0U) {
+            surfels.cache[s] = glm::uvec4(first + seen.ownCache[s], ~0U, ~0U, ~0U);
+            surfels.cacheWeight[s] = glm::vec4(1, 0, 0, 0);
+        }
+}
+
+} // namespace limn

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/senders/patch_sides.h"
+#include "engine/techniques/illuminance/bake/senders/surfels.h"
+
+#include <cstdint>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace limn {
+
+/// The SurfelOwners of a scene's meshes, each made when it is first asked for.
+class OwnerTables {
+public:
+    /// Keeps references.
+    OwnerTables(const Scene& scene, const SurfelSet& set)
+        : m_scene(scene), m_set(set), m_tables(set.meshes.size()) {}
+
+    /// Tables are taken from `store`, or kept there, under these keys per mesh.
+    void keep(StageStore& store, std::vector<std::uint64_t> keys) {
+        m_store = &store;
+        m_keys = std::move(keys);
+    }
+
+    /// Tables made after `progress` was cancelled are of no use.
+    void stopWith(const Progress& progress) {
+        m_progress = {.report = {}, .cancel = progress.cancel};
+    }
+
+    /// Tables of instances that walls part, from now on. Not while threads ask.
+    void part(PatchSides sides) { m_sides = std::move(sides); }
+    const PatchSides& sides() const { return m_sides; }
+
+    /// Any thread may ask. Precondition: the mesh has surfels.
+    const SurfelOwners& of(std::uint32_t mesh) const;
+
+    /// How long PatchSides::owner is for an instance with surfels.
+    std::uint64_t cellsOf(std::uint32_t instance) const {
+        const Instance& i = m_scene.instances[instance];
+        return std::uint64_t(of(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
+    }
+
+    /// The surfel of the scene that stands for a cell of an instance's mesh.
+    std::uint32_t ofCell(std::uint32_t instance, std::uint32_t cell, bool back) const {
+        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+        const std::uint32_t first = m_set.instanceBegin[instance];
+        if (m_sides.owner.empty() || m_sides.owner[instance].empty())
+            return first + owners.front(cell) + (back ? owners.frontCount() : 0);
+        return first + m_sides.owner[instance][cell + (back ? owners.cells() : 0)];
+    }
+
+    /// The surfel of the scene that stands for a point; `back` only on two-sided instances.
+    std::uint32_t at(std::uint32_t instance, std::uint32_t triangle, float u, float v,
+                     bool back) const {
+        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+        return ofCell(instance, owners.cellAt(triangle, u, v), back);
+    }
+
+private:
+    struct Lazy {
+        std::once_flag once;
+        SurfelOwners owners;
+    };
+
+    const Scene& m_scene;
+    const SurfelSet& m_set;
+    Progress m_progress;
+    StageStore* m_store = nullptr;
+    std::vector<std::uint64_t> m_keys;
+    mutable std::vector<Lazy> m_tables; ///< per mesh
+    PatchSides m_sides;
+};
+
+/// The area that each surfel stands for in the world [m^2], by the cells that it owns; > 0 for
+/// those that own none, too. Surfels pushed over an edge, onto the rim of a thin lamp or the other
+/// way, stand for other areas than they were placed for; a rim of 6 mm had five times its own.
+std::vector<float> ownedAreas(const Scene& scene, const SurfelSet& set, const OwnerTables& owners);
+
+} // namespace limn

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/lightmap/density_fields.h"
+#include "engine/techniques/illuminance/bake/bake.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace limn {
+
+class StageStore;
+
+/// Sample points of one mesh in object space, front sides first; a two-sided mesh repeats them with
+/// the normal turned.
+struct MeshSurfels {
+    std::vector<glm::vec3> position;
+    std::vector<glm::vec3> normal; ///< unit, object space, of the side it stands for
+    std::vector<std::uint32_t> triangle;
+    std::vector<glm::vec2> barycentric;
+    std::uint32_t frontCount = 0; ///< size() or, two-sided, half of it
+    float area = 0; ///< mean of a surfel in object space; frontCount * area is the mesh's area
+    std::vector<float> areas; ///< of each; empty: all alike
+    MeshDensity density;
+
+    std::size_t size() const { return position.size(); }
+};
+
+/// `count` >= 1 points, in proportion to area times density: point i starts in the cell at
+/// (i + 1/2)/count of the mesh's sum of those, so what small triangles deserve carries over to
+/// their neighbours, at a Halton point (bases 2, 3) of that cell, or a random one. Halton. On the
+/// Efficiency of Certain Quasi-Random Sequences of Points in Evaluating Multi-Dimensional
+/// Integrals. 1960
+MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
+                         SurfelPlacement placement, MeshDensity density = {},
+                         const Progress& progress = {});
+
+/// Surfels of every static instance of a scene.
+struct SurfelSet {
+    std::vector<MeshSurfels> meshes; ///< as Assets::meshes; empty where no static instance uses one
+    std::vector<std::uint32_t>
+        instanceBegin; ///< per instance (+1): first surfel; empty range for dynamic ones
+    Surfels surfels;   ///< world space; cache links not filled yet
+};
+
+/// About `target` surfels spread over the static instances by world area times `density` (per mesh;
+/// empty: the same all over), at least one per mesh side. Instances of a mesh share its points.
+/// World areas include the local stretch of the transform; those of an instance sum to the area of
+/// its lit sides.
+/// When cancelled, of no use. Points of meshes that `store` knows are not placed again.
+SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
+                       std::span<const MeshDensity> density = {}, const Progress& progress = {},
+                       StageStore* store = nullptr);
+
+/// About how many of `target` surfels will lie on emissive surfaces, were all others equally dense.
+std::uint64_t expectedLampSurfels(const Scene& scene, std::uint32_t target);
+
+/// Which surfel stands for a point of a mesh: tables of triangle cells, built with the nearest
+/// surfel of like normal.
+class SurfelOwners {
+public:
+    SurfelOwners() = default;
+    /// When cancelled, of no use.
+    SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress = {});
+
+    /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
+    /// ones.
+    std::uint32_t at(std::uint32_t triangle, float u, float v, bool back) const {
+        return m_owner[cellAt(triangle, u, v)] + (back ? m_frontCount : 0);
+    }
+
+    /// The table's cell at barycentrics (u, v) of a triangle, < cells().
+    std::uint32_t cellAt(std::uint32_t triangle, float u, float v) const {
+        const glm::uvec2 at = m_density.cellAt(triangle, {u, v});
+        const auto side = float(m_density.side(triangle));
+        const Block& block = m_blocks[blockOf(triangle, at)];
+        const std::uint32_t n = block.resolution;
+        const auto along = [n](float x) { // rounding may leave [0, 1)
+            return std::min(std::uint32_t(std::max(x * float(n), 0.f)), n - 1);
+        };
+        const std::uint32_t i = along(u * side - float(at.x)), j = along(v * side - float(at.y));
+        return block.begin + std::min(j, last(at, side, n, i)) * n + i;
+    }
+    std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
+
+    /// Calls visit(cell, uv of its middle, share of the triangle's area) for the cells that meet a
+    /// triangle; the shares sum to 1.
+    template <class Visit>
+    void forCellsOf(std::uint32_t triangle, const Visit& visit) const {
+        const std::uint32_t side = m_density.side(triangle);
+        forCells(side, [&](glm::uvec2 at) {
+            const Block& block = m_blocks[blockOf(triangle, at)];
+            const std::uint32_t n = block.resolution;
+            const double square = 2 / (double(side) * side * n * n);
+            for (std::uint32_t j = 0; j < n; ++j)
+                for (std::uint32_t i = 0; i < n && j <= last(at, float(side), n, i); ++i) {
+                    const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
+                    const bool cut = at.x + at.y + 1 == side && i + j + 1 == n;
+                    visit(block.begin + j * n + i, (glm::vec2(at) + middle) / float(side),
+                          cut ? square / 2 : square);
+                }
+        });
+    }
+    std::uint32_t frontCount() const { return m_frontCount; }
+    /// The surfel on the front of a cell.
+    std::uint32_t front(std::uint32_t cell) const { return m_owner[cell]; }
+
+    /// Lists the tables for an archive.
+    template <class A, class T>
+    static void fields(A& a, T& o, const Mesh& mesh, const MeshSurfels& surfels) {
+        a("frontCount", o.m_frontCount, rule::holds("of other surfels", [&](std::uint32_t n) {
+              return n == surfels.frontCount;
+          }));
+        const bool uniform = surfels.density.uniform();
+        partFields(a, o.m_density, mesh, o.m_blocks.size());
+        a("blocks", o.m_blocks,
+          rule::count(uniform ? mesh.triangleCount() : surfels.density.density.size()),
+          rule::holds("out of range", [&](const auto&) { return o.blocksLieWithin(mesh); }));
+        a("owner", o.m_owner, rule::below(surfels.frontCount));
+    }
+
+private:
+    /// The cells in one cell of the density.
+    struct Block {
+        std::uint32_t begin;
+        std::uint32_t resolution; ///< cells along u and v
+    };
+
+    std::uint32_t blockOf(std::uint32_t triangle, glm::uvec2 at) const {
+        return m_density.uniform() ? triangle : m_density.cell(triangle, at);
+    }
+    /// The last cell of column i that meets the triangle.
+    static std::uint32_t last(glm::uvec2 at, float side, std::uint32_t n, std::uint32_t i) {
+        return float(at.x + at.y + 1) < side ? n - 1 : n - 1 - i;
+    }
+    /// Those that are read, within m_owner.
+    bool blocksLieWithin(const Mesh& mesh) const;
+    void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);
+
+    std::uint32_t m_frontCount = 0;
+    MeshDensity m_density;       ///< without its densities: only how triangles are parted
+    std::vector<Block> m_blocks; ///< per cell of the density, or triangle where that is uniform
+    std::vector<std::uint32_t> m_owner; ///< front surfel per cell
+};
+
+} // namespace limn

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/transport/cut.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/cone.h"
+#include "engine/math/sh.h"
+#include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/bake/transport/cut_worth.h"
+#include "engine/techniques/illuminance/bake/transport/link_harmonics.h"
+#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/bake/transport/visible_tree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace limn {
+
+namespace {
+
+Cone makeCone(std::uint32_t node, const Sight& s) {
+    const float length = glm::length(s.moment);
+    // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; but none is
+    // narrower than the solid angle seen: weight pi = 2 pi u.
+    const float u = std::clamp(2 * (1 - length / s.weight), std::min(s.weight / 2, 2.f), 2.f);
+    return {node, length > 0 ? s.moment / length : glm::vec3(0, 0, 1), u, s.weight, s.irradiance};
+}
+
+/// Scales each link of a surface cache so that its sender brings, through the SH, exactly the
+/// cosine-weighted irradiance of its rays to a surface of the cache's own normal. Three bands of
+/// the clamped cosine are 6 % too strong for light along the normal, 8 % too weak at 60 degrees and
+/// leave 9 % at 90, and a round cone is too tall for a cluster seen along the surface. Without this
+/// a wall lit from the side comes out up to a tenth too bright. The factor differs from 1 by no
+/// more than those errors of the truncated series; radiance seen by other normals changes as much.
+void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
+    const auto factors = irradianceFactors();
+    float axis[kMaxCoefficients], y[kMaxCoefficients], g[kMaxBands];
+    shBasis(bands, normal, axis);
+    for (Cone& cone : cones) {
+        shBasis(bands, cone.direction, y);
+        coneFactors(bands, cone.u, g);
+        float series = 0;
+        for (int l = 0, i = 0; l < bands; ++l) {
+            float band = 0;
+            for (; i < (l + 1) * (l + 1); ++i)
+                band += y[i] * axis[i];
+            series += factors[std::size_t(l)] * g[l] * band;
+        }
+        const float seen = cone.transport * series;
+        cone.transport *= seen > 0 ? std::min(cone.irradiance / seen, IrradianceAxis::kMaxGain) : 1;
+    }
+}
+
+glm::mat3 turnAboutZ(float turns) {
+    const float angle = 2 * std::numbers::pi_v<float> * turns;
+    const float c = std::cos(angle), s = std::sin(angle);
+    return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+}
+
+/// Irradiance, over its solid angle / pi, of a sender of radiosity 1; for a cell of the grid the
+/// mean over all normals that see it, by half.
+float irradianceShare(CacheKind kind, float cosTheta) {
+    return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
+}
+
+/// The directions of a cache's rays but for its own turn about z and its surface.
+std::vector<glm::vec3> unturnedRays(std::uint32_t rays, bool sphere) {
+    DirectionSet set(rays, sphere, 0);
+    set.turn = 0;
+    std::vector<glm::vec3> result(rays);
+    for (std::uint32_t r = 0; r < rays; ++r)
+        result[r] = set[r];
+    return result;
+}
+
+/// What all caches are linked from.
+struct LinkInput {
+    const Surfels& surfels;
+    const GatherHits& hits;
+    const CachePoints& points;
+    const TrainingLight& training;
+    const CutSettings& settings;
+    SenderOrder order;
+    std::vector<bool> sky;                     ///< skyNodes
+    std::vector<glm::vec3> hemisphere, sphere; ///< unturned rays
+};
+
+/// One thread's working space for linking caches.
+class CacheLinker {
+public:
+    explicit CacheLinker(const LinkInput& input) : in(input), m_seen(input.order) {}
+
+    /// Joins what a cache sees. False for a cache that sees nothing.
+    bool look(const Caches& caches, std::uint32_t cache) {
+        forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float) {
+            m_seen.add(sender, sight);
+        });
+        m_seen.build();
+        return m_seen.size() > 0;
+    }
+
+    /// After look(): leaves that it found.
+    std::uint32_t leaves() const { return m_seen.leaves(); }
+
+    /// After look(): what each refinement is worth.
+    const std::vector<float>& weigh() {
+        if (in.settings.criterion == CutCriterion::SolidAngle)
+            m_worth.bySolidAngle(m_seen);
+        else
+            m_worth.byDetail(m_seen, in.training);
+        return m_worth.worth();
+    }
+
+    /// After look(): refines what is worth more than `bound`, the best `mostLinks` - 1 of them.
+    PackedLinks link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
+                     float bound, std::uint32_t mostLinks) {
+        chooseRefined(worth, bound, mostLinks);
+        m_cones.clear();
+        put(m_seen.size() - 1);
+        for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
+            if (m_refined[i])
+                put(m_seen.child(i, 0)), put(m_seen.child(i, 1));
+        std::sort(m_cones.begin(), m_cones.end(), [&](const Cone& a, const Cone& b) {
+            return std::pair(in.sky[a.node], a.node) < std::pair(in.sky[b.node], b.node);
+        });
+        PackedLinks packed = in.settings.storage == LinkStorage::Sh ? projectSamples(caches, cache)
+                                                                    : packOwnCones(caches, cache);
+        for (const Cone& cone : m_cones)
+            packed.irradiance.push_back(cone.irradiance);
+        return packed;
+    }
+
+private:
+    /// Calls visit(sender, what the sample sees of it, u of the cone that it stands for), of rays
+    /// and aimed samples.
+    template <class Visit>
+    void forEachSample(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
+        forEachRay(caches, cache, visit);
+        for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
+            visitAimed(caches.kind[cache], in.hits.aimed[k], visit);
+    }
+
+    template <class Visit>
+    void forEachRay(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
+        const std::uint32_t count = in.hits.rays;
+        const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * count;
+        const auto kept =
+            count - std::uint32_t(std::count(sender, sender + count, GatherHits::kLeftOut));
+        if (kept == 0)
+            return;
+        const CacheRays rays = raysOf(caches, in.points, cache, count);
+        const float weight =
+            rays.local.solidAngle() / std::numbers::pi_v<float> * (float(count) / float(kept));
+        const float half = weight * irradianceShare(CacheKind::Grid, 0);
+        const bool sphere = rays.local.sphere;
+        const glm::vec3* local = (sphere ? in.sphere : in.hemisphere).data();
+        std::array<glm::mat3, AtlasTexel::kMostPoints> toMoment{};
+        for (std::uint32_t k = 0; k < rays.points; ++k)
+            toMoment[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * weight;
+        for (std::uint32_t r = 0, k = 0; r < count; ++r) {
+            if (sender[r] < GatherHits::kFirstMark)
+                visit(sender[r],
+                      Sight{weight, sphere ? half : weight * local[r].z, toMoment[k] * local[r]},
+                      0.f);
+            k = k + 1 == rays.points ? 0 : k + 1;
+        }
+    }
+
+    /// Its ray meets the middle of a sender whose solid angle it stands for: pi transport / scale
+    /// = 2 pi u.
+    template <class Visit>
+    void visitAimed(CacheKind kind, const AimedSample& sample, const Visit& visit) const {
+        const SenderView v = viewOf(in.surfels, in.points, kind, sample);
+        visit(sample.sender,
+              Sight{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
+                    v.direction * v.transport},
+              v.transport / (2 * sample.scale));
+    }
+
+    PackedLinks packOwnCones(const Caches& caches, std::uint32_t cache) {
+        if (caches.kind[cache] == CacheKind::Hemisphere)
+            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), caches.normal[cache],
+                            m_cones);
+        return packCones(m_cones);
+    }
+
+    /// The harmonics of the samples under each of m_cones' nodes.
+    PackedLinks projectSamples(const Caches& caches, std::uint32_t cache) {
+        const int bands = in.settings.bands;
+        const auto stride = std::size_t(bands * bands);
+        findLinksOfLeaves();
+        m_harmonics.assign(m_cones.size() * stride, 0);
+        forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float u) {
+            addHarmonics(bands, sight.moment / sight.weight, u, sight.weight,
+                         m_harmonics.data() + m_linkOf[sender] * stride);
+        });
+        if (caches.kind[cache] == CacheKind::Hemisphere) {
+            const IrradianceAxis axis(std::min(bands, kIrradianceBands), caches.normal[cache]);
+            for (std::size_t k = 0; k < m_cones.size(); ++k) {
+                float* own = m_harmonics.data() + k * stride;
+                const float gain = axis.gainTo(m_cones[k].irradiance, own);
+                std::transform(own, own + stride, own, [&](float c) { return c * gain; });
+            }
+        }
+        std::vector<std::uint32_t> nodes;
+        nodes.reserve(m_cones.size());
+        for (const Cone& cone : m_cones)
+            nodes.push_back(cone.node);
+        return packHarmonics(bands, std::move(nodes), m_harmonics);
+    }
+
+    /// After put(): m_linkOf of the leaves in sight.
+    void findLinksOfLeaves() {
+        constexpr std::uint32_t kNone = ~0U;
+        m_linkOf.resize(in.sky.size());
+        for (std::uint32_t k = 0; k < m_cones.size(); ++k)
+            m_linkOf[m_cones[k].node] = k;
+        m_linkAbove.assign(m_seen.size(), kNone);
+        for (std::uint32_t i = m_seen.size(); i-- > 0;) { // children come before their parents
+            if (m_linkAbove[i] == kNone && !m_refined[i])
+                m_linkAbove[i] = m_linkOf[m_seen.node[i]];
+            if (i < m_seen.leaves())
+                m_linkOf[m_seen.node[i]] = m_linkAbove[i];
+            else
+                for (const int side : {0, 1})
+                    m_linkAbove[m_seen.child(i, side)] = m_linkAbove[i];
+        }
+    }
+
+    void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t mostLinks) {
+        m_order.clear();
+        for (std::uint32_t i = 0; i < worth.size(); ++i)
+            if (worth[i] > bound)
+                m_order.emplace_back(-worth[i], ~i); // of equals the parent, which comes last
+        const std::size_t count = std::min<std::size_t>(m_order.size(), mostLinks - 1);
+        if (count < m_order.size())
+            std::nth_element(m_order.begin(), m_order.begin() + std::ptrdiff_t(count),
+                             m_order.end());
+        m_refined.assign(m_seen.size(), false);
+        for (std::size_t k = 0; k < count; ++k)
+            m_refined[m_seen.leaves() + ~m_order[k].second] = true;
+    }
+
+    void put(std::uint32_t i) {
+        if (!m_refined[i])
+            m_cones.push_back(makeCone(m_seen.node[i], m_seen.sight[i]));
+    }
+
+    const LinkInput& in;
+    VisibleTree m_seen;
+    CutWorth m_worth;
+    std::vector<std::pair<float, std::uint32_t>> m_order;
+    std::vector<bool> m_refined;
+    std::vector<Cone> m_cones;
+    // Of LinkStorage::Sh alone:
+    std::vector<float> m_harmonics;         ///< bands^2 for each of m_cones
+    std::vector<std::uint32_t> m_linkOf;    ///< per node of the ClusterTree
+    std::vector<std::uint32_t> m_linkAbove; ///< per node of m_seen
+};
+
+/// How many refinements of all caches are worth how much, in steps of less than 1 % of the worth:
+/// the upper half of a positive float's bits.
+using WorthHistogram = std::vector<std::uint64_t>;
+
+std::uint32_t stepOf(float worth) {
+    if (!(worth > 0)) // of -0 and of NaN it would lie beyond the histogram
+        return 0;
+    return std::bit_cast<std::uint32_t>(worth) >> 16;
+}
+
+/// The worth above which there are at most `budget` refinements.
+float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
+    std::uint64_t used = 0;
+    auto step = std::uint32_t(histogram.size());
+    while (step > 0 && used + histogram[step - 1] <= budget)
+        used += histogram[--step];
+    // Just below the lowest step taken, so that all of it is worth more.
+    return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
+}
+
+/// Fills `worth` per cache, as CacheLinker::weigh() has it, and finds the bound on the worth that
+/// gives all caches together as many links as n_L each would. Nothing when cancelled. What a cache
+/// saw is not kept: it would take 24 bytes a leaf, the most of all that a bake needs, and looking
+/// again is as quick as reading that back.
+std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
+                                 const Caches& caches, const CutSettings& settings,
+                                 const Progress& progress, std::vector<std::vector<float>>& worth) {
+    constexpr std::size_t kSteps = 1 << 15;
+    tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
+    std::atomic<std::uint64_t> budget = 0;
+    const bool done = parallelRanges(
+        caches.size(), 8, progress, "budget", [&](std::size_t begin, std::size_t end) {
+            CacheLinker& linker = linkers.local();
+            WorthHistogram& histogram = histograms.local();
+            for (std::size_t c = begin; c < end; ++c) {
+                if (!linker.look(caches, std::uint32_t(c)))
+                    continue;
+                budget += std::min(linker.leaves(), settings.links) - 1;
+                worth[c] = linker.weigh();
+                for (const float w : worth[c])
+                    ++histogram[stepOf(w)];
+            }
+        });
+    if (!done)
+        return {};
+    WorthHistogram sum(kSteps, 0);
+    for (const WorthHistogram& h : histograms)
+        std::transform(sum.begin(), sum.end(), h.begin(), sum.begin(), std::plus<>());
+    return boundFor(sum, budget);
+}
+
+} // namespace
+
+std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
+                                const CachePoints& points, const Caches& caches,
+                                const ClusterTree& tree) {
+    std::vector<double> seen(tree.leaves());
+    for (std::uint32_t c = 0; c < caches.size(); ++c) {
+        const CacheKind kind = caches.kind[c];
+        const bool sphere = kind != CacheKind::Hemisphere;
+        const DirectionSet rays(hits.rays, sphere, 0); // its turn changes no height
+        const std::uint32_t* sender = hits.sender.data() + std::size_t(c) * hits.rays;
+        const auto kept =
+            hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
+        for (std::uint32_t r = 0; r < hits.rays; ++r)
+            if (sender[r] < GatherHits::kFirstMark)
+                seen[sender[r]] += double((sphere ? 4.f : 2.f) / float(kept) *
+                                          irradianceShare(kind, rays.height(r)));
+        for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
+            const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
+            seen[hits.aimed[k].sender] += double(v.transport * irradianceShare(kind, v.cosTheta));
+        }
+    }
+    return {seen.begin(), seen.end()};
+}
+
+void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
+    std::vector<double> sum(seen.begin(), seen.end());
+    sum.resize(tree.size());
+    for (std::size_t k = 0; k < tree.left.size(); ++k) {
+        const double l = sum[tree.left[k]], r = sum[tree.right[k]];
+        sum[tree.leaves() + k] = l + r;
+        if (l + r > 0)
+            tree.leftWeight[k] = float(l / (l + r));
+    }
+}
+
+void weighByLinks(const std::vector<float>& seen, const std::vector<double>& linked,
+                  ClusterTree& tree) {
+    // Links at a node or below it come out of what is seen of it: the rest reads it from above.
+    std::vector<double> all(seen.begin(), seen.end()), below = linked;
+    all.resize(tree.size());
+    for (std::size_t k = 0; k < tree.left.size(); ++k) {
+        const std::uint32_t l = tree.left[k], r = tree.right[k],
+                            node = tree.leaves() + std::uint32_t(k);
+        all[node] = all[l] + all[r];
+        const double left = std::max(all[l] - below[l], 0.),
+                     right = std::max(all[r] - below[r], 0.);
+        constexpr double kLeast = 1e-4; // less is rounding
+        if (left + right > kLeast * all[node])
+            tree.leftWeight[k] = float(left / (left + right));
+        below[node] += below[l] + below[r];
+    }
+}
+
+bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
+                const CachePoints& points, const TrainingLight& training,
+                const CutSettings& settings, const Progress& progress, Caches& caches,
+                std::vector<double>* linked) {
+    constexpr std::uint32_t kMostOfBudget = 16; // a cache may have this many times n_L
+    const LinkInput input{surfels,
+                          hits,
+                          points,
+                          training,
+                          settings,
+                          SenderOrder(tree),
+                          skyNodes(tree),
+                          unturnedRays(hits.rays, false),
+                          unturnedRays(hits.rays, true)};
+    tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
+    const bool shared = settings.criterion == CutCriterion::Detail;
+    std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
+    float bound = -1;
+    std::uint32_t mostLinks = settings.links;
+    if (shared) {
+        const auto found = sharedBound(linkers, caches, settings, progress, worth);
+        if (!found)
+            return false;
+        bound = *found;
+        mostLinks *= kMostOfBudget;
+    }
+    std::vector<PackedLinks> links(caches.size());
+    const bool done =
+        parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
+            CacheLinker& linker = linkers.local();
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto c = std::uint32_t(i);
+                if (!linker.look(caches, c))
+                    continue;
+                links[c] =
+                    linker.link(caches, c, shared ? worth[c] : linker.weigh(), bound, mostLinks);
+                if (shared)
+                    worth[c] = {};
+            }
+        });
+    if (!done)
+        return false;
+    joinLinks(links, caches);
+    if (linked) {
+        linked->assign(tree.size(), 0);
+        for (std::uint32_t c = 0; c < links.size(); ++c)
+            for (std::uint32_t k = 0; k < links[c].irradiance.size(); ++k)
+                (*linked)[linkWeight(caches, c, caches.linkBegin[c] + k).node] +=
+                    double(links[c].irradiance[k]);
+    }
+    return true;
+}
+
+} // namespace limn

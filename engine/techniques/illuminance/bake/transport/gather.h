@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
+#include "engine/techniques/illuminance/bake/senders/owner_tables.h"
+#include "engine/trace/trace_scene.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// A sender in sight of one of a cache's points, found by a ray towards it.
+struct AimedSample {
+    std::uint32_t sender; ///< leaf of the ClusterTree
+    std::uint32_t point;  ///< of CachePoints
+    float scale = 1;      ///< senders that it stands for, itself included [1]
+};
+
+/// How a sender would look from a point if nothing stood between.
+struct SenderView {
+    float transport = 0;          ///< solid angle / pi; 0: they do not face each other
+    float cosTheta = 0;           ///< at the point; 0 for the grid
+    glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
+};
+
+/// Times the sample's scale, of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which
+/// tends to 2 pi at contact; of a sky cell its own. A point of a Hemisphere cache sees nothing
+/// behind it.
+SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+                  const AimedSample& sample);
+
+/// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree or one
+/// of the marks below. Ray r of a cache runs along CacheRays[r], so directions need not be stored.
+/// aimed[aimedBegin[c] … aimedBegin[c + 1]) belong to cache c.
+struct GatherHits {
+    static constexpr std::uint32_t kBackFace =
+        ~0U; ///< the back of a one-sided surface: carries nothing
+    static constexpr std::uint32_t kAimed = ~0U - 1; ///< a lamp: left to the cache's aimed samples
+    static constexpr std::uint32_t kLeftOut =
+        ~0U - 2; ///< started in a wall: not a ray of this cache
+    static constexpr std::uint32_t kFirstMark = kLeftOut;
+    std::uint32_t rays = 0;
+    std::vector<std::uint32_t> sender;
+    std::vector<std::uint32_t> aimedBegin;
+    std::vector<AimedSample> aimed;
+};
+
+/// The rays of a cache: a function of its kind, points and number alone. Local z is the point's
+/// normal (world z for Grid).
+struct CacheRays {
+    DirectionSet local;
+    std::uint32_t points;
+    std::array<glm::mat3, AtlasTexel::kMostPoints> toWorld;
+
+    glm::vec3 operator[](std::uint32_t r) const { return toWorld[r % points] * local[r]; }
+};
+CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
+                 std::uint32_t rays);
+
+/// What one ray met before anything is made of it: a leaf of the ClusterTree, or, with kBack set,
+/// the surfel on the front of the one-sided surface whose back it met. 4 bytes a ray is all that
+/// tracing leaves, so it can be kept and read again.
+using RawHit = std::uint32_t;
+inline constexpr RawHit kBack = 1U << 31;
+/// Not traced: the cache is buried.
+inline constexpr RawHit kUntraced = ~0U;
+
+/// A cache all of whose probes, every so many of its rays, meet backs lies in a solid: its other
+/// rays tell nothing more. Not asked of caches with fewer than twice the rays.
+inline constexpr std::uint32_t kProbes = 64;
+bool isBuried(const RawHit* hits, std::uint32_t rays);
+
+/// Shoots the rays of caches at the static scene. A hit is credited to the surfel that owns the hit
+/// point, an escaped ray to its sky cell.
+class RayGatherer {
+public:
+    /// Keeps references to all but `rays`, per cache.
+    RayGatherer(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                const CachePoints& points, std::uint32_t rays, const OwnerTables& owners)
+        : m_trace(trace), m_set(set), m_caches(caches), m_points(points), m_rays(rays),
+          m_owners(owners) {}
+
+    CacheRays directions(std::uint32_t cache) const {
+        return raysOf(m_caches, m_points, cache, m_rays);
+    }
+    Ray ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const;
+
+    RawHit trace(const Ray& ray) const {
+        return credit(m_trace.closestHit(ray, TraceMask::Static), ray.direction);
+    }
+
+    /// What a ray along `direction` met where `hit` says so.
+    RawHit credit(const Hit& hit, glm::vec3 direction) const;
+
+    /// All of a cache's rays; of a buried one only the probes. Returns how many.
+    std::uint32_t traceCache(std::uint32_t cache, RawHit* out) const;
+
+    /// Traces those rays of a cache that are kUntraced, unless it is buried. Returns how many.
+    std::uint32_t traceRest(std::uint32_t cache, RawHit* hits) const;
+
+private:
+    const TraceScene& m_trace;
+    const SurfelSet& m_set;
+    const Caches& m_caches;
+    const CachePoints& m_points;
+    std::uint32_t m_rays;
+    const OwnerTables& m_owners;
+};
+
+/// Makes of raw hits, in hits.sender, what a bake needs: backs of one-sided surfaces carry nothing.
+/// Of a cache's points, those most of whose rays meet backs are left out; where that is all of them
+/// the cache is invalid.
+///
+/// Linker::Gather: small bright lamps would be met by a handful of rays: blotches. A cache that
+/// meets the emissive surfels with fewer than an eighth of its rays aims one ray at each of them
+/// instead, or, where there are more than kMaxAimed, at a sample of them in proportion to what they
+/// would bring if nothing stood between. Which materials emit only guides the sampling: any other
+/// sender is met by the rays.
+///
+/// Linker::FormFactor: every cache aims a ray at every surfel and sky cell that faces it, and the
+/// rays only tell which of its points are in walls.
+///
+/// Where hits.aimedBegin is filled already nothing is traced and hits.aimed stays. Adds the rays
+/// aimed to `aimedRays`. Returns false when cancelled.
+bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                const CachePoints& points, Linker linker, const Progress& progress,
+                GatherHits& hits, std::uint64_t& aimedRays);
+
+/// Greatest number of emissive surfels that one cache aims at.
+inline constexpr std::uint32_t kMaxAimed = 512;
+
+/// Greatest number of senders that one cache aims at.
+std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker);
+
+} // namespace limn

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/techniques/illuminance/bake/senders/sender_order.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// What one cache sees of a sender or cluster: sums over rays.
+struct Sight {
+    float weight = 0;     ///< visible solid angle / pi
+    float irradiance = 0; ///< what a radiosity of 1 brings to the cache's surface; for a cache
+                          ///< without one side (two-sided, grid) half the weight
+    glm::vec3 moment{0};  ///< the weight times the direction
+
+    void operator+=(const Sight& o) {
+        weight += o.weight;
+        irradiance += o.irradiance;
+        moment += o.moment;
+    }
+};
+
+/// The tree that the leaves in a cache's sight span: each of its inner nodes is one of the
+/// ClusterTree's with leaves in sight on both sides. Nodes [0, leaves) are leaves from left to
+/// right, then inner nodes, children first. Kept from cache to cache to save its allocations.
+class VisibleTree {
+public:
+    /// `order` must outlive the object.
+    explicit VisibleTree(const SenderOrder& order);
+
+    void add(std::uint32_t leaf, const Sight& s) {
+        const std::uint32_t rank = m_order.rank(leaf);
+        std::uint32_t& entry = m_entry[rank];
+        if (entry == kNone) {
+            entry = std::uint32_t(m_added.size());
+            m_inSight[rank / 64] |= std::uint64_t(1) << rank % 64;
+            m_added.push_back(s);
+        } else {
+            m_added[entry] += s;
+        }
+    }
+    /// Joins the leaves that were added since the last call.
+    void build();
+
+    std::uint32_t leaves() const { return m_leaves; }
+    std::uint32_t size() const { return std::uint32_t(node.size()); }
+    /// Child of inner node `i`: side 0 or 1.
+    std::uint32_t child(std::uint32_t i, int side) const { return m_child[i - m_leaves][side]; }
+
+    std::vector<std::uint32_t> node; ///< of the ClusterTree
+    std::vector<Sight> sight;
+
+private:
+    static constexpr std::uint32_t kNone = ~0U;
+
+    const SenderOrder& m_order;
+    std::uint32_t m_leaves = 0;
+    std::vector<std::uint32_t> m_entry;   ///< per rank, of m_added; kNone: not in sight
+    std::vector<std::uint64_t> m_inSight; ///< per rank, one bit
+    std::vector<Sight> m_added;
+    std::vector<std::uint32_t> m_found; ///< ranks, from left to right
+    std::vector<std::array<std::uint32_t, 2>> m_child;
+    struct Open {
+        std::uint32_t subtree; ///< a finished one, left of the join
+        std::uint32_t join;    ///< node of the ClusterTree where it meets what follows
+    };
+    std::vector<Open> m_stack;
+};
+
+} // namespace limn

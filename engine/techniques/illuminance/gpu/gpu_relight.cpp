@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/gpu/gpu_relight.h"
+
+#include "engine/field/field_packing.h"
+#include "engine/gpu/barrier.h"
+#include "engine/gpu/timestamps.h"
+#include "engine/techniques/illuminance/gpu/gpu_dimming.h"
+#include "engine/techniques/illuminance/gpu/relight_steps.h"
+#include "engine/techniques/illuminance/relight/bouncing.h"
+#include "engine/techniques/illuminance/relight/caches/cache_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kMostSteps = 4;
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// One array of the inputs as it is on the GPU.
+struct Sent {
+    std::vector<glm::vec3> values;
+    const gpu::Buffer* buffer = nullptr;
+};
+
+} // namespace
+
+struct GpuRelighter::State {
+    State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
+        : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMostSteps),
+          keptLights(d, bake->surfels.size()), dimming(d, *bake, buffers.links) {}
+
+    gpu::Device& device;
+    std::shared_ptr<const Bake> bake;
+    RelightBuffers buffers;
+    std::optional<RelightSteps> steps; ///< in the field's bands
+    gpu::Timestamps times;
+    KeptLights keptLights;
+    GpuDimming dimming;
+
+    bool started = false;
+    std::uint32_t maxBounces = ~0U; ///< of the last inputs
+    Convergence convergence;
+    Sent direct, albedo, emitted;
+    std::vector<glm::vec3> sky;                 ///< as sent
+    bool blackSky = false;                      ///< as the caches were sent
+    std::vector<std::uint32_t> linkEnds;        ///< of their links
+    LinkCounts links;                           ///< of this call
+    std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
+    std::uint64_t fieldVersion = 0;
+    float brightest = 0;   ///< radiosity of surfels at the last bounce [W m^-2]
+    float fieldScale = 0;  ///< of what the field holds; 0: nothing
+    CacheFlags everyCache; ///< of the lightmap
+
+    /// Lists of the lightmap's caches: those that surfels read, those to write into the field, and
+    /// those that are lit besides.
+    enum List { kRead, kLit, kRest };
+    std::array<std::vector<std::uint32_t>, RelightBuffers::kCacheLists> lists; ///< as sent
+    std::vector<std::uint32_t> order;                                          ///< working space
+    CacheFlags read;
+    CacheFlags current;       ///< the field has the light of the last pull there
+    bool unread = false;      ///< surfels have not read that light yet
+    CacheFlags lit, unlit;    ///< by this call; of those, to be lit yet
+    bool gridLit = false;     ///< the field has a grid
+    bool gridMissing = false; ///< and has it since this call
+
+    bool takeInputs(const SurfelInputs& inputs, bool newBands, GpuRelightStats& stats);
+    CacheList list(List which, const CacheFlags& flags);
+    void lightRest();
+    bool setBands(std::uint32_t bands);
+    void countLinks(const CacheFlags& lightmap, bool grid);
+    bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
+    bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
+    bool dim(const Scene* scene, GpuRelightStats& stats);
+    RoundChange bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
+    float brightestCoefficient() const;
+    void writeField(bool grid, GpuRelightStats& stats);
+    std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
+};
+
+static Result<void> checkBindings(const gpu::Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    const std::uint32_t most =
+        std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
+    if (most < RelightSteps::kStorageBuffers)
+        return fail(fmt::format("{}: {} storage buffers can be bound at once, {} are needed",
+                                device.properties.deviceName, most, RelightSteps::kStorageBuffers));
+    return {};
+}
+
+GpuRelighter::GpuRelighter(std::unique_ptr<State> state) : m_state(std::move(state)) {}
+GpuRelighter::~GpuRelighter() = default;
+
+Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
+                                                           std::shared_ptr<const Bake> bake) {
+    if (const auto bindings = checkBindings(device); !bindings)
+        return tl::make_unexpected(bindings.error());
+    auto buffers = createRelightBuffers(device, *bake, RelightSteps::kItemLanes);
+    if (!buffers)
+        return tl::make_unexpected(buffers.error());
+    auto state = std::make_unique<State>(device, std::move(bake), std::move(*buffers));
+    state->linkEnds = allLinks(state->bake->caches);
+    state->read = cachesRead(state->bake->surfels, state->bake->caches);
+    state->setBands(0);
+    state->direct.buffer = &state->buffers.direct;
+    state->albedo.buffer = &state->buffers.albedo;
+    state->emitted.buffer = &state->buffers.emitted;
+    return std::unique_ptr<GpuRelighter>(new GpuRelighter(std::move(state)));
+}
+
+static std::vector<glm::vec4> padded(std::span<const glm::vec3> values) {
+    std::vector<glm::vec4> out(values.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = glm::vec4(values[i], 0);
+    return out;
+}
+
+/// True if the field is another one, black.
+bool GpuRelighter::State::setBands(std::uint32_t bands) {
+    if (bands == 0)
+        bands = bake->settings.bands;
+    if (steps && buffers.field->bands == bands)
+        return false;
+    const LightBands final = finalBands(bake->settings, int(bands));
+    makeRelitField(device, *bake, bands, std::uint32_t(final.chroma), buffers);
+    fieldScale = 0;
+    current.assign(bake->caches.lightmapCount, 0);
+    unread = gridLit = false;
+    steps.emplace(device, *bake, buffers, bounceBands(bake->settings, int(bands)), final);
+    return true;
+}
+
+/// Counts those of caches that are to be lit.
+void GpuRelighter::State::countLinks(const CacheFlags& lightmap, bool grid) {
+    const Caches& caches = bake->caches;
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        if (c < lightmap.size() ? lightmap[c] == 0 : !grid)
+            continue;
+        links.links += caches.linkBegin[c + 1] - caches.linkBegin[c];
+        links.passedOver += caches.linkBegin[c + 1] - linkEnds[c];
+    }
+}
+
+/// True if lights or materials had changed.
+bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats,
+                                 bool& skyChanged) {
+    const auto start = Clock::now();
+    VkCommandBuffer cmd = VK_NULL_HANDLE;
+    const auto send = [&](const gpu::Buffer& to, std::size_t first, const auto& v) {
+        if (v.empty())
+            return;
+        if (!cmd)
+            cmd = device.begin("relight inputs");
+        const auto bytes = std::as_bytes(std::span(v));
+        gpu::updateBuffer(device, cmd, to, first * sizeof v[0], bytes);
+        stats.bytesUploaded += bytes.size();
+    };
+    const auto sendIfNew = [&](Sent& sent, std::span<const glm::vec3> values) {
+        assert(values.size() == bake->surfels.size());
+        if (started && std::ranges::equal(sent.values, values))
+            return false;
+        sent.values.assign(values.begin(), values.end());
+        send(*sent.buffer, 0, padded(values));
+        return true;
+    };
+    bool changed = sendIfNew(albedo, inputs.albedo);
+    if (!inputs.lights) {
+        changed |= sendIfNew(direct, inputs.direct);
+        lightsVersion.reset();
+    }
+    changed |= sendIfNew(emitted, inputs.emitted);
+    assert(inputs.sky.size() == bake->tree.skyCells);
+    if (!started || !std::ranges::equal(sky, inputs.sky)) {
+        sky.assign(inputs.sky.begin(), inputs.sky.end());
+        send(buffers.radiosity, bake->tree.surfels, padded(sky));
+        const bool black = std::ranges::all_of(sky, [](glm::vec3 c) { return c == glm::vec3(0); });
+        if (black != blackSky) { // links to nothing else are passed over
+            blackSky = black;
+            linkEnds = black ? linksBeforeSky(bake->caches, bake->tree) : allLinks(bake->caches);
+            send(buffers.caches, 0, packCaches(bake->caches, linkEnds));
+        }
+        convergence.skyChanged();
+        skyChanged = true;
+    }
+    if (cmd)
+        device.submit(cmd);
+    stats.uploadMs = msSince(start);
+    return changed;
+}
+
+/// True if the lights had changed.
+bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats) {
+    if (lightsVersion == lights.version)
+        return false;
+    lightsVersion = lights.version;
+    direct.values.clear(); // what was sent is overwritten
+    keptLights.assign(lights);
+    stats.lightsTraced = keptLights.fresh + lights.count - keptLights.kept;
+    device.immediate("light surfels", [&](VkCommandBuffer cmd) {
+        times.begin(cmd);
+        steps->recordDirect(cmd, lights, keptLights);
+        times.mark(cmd);
+    });
+    stats.directMs = times.steps()[0];
+    return true;
+}
+
+/// True if links are dimmed otherwise than before.
+bool GpuRelighter::State::dim(const Scene* scene, GpuRelightStats& stats) {
+    const auto start = Clock::now();
+    const std::optional<std::uint64_t> sent = dimming.update(scene);
+    stats.cachesDimmed = dimming.hidden().caches;
+    stats.linksDimmed = dimming.hidden().links;
+    stats.bytesUploaded += sent.value_or(0);
+    stats.dimMs = sent ? msSince(start) : 0;
+    if (sent.value_or(0) == 0)
+        return false;
+    convergence.skyChanged();
+    return true;
+}
+
+/// The caches of `flags` on the GPU.
+CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
+    const std::uint32_t lightmap = bake->caches.lightmapCount;
+    const auto begin =
+        std::uint32_t(bake->caches.size()) - lightmap + std::uint32_t(which) * lightmap;
+    order.clear();
+    for (std::uint32_t c = 0; c < lightmap; ++c)
+        if (flags[c] != 0)
+            order.push_back(c);
+    const CacheList result{begin, begin + std::uint32_t(order.size())};
+    if (order == lists[which] || order.empty())
+        return result;
+    const VkCommandBuffer cmd = device.begin("list of caches");
+    gpu::updateBuffer(device, cmd, buffers.order, begin * sizeof order[0],
+                      std::as_bytes(std::span(order)));
+    device.submit(cmd);
+    std::swap(lists[which], order);
+    return result;
+}
+
+/// What was put off.
+void GpuRelighter::State::lightRest() {
+    unlit = read;
+    removeFrom(unlit, current);
+    const CacheList rest = list(kRest, unlit);
+    countLinks(unlit, false);
+    device.immediate("rest of the last bounce", [&](VkCommandBuffer cmd) {
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);
+        steps->recordLightmapCaches(cmd, rest);
+        steps->recordIndirect(cmd);
+    });
+    unread = false;
+}
+
+/// One iteration.
+RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
+                                        GpuRelightStats& stats) {
+    device.immediate("bounce", [&](VkCommandBuffer cmd) {
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
+        times.begin(cmd);
+        steps->recordSurfels(cmd);
+        times.mark(cmd);
+        steps->recordPull(cmd);
+        times.mark(cmd);
+        steps->recordLightmapCaches(cmd, caches);
+        times.mark(cmd);
+        if (surfelsRead)
+            steps->recordIndirect(cmd);
+        times.mark(cmd);
+        gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
+    });
+    const std::vector<double> ms = times.steps();
+    stats.surfelLightMs += ms[0] + ms[3];
+    stats.pullMs += ms[1];
+    stats.cacheLightMs += ms[2];
+    ++stats.bounces;
+    RoundChange round;
+    const auto* groups = static_cast<const glm::vec4*>(buffers.change.mapped);
+    brightest = 0;
+    for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec4); ++g) {
+        brightest = std::max(brightest, groups[g].w);
+        round.change += double(groups[g].x);
+        round.total += double(groups[g].y);
+        round.relative += double(groups[g].z);
+    }
+    return round;
+}
+
+/// What no coefficient is brighter than: the integral of |Y_i| is below sqrt(4 pi), so that light
+/// of radiosity B all around, of radiance B / pi, gives one of 1.13 B at most.
+float GpuRelighter::State::brightestCoefficient() const {
+    float most = brightest;
+    for (const glm::vec3& c : sky)
+        most = std::max({most, c.x, c.y, c.z});
+    return 1.13f * most;
+}
+
+/// Writes what is to be lit, and the grid; all that was lit before too where the scale has to
+/// change, which only another bounce can make it.
+void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
+    const bool rescaled = !scaleServes(fieldScale, brightestCoefficient());
+    if (rescaled) {
+        fieldScale = limn::fieldScale(brightestCoefficient());
+        everyCache.assign(bake->caches.lightmapCount, 1);
+        grid = gridLit;
+    }
+    const CacheList toWrite = list(kLit, rescaled ? everyCache : lit), toLight = list(kRest, unlit);
+    countLinks(unlit, grid);
+    device.immediate("field", [&](VkCommandBuffer cmd) {
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after lists were sent
+        times.begin(cmd);
+        if (toLight.end > toLight.begin)
+            steps->recordLightmapCaches(cmd, toLight);
+        steps->recordFinalCaches(cmd, toWrite, grid);
+        steps->recordField(cmd, toWrite, grid, fieldScale);
+        times.mark(cmd);
+    });
+    buffers.field->scale = fieldScale;
+    stats.fieldMs = times.steps()[0];
+    ++fieldVersion;
+}
+
+/// Takes over what the inputs change. True if that is anything.
+bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
+                                     GpuRelightStats& stats) {
+    bool skyChanged = false;
+    bool surfelsChanged = upload(inputs, stats, skyChanged) || newBands;
+    if (inputs.lights)
+        surfelsChanged |= lightSurfels(*inputs.lights, stats);
+    const bool dimmingChanged = dim(inputs.dimming, stats);
+    const auto gridCaches = std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
+    const bool grid = inputs.grid && gridCaches > 0;
+    stats.gridCachesSkipped = grid ? 0 : gridCaches;
+    gridMissing = grid && !gridLit;
+    gridLit = grid;
+    const bool limitChanged = started && maxBounces != inputs.maxBounces;
+    maxBounces = inputs.maxBounces;
+    started = true;
+    if (surfelsChanged || gridMissing || limitChanged)
+        convergence.lightChanged();
+    const bool changed =
+        surfelsChanged || skyChanged || dimmingChanged || gridMissing || limitChanged;
+    if (changed && maxBounces <= kFewBounces) {
+        clearBuffers(device, {buffers.indirect.handle});
+        unread = false;
+    }
+    return changed;
+}
+
+GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t bounces,
+                                      const Progress& progress, const CacheFlags* seen) {
+    State& s = *m_state;
+    GpuRelightStats stats;
+    const auto start = Clock::now();
+    s.links = {};
+    const Caches& caches = s.bake->caches;
+    const bool newBands = s.setBands(inputs.bands);
+    const std::uint64_t dispatchesBefore = s.steps->dispatches;
+    const bool changed = s.takeInputs(inputs, newBands, stats);
+    const bool bouncing = bounces > 0 && !s.convergence.reached();
+    if (bouncing) {
+        if (s.unread && !changed)
+            s.lightRest();
+        s.current.assign(s.current.size(), 0);
+    }
+    CacheFlags& lit = s.lit;
+    setMissing(caches, s.current, seen, lit);
+    s.unlit = lit;
+    const bool mayPutOff = seen != nullptr && bounces > 1 && !s.steps->dropsChroma();
+    for (std::uint32_t k = 0; bouncing && k < bounces && !s.convergence.reached(); ++k) {
+        s.unread = mayPutOff && k + 1 == bounces;
+        const CacheFlags& now = s.unread ? lit : s.read;
+        s.countLinks(now, false);
+        s.convergence.addRound(
+            s.bounce(s.list(s.unread ? State::kLit : State::kRead, now), !s.unread, stats));
+        s.unlit = lit;
+        removeFrom(s.unlit, now);
+        if (progress.cancelled())
+            break;
+    }
+    stats.converged = s.convergence.reached();
+    stats.passedOn = s.convergence.passedOn();
+    stats.grows = s.convergence.grows();
+    stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
+    if (!stats.skipped) {
+        s.writeField(s.gridLit && (bouncing || s.gridMissing), stats);
+        for (std::size_t c = 0; c < lit.size(); ++c)
+            s.current[c] |= lit[c];
+    }
+    stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
+    stats.cachesUnread = std::uint32_t(std::ranges::count(s.read, 0));
+    stats.links = s.links.links;
+    stats.linksPassedOver = s.links.passedOver;
+    stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
+    stats.totalMs = msSince(start);
+    return stats;
+}
+
+const std::shared_ptr<const Bake>& GpuRelighter::bake() const {
+    return m_state->bake;
+}
+std::shared_ptr<const GpuField> GpuRelighter::field() const {
+    return m_state->buffers.field;
+}
+std::uint64_t GpuRelighter::fieldVersion() const {
+    return m_state->fieldVersion;
+}
+
+std::vector<glm::vec3> GpuRelighter::State::readColors(const gpu::Buffer& buffer,
+                                                       std::size_t count) const {
+    if (count == 0)
+        return {};
+    std::vector<glm::vec4> colors(count);
+    gpu::readBuffer(device, buffer, std::as_writable_bytes(std::span(colors)));
+    return {colors.begin(), colors.end()};
+}
+
+std::vector<glm::vec3> GpuRelighter::readRadiosity() const {
+    return m_state->readColors(m_state->buffers.radiosity, m_state->bake->tree.size());
+}
+
+std::vector<glm::vec3> GpuRelighter::readCacheSh() const {
+    const std::uint32_t bands = m_state->buffers.field->bands;
+    return m_state->readColors(m_state->buffers.sh, m_state->bake->caches.size() * bands * bands);
+}
+
+IndirectField GpuRelighter::readField() const {
+    const State& s = *m_state;
+    IndirectField out;
+    out.bands = s.buffers.field->bands;
+    out.lightmapWidth = s.bake->lightmap.width;
+    out.lightmapHeight = s.bake->lightmap.height;
+    out.gridSize = s.gridLit ? s.bake->gridSize : glm::uvec3(0);
+    out.gridBounds = s.bake->gridBounds;
+    out.version = s.fieldVersion;
+    const GpuField& field = *s.buffers.field;
+    out.chromaBands = field.chroma;
+    const std::uint32_t layers = fieldLayers(field.bands, field.chroma);
+    std::vector<glm::u16vec4> packed(std::size_t(out.lightmapWidth) * out.lightmapHeight * layers);
+    if (!packed.empty())
+        gpu::readImage(s.device, field.lightmap, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       out.lightmapWidth, out.lightmapHeight,
+                       std::as_writable_bytes(std::span(packed)), layers);
+    out.lightmap = unpackField(packed, field.bands, field.chroma, field.scale);
+    if (s.gridLit && !s.bake->gridDepth.empty())
+        out.gridDepth = {s.bake, &s.bake->gridDepth};
+    packed.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z * layers);
+    if (!packed.empty())
+        gpu::readBuffer(s.device, field.grid, std::as_writable_bytes(std::span(packed)));
+    out.grid = unpackField(packed, field.bands, field.chroma, field.scale);
+    return out;
+}
+
+} // namespace limn

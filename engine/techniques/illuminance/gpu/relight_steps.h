@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/descriptors.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/shadowed_lights.h"
+#include "engine/techniques/illuminance/gpu/kept_lights.h"
+#include "engine/techniques/illuminance/gpu/relight_buffers.h"
+#include "engine/techniques/illuminance/relight/caches/cache_light.h"
+#include "shaders/shared/gpu_relight.h"
+
+#include <array>
+
+namespace limn {
+
+/// A part of RelightBuffers::order.
+struct CacheList {
+    std::uint32_t begin = 0, end = 0;
+};
+
+/// The steps of relighting as compute shaders over one set of buffers. Each function records one
+/// step and a barrier that makes what it wrote visible to the next.
+class RelightSteps {
+public:
+    /// Invocations of a group where each has a thing of its own.
+    static constexpr std::uint32_t kItemLanes = 64;
+    /// Bound at once: those of gpu_relight.h, the lights, their shadow views and KeptLights'.
+    static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP + 4;
+
+    /// Both outlive this. The caches are lit in `bounce` bands and, at last, in `final` bands.
+    RelightSteps(gpu::Device& device, const Bake& bake, const RelightBuffers& buffers,
+                 LightBands bounce, LightBands final);
+
+    /// E_direct from lights with shadow maps, to which `kept` is assigned. No earlier recording of
+    /// it may still run.
+    void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights, const KeptLights& kept);
+    /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total,
+    /// brightest).
+    void recordSurfels(VkCommandBuffer cmd);
+    void recordPull(VkCommandBuffer cmd);
+    /// Those of a list of the lightmap's caches, in the bands of bounces, then all invalid ones.
+    void recordLightmapCaches(VkCommandBuffer cmd, CacheList list);
+    /// E_indirect of the surfels from their caches.
+    void recordIndirect(VkCommandBuffer cmd);
+    /// The final bands: the list's caches lose the chrominance that only bounces need, those of the
+    /// grid are lit where `grid` says so.
+    void recordFinalCaches(VkCommandBuffer cmd, CacheList list, bool grid);
+    /// Lightmap and grid, their values times `scale`, ready for fragment shaders.
+    void recordField(VkCommandBuffer cmd, CacheList list, bool grid, float scale);
+    bool dropsChroma() const { return m_dropsChroma; }
+
+    std::uint64_t dispatches = 0; ///< recorded so far
+
+private:
+    gpu::Pipeline pipeline(gpu::Spirv shader, std::uint32_t lanes, LightBands bands,
+                           const char* name);
+    void createSets();
+    void dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
+                  const shared::GpuRelightRange& range, std::size_t groups);
+    CacheList gridList() const;
+    void lightCaches(VkCommandBuffer cmd, const gpu::Pipeline& step, CacheList list);
+    void writeField(VkCommandBuffer cmd, CacheList list, float scale);
+    void fill(VkCommandBuffer cmd, std::uint32_t begin, std::uint32_t end);
+
+    gpu::Device& m_device;
+    const Bake& m_bake;
+    const RelightBuffers& m_buffers;
+    std::uint32_t m_coefficients, m_layers;
+    bool m_dropsChroma;
+    gpu::DescriptorSetLayout m_setLayout, m_lightSetLayout;
+    gpu::DescriptorPool m_pool, m_lightPool;
+    std::array<VkDescriptorSet, 2> m_sets{}; ///< the buffers; the lights
+    gpu::PipelineLayout m_layout;
+    gpu::Pipeline m_direct, m_surfels, m_pull, m_bounceCaches, m_finalCaches, m_fill, m_indirect,
+        m_chroma, m_field;
+};
+
+} // namespace limn

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/measure/bake_to_error.h"
+
+#include "engine/core/parallel.h"
+#include "engine/core/process_memory.h"
+#include "engine/measure/seen_points.h"
+#include "engine/reference/direct_light.h"
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kFinestTexels = 1U << 22, kFinestSurfels = 1U << 20, kFinestLinks = 1024;
+constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< of the points
+constexpr std::uint32_t kPaths = 64;               ///< of a point, in each reference
+
+std::uint32_t times(std::uint32_t count, double factor, std::uint32_t most) {
+    return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(most))));
+}
+
+/// What is true at the points that are seen: irradiance straight from lights, and the same with all
+/// bounces, estimated twice by independent paths. Images of one row.
+struct Truth {
+    std::vector<SeenPoint> points;
+    ImageF direct, first, second;
+};
+
+ImageF row(std::vector<glm::vec3> rgb) {
+    const auto width = std::uint32_t(rgb.size());
+    return {width, 1, std::move(rgb)};
+}
+
+ImageF sum(ImageF image, const std::vector<glm::vec3>& more) {
+    for (std::size_t i = 0; i < more.size(); ++i)
+        image.rgb[i] += more[i];
+    return image;
+}
+
+/// Nothing when cancelled.
+std::optional<Truth> findTruth(const TraceScene& trace, const Camera& camera,
+                               const Progress& progress) {
+    Truth truth;
+    truth.points = findSeenPoints(trace, camera, kWidth, kHeight, 1);
+    std::vector<glm::vec3> direct(truth.points.size());
+    parallelRanges(direct.size(), 64, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t rays = 0;
+        for (std::size_t i = begin; i < end; ++i)
+            direct[i] = directIrradiance(trace, truth.points[i].surface, rays);
+    });
+    truth.direct = row(std::move(direct));
+    const Emitters emitters = findEmitters(trace);
+    const SkyLight sky = findSkyLight(trace.scene().sky);
+    const PathContext context{trace, emitters, sky};
+    const auto first = traceIrradiance(context, truth.points, kPaths, 2, progress),
+               second = traceIrradiance(context, truth.points, kPaths, 3, progress);
+    if (!first || !second)
+        return {};
+    truth.first = sum(truth.direct, *first);
+    truth.second = sum(truth.direct, *second);
+    return truth;
+}
+
+bool isDark(const Truth& truth) {
+    return std::ranges::all_of(truth.first.rgb, [](glm::vec3 e) { return e == glm::vec3(0); });
+}
+
+Result<Comparison> measure(const TraceScene& trace, const std::shared_ptr<const Bake>& bake,
+                           const Truth& truth, const Progress& progress) {
+    Relighter relighter(bake);
+    relighter.relight(trace.scene(), trace, trace.scene().bake.maxBounces, progress);
+    if (progress.cancelled())
+        return fail("cancelled");
+    const Result<Comparison> error =
+        compareImages(sum(truth.direct, lookUpIrradiance(relighter.field(), bake->lightmap,
+                                                         trace.scene(), truth.points)),
+                      truth.first, truth.second);
+    return error;
+}
+
+bool fits(const Scene& scene, const BakeSettings& settings, bool stored,
+          const MemoryBudget& memory) {
+    Scene finer = scene;
+    finer.bake = settings;
+    return residentMemory() + predictBake(finer, stored).working <= memory.most;
+}
+
+} // namespace
+
+BakeSettings finerSettings(const BakeSettings& settings) {
+    BakeSettings s = settings;
+    s.lightmapCaches = times(s.lightmapCaches, 2, kFinestTexels);
+    if (s.lightmapCaches == settings.lightmapCaches)
+        return settings;
+    s.surfels = times(s.surfels, std::exp2(0.75), kFinestSurfels);
+    s.links = times(s.links, std::exp2(0.25), kFinestLinks);
+    s.rays = std::max(s.rays, 256U);
+    return s;
+}
+
+Result<MeasuredBake> bakeToError(const TraceScene& trace, const ErrorGoal& goal,
+                                 const Progress& progress, StageStore* store,
+                                 const MemoryBudget& memory,
+                                 const std::function<void(const MeasuredBake&)>& baked) {
+    using End = MeasuredBake::End;
+    BakeSettings settings = trace.scene().bake;
+    std::optional<Truth> truth;
+    MeasuredBake best;
+    for (int inVain = 0;;) {
+        Result<Bake> made = bake(trace, progress, store, &settings, memory);
+        if (!made)
+            return tl::make_unexpected(made.error());
+        MeasuredBake next{std::make_shared<const Bake>(std::move(*made)), {}, End::Held};
+        if (!truth)
+            truth = findTruth(trace, goal.camera, progress);
+        if (!truth)
+            return fail("cancelled");
+        if (isDark(*truth))
+            return fail("the camera sees no light, so no error is known");
+        Result<Comparison> error = measure(trace, next.bake, *truth, progress);
+        if (!error)
+            return tl::make_unexpected(error.error());
+        next.error = *error;
+        if (baked)
+            baked(next);
+        const double before = best.bake ? best.error.nrmse : std::numeric_limits<double>::max();
+        inVain = next.error.nrmse > 0.9 * before ? inVain + 1 : 0;
+        if (next.error.nrmse < before)
+            best = std::move(next);
+        if (best.error.nrmse <= goal.nrmse)
+            return best;
+        const BakeSettings finer = finerSettings(settings);
+        if (inVain == 2)
+            best.end = End::NoBetter;
+        else if (finer == settings)
+            best.end = End::Finest;
+        else if (!fits(trace.scene(), finer, store != nullptr, memory))
+            best.end = End::Memory;
+        if (best.end != End::Held)
+            return best;
+        settings = finer;
+    }
+}
+
+} // namespace limn

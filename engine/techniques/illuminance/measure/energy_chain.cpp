@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/measure/energy_chain.h"
+
+#include "engine/core/parallel.h"
+#include "engine/lightmap/atlas.h"
+#include "engine/measure/seen_points.h"
+#include "engine/reference/direct_light.h"
+#include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
+#include "engine/techniques/illuminance/relight/caches/cache_light.h"
+#include "engine/techniques/illuminance/relight/surfel_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kGrain = 64; ///< pixels or surfels
+
+using Irradiances = std::vector<glm::vec3>;
+
+struct Chain {
+    const TraceScene& trace;
+    const EnergyBakes& bakes;
+    const EnergyOptions& options;
+    const Progress& progress;
+    const PathContext& paths;
+    std::vector<SeenPoint> seen = {};
+    std::vector<std::uint32_t> cacheOfTexel = {};
+
+    void findSeen();
+    glm::vec3 truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) const;
+    std::optional<Irradiances> atTexels() const;
+    std::optional<std::vector<glm::vec4>> trueRadiosity() const;
+    Irradiances gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const;
+    Irradiances relit(const std::shared_ptr<const Bake>& bake) const;
+    std::uint32_t pickCache(const Bilinear& lookup, float u) const;
+    SurfacePoint pointOf(std::uint32_t cache, float u, SurfacePoint p) const;
+};
+
+void Chain::findSeen() {
+    const LightmapLayout& layout = bakes.bake->lightmap;
+    seen = findSeenPoints(trace, options.camera, options.width, options.height, options.seed);
+    std::erase_if(seen,
+                  [&](const SeenPoint& p) { return layout.instances[p.hit.instance].uv.empty(); });
+    cacheOfTexel.assign(std::size_t(layout.width) * layout.height, ~0U);
+    const Caches& caches = bakes.bake->caches;
+    for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
+        cacheOfTexel[caches.texel[c]] = c;
+}
+
+glm::vec3 Chain::truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) const {
+    std::uint64_t rays = 0;
+    return sampleIndirectIrradiance(paths, p, {seed, sample}, rays);
+}
+
+/// One of the lookup's caches by its weight, or one that fills it; ~0 where there is none.
+std::uint32_t Chain::pickCache(const Bilinear& lookup, float u) const {
+    const Caches& caches = bakes.bake->caches;
+    std::uint32_t cache = ~0U;
+    for (int k = 0; k < 4 && u >= 0; ++k)
+        if (lookup.weight[k] > 0 && cacheOfTexel[lookup.texel[k]] != ~0U) {
+            cache = cacheOfTexel[lookup.texel[k]];
+            u -= lookup.weight[k];
+        }
+    if (cache == ~0U || caches.fillBegin[cache] == caches.fillBegin[cache + 1])
+        return cache;
+    float rest = -u; // a leftover that is as good as random
+    rest -= std::floor(rest);
+    for (std::uint32_t i = caches.fillBegin[cache]; i < caches.fillBegin[cache + 1]; ++i)
+        if ((rest -= caches.fillWeight[i]) < 0)
+            return caches.fillSource[i];
+    return caches.fillSource[caches.fillBegin[cache]];
+}
+
+/// One of the cache's points, with the pixel's normal of shading: the caches' harmonics answer for
+/// any. The points of surfels' own caches, which fill some texels, are their middles.
+SurfacePoint Chain::pointOf(std::uint32_t cache, float u, SurfacePoint p) const {
+    const CachePoints& points = bakes.points;
+    if (cache + 1 >= points.begin.size()) {
+        p.position = bakes.bake->caches.position[cache];
+        p.geometricNormal = bakes.bake->caches.normal[cache];
+        return p;
+    }
+    const std::uint32_t first = points.begin[cache], count = points.begin[cache + 1] - first,
+                        k = first + std::min(std::uint32_t(u * float(count)), count - 1);
+    p.position = points.position[k];
+    p.geometricNormal = points.normal[k];
+    return p;
+}
+
+std::optional<Irradiances> Chain::atTexels() const {
+    const LightmapLayout& layout = bakes.bake->lightmap;
+    Irradiances result(seen.size());
+    const bool done = parallelRanges(
+        seen.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Hit& hit = seen[i].hit;
+                const std::uint32_t mesh = trace.scene().instances[hit.instance].mesh;
+                const Bilinear lookup =
+                    bilinearAt(layout, lightmapUv(layout, hit.instance, mesh, hit.triangle, hit.u,
+                                                  hit.v, !hit.frontFace));
+                const std::uint32_t seed = mixBits(options.seed + 17, std::uint32_t(i));
+                for (std::uint32_t s = 0; s < options.paths; ++s) {
+                    const glm::vec2 u = Sampler{seed, s}.pair(0);
+                    const std::uint32_t cache = pickCache(lookup, u.x);
+                    if (cache == ~0U)
+                        continue;
+                    result[i] +=
+                        truth(pointOf(cache, u.y, seen[i].surface), seed, s) / float(options.paths);
+                }
+            }
+        });
+    return done ? std::optional(std::move(result)) : std::nullopt;
+}
+
+/// Of the tree's leaves: what surfels send if they receive what paths say at their places.
+std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
+    const Bake& bake = *bakes.bake;
+    const Surfels& s = bake.surfels;
+    std::vector<glm::vec3> albedo, emitted;
+    surfelMaterials(s, trace.scene(), albedo, emitted);
+    std::vector<glm::vec4> leaves(bake.tree.leaves());
+    const bool done = parallelRanges(
+        s.size(), kGrain, progress, "surfels", [&](std::size_t begin, std::size_t end) {
+            std::uint64_t rays = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                SurfacePoint p;
+                p.position = s.position[i];
+                p.normal = s.normal[i];
+                p.geometricNormal = geometricNormal(trace.scene(), s, std::uint32_t(i));
+                glm::vec3 E = directIrradiance(trace, p, rays);
+                for (std::uint32_t k = 0; k < options.paths; ++k)
+                    E += truth(p, mixBits(options.seed + 29, std::uint32_t(i)), k) /
+                         float(options.paths);
+                leaves[i] = withLuma(albedo[i] * E + emitted[i]);
+            }
+        });
+    const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, trace.scene().sky);
+    for (std::size_t c = 0; c < sky.size(); ++c)
+        leaves[s.size() + c] = withLuma(sky[c]);
+    return done ? std::optional(std::move(leaves)) : std::nullopt;
+}
+
+Irradiances Chain::gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const {
+    const int bands = std::min(int(bake.settings.bands), kIrradianceBands);
+    const auto n = std::size_t(bands * bands);
+    std::vector<glm::vec4> radiosity = leaves;
+    radiosity.resize(bake.tree.size());
+    pullRadiosity(bake.tree, radiosity);
+    std::vector<glm::vec3> sh(bake.caches.size() * n);
+    const CacheRuns all = runsOf(0, bake.caches.lightmapCount);
+    const std::vector<std::uint32_t> ends = allLinks(bake.caches);
+    lightCaches(bake.caches, ends, radiosity, {bands, bands}, all, sh,
+                firstHalfs(bake.caches, bands));
+    fillInvalidCaches(bake.caches, bands, all, sh);
+    IndirectField field;
+    field.bands = std::uint32_t(bands);
+    field.lightmapWidth = bake.lightmap.width;
+    field.lightmapHeight = bake.lightmap.height;
+    const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
+    field.lightmap.resize(texels * n);
+    for (std::size_t c = 0; c < bake.caches.lightmapCount; ++c)
+        for (std::size_t i = 0; i < n; ++i)
+            field.lightmap[i * texels + bake.caches.texel[c]] = glm::vec4(sh[c * n + i], 0);
+    return lookUpIrradiance(field, bake.lightmap, trace.scene(), seen);
+}
+
+Irradiances Chain::relit(const std::shared_ptr<const Bake>& bake) const {
+    Relighter relighter(bake);
+    for (int call = 0; call < 64; ++call)
+        if (relighter.relight(trace.scene(), trace, 64, progress).converged)
+            break;
+    return lookUpIrradiance(relighter.field(), bake->lightmap, trace.scene(), seen);
+}
+
+double sumOf(glm::vec3 v) {
+    return double(v.x) + double(v.y) + double(v.z);
+}
+
+EnergyStep compareStep(std::string name, const Irradiances& E, const Irradiances& truth) {
+    double sum = 0, sumTruth = 0, squares = 0;
+    for (std::size_t i = 0; i < E.size(); ++i) {
+        const glm::vec3 d = E[i] - truth[i];
+        sum += sumOf(E[i]);
+        sumTruth += sumOf(truth[i]);
+        squares += double(glm::dot(d, d));
+    }
+    const double values = 3 * double(std::max<std::size_t>(E.size(), 1)), mean = sumTruth / values;
+    if (!(mean > 0))
+        return {std::move(name), 0, 0};
+    return {std::move(name), sum / sumTruth, std::sqrt(squares / values) / mean};
+}
+
+} // namespace
+
+EnergyChain measureEnergyChain(const TraceScene& trace, const EnergyBakes& bakes,
+                               const EnergyOptions& options, const Progress& progress) {
+    const Emitters emitters = findEmitters(trace);
+    const SkyLight sky = findSkyLight(trace.scene().sky);
+    const PathContext paths{trace, emitters, sky};
+    Chain chain{trace, bakes, options, progress, paths};
+    chain.findSeen();
+    EnergyChain result;
+    result.pixels = chain.seen.size();
+    const auto reference = [&](std::uint32_t seed) {
+        return traceIrradiance(paths, chain.seen, options.paths, seed, progress);
+    };
+    const auto first = reference(options.seed + 1), second = reference(options.seed + 2),
+               texels = chain.atTexels();
+    const auto leaves = chain.trueRadiosity();
+    if (!first || !second || !texels || !leaves)
+        return result;
+    Irradiances truth(first->size());
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        truth[i] = ((*first)[i] + (*second)[i]) / 2.f;
+    result.noise = std::abs(compareStep("", *first, truth).energy - 1);
+    result.steps = {compareStep("reference", *first, truth),
+                    compareStep("texels", *texels, truth),
+                    compareStep("surfels", chain.gathered(*bakes.uncut, *leaves), truth),
+                    compareStep("cut", chain.gathered(*bakes.bake, *leaves), truth),
+                    compareStep("bounces, uncut", chain.relit(bakes.uncut), truth),
+                    compareStep("bounces", chain.relit(bakes.bake), truth)};
+    result.complete = true;
+    return result;
+}
+
+} // namespace limn

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// One step on the way from path-traced light to the light of the picture.
+struct EnergyStep {
+    std::string name;
+    double energy = 0; ///< mean irradiance / that of the reference
+    double nrmse = 0;  ///< rms(E - E_ref) / mean(E_ref), with the noise of both
+};
+
+struct EnergyOptions {
+    Camera camera;
+    std::uint32_t width = 160, height = 90; ///< one surface point for each pixel
+    std::uint32_t paths = 64;               ///< of each point, and of each surfel
+    std::uint32_t seed = 1;
+};
+
+struct EnergyChain {
+    /// "reference": path tracing at the pixels' points. "texels": path tracing at the points of the
+    /// lightmap caches that each pixel looks up, so interpolation alone differs. "surfels": caches
+    /// gather from surfels that hold path-traced light, through one link for each sender in sight.
+    /// "cut": the same through the bake's own links. "bounces": relighting, as the picture has it.
+    /// "bounces, uncut": relighting through one link for each sender.
+    std::vector<EnergyStep> steps;
+    double noise = 0;         ///< standard error of the reference's mean, relative
+    std::uint64_t pixels = 0; ///< that see a surface with a lightmap
+    bool complete = false;    ///< false when cancelled
+};
+
+/// What measureEnergyChain() compares.
+struct EnergyBakes {
+    std::shared_ptr<const Bake> bake;
+    std::shared_ptr<const Bake> uncut; ///< the same with CutCriterion::SolidAngle and 4096 links
+    const CachePoints& points;         ///< of the lightmap's caches, surfels' own aside
+};
+
+/// Replaces the chain from surfels to picture by path tracing one step at a time, and measures the
+/// irradiance (View::Irradiance) at the points that the camera's pixels see. Unbiased but for the
+/// bounces that paths are cut after.
+EnergyChain measureEnergyChain(const TraceScene& trace, const EnergyBakes& bakes,
+                               const EnergyOptions& options, const Progress& progress = {});
+
+} // namespace limn

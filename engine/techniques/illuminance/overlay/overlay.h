@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/overlay/overlay_data.h"
+#include "engine/techniques/illuminance/bake/bake.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// What can be drawn over a picture to see a bake.
+enum class Overlay : std::uint32_t {
+    None,
+    Surfels,       ///< colour: albedo
+    SurfelNormals, ///< colour: normal
+    SurfelOwners,  ///< colour: instance
+    Clusters,      ///< surfels, colour: the cluster at a depth of the tree
+    Links,         ///< surfels that a cache is linked with, colour: weight
+    Caches,        ///< colour: validity
+    Charts,        ///< surfaces, colour: chart
+    Density,       ///< surfaces, colour: texels per metre
+    Overlap,       ///< surfaces, colour: texels used more than once
+    LitSurfels,    ///< colour: radiosity
+    LitClusters,   ///< surfels, colour: radiosity of the cluster at a depth of the tree
+    Lobes,         ///< the lit caches' spherical harmonics, colour: sign
+};
+
+/// Whether it shows light: makeOverlay needs some.
+inline bool showsLight(Overlay kind) {
+    return kind >= Overlay::LitSurfels;
+}
+inline bool hasCache(Overlay kind) {
+    return kind == Overlay::Links || kind == Overlay::Lobes;
+}
+inline bool hasDepth(Overlay kind) {
+    return kind == Overlay::Clusters || kind == Overlay::LitClusters;
+}
+
+/// The names of Overlay, for the command line and for people.
+struct OverlayName {
+    const char *name, *label, *tooltip;
+};
+inline constexpr std::array<OverlayName, 13> kOverlays = {
+    {{"none", "No overlay", "The picture alone"},
+     {"surfels", "Surfels", "Samples of the surfaces that send light, in their albedo"},
+     {"surfel-normals", "Surfel normals", "Surfels in the colour of the side they stand for"},
+     {"surfel-owners", "Surfel owners", "Surfels in one colour per instance"},
+     {"clusters", "Clusters", "Surfels in one colour per cluster at a depth of the tree"},
+     {"links", "Link cut", "The clusters that light one cache; click a surface to pick the cache"},
+     {"caches", "Caches", "Where light is gathered; magenta: invalid, filled from others"},
+     {"charts", "UV charts", "Pieces of surface that lie together in the lightmap"},
+     {"density", "Texel density", "Lightmap texels per metre"},
+     {"overlap", "UV overlap", "Lightmap texels that more than one piece of surface uses"},
+     {"lit-surfels", "Lit surfels", "What each surfel sends: its light times its albedo"},
+     {"lit-clusters", "Lit clusters", "What the clusters at a depth of the tree send"},
+     {"lobes", "SH lobes",
+      "Light that reaches the caches from each side, as its harmonics have it; "
+      "orange: below zero"}}};
+
+struct OverlayOptions {
+    Overlay kind = Overlay::None;
+    std::uint32_t depth = 6;   ///< of Clusters and LitClusters; 0: the root
+    std::uint32_t cache = ~0u; ///< of Links and Lobes; ~0: none picked
+
+    bool operator==(const OverlayOptions&) const = default;
+};
+
+/// A bake as it is lit.
+struct LitBake {
+    std::vector<glm::vec4> radiosity; ///< per node of the tree, RGB in xyz [W m^-2]
+    std::vector<glm::vec3> cacheSh;   ///< bands^2 per cache [W m^-2 sr^-1]
+    int bands = 0;
+};
+
+/// `scene` is the one that was baked; its materials may be newer. None gives nothing to draw, and
+/// neither does a kind that showsLight() without `lit`, but for a note.
+OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options,
+                        const LitBake* lit = nullptr);
+
+/// One disc per surfel in sRGB-encoded colours, one each.
+std::vector<OverlayMark> surfelMarks(const Surfels& surfels, const std::vector<glm::vec3>& colors);
+
+/// Depth of the deepest leaf of the tree; the root's is 0.
+std::uint32_t treeDepth(const ClusterTree& tree);
+
+/// Per leaf the node that stands for it when the tree is cut at `depth`: its ancestor there, or
+/// itself if it lies higher.
+std::vector<std::uint32_t> clustersAtDepth(const ClusterTree& tree, std::uint32_t depth);
+
+/// A cache without links: it sees nothing but walls and copies others.
+inline bool isValid(const Caches& caches, std::uint32_t cache) {
+    return caches.linkBegin[cache + 1] > caches.linkBegin[cache];
+}
+
+} // namespace limn

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/relight/relight.h"
+
+#include "engine/core/flush_denormals.h"
+#include "engine/core/parallel.h"
+#include "engine/scene/surface/receiver_bands.h"
+#include "engine/techniques/illuminance/relight/bouncing.h"
+#include "engine/techniques/illuminance/relight/caches/cache_light.h"
+#include "engine/techniques/illuminance/relight/occlusion/dimming.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
+#include "engine/techniques/illuminance/relight/surfel_material.h"
+#include "engine/techniques/illuminance/relight/surfel_read.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace limn {
+
+namespace {
+
+class Timer {
+public:
+    /// Milliseconds since the last call, or since construction.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - m_last).count();
+        m_last = now;
+        return ms;
+    }
+
+private:
+    std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+bool needsGrid(const Scene& scene, const LightmapLayout& layout) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (i >= layout.instances.size() || layout.instances[i].uv.empty())
+            return true;
+    return false;
+}
+
+struct Relighter::State {
+    std::shared_ptr<const Bake> bake;
+    LitBands lit = LitBands::Needed;
+    int bands = 0; ///< that the caches are lit in
+    /// Of all bounces but the last one, which need irradiance only; of the last one; and of what
+    /// is seen.
+    LightBands innerBands, bounceBands, finalBands;
+    std::vector<std::uint16_t> halfs; ///< of links in fewer bands than stored; empty: as stored
+    std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
+    LinkEnds ends;                                   ///< the ones in use
+    LinkCounts links;                                ///< of this call
+    bool started = false;
+    std::uint32_t maxBounces = 0; ///< of the last call's scene
+    Convergence convergence;
+
+    std::vector<Material> materials; ///< that albedo and emitted belong to
+    std::vector<float> seenShare;    ///< per surfel
+    std::vector<glm::vec3> albedo;   ///< per surfel
+    std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
+    Sky sky;
+    bool blackSky = true;
+    SurfelLight direct;
+    std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
+    std::vector<glm::vec4> radiosity; ///< per node, as withLuma
+    std::vector<glm::vec3> sh;        ///< bands^2 per cache
+    std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands; see inner()
+    IndirectField field;
+    bool gridLit = false;     ///< the field has a grid
+    bool gridMissing = false; ///< and has it since this call
+
+    CacheRuns gridRuns;       ///< the grid's caches
+    CacheFlags read;          ///< by surfels
+    CacheRuns readRuns;       ///< the same
+    CacheFlags current;       ///< the field has the light of the last pull there
+    CacheFlags missing, rest; ///< working space
+    CacheRuns someRuns;       ///< the same
+    bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
+
+    Dimming dimming;
+    DimmedLinks dimmed; ///< by it
+
+    void light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out);
+    std::vector<glm::vec3>& inner();
+    void keepInner(const CacheFlags& which);
+    void lightRest();
+    void readInner();
+    void lightSeen(const CacheFlags& which, bool newLight);
+
+    void setBands(int count);
+    bool takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats);
+    bool updateMaterials(const Scene& scene);
+    bool updateSky(const Scene& scene);
+    RoundChange lightSurfels();
+    void writeField(const CacheFlags& which, bool grid);
+};
+
+Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
+    : m_state(std::make_unique<State>()) {
+    State& s = *m_state;
+    s.bake = std::move(bake);
+    s.lit = lit;
+    s.seenShare = seenShares(s.bake->tree);
+    s.everyLink = allLinks(s.bake->caches);
+    s.beforeSky = linksBeforeSky(s.bake->caches, s.bake->tree);
+    s.read = cachesRead(s.bake->surfels, s.bake->caches);
+    setRuns(s.read, s.readRuns);
+    s.gridRuns = runsOf(s.bake->caches.lightmapCount, std::uint32_t(s.bake->caches.size()));
+    s.indirect.assign(s.bake->surfels.size(), glm::vec3(0));
+    s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
+    s.field.lightmapWidth = s.bake->lightmap.width;
+    s.field.lightmapHeight = s.bake->lightmap.height;
+    s.field.gridBounds = s.bake->gridBounds;
+    const int most = int(s.bake->settings.bands);
+    s.setBands(lit == LitBands::All ? most : std::min(most, kIrradianceBands));
+}
+
+Relighter::~Relighter() = default;
+const IndirectField& Relighter::field() const {
+    return m_state->field;
+}
+const Bake& Relighter::bake() const {
+    return *m_state->bake;
+}
+const std::vector<glm::vec4>& Relighter::radiosity() const {
+    return m_state->radiosity;
+}
+const std::vector<glm::vec3>& Relighter::cacheSh() const {
+    return m_state->sh;
+}
+
+/// Makes room for them, black.
+void Relighter::State::setBands(int count) {
+    bands = count;
+    finalBands = limn::finalBands(bake->settings, bands);
+    bounceBands = limn::bounceBands(bake->settings, bands);
+    innerBands.luma = std::min(bands, kIrradianceBands);
+    innerBands.chroma = std::min(bounceBands.chroma, innerBands.luma);
+    const std::size_t n = std::size_t(bands * bands);
+    sh.assign(bake->caches.size() * n, glm::vec3(0));
+    innerSh.clear();
+    current.assign(bake->caches.lightmapCount, 0);
+    unread = false;
+    dimmed = {}; // has links in as many bands
+    dimming.hidden = {};
+    dimming.blockers = 0;
+    field.bands = std::uint32_t(bands);
+    field.chromaBands = std::uint32_t(finalBands.chroma);
+    field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
+                          glm::vec4(0));
+}
+
+bool Relighter::State::updateMaterials(const Scene& scene) {
+    if (started && materials == scene.materials)
+        return false;
+    const int needed = receiverBands(scene, int(bake->settings.bands));
+    if (lit == LitBands::Needed && (!started || needed != bands)) {
+        setBands(needed);
+        halfs = bands < int(bake->settings.bands) ? firstHalfs(bake->caches, bands)
+                                                  : std::vector<std::uint16_t>();
+    }
+    surfelMaterials(bake->surfels, scene, albedo, emitted, materials);
+    materials = scene.materials;
+    return true;
+}
+
+bool Relighter::State::updateSky(const Scene& scene) {
+    if (started && sky == scene.sky)
+        return false;
+    sky = scene.sky;
+    const ClusterTree& tree = bake->tree;
+    const std::vector<glm::vec3> cells = skyRadiosity(tree, sky);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        radiosity[tree.surfels + c] = withLuma(cells[c]);
+    blackSky = std::ranges::all_of(cells, [](glm::vec3 c) { return c == glm::vec3(0); });
+    return true;
+}
+
+/// Lights caches, valid and invalid ones.
+void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out) {
+    const Caches& caches = bake->caches;
+    const auto coefficients = std::size_t(in.luma * in.luma);
+    if (runs.empty())
+        return;
+    out.resize(std::max(out.size(), runs.back().end * coefficients));
+    const LinkCounts counts =
+        lightCaches(dimmed.cones.links.empty() ? caches : dimmed.cones, ends, radiosity, in, runs,
+                    out, dimmed.halfs.empty() ? halfs : dimmed.halfs);
+    links.links += counts.links;
+    links.passedOver += counts.passedOver;
+    fillInvalidCaches(caches, in.luma, runs, out);
+}
+
+/// Where surfels read, in innerBands: `sh` itself, unless that has more bands or is to lose colour.
+std::vector<glm::vec3>& Relighter::State::inner() {
+    const bool same = bands == innerBands.luma && finalBands.chroma >= bounceBands.chroma;
+    return same ? sh : innerSh;
+}
+
+/// Copies what is in `sh`.
+void Relighter::State::keepInner(const CacheFlags& which) {
+    std::vector<glm::vec3>& out = inner();
+    if (&out == &sh)
+        return;
+    const auto from = std::size_t(bands * bands),
+               to = std::size_t(innerBands.luma * innerBands.luma);
+    out.resize(which.size() * to);
+    parallelRanges(which.size(), 512, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            if (which[c] != 0)
+                std::copy_n(sh.begin() + std::ptrdiff_t(c * from), to,
+                            out.begin() + std::ptrdiff_t(c * to));
+    });
+}
+
+/// Lights what surfels read of the last pull and is not there yet.
+void Relighter::State::lightRest() {
+    rest = read;
+    removeFrom(rest, current);
+    setRuns(rest, someRuns);
+    light(innerBands, someRuns, inner());
+    unread = false;
+}
+
+void Relighter::State::readInner() {
+    readCaches(bake->surfels, inner(), innerBands.luma, indirect);
+}
+
+/// Lights what the field is to have, in all bands. `newLight`: surfels have not read that of the
+/// last pull.
+void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
+    setRuns(which, someRuns);
+    light(bounceBands, someRuns, sh);
+    for (std::size_t c = 0; c < which.size(); ++c)
+        current[c] |= which[c];
+    unread |= newLight;
+    if (unread)
+        keepInner(which);
+    if (finalBands.chroma < bounceBands.chroma)
+        dropChroma(finalBands, someRuns, sh);
+}
+
+/// B = albedo (E_direct + E_indirect) + pi L_e.
+RoundChange Relighter::State::lightSurfels() {
+    const Surfels& s = bake->surfels;
+    RoundChange round;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
+        const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
+        round.change += double(d.x + d.y + d.z) * s.area[i];
+        round.total += double(b.x + b.y + b.z) * s.area[i];
+        round.relative += double(relativeChange(d.x + d.y + d.z, b.x + b.y + b.z) * seenShare[i]);
+        radiosity[i] = withLuma(b);
+    }
+    return round;
+}
+
+void Relighter::State::writeField(const CacheFlags& which, bool grid) {
+    const Caches& caches = bake->caches;
+    const auto coefficients = std::size_t(bands * bands);
+    const auto write = [&](std::size_t c, std::vector<glm::vec4>& out, std::size_t stride) {
+        for (std::size_t i = 0; i < coefficients; ++i)
+            out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
+    };
+    const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
+    for (std::size_t c = 0; c < which.size(); ++c)
+        if (which[c] != 0)
+            write(c, field.lightmap, texels);
+    field.gridSize = gridLit ? bake->gridSize : glm::uvec3(0);
+    const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
+    field.grid.resize(cells * coefficients, glm::vec4(0));
+    field.gridDepth =
+        gridLit ? std::shared_ptr<const std::vector<std::uint16_t>>(bake, &bake->gridDepth)
+                : nullptr;
+    for (std::size_t c = caches.lightmapCount; grid && c < caches.size(); ++c)
+        write(c, field.grid, cells);
+    ++field.version;
+}
+
+/// Takes over what `scene` changes. True if that is anything.
+bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats) {
+    Timer timer;
+    const bool materialsChanged = updateMaterials(scene);
+    const bool skyChanged = updateSky(scene);
+    const bool directChanged = updateSurfelLight(bake->surfels, scene, trace, direct);
+    stats.lightsTraced = direct.lightsTraced;
+    stats.shadowRays = direct.raysTraced;
+    stats.lightsOff = std::uint32_t(scene.lights.size() - direct.lights.size());
+    stats.bandsLit = std::uint32_t(bands);
+    stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
+    stats.directMs = timer.lap();
+    const bool moved = updateDimming(*bake, scene, dimming);
+    if (moved)
+        dimLinks(*bake, dimming, halfs, dimmed);
+    stats.cachesDimmed = dimming.hidden.caches;
+    stats.linksDimmed = dimming.hidden.links;
+    stats.dimMs = moved ? timer.lap() : 0;
+    const bool dimmingChanged = moved && !dimming.hidden.changed.empty();
+    const Caches& caches = bake->caches;
+    const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
+    const bool grid = gridCaches > 0 && needsGrid(scene, bake->lightmap);
+    stats.gridCachesSkipped = grid ? 0 : gridCaches;
+    gridMissing = grid && !gridLit;
+    gridLit = grid;
+    if (materialsChanged || directChanged || gridMissing)
+        convergence.lightChanged();
+    if (skyChanged || dimmingChanged)
+        convergence.skyChanged();
+    const bool limitChanged = maxBounces != scene.bake.maxBounces;
+    maxBounces = scene.bake.maxBounces;
+    if (limitChanged)
+        convergence.lightChanged();
+    const bool changed = materialsChanged || skyChanged || directChanged || dimmingChanged ||
+                         gridMissing || limitChanged;
+    if (changed && maxBounces <= kFewBounces) {
+        std::ranges::fill(indirect, glm::vec3(0));
+        unread = false;
+    }
+    ends = blackSky ? beforeSky : everyLink;
+    started = true;
+    stats.cachesUnread = std::uint32_t(std::ranges::count(read, 0));
+    return changed;
+}
+
+RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
+                                const Progress& progress, const CacheFlags* seen) {
+    const FlushDenormals flush;
+    State& s = *m_state;
+    RelightStats stats;
+    Timer total;
+    s.links = {};
+    const bool changed = s.takeScene(scene, trace, stats);
+    Timer timer;
+    const bool bouncing = bounces > 0 && !s.convergence.reached();
+    if (bouncing) {
+        if (s.unread && !changed) {
+            s.lightRest();
+            stats.cacheLightMs += timer.lap();
+            s.readInner();
+            stats.surfelReadMs += timer.lap();
+        }
+        s.current.assign(s.current.size(), 0);
+    }
+    for (bool last = !bouncing; !last;) {
+        s.convergence.addRound(s.lightSurfels());
+        ++stats.bounces;
+        last = s.convergence.reached() || stats.bounces == bounces || progress.cancelled();
+        stats.surfelLightMs += timer.lap();
+        pullRadiosity(s.bake->tree, s.radiosity);
+        stats.pullMs += timer.lap();
+        if (last)
+            break;
+        s.light(s.innerBands, s.readRuns, s.inner());
+        stats.cacheLightMs += timer.lap();
+        s.readInner();
+        stats.surfelReadMs += timer.lap();
+    }
+    CacheFlags& lit = s.missing;
+    setMissing(s.bake->caches, s.current, seen, lit);
+    stats.converged = s.convergence.reached();
+    stats.passedOn = s.convergence.passedOn();
+    stats.grows = s.convergence.grows();
+    stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
+    if (!stats.skipped) {
+        const bool grid = s.gridLit && (bouncing || s.gridMissing);
+        s.lightSeen(lit, bouncing);
+        if (grid)
+            s.light(s.finalBands, s.gridRuns, s.sh);
+        if (bouncing && (seen == nullptr || stats.bounces < 2))
+            s.lightRest();
+        stats.cacheLightMs += timer.lap();
+        if (bouncing && !s.unread)
+            s.readInner();
+        stats.surfelReadMs += timer.lap();
+        s.writeField(lit, grid);
+        stats.fieldMs = timer.lap();
+    }
+    stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
+    stats.links = s.links.links;
+    stats.linksPassedOver = s.links.passedOver;
+    stats.totalMs = total.lap();
+    return stats;
+}
+
+} // namespace limn

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/indirect_field.h"
+#include "engine/math/sh.h"
+#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/relight/caches/cache_runs.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace limn {
+
+/// Milliseconds and counters of one relight() call, for the statistics panel and --json.
+struct RelightStats {
+    double directMs = 0;      ///< lights onto the surfels, with shadow rays
+    double surfelLightMs = 0; ///< what the surfels send: their light times their albedo
+    double pullMs = 0;        ///< up the cluster tree
+    double cacheLightMs = 0;  ///< links into the caches
+    double surfelReadMs = 0;  ///< bounced light at the surfels, from the caches
+    double fieldMs = 0;       ///< what the viewport samples
+    double dimMs = 0;         ///< which links dynamic objects block; 0 while they stand still
+    double totalMs = 0;
+    std::uint32_t bounces = 0; ///< iterations run by this call
+    std::uint64_t shadowRays = 0;
+    bool converged = false; ///< another bounce would change next to nothing (Convergence)
+    double passedOn = 0; ///< of the light that a bounce brings, by the next (Convergence); 0: not
+                         ///< known yet
+    bool grows = false;  ///< bounces were stopped, because they brought ever more light
+    std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
+    std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
+    std::uint64_t links = 0;     ///< of the caches lit by this call, once for each bounce
+    std::uint64_t linksPassedOver = 0;   ///< of those: what they come from sends no light
+    std::uint32_t bandsLit = 0;          ///< of the caches
+    std::uint32_t bandsSkipped = 0;      ///< bands of the bake that no surface's reflection needs
+    std::uint32_t gridCachesSkipped = 0; ///< nothing would read them
+    std::uint32_t cachesUnread =
+        0; ///< of the lightmap: no surfel reads them, no bounce lights them
+    std::uint32_t cachesUnseen = 0; ///< of the lightmap: the field has older light there
+    std::uint32_t cachesDimmed = 0; ///< that dynamic objects take light from
+    std::uint64_t linksDimmed = 0;  ///< of those
+    bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
+};
+
+/// Which of a bake's bands are lit: those that the scene's surfaces need (receiverBands()), which
+/// are 3 where none is glossy; or all. Of links kept as harmonics those that are needed are copied,
+/// 18 bytes a link for 3 bands.
+enum class LitBands : std::uint8_t { Needed, All };
+
+/// Whether some instance of `scene` is lit from the grid: dynamic, or without lightmap.
+bool needsGrid(const Scene& scene, const LightmapLayout& layout);
+
+/// The live runtime on the CPU. Keeps what did not change since the last call.
+/// Not thread-safe: one thread at a time calls relight().
+class Relighter {
+public:
+    /// `bake` must come from a scene with the same bakeInputHash as the scenes passed to relight().
+    explicit Relighter(std::shared_ptr<const Bake> bake, LitBands lit = LitBands::Needed);
+    ~Relighter();
+
+    /// Brings the field up to date with the lights, materials, sky and, with scene.bake.dimming,
+    /// the dynamic objects of `scene`, by at most `bounces` iterations of B = albedo (E_direct +
+    /// E_indirect(B)) + pi L_e. Call again to converge further. Where scene.bake.maxBounces is
+    /// kFewBounces or less, a change begins anew without bounced light. `trace` answers the shadow
+    /// rays. Cancelled calls leave a valid field.
+    ///
+    /// `seen`: lightmap caches where the field is needed, by seenCaches(); null: all. Others keep
+    /// older light. Bounces light what surfels read; the last one what is seen, and what surfels
+    /// read of the rest is put off until the next call, which drops it where the light has changed
+    /// and goes on with it where not. So light that stands still is the same, bit by bit, for every
+    /// view, and in moving light surfels begin with what they read one bounce earlier; in calls of
+    /// one bounce nothing is put off. Where nothing has changed, or without bounces, only what is
+    /// seen and has older light is lit.
+    RelightStats relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
+                         const Progress& progress = {}, const CacheFlags* seen = nullptr);
+
+    /// Where it holds the light of the last relight(): everything but RelightStats::cachesUnseen.
+    const IndirectField& field() const;
+    const Bake& bake() const;
+
+    /// Radiosity of the tree's nodes, as withLuma [W m^-2]; valid after relight().
+    const std::vector<glm::vec4>& radiosity() const;
+
+    /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
+    /// field()'s. From band chromaBandsOf(settings) on they are grey. Older where field() is.
+    const std::vector<glm::vec3>& cacheSh() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+} // namespace limn

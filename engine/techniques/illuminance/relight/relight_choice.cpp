@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/relight/relight_choice.h"
+
+#include "engine/core/read_file.h"
+#include "engine/core/replace_file.h"
+#include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/bake_bytes.h"
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr int kVersion = 1;
+
+/// {"version": 1, "times": {KEY: {"cpu_ms", "gpu_ms"}, …}}; without times where the file is of no
+/// use.
+Json readTimes(const std::string& file) {
+    const Result<std::string> text = readFile(file);
+    Json json = text ? Json::parse(*text, nullptr, false) : Json();
+    const bool known = json.is_object() && json.value("version", Json()) == kVersion &&
+                       json.value("times", Json()).is_object();
+    return known ? json : Json{{"version", kVersion}, {"times", Json::object()}};
+}
+
+double msOf(const Json& times, const char* key) {
+    const auto at = times.find(key);
+    const double ms = at != times.end() && at->is_number() ? at->get<double>() : 0;
+    return std::isfinite(ms) ? ms : 0;
+}
+
+} // namespace
+
+RelightOn chooseRelight(RelightOn wanted, bool gpuCan, const std::optional<RelightTimes>& times) {
+    if (wanted == RelightOn::Cpu || !gpuCan)
+        return RelightOn::Cpu;
+    if (wanted == RelightOn::Gpu)
+        return RelightOn::Gpu;
+    return times && times->gpuMs < times->cpuMs ? RelightOn::Gpu : RelightOn::Cpu;
+}
+
+std::string relightTimesKey(const std::string& device, std::uint32_t driverVersion,
+                            const Bake& bake) {
+    const std::uint64_t bytes = bytesOf(bake).links;
+    return fmt::format("{}, driver {}, {} threads, links 4^{}", device, driverVersion,
+                       std::thread::hardware_concurrency(), std::bit_width(bytes) / 2);
+}
+
+std::optional<RelightTimes> rememberedRelightTimes(const std::string& file,
+                                                   const std::string& key) {
+    const Json all = readTimes(file)["times"];
+    const auto at = all.find(key);
+    if (at == all.end() || !at->is_object())
+        return {};
+    const RelightTimes times{msOf(*at, "cpu_ms"), msOf(*at, "gpu_ms")};
+    if (!(times.cpuMs > 0) || !(times.gpuMs > 0))
+        return {};
+    return times;
+}
+
+Result<void> rememberRelightTimes(const std::string& file, const std::string& key,
+                                  const RelightTimes& times) {
+    Json json = readTimes(file);
+    json["times"][key] = {{"cpu_ms", times.cpuMs}, {"gpu_ms", times.gpuMs}};
+    std::error_code error; // replaceFile() says what is wrong
+    fs::create_directories(fs::path(file).parent_path(), error);
+    return replaceFile(file, json.dump(1) + '\n');
+}
+
+std::string defaultRelightTimesFile() {
+    const std::string stages = defaultStageFolder();
+    return stages.empty() ? stages : (fs::path(stages).parent_path() / "relight.json").string();
+}
+
+} // namespace limn

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/relight/surfel_light.h"
+
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+#include "engine/scene/light/light_parts.h"
+#include "engine/trace/rectangle_shadow.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+Light withoutName(Light l) {
+    l.name.clear();
+    return l;
+}
+
+/// The light with everything that moves no shadow set to one.
+Light shapeOf(Light l) {
+    l.color = glm::vec3(1);
+    l.strength = 1;
+    return l;
+}
+
+std::uint64_t hashOccluders(const Scene& scene) {
+    std::uint64_t h = 3;
+    for (const Instance& i : scene.instances)
+        h = hashBytes(&i.toWorld, sizeof i.toWorld, hashValue(i.mesh, h));
+    return h;
+}
+
+/// What a light shines from; nothing: a point.
+std::vector<LightRectangle> rectanglesOf(const Light& light, const Scene& scene) {
+    if (light.kind != LightKind::Rectangle)
+        return {};
+    std::vector<LightRectangle> parts;
+    for (const Light& part : partsBetweenWalls(light, scene))
+        parts.push_back(lightRectangle(part));
+    return parts;
+}
+
+// Neighbours shift the points on the rectangle differently, so that what is left of their pattern
+// averages out over a cluster.
+float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>& rectangles,
+                     glm::vec3 p, glm::vec3 n, std::uint32_t surfel, std::uint64_t& rays) {
+    const std::uint32_t bits = mixBits(surfel);
+    const glm::vec2 shift(unitFloat(bits), unitFloat(mixBits(bits)));
+    float sum = 0;
+    for (const LightRectangle& r : rectangles)
+        sum += shadowedIrradiance(trace, r, p, n, SurfelLight::kRectanglePoints, shift, rays);
+    return sum;
+}
+
+float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::vec3 n,
+                 std::uint64_t& rays) {
+    const LightSample sample = sampleLight(light, p);
+    const float cosTheta = glm::dot(n, sample.toLight);
+    if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
+        return 0;
+    ++rays;
+    const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
+    return trace.occluded(ray) ? 0 : sample.irradiance.x * cosTheta;
+}
+
+// Returns the shadow rays traced.
+std::uint64_t traceLight(const Surfels& surfels, const TraceScene& trace,
+                         SurfelLight::PerLight& out) {
+    const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
+    out.share.resize(surfels.size());
+    std::atomic<std::uint64_t> rays = 0;
+    parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t mine = 0;
+        for (std::size_t s = begin; s < end; ++s) {
+            const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
+            out.share[s] = rectangles.empty()
+                               ? pointShare(trace, out.light, p, n, mine)
+                               : rectangleShare(trace, rectangles, p, n, std::uint32_t(s), mine);
+        }
+        rays += mine;
+    });
+    return rays;
+}
+
+void sumLights(std::size_t surfels, SurfelLight& state) {
+    state.irradiance.assign(surfels, glm::vec3(0));
+    parallelRanges(surfels, 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t l = 0; l < state.lights.size(); ++l) {
+            const glm::vec3 strength = state.summed[l].color * state.summed[l].strength;
+            const std::vector<float>& share = state.lights[l].share;
+            for (std::size_t s = begin; s < end; ++s)
+                state.irradiance[s] += glm::min(strength * share[s], kMostIrradiance);
+        }
+    });
+}
+
+} // namespace
+
+bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
+                       SurfelLight& state) {
+    state.lightsTraced = 0;
+    state.raysTraced = 0;
+    if (state.irradiance.size() != surfels.size())
+        state.bounds = boundsOf(surfels.position);
+    std::vector<Light>& lights = state.wanted;
+    lights.clear();
+    for (const Light& l : scene.lights)
+        if (shines(l) && reaches(l, state.bounds))
+            lights.push_back(withoutName(l));
+    const std::uint64_t occluders = hashOccluders(trace.scene());
+    if (occluders != state.occluders)
+        for (SurfelLight::PerLight& light : state.lights)
+            light.light.enabled = false; // no light that shines
+    else if (lights == state.summed && state.irradiance.size() == surfels.size())
+        return false;
+    state.occluders = occluders;
+
+    const auto hasShare = [](const SurfelLight::PerLight& l) { return !l.share.empty(); };
+    std::vector<SurfelLight::PerLight>& known = state.known;
+    known.clear();
+    std::swap(known, state.lights);
+    for (const Light& light : lights) {
+        state.lights.push_back({shapeOf(light), {}});
+        SurfelLight::PerLight& next = state.lights.back();
+        const auto same = std::ranges::find_if(
+            known, [&](const auto& l) { return l.light == next.light && hasShare(l); });
+        if (same != known.end())
+            std::swap(next.share, same->share);
+    }
+    auto gone = known.begin(); // whose memory is of use
+    for (SurfelLight::PerLight& light : state.lights) {
+        if (hasShare(light))
+            continue;
+        gone = std::find_if(gone, known.end(), hasShare);
+        if (gone != known.end())
+            std::swap(light.share, gone->share);
+        state.raysTraced += traceLight(surfels, trace, light);
+        ++state.lightsTraced;
+    }
+    std::swap(state.summed, lights);
+    std::swap(state.before, state.irradiance);
+    sumLights(surfels.size(), state);
+    return state.before != state.irradiance;
+}
+
+} // namespace limn

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// What surfaces emit and what bounced light makes of them, in one of the limn::View: one pass for each number of bands
+// that surfaces in the picture read.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/gpu_frame.h"
+#include "shaders/shared/gpu_material.h"
+#define SH_BANDS_CONSTANT 2
+#include "shaders/shared/sh_bands.glsl"
+#include "shaders/shared/specular.glsl"
+#include "shaders/shared/sh_field.glsl"
+#include "shaders/shared/surface_pack.glsl"
+
+layout(constant_id = 0) const uint kView = VIEW_LIT;
+layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID: what any surface reads
+layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
+layout(constant_id = 3) const bool kFirst = true; // of the passes: it writes pixels of other bands and the background too
+
+layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
+layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
+layout(set = 0, binding = 5, std430) readonly buffer Grid { uvec2 grid[]; };
+layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
+layout(set = 0, binding = 9) uniform sampler2D emittedImage;
+layout(set = 0, binding = 11) uniform sampler2DArray reflectionTable;
+
+layout(location = 0) out vec4 outColor;
+
+#include "shaders/shared/grid_depth.glsl"
+#include "shaders/shared/seen_surface.glsl"
+
+/// Two sums over the harmonics of the light that reaches the surface by bounces. Unrolled: on a software rasteriser a
+/// loop over 64 lookups takes half as long again.
+struct FieldSums {
+    vec3 irradiance, lobe;
+};
+
+// As engine/field/field_packing.h: coefficients in colour, then grey ones, in layers of four values.
+const int kColoured = kChroma < kBands ? kChroma * kChroma : kCoefficients;
+const int kGreyFrom = 3 * kChroma * kChroma;
+const int kValues = kChroma < kBands ? kGreyFrom + kCoefficients - kColoured : 3 * kCoefficients;
+const int kLayers = (kValues + 3) / 4;
+
+void addValues(inout FieldSums sums, int layer, vec4 values, float irradiance[kCoefficients], float lobe[kCoefficients]) {
+    [[unroll]] for (int q = 0; q < 4; ++q) {
+        const int v = 4 * layer + q;
+        if (v < 3 * kColoured) {
+            sums.irradiance[v % 3] += irradiance[v / 3] * values[q];
+            sums.lobe[v % 3] += lobe[v / 3] * values[q];
+        } else if (v < kValues) {
+            sums.irradiance += irradiance[v - 2 * kColoured] * values[q];
+            sums.lobe += lobe[v - 2 * kColoured] * values[q];
+        }
+    }
+}
+
+FieldSums readLightmap(vec2 uv, float irradiance[kCoefficients], float lobe[kCoefficients]) {
+    FieldSums sums = FieldSums(vec3(0), vec3(0));
+    [[unroll]] for (int k = 0; k < kLayers; ++k)
+        addValues(sums, k, textureLod(lightmap, vec3(uv, k), 0.0), irradiance, lobe);
+    return sums;
+}
+
+FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], float lobe[kCoefficients]) {
+    FieldSums sums = FieldSums(vec3(0), vec3(0));
+    const ivec3 last = ivec3(frame.gridSize) - 1;
+    const vec3 x = clamp((position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
+    const ivec3 lower = min(ivec3(x), last);
+    const vec3 f = x - vec3(lower);
+    const vec3 cellSize = 1.0 / frame.gridScale; // the rest as sampleIrradiance of the CPU
+    const vec3 clear = position + normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
+    float sum = 0.0;
+    for (int k = 0; k < 8; ++k) {
+        const ivec3 high = ivec3(k & 1, (k >> 1) & 1, k >> 2);
+        const ivec3 cell = min(lower + high, last);
+        const vec3 w = mix(1.0 - f, f, vec3(high));
+        const uint index =
+            (uint(cell.z) * frame.gridSize.y + uint(cell.y)) * frame.gridSize.x + uint(cell.x);
+        float weight = w.x * w.y * w.z;
+        if (frame.gridReach > 0.0) {
+            const vec3 centre = frame.gridLower + (vec3(cell) + 0.5) * cellSize;
+            weight *= 1e-5 + seenFromCell(index, clear - centre, frame.gridReach);
+        }
+        sum += weight;
+        [[unroll]] for (int layer = 0; layer < kLayers; ++layer) {
+            const uvec2 halfs = grid[uint(layer) * frame.gridCells + index];
+            addValues(sums, layer, weight * vec4(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y)), irradiance, lobe);
+        }
+    }
+    return FieldSums(sums.irradiance / sum, sums.lobe / sum);
+}
+
+/// Irradiance, and mean radiance in the lobe that the surface reflects, both at least 0.
+FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid) {
+    FieldSums sums = FieldSums(vec3(0), vec3(0));
+    float irradiance[kCoefficients], lobe[kCoefficients];
+    irradianceWeights(s.detailNormal, irradiance);
+    lobeWeights(axis, factors, lobe); // in VIEW_LIT alone
+    const bool lightmapRead = (kFeatures & FEATURE_LIGHTMAP) != 0 && !fromGrid,
+               gridRead = (kFeatures & FEATURE_GRID) != 0 && fromGrid;
+    // Loops, because software rasterisers work branches out that no pixel of a block takes.
+    for (int once = 0; once < int(lightmapRead); ++once)
+        sums = readLightmap(s.lightmapUv, irradiance, lobe);
+    for (int once = 0; once < int(gridRead); ++once)
+        sums = readGrid(s.position, s.detailNormal, irradiance, lobe);
+    return FieldSums(max(sums.irradiance, 0.0) * frame.fieldUnit, max(sums.lobe, 0.0) * frame.fieldUnit);
+}
+
+vec3 bouncedLight(PackedSurface s, bool fromGrid) {
+    const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
+    ReflectionLobe reflection = reflectionLobe(reflectionTable, s.roughness, NoV, kBands);
+    windowFactors(reflection.factors);
+    const vec3 axis = normalize(reflection.towards.x * s.detailNormal +
+                                reflection.towards.y * reflect(-s.toEye, s.detailNormal));
+    const FieldSums field = readField(s, axis, reflection.factors, fromGrid);
+    if (kView == VIEW_IRRADIANCE)
+        return field.irradiance;
+    const vec3 diffuse = s.albedo * field.irradiance / kPi;
+    if (kView != VIEW_LIT)
+        return diffuse;
+    const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
+    const float seen = fromGrid ? 1.0 : hemisphereSeen(reflection.factors, dot(axis, s.geometricNormal));
+    return diffuse + (F0 * reflection.share.x + reflection.share.y) * field.lobe / seen;
+}
+
+void main() {
+    const vec4 emitted = texelFetch(emittedImage, ivec2(gl_FragCoord.xy), 0);
+    const bool own = abs(emitted.a) == float(kBands);
+    if (!kFirst && !own)
+        discard;
+    const float depth = texelFetch(depthImage, ivec2(gl_FragCoord.xy), 0).r;
+    vec3 radiance = depth > 0.0 ? emitted.rgb : frame.background;
+    for (int once = 0; once < int(own); ++once)
+        radiance += bouncedLight(seenSurface(depth), emitted.a < 0.0);
+    outColor = vec4(radiance, 1);
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "engine/lightmap/texel_sides.h"
+
+#include "engine/core/parallel.h"
+#include "engine/lightmap/charts.h"
+#include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
+#include "tests/techniques/illuminance/bake/parted_hall.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace limn {
+namespace {
+
+constexpr float kWall = 3.7f;
+/// Of halls: so that texels lie about the wall in several ways.
+constexpr std::uint32_t kTexels[] = {300, 470, 800};
+
+std::vector<std::pair<float, std::uint32_t>> halls() {
+    std::vector<std::pair<float, std::uint32_t>> result;
+    for (const float wall : {0.f, 0.01f, 0.1f})
+        for (const std::uint32_t texels : kTexels)
+            result.emplace_back(wall, texels);
+    return result;
+}
+
+Atlas atlasOf(const Scene& scene) {
+    std::vector<MeshCharts> charts;
+    for (const Mesh& m : scene.assets->meshes)
+        charts.push_back(buildCharts(m));
+    return buildAtlas(scene, std::move(charts), scene.bake);
+}
+
+/// Which sides of the wall a texel of the hall has points on; within the wall is neither.
+struct Reach {
+    bool left = false, right = false;
+};
+
+Reach reachOf(const Scene& scene, const AtlasTexel& texel, float wall) {
+    Reach reach;
+    for (std::uint32_t k = 0; k < texel.count; ++k) {
+        const float x = texelPoint(scene, texel, k).position.x;
+        reach.left |= x < kWall;
+        reach.right |= x > kWall + wall;
+    }
+    return reach;
+}
+
+TEST(TexelSides, NoTexelHasPointsOnBothSidesOfAWall) {
+    int before = 0;
+    for (const auto& [wall, texels] : halls()) {
+        const Scene scene = partedHall(wall, texels);
+        const TraceScene trace(scene);
+        const Atlas atlas = atlasOf(scene);
+        const TexelSides sides = findTexelSides(trace, atlas, {}, {});
+        ASSERT_EQ(sides.texels.size(), atlas.texels.size());
+        for (std::size_t i = 0; i < atlas.texels.size(); ++i) {
+            if (atlas.texels[i].instance != 0)
+                continue;
+            const Reach was = reachOf(scene, atlas.texels[i], wall),
+                        is = reachOf(scene, sides.texels[i], wall);
+            before += was.left && was.right;
+            EXPECT_FALSE(is.left && is.right) << wall << " m, texel " << i;
+        }
+    }
+    EXPECT_GT(before, 100) << "nothing to part";
+}
+
+/// Of random points of the hall, at least so many cells from the wall: how many lookups read a
+/// texel that has points beyond it.
+int readsBeyond(const Scene& scene, const Atlas& atlas, float wall, float cells) {
+    const LightmapLayout& layout = atlas.layout;
+    std::vector<std::uint32_t> at(std::size_t(layout.width) * layout.height, ~0U);
+    for (std::uint32_t i = 0; i < atlas.texels.size(); ++i)
+        at[atlas.texels[i].texel] = i;
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const Mesh& mesh = scene.assets->meshes[0];
+    const float apart = cells / (float(kSnapCells) * atlas.texelsPerMetre);
+    int beyond = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto t = std::uint32_t(rng() % mesh.triangleCount());
+        const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
+        const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x;
+        if (x > kWall - apart && x < kWall + wall + apart)
+            continue;
+        const Bilinear lookup = bilinearAt(layout, lightmapUv(layout, 0, 0, t, uv.x, uv.y, false));
+        bool wrong = false;
+        for (int k = 0; k < 4; ++k)
+            if (lookup.weight[k] > 1e-3f) {
+                const Reach reach = reachOf(scene, atlas.texels[at[lookup.texel[k]]], wall);
+                wrong |= x < kWall ? reach.right : reach.left;
+            }
+        beyond += wrong;
+    }
+    return beyond;
+}
+
+TEST(TexelSides, SnappedLookupsReadNothingBeyondAWall) {
+    for (const auto& [wall, texels] : halls()) {
+        const Scene scene = partedHall(wall, texels);
+        const TraceScene trace(scene);
+        Atlas atlas = atlasOf(scene);
+        TexelSides sides = findTexelSides(trace, atlas, {}, {});
+        atlas.texels = std::move(sides.texels);
+        EXPECT_GT(readsBeyond(scene, atlas, wall, 0.55f), 100) << "nothing to snap";
+        atlas.layout.snaps = std::move(sides.snaps);
+        EXPECT_EQ(readsBeyond(scene, atlas, wall, 0.55f), 0) << wall << " m, " << texels;
+    }
+}
+
+// Where the middle of a cell lies in the wall, and a strip of it does not.
+TEST(TexelSides, LookupsAtTheFootOfAThickWallReadNothingBeyondIt) {
+    for (std::uint32_t texels = 300; texels < 800; texels += 25) {
+        const float wall = 0.5f;
+        const Scene scene = partedHall(wall, texels);
+        const TraceScene trace(scene);
+        Atlas atlas = atlasOf(scene);
+        TexelSides sides = findTexelSides(trace, atlas, {}, {});
+        atlas.texels = std::move(sides.texels);
+        atlas.layout.snaps = std::move(sides.snaps);
+        EXPECT_EQ(readsBeyond(scene, atlas, wall, 0), 0) << texels;
+    }
+}
+
+TEST(TexelSides, ASceneWithoutWallsHasNoSnaps) {
+    Scene scene = partedHall(0, 500);
+    scene.instances.resize(1);
+    const TraceScene trace(scene);
+    const TexelSides sides = findTexelSides(trace, atlasOf(scene), {}, {});
+    EXPECT_TRUE(sides.snaps.empty());
+    EXPECT_EQ(std::ranges::count(sides.open, 0), 0);
+}
+
+TEST(TexelSides, AreAlikeForAnyNumberOfThreads) {
+    const Scene scene = partedHall(0.1f, 500);
+    const TraceScene trace(scene);
+    const Atlas atlas = atlasOf(scene);
+    const auto found = [&](int threads) {
+        const ThreadLimit limit(threads);
+        return findTexelSides(trace, atlas, {}, {});
+    };
+    const TexelSides one = found(1), two = found(2);
+    EXPECT_EQ(one.snaps, two.snaps);
+    EXPECT_EQ(one.open, two.open);
+    EXPECT_EQ(one.rays, two.rays);
+    for (std::size_t i = 0; i < one.texels.size(); ++i) {
+        EXPECT_EQ(one.texels[i].count, two.texels[i].count);
+        EXPECT_EQ(one.texels[i].points, two.texels[i].points);
+    }
+}
+
+} // namespace
+} // namespace limn

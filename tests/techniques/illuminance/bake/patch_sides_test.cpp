@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/senders/patch_sides.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
+#include "engine/techniques/illuminance/bake/senders/owner_tables.h"
+#include "tests/techniques/illuminance/bake/parted_hall.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace limn {
+namespace {
+
+constexpr float kWall = 3.7f;
+
+/// Of random points of the hall that lie further than a surfel's table has cells from the wall:
+/// how many belong to surfels beyond it.
+int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owners, float wall) {
+    std::mt19937 rng(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const Mesh& mesh = scene.assets->meshes[0];
+    int beyond = 0;
+    std::vector<float> side; // cells along a triangle's sides: of n, n (n + 1) / 2 meet it
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+        float cells = 0;
+        owners.of(0).forCellsOf(t, [&](std::uint32_t, glm::vec2, double) { ++cells; });
+        side.push_back(std::floor(std::sqrt(2 * cells)));
+    }
+    for (int i = 0; i < 20000; ++i) {
+        const auto t = std::uint32_t(rng() % mesh.triangleCount());
+        const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
+        const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x,
+                    cell = 8 / side[t];
+        if (x > kWall - cell && x < kWall + wall + cell)
+            continue;
+        const std::uint32_t owner = owners.at(0, t, uv.x, uv.y, false);
+        EXPECT_EQ(set.surfels.instance[owner], 0U);
+        beyond += (set.surfels.position[owner].x < kWall) != (x < kWall);
+    }
+    return beyond;
+}
+
+TEST(PatchSides, PatchesEndAtWalls) {
+    for (const float wall : {0.f, 0.01f, 0.1f}) {
+        const Scene scene = partedHall(wall, 500);
+        const TraceScene trace(scene);
+        const SurfelSet set = placeSurfels(scene, 500);
+        OwnerTables owners(scene, set);
+        EXPECT_GT(beyondWall(scene, set, owners, wall), 0) << "nothing to cut";
+        const PatchSides sides = findPatchSides(trace, set, owners, {});
+        EXPECT_GT(sides.rays, 0U);
+        owners.part(sides);
+        EXPECT_EQ(beyondWall(scene, set, owners, wall), 0) << wall;
+    }
+}
+
+TEST(PatchSides, SayWhichSurfelsTheyChange) {
+    const Scene scene = partedHall(0, 500);
+    const TraceScene trace(scene);
+    const SurfelSet set = placeSurfels(scene, 500);
+    const OwnerTables owners(scene, set);
+    const PatchSides sides = findPatchSides(trace, set, owners, {});
+    ASSERT_EQ(sides.changed.size(), set.surfels.size());
+    ASSERT_EQ(sides.owner[0].size(), owners.of(0).cells());
+    std::vector<bool> changed(set.surfels.size());
+    for (std::uint32_t c = 0; c < owners.of(0).cells(); ++c)
+        if (sides.owner[0][c] != owners.of(0).front(c))
+            changed[sides.owner[0][c]] = changed[owners.of(0).front(c)] = true;
+    for (std::uint32_t s = 0; s < set.instanceBegin[1]; ++s)
+        EXPECT_EQ(sides.changed[s] != 0, changed[s]) << s;
+}
+
+TEST(PatchSides, AreNoneWithoutWallsAndAlikeForAnyNumberOfThreads) {
+    Scene open = partedHall(0, 500);
+    open.instances.resize(1);
+    {
+        const SurfelSet set = placeSurfels(open, 500);
+        const OwnerTables owners(open, set);
+        const TraceScene trace(open);
+        const PatchSides sides = findPatchSides(trace, set, owners, {});
+        EXPECT_TRUE(sides.owner[0].empty());
+        EXPECT_TRUE(sides.changed.empty());
+    }
+    const Scene scene = partedHall(0.1f, 500);
+    const TraceScene trace(scene);
+    const SurfelSet set = placeSurfels(scene, 500);
+    const OwnerTables owners(scene, set);
+    const auto found = [&](int threads) {
+        const ThreadLimit limit(threads);
+        return findPatchSides(trace, set, owners, {});
+    };
+    const PatchSides one = found(1), two = found(2);
+    EXPECT_EQ(one.owner, two.owner);
+    EXPECT_EQ(one.changed, two.changed);
+    EXPECT_EQ(one.rays, two.rays);
+}
+
+} // namespace
+} // namespace limn

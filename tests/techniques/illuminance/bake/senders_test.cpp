@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "engine/math/nearest_point.h"
+#include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/bake/senders/owner_tables.h"
+#include "engine/techniques/illuminance/bake/senders/surfels.h"
+#include "engine/techniques/illuminance/bake/tree_shape.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <random>
+
+namespace limn {
+namespace {
+
+using namespace simple;
+
+Scene twoRooms() {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    Material curtain = lambert(glm::vec3(0.5f));
+    curtain.doubleSided = true;
+    b.addMaterial(curtain);
+    const std::uint32_t room = b.addMesh(box(glm::vec3(0), glm::vec3(1, 2, 3), true));
+    b.addInstance(room);
+    b.addInstance(room, glm::mat4(glm::vec4(2, 0, 0, 0), glm::vec4(0, 1, 0, 0),
+                                  glm::vec4(0, 0, 0.5f, 0), glm::vec4(7, 0, 0, 1)));
+    b.add(quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1));
+    return b.build();
+}
+
+TEST(Surfels, AreasSumToTheLitSidesExactly) {
+    const Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 5000);
+    // Rooms of 22 m^2 and 2 (2 * 2 + 2 * 1.5 + 2 * 1.5) = 20 m^2; a curtain of 1 m^2 with two
+    // sides. The second room's faces stretch differently.
+    std::vector<double> area(3);
+    for (std::size_t i = 0; i < set.surfels.size(); ++i)
+        area[set.surfels.instance[i]] += set.surfels.area[i];
+    EXPECT_NEAR(area[0], 22, 1e-3);
+    EXPECT_NEAR(area[1], 20, 1e-3);
+    EXPECT_NEAR(area[2], 2, 1e-4);
+    EXPECT_NEAR(double(set.surfels.size()), 5000, 100);
+}
+
+// Relaxation pushes surfels of the large faces onto the rim, which gets more of them than its area
+// asks for.
+TEST(Surfels, AreasThatTheyOwnAreThoseOfTheirSides) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box({-0.5f, -0.003f, -0.5f}, {0.5f, 0.003f, 0.5f}, false));
+    b.add(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, false),
+          glm::mat4(glm::vec4(2, 0, 0, 0), glm::vec4(0, 0.5f, 0, 0), glm::vec4(0, 0, 3, 0),
+                    glm::vec4(7, 0, 0, 1)));
+    const Scene scene = b.build();
+    const SurfelSet set = placeSurfels(scene, 3000);
+    const OwnerTables owners(scene, set);
+    const std::vector<float> area = ownedAreas(scene, set, owners);
+    double rim = 0, placedFor = 0, plate = 0, block[3] = {};
+    for (std::size_t i = 0; i < area.size(); ++i) {
+        EXPECT_GT(area[i], 0);
+        const glm::vec3 n = glm::abs(set.surfels.normal[i]);
+        if (set.surfels.instance[i] == 0) {
+            plate += double(area[i]);
+            rim += n.y < 0.5f ? double(area[i]) : 0;
+            placedFor += n.y < 0.5f ? double(set.surfels.area[i]) : 0;
+        } else {
+            block[n.x > 0.5f ? 0 : n.y > 0.5f ? 1 : 2] += double(area[i]);
+        }
+    }
+    EXPECT_GT(placedFor, 3 * 0.024) << "nothing to put right";
+    EXPECT_NEAR(rim, 0.024, 0.002);
+    EXPECT_NEAR(plate, 2.024, 1e-4);
+    EXPECT_NEAR(block[0], 2 * 3 * 0.5, 0.03);
+    EXPECT_NEAR(block[1], 2 * 2 * 3, 0.03);
+    EXPECT_NEAR(block[2], 2 * 2 * 0.5, 0.03);
+}
+
+TEST(Surfels, LieOnTheirTrianglesAndFaceTheirSide) {
+    const Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 2000);
+    for (std::size_t i = 0; i < set.surfels.size(); ++i) {
+        const Instance& instance = scene.instances[set.surfels.instance[i]];
+        const auto [a, b, c] = scene.meshOf(instance).triangle(set.surfels.triangle[i]);
+        const auto& p = scene.meshOf(instance).positions;
+        const glm::vec2 uv = set.surfels.barycentric[i];
+        const glm::vec3 at =
+            instance.toWorld * glm::vec4(p[a] * (1 - uv.x - uv.y) + p[b] * uv.x + p[c] * uv.y, 1);
+        EXPECT_LT(glm::length(at - set.surfels.position[i]), 1e-5f);
+        EXPECT_NEAR(glm::length(set.surfels.normal[i]), 1, 1e-5);
+    }
+}
+
+TEST(NearestPoint, AgreesWithBruteForce) {
+    std::mt19937 rng(1);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    std::vector<glm::vec3> points, normals;
+    const auto vec = [&] { return glm::vec3(unit(rng), unit(rng), unit(rng)); };
+    for (int i = 0; i < 500; ++i) {
+        points.push_back(vec());
+        normals.push_back(glm::normalize(vec()));
+    }
+    const float spacing = 0.2f;
+    const NearestPoint nearest(points, normals, spacing);
+    for (int i = 0; i < 500; ++i) {
+        const glm::vec3 p = vec(), n = glm::normalize(vec());
+        const auto cost = [&](std::uint32_t k) {
+            return glm::dot(points[k] - p, points[k] - p) +
+                   16 * spacing * spacing * (1 - glm::dot(normals[k], n));
+        };
+        float best = 1e30f;
+        for (std::uint32_t k = 0; k < points.size(); ++k)
+            best = std::min(best, cost(k));
+        EXPECT_NEAR(cost(nearest.find(p, n)), best, 1e-6);
+        std::vector<float> all;
+        for (std::uint32_t k = 0; k < points.size(); ++k)
+            all.push_back(cost(k));
+        std::sort(all.begin(), all.end());
+        std::array<NearestPoint::Near, 5> some;
+        ASSERT_EQ(nearest.findSome(p, n, some), 5U);
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            EXPECT_NEAR(some[k].cost, all[k], 1e-6);
+            EXPECT_EQ(some[k].cost, cost(some[k].point));
+        }
+    }
+    std::array<NearestPoint::Near, 501> more;
+    EXPECT_EQ(nearest.findSome(glm::vec3(0), glm::vec3(0, 0, 1), more), 500U);
+    EXPECT_EQ(NearestPoint({}, {}, 1).findSome(glm::vec3(0), glm::vec3(0, 0, 1), more), 0U);
+}
+
+TEST(SurfelOwners, GiveANearbySurfelOfTheSameFace) {
+    const Mesh mesh = box(glm::vec3(0), glm::vec3(1), true);
+    const MeshSurfels surfels = placeSurfels(mesh, 600, true, SurfelPlacement::Relaxed);
+    const SurfelOwners owners(mesh, surfels);
+    std::mt19937 rng(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 2000; ++i) {
+        const auto t = std::uint32_t(rng() % mesh.triangleCount());
+        const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
+        const auto [a, b, c] = mesh.triangle(t);
+        const glm::vec3 p = mesh.positions[a] * (1 - uv.x - uv.y) + mesh.positions[b] * uv.x +
+                            mesh.positions[c] * uv.y;
+        const std::uint32_t front = owners.at(t, uv.x, uv.y, false),
+                            back = owners.at(t, uv.x, uv.y, true);
+        EXPECT_LT(glm::length(surfels.position[front] - p), 4 * std::sqrt(surfels.area));
+        EXPECT_GT(glm::dot(surfels.normal[front], mesh.normals[a]), 0.9f);
+        EXPECT_LT(glm::dot(surfels.normal[back], mesh.normals[a]), -0.9f);
+    }
+}
+
+TEST(ClusterTree, IsOneBinaryTreeWithParentsAfterChildren) {
+    Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 1000);
+    for (const Clustering how : {Clustering::Agglomerative, Clustering::KdTree}) {
+        scene.bake.clustering = how;
+        const ClusterTree tree = buildClusterTree(scene, set);
+        ASSERT_EQ(tree.left.size() + 1, tree.leaves());
+        std::vector<int> parents(tree.size());
+        for (std::uint32_t k = 0; k < tree.left.size(); ++k) {
+            const std::uint32_t node = tree.leaves() + k;
+            for (const std::uint32_t child : {tree.left[k], tree.right[k]}) {
+                EXPECT_LT(child, node);
+                EXPECT_EQ(tree.parent[child], node);
+                ++parents[child];
+            }
+            EXPECT_GT(tree.leftWeight[k], 0);
+            EXPECT_LT(tree.leftWeight[k], 1);
+        }
+        for (std::uint32_t n = 0; n + 1 < tree.size(); ++n)
+            EXPECT_EQ(parents[n], 1) << n;
+        EXPECT_EQ(tree.parent[tree.size() - 1], ~0U);
+    }
+}
+
+TEST(ClusterTree, InstancesRepeatTheirMeshsTree) {
+    Scene scene = twoRooms();
+    const SurfelSet set = placeSurfels(scene, 1000);
+    for (const Clustering how : {Clustering::Agglomerative, Clustering::KdTree}) {
+        scene.bake.clustering = how;
+        const ClusterTree tree = buildClusterTree(scene, set);
+        const std::uint32_t n = set.instanceBegin[1], inner = n - 1;
+        const auto inSecond = [&](std::uint32_t child) {
+            return child < n ? child + n : child + inner;
+        };
+        for (std::uint32_t k = 0; k < inner; ++k) {
+            EXPECT_EQ(tree.left[inner + k], inSecond(tree.left[k]));
+            EXPECT_EQ(tree.right[inner + k], inSecond(tree.right[k]));
+        }
+    }
+}
+
+TEST(TreeShape, OfAKnownTree) {
+    ClusterTree tree;
+    tree.surfels = 3;
+    tree.skyCells = 1;
+    tree.left = {0, 4, 5}; // ((0 1) 2) sky
+    tree.right = {1, 2, 3};
+    const TreeShape shape = treeShapeOf(tree);
+    EXPECT_EQ(shape.mostDepth, 3U);
+    EXPECT_NEAR(shape.meanDepth, 8 / 3.0, 1e-12);
+    EXPECT_NEAR(shape.balance, 0.75, 1e-12);
+}
+
+TEST(Sky, CellsHaveEqualSolidAngleAndContainTheirDirection) {
+    const Scene scene = twoRooms();
+    const ClusterTree tree = buildClusterTree(scene, placeSurfels(scene, 100));
+    for (std::uint32_t c = 0; c < kSkyCells; ++c)
+        EXPECT_EQ(skyCellOf(tree.skyDirection[c]), c);
+    const DirectionSet set(256000, true, 9);
+    std::vector<int> hits(kSkyCells);
+    for (std::uint32_t i = 0; i < set.count; ++i)
+        ++hits[skyCellOf(set[i])];
+    for (const int h : hits)
+        EXPECT_NEAR(h, 1000, 60);
+}
+
+} // namespace
+} // namespace limn
