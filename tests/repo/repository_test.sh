@@ -130,6 +130,18 @@ files_stay_small() {
         END { report(limit_of(last)); exit bad }'
 }
 
+# A header compiles alone if a source includes nothing before it.
+sources_include_theirs_first() {
+    local bad=0 source own
+    while read -r source; do
+        own=${source%.cpp}.h
+        [ -e "$own" ] || continue
+        [ "$(grep -m 1 -oE '^ *# *include *[<"][^>"]+' "$source" | sed 's/.*[<"]//')" = "$own" ] ||
+            { echo "$source: includes something before $own"; bad=1; }
+    done < <(files '^(engine|editor_ui|app)/.*\.cpp$')
+    return $bad
+}
+
 # Paths of one machine; written in two parts here so that this line is not one of them.
 names_no_machine_path() {
     ! files '\.(cpp|h|glsl|vert|frag|comp|sh|md|txt|cmake|json|gltf|limn)$|^run$|^check$|^\.ci/' |

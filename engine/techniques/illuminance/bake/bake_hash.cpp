@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/hash.h"
-#include "engine/core/parallel.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 
@@ -30,17 +29,6 @@ std::uint64_t hashSettings(const BakeSettings& s, std::uint64_t h) {
     return hashValue(s.texelsPerMetre, h);
 }
 
-std::uint64_t hashTexture(const Assets& assets, const TextureRef& t, std::uint64_t h) {
-    h = hashValue(t.image, hashValue(t.texCoord, h));
-    for (const float v : {t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation})
-        h = hashValue(v, h);
-    h = hashValue(
-        std::uint32_t(t.wrapU) << 16 | std::uint32_t(t.wrapV) << 8 | std::uint32_t(t.nearest), h);
-    if (t.image >= 0)
-        h = hashVector(assets.images[std::size_t(t.image)].rgba, h);
-    return h;
-}
-
 } // namespace
 
 std::uint64_t Bake::hash() const {
@@ -59,34 +47,6 @@ std::uint64_t Bake::hash() const {
     h = hashVector(c.linkExponent, hashVector(c.shNode, hashVector(c.shCoefficients, h)));
     h = hashVector(gridDepth, h);
     return hashVector(c.fillBegin, hashVector(c.fillSource, hashVector(c.fillWeight, h)));
-}
-
-std::uint64_t hashMesh(const Mesh& mesh) {
-    const std::uint64_t h = hashVector(mesh.positions, hashVector(mesh.indices, 5));
-    return hashVector(mesh.normals, hashVector(mesh.uv0, hashVector(mesh.uv1, h)));
-}
-
-std::vector<std::uint64_t> hashMeshes(const Scene& scene) {
-    std::vector<std::uint64_t> hashes(scene.assets ? scene.assets->meshes.size() : 0);
-    parallelRanges(hashes.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t m = begin; m < end; ++m)
-            hashes[m] = hashMesh(scene.assets->meshes[m]);
-    });
-    return hashes;
-}
-
-std::uint64_t hashSurface(const Scene& scene, const Material& m, std::uint64_t seed) {
-    std::uint64_t h =
-        hashValue(std::uint32_t(m.doubleSided) << 8 | std::uint32_t(m.alphaMode), seed);
-    if (isCutout(m)) {
-        h = hashValue(m.alphaCutoff, hashValue(m.baseColor.w, h));
-        h = hashTexture(*scene.assets, m.baseColorTexture, h);
-    }
-    return h;
-}
-
-bool emits(const Material& m) {
-    return m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
 }
 
 std::uint64_t bakeInputHash(const Scene& scene) {
