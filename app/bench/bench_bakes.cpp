@@ -4,7 +4,7 @@
 #include "app/commands/progress_line.h"
 
 #include "engine/core/parallel.h"
-#include "engine/files/document_fields.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/stages/stage_store.h"
 
 #include <filesystem>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
 #include "app/bench/bench_generated.h"
+#include "app/bench/settings_sweep.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
 
 #include "engine/core/parallel.h"
-#include "engine/files/document_fields.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/measure/seams.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
 #include "engine/techniques/illuminance/measure/cache_error.h"
@@ -29,55 +30,19 @@ struct ErrorBench {
     std::vector<std::string> scenes;
     std::string output;
     GeneratedBench generated; ///< instead of scenes, where it has some
-    std::vector<std::uint32_t> surfels = {16384, 32768, 131072}, links = {32, 64, 128, 256, 512};
-    std::vector<std::string> linkers = {"gather"};
-    std::vector<std::string> cuts = {"solid-angle", "detail"};
-    std::vector<std::string> clusterings = {"kd", "agglomerative"};
-    std::vector<std::uint32_t> rays = {1024}, lightmaps = {10000};
-    std::uint32_t bands = 3;
+    SettingsSweep sweep;
     std::uint32_t caches = 1000, referenceRays = 16384;
     int threads = 0;
     bool json = false;
 };
 
-/// The settings of every row, so that what is traced stays known from row to row.
-std::vector<BakeSettings> sweep(const ErrorBench& o) {
-    std::vector<BakeSettings> rows = {BakeSettings{}};
-    rows.front().bands = o.bands;
-    const auto vary = [&](const auto& values, const auto& set) {
-        std::vector<BakeSettings> varied;
-        for (const BakeSettings& row : rows)
-            for (const auto& value : values)
-                set(varied.emplace_back(row), value);
-        rows = std::move(varied);
-    };
-    using S = BakeSettings;
-    vary(o.lightmaps, [](S& s, std::uint32_t n) { s.lightmapCaches = n; });
-    vary(o.rays, [](S& s, std::uint32_t n) { s.rays = n; });
-    vary(o.surfels, [](S& s, std::uint32_t n) { s.surfels = n; });
-    vary(o.linkers, [](S& s, const std::string& l) { s.linker = named<Linker>(kLinkerNames, l); });
-    vary(o.clusterings,
-         [](S& s, const std::string& c) { s.clustering = named<Clustering>(kClusteringNames, c); });
-    vary(o.cuts, [](S& s, const std::string& c) { s.cut = named<CutCriterion>(kCutNames, c); });
-    vary(o.links, [](S& s, std::uint32_t n) { s.links = n; });
-    return rows;
-}
-
-/// What was not given on the command line has the document's default, not the sweep's.
-void useDefaults(const CLI::App& command, ErrorBench& o) {
-    const BakeSettings s;
-    const auto single = [&](const char* flag, auto& values, auto value) {
-        if (command.count(flag) == 0)
-            values = {std::move(value)};
-    };
-    single("--surfels", o.surfels, s.surfels);
-    single("--links", o.links, s.links);
-    single("--rays", o.rays, s.rays);
-    single("--lightmap", o.lightmaps, s.lightmapCaches);
-    single("--linker", o.linkers, std::string(kLinkerNames[std::size_t(s.linker)]));
-    single("--cut", o.cuts, std::string(kCutNames[std::size_t(s.cut)]));
-    single("--clustering", o.clusterings, std::string(kClusteringNames[std::size_t(s.clustering)]));
-}
+/// What is tried where the command line says nothing; generated scenes have the defaults alone.
+const SettingsSweep kUsualSweep = {{"surfels", {"16384", "32768", "131072"}},
+                                   {"links", {"32", "64", "128", "256", "512"}},
+                                   {"cut", {"solid-angle", "detail"}},
+                                   {"clustering", {"kd", "agglomerative"}},
+                                   {"rays", {"1024"}},
+                                   {"lightmapCaches", {"10000"}}};
 
 /// What the same bake gives with a link to every sender in sight, to tell the cut's own error.
 CacheReference withoutCut(const TraceScene& trace, const std::shared_ptr<const Bake>& bake) {
@@ -146,7 +111,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
     CacheReference reference, uncut;
     BakeSettings uncutFor;
     uncutFor.surfels = 0;
-    for (const BakeSettings& settings : sweep(o)) {
+    for (const BakeSettings& settings : sweepRows(o.sweep)) {
         scene.bake = settings;
         const TraceScene trace(scene);
         if (reference.cache.empty()) {
@@ -195,7 +160,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
 Exit runErrorBench(const ErrorBench& o) {
     const ThreadLimit threads(o.threads);
     if (o.generated.scenes > 0)
-        return runGeneratedBench(o.generated, sweep(o));
+        return runGeneratedBench(o.generated, sweepRows(o.sweep));
     if (!o.json)
         printTitles(kColumns);
     Json rows = Json::array();
@@ -217,17 +182,7 @@ void addErrorBench(CLI::App& bench, Run& run) {
     addGeneratedOptions(*command, o->generated);
     addLightOptions(*command, o->common);
     command->add_option("-o,--output", o->output, "folder of error.csv and error.json")->required();
-    addList(*command, "--surfels", o->surfels, "n_S, a list", CLI::Range(64, 1 << 20));
-    addList(*command, "--links", o->links, "n_L, a list", CLI::Range(1, 4096));
-    addList(*command, "--linker", o->linkers, "a list of linkers", oneOf(kLinkerNames));
-    addList(*command, "--cut", o->cuts, "a list of cuts", oneOf(kCutNames));
-    addList(*command, "--clustering", o->clusterings, "a list of clusterings",
-            oneOf(kClusteringNames));
-    addList(*command, "--rays", o->rays, "of a cache, a list with --generated",
-            CLI::Range(16, 65536));
-    command->add_option("--bands", o->bands, "SH bands")->check(CLI::Range(2, 8));
-    addList(*command, "--lightmap", o->lightmaps, "wanted caches, a list with --generated",
-            CLI::Range(1, 1 << 24));
+    addSweepOptions(*command, o->sweep);
     command->add_option("--caches", o->caches, "how many are compared")
         ->check(CLI::Range(1, 1 << 24));
     command->add_option("--reference-rays", o->referenceRays, "of a cache that is compared")
@@ -237,10 +192,11 @@ void addErrorBench(CLI::App& bench, Run& run) {
     command->callback([o, command, &run] {
         if (o->scenes.empty() == (o->generated.scenes == 0))
             throw CLI::ValidationError("scenes", "give either scenes or --generated");
-        if (o->generated.scenes > 0)
-            useDefaults(*command, *o);
-        else if (o->rays.size() != 1 || o->lightmaps.size() != 1)
-            throw CLI::ValidationError("--rays, --lightmap", "are lists with --generated only");
+        if (o->generated.scenes == 0) {
+            o->sweep.insert(kUsualSweep.begin(), kUsualSweep.end());
+            if (o->sweep["rays"].size() != 1 || o->sweep["lightmapCaches"].size() != 1)
+                throw CLI::ValidationError("--rays, --lightmap", "are lists with --generated only");
+        }
         o->generated.output = o->output;
         o->generated.json = o->json;
         run = [o] { return runErrorBench(*o); };

@@ -5,10 +5,10 @@
 #include "app/commands/render_image.h"
 #include "app/commands/scene_options.h"
 
-#include "engine/files/document_fields.h"
 #include "engine/gallery/gallery.h"
 #include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 

@@ -5,11 +5,11 @@
 #include "app/commands/scene_options.h"
 
 #include "engine/core/parallel.h"
-#include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
 #include "engine/measure/field_render.h"
 #include "engine/reference/pixel_rays.h"
 #include "engine/reference/reference.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/tone_map.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/relight/relight.h"

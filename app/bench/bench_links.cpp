@@ -5,7 +5,7 @@
 #include "app/commands/scene_options.h"
 
 #include "engine/core/parallel.h"
-#include "engine/files/enum_names.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/measure/baked_senders.h"
 #include "engine/techniques/illuminance/measure/link_error.h"
@@ -69,7 +69,7 @@ Result<void> measureScene(const LinksBench& o, const std::string& path, Json& ro
     StageStore store;
     std::vector<std::shared_ptr<const Bake>> bakes;
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
-        if (o.bake.storage.value_or(storage) != storage)
+        if (hasOption(o.bake, "storage") && storage != scene.bake.storage)
             continue;
         BakeSettings settings = scene.bake;
         settings.storage = storage;

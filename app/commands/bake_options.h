@@ -5,9 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdint>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -15,21 +16,21 @@ namespace limn {
 
 /// Flags that replace the document's bake settings.
 struct BakeOptions {
-    std::optional<std::uint32_t> surfels, links, bands, chromaBands, rays, lightmap;
-    std::optional<float> texelsPerMetre, clusterNormalWeight, clusterBalanceWeight;
-    std::optional<SurfelPlacement> placement;
-    std::optional<Linker> linker;
-    std::optional<CutCriterion> cut;
-    std::optional<LinkStorage> storage;
-    std::optional<Clustering> clustering;
+    /// Settings by their keys, with what they are to be, as setBakeSetting() takes it; checked.
+    std::vector<std::pair<std::string, std::string>> given;
     const BakePreset* preset = nullptr;
-    std::string grid; ///< XxYxZ, checked; empty: the document's
-    int threads = 0;  ///< 0: all
+    int threads = 0; ///< 0: all
 };
 void addBakeOptions(CLI::App& command, BakeOptions& options);
 
 /// Puts what was given on the command line, and checked there, into `settings`.
 void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
+
+/// Whether the setting of that key was given.
+bool hasOption(const BakeOptions& options, std::string_view key);
+
+/// Every setting by its key in snake case: numbers, names, and [x, y, z] for a grid.
+nlohmann::ordered_json settingsJson(const BakeSettings& settings);
 
 /// {"surfels", "clusters", "links", "caches", "total"}.
 nlohmann::json bytesSummary(const BakeBytes& bytes);

@@ -127,17 +127,9 @@ static Json describe(const Bake& bake) {
     Json json;
     json["kind"] = "bake";
     const BakeSettings& s = bake.settings;
-    json["settings"] = {{"surfels", s.surfels},
-                        {"links", s.links},
-                        {"bands", s.bands},
-                        {"rays", s.rays},
-                        {"placement", kPlacementNames[std::size_t(s.placement)]},
-                        {"linker", kLinkerNames[std::size_t(s.linker)]},
-                        {"storage", kStorageNames[std::size_t(s.storage)]},
-                        {"chroma_bands", chromaBandsOf(s)},
-                        {"cut", kCutNames[std::size_t(s.cut)]},
-                        {"clustering", kClusteringNames[std::size_t(s.clustering)]},
-                        {"grid", {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z}}};
+    json["settings"] = settingsJson(s);
+    json["settings"]["chroma_bands"] = chromaBandsOf(s);
+    json["settings"]["grid"] = {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z};
     const LightmapLayout& map = bake.lightmap;
     json["lightmap"] = {{"width", map.width},
                         {"height", map.height},

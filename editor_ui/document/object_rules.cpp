@@ -74,12 +74,7 @@ static bool valid(const Sky& s) {
 }
 
 static bool valid(const BakeSettings& b) {
-    const auto in = [](std::uint32_t v, std::uint32_t lo, std::uint32_t hi) {
-        return v >= lo && v <= hi;
-    };
-    return in(b.surfels, 64, 1u << 20) && in(b.links, 1, 4096) && in(b.bands, 2, 8) &&
-           in(b.chromaBands, 0, 8) && in(b.rays, 16, 65536) && atLeastZero(b.texelsPerMetre) &&
-           (b.lightmapCaches > 0 || b.texelsPerMetre > 0) && b.maxBounces > 0;
+    return settingsDefect(b).empty();
 }
 
 bool isValid(const Object& object) {

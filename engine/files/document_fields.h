@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/files/material_fields.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/document.h"
 
+#include <span>
 #include <string_view>
 
 #include <glm/gtc/constants.hpp>
@@ -67,25 +69,18 @@ void describeSky(Fields& fields, T& s) {
     fields("rotation", s.rotation);
 }
 
+inline FieldRange fieldLimits(const SettingRange& range) {
+    return {range.lower, range.upper};
+}
+inline std::span<const std::string_view> fieldLimits(const SettingChoices& choices) {
+    return choices.names;
+}
+
 template <class Fields, class T>
 void describeBakeSettings(Fields& fields, T& b) {
-    fields("surfels", b.surfels, FieldRange{64, 1 << 20});
-    fields("links", b.links, FieldRange{1, 4096});
-    fields("bands", b.bands, FieldRange{2, 8});
-    fields("rays", b.rays, FieldRange{16, 65536});
-    fields("lightmapCaches", b.lightmapCaches);
-    fields("texelsPerMetre", b.texelsPerMetre, kNotNegative);
-    fields("grid", b.grid);
-    fields("maxBounces", b.maxBounces);
-    fields("dimming", b.dimming);
-    fields("placement", b.placement, kPlacementNames);
-    fields("linker", b.linker, kLinkerNames);
-    fields("cut", b.cut, kCutNames);
-    fields("storage", b.storage, kStorageNames);
-    fields("chromaBands", b.chromaBands, FieldRange{0, 8});
-    fields("clustering", b.clustering, kClusteringNames);
-    fields("clusterNormalWeight", b.clusterNormalWeight, FieldRange{0, 100});
-    fields("clusterBalanceWeight", b.clusterBalanceWeight, FieldRange{0, 100});
+    visitBakeSettings(b, [&](const Setting& setting, auto& value, const auto&... limits) {
+        fields(setting.key, value, fieldLimits(limits)...);
+    });
 }
 
 /// Calls use(name, object, describe) with the kind's name in files.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <concepts>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -160,10 +161,10 @@ private:
             return report(name, "not a string");
         value = json.get<std::string>();
     }
-    template <class T, std::size_t N>
+    template <class T>
     requires std::is_enum_v<T>
     void read(const Json& json, const std::string& name, T& value,
-              const std::array<std::string_view, N>& names) {
+              std::span<const std::string_view> names) {
         const std::string text = json.is_string() ? json.get<std::string>() : "";
         const auto found = std::ranges::find(names, text);
         if (found == names.end())

@@ -13,10 +13,5 @@ inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask"
 inline constexpr std::array<std::string_view, 4> kLightNames = {"directional", "point", "spot",
                                                                 "rectangle"};
 inline constexpr std::array<std::string_view, 3> kSkyNames = {"color", "gradient", "image"};
-inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
-inline constexpr std::array<std::string_view, 2> kLinkerNames = {"gather", "form-factor"};
-inline constexpr std::array<std::string_view, 2> kCutNames = {"detail", "solid-angle"};
-inline constexpr std::array<std::string_view, 2> kStorageNames = {"rtp", "sh"};
-inline constexpr std::array<std::string_view, 2> kClusteringNames = {"agglomerative", "kd"};
 
 } // namespace limn

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include <glm/vec3.hpp>
 
@@ -64,6 +66,14 @@ struct BakeSettings {
 inline std::uint32_t chromaBandsOf(const BakeSettings& s) {
     return s.chromaBands == 0 || s.chromaBands > s.bands ? s.bands : s.chromaBands;
 }
+
+/// Which of the settings is out of its range, in words; empty: none.
+std::string settingsDefect(const BakeSettings& settings);
+
+/// Sets the setting of that key to what `text` says, and to 0 the one that it replaces. Says what
+/// is wrong with the text and changes nothing; empty: it is set. Precondition: there is such a
+/// setting.
+std::string setBakeSetting(BakeSettings& settings, std::string_view key, const std::string& text);
 
 /// Counts that go together.
 struct BakePreset {

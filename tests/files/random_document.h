@@ -144,10 +144,10 @@ private:
             b.links = 1 + below(4096);
             b.bands = 2 + below(7);
             b.rays = 16 + below(65000);
-            b.lightmapCaches = std::uint32_t(m_random());
-            b.texelsPerMetre = notNegative();
+            b.lightmapCaches = 1 + below(1 << 24);
+            b.texelsPerMetre = 1e6f * unit();
             b.grid = {below(100), below(100), below(100)};
-            b.maxBounces = std::uint32_t(m_random());
+            b.maxBounces = 1 + below(10000);
             b.dimming = coin();
             b.placement = SurfelPlacement(below(3));
             b.linker = Linker(below(2));

@@ -18,7 +18,6 @@
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
-#include "engine/techniques/illuminance/bake/settings_defect.h"
 #include "engine/techniques/illuminance/bake/transport/cut.h"
 #include "engine/techniques/illuminance/bake/transport/rooms.h"
 #include "engine/techniques/illuminance/bake/transport/surfel_gain.h"

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "engine/lightmap/layout_rules.h"
+#include "engine/scene/bake_settings_fields.h"
+#include "engine/scene/setting_text.h"
 #include "engine/techniques/illuminance/bake/bake.h"
-#include "engine/techniques/illuminance/bake/settings_defect.h"
 
 namespace limn {
 
@@ -11,20 +12,16 @@ namespace limn {
 
 template <class A, class B>
 void settingsFields(A& a, B& b) {
-    auto& s = b.settings;
     using rule::any;
-    a("surfels", s.surfels, any), a("links", s.links, any), a("bands", s.bands, any);
-    a("rays", s.rays, any), a("lightmapCaches", s.lightmapCaches, any);
-    a("texelsPerMetre", s.texelsPerMetre, any), a("placement", s.placement, any);
-    a("linker", s.linker, any), a("cut", s.cut, any), a("storage", s.storage, any);
-    a("chromaBands", s.chromaBands, any), a("clustering", s.clustering, any);
-    a("clusterNormalWeight", s.clusterNormalWeight, any);
-    a("clusterBalanceWeight", s.clusterBalanceWeight, any), a("grid", s.grid, any);
-    a("maxBounces", s.maxBounces, any);
-    // The last of the settings has the rule for all of them.
-    a("dimming", s.dimming,
-      rule::holds("out of range", [&s](bool) { return settingsDefect(s).empty(); }));
-    a("sceneHash", b.sceneHash, any), a("gridSize", b.gridSize, rule::within(0, 256));
+    visitBakeSettings(b.settings, [&](const Setting& setting, auto& value, const auto&... limits) {
+        a(setting.key, value, rule::holds("out of range", [&](const auto& v) {
+              return valueDefect(v, limits...).empty();
+          }));
+    });
+    a("sceneHash", b.sceneHash, rule::holds("after settings that exclude each other", [&b](auto) {
+          return settingsDefect(b.settings).empty();
+      }));
+    a("gridSize", b.gridSize, rule::within(0, 256));
     a("gridBounds.lower", b.gridBounds.lower, rule::inReach());
     a("gridBounds.upper", b.gridBounds.upper, rule::inReach());
     auto& c = b.counts; // shown, never computed with

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/settings_sweep.h"
+
+#include "engine/scene/bake_settings_fields.h"
+
+#include <array>
+
+namespace limn {
+
+/// The settings that no ray depends on, from those that vary slowest to the fastest.
+static constexpr std::array<std::string_view, 6> kTracesNothing = {
+    "bands", "chromaBands", "storage", "clustering", "cut", "links"};
+
+void addSweepOptions(CLI::App& command, SettingsSweep& sweep) {
+    const BakeSettings defaults;
+    visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
+        if (!setting.flag)
+            return;
+        const std::string key = setting.key;
+        command
+            .add_option_function<std::vector<std::string>>(
+                setting.flag,
+                [&sweep, key](const std::vector<std::string>& values) { sweep[key] = values; },
+                std::string(setting.help) + ", a list")
+            ->delimiter(',')
+            ->check([key](const std::string& text) {
+                BakeSettings scratch;
+                return setBakeSetting(scratch, key, text);
+            });
+    });
+}
+
+std::vector<BakeSettings> sweepRows(const SettingsSweep& sweep) {
+    std::vector<BakeSettings> rows = {BakeSettings{}};
+    const auto vary = [&](const std::string& key) {
+        const auto values = sweep.find(key);
+        if (values == sweep.end() || values->second.empty())
+            return;
+        std::vector<BakeSettings> varied;
+        for (const BakeSettings& row : rows)
+            for (const std::string& value : values->second)
+                setBakeSetting(varied.emplace_back(row), key, value);
+        rows = std::move(varied);
+    };
+    for (const auto& [key, values] : sweep)
+        if (std::ranges::find(kTracesNothing, key) == kTracesNothing.end())
+            vary(key);
+    for (const std::string_view key : kTracesNothing)
+        vary(std::string(key));
+    return rows;
+}
+
+} // namespace limn

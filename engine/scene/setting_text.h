@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/setting.h"
+
+#include <concepts>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+// What a setting's value may be, and how it is written. Every function says what is wrong, "70000
+// is outside [16, 65536]"; empty: nothing.
+
+std::string numberDefect(double value, const SettingRange& range);
+
+template <class T>
+std::string valueDefect(const T& value, const SettingRange& range) {
+    if constexpr (requires { value.x; }) {
+        for (int c = 0; c < T::length(); ++c)
+            if (std::string defect = numberDefect(double(value[c]), range); !defect.empty())
+                return defect;
+        return {};
+    } else {
+        return numberDefect(double(value), range);
+    }
+}
+template <class T>
+requires std::is_enum_v<T> std::string valueDefect(T value, const SettingChoices& choices) {
+    return std::size_t(value) < choices.names.size() ? "" : "is unknown";
+}
+inline std::string valueDefect(bool) {
+    return {};
+}
+
+/// Reads a number of [range.lowest, range.upper], a name of the choices, three whole numbers
+/// "XxYxZ", or "true" and "false".
+std::string readValue(const std::string& text, std::uint32_t& value, const SettingRange& range);
+std::string readValue(const std::string& text, float& value, const SettingRange& range);
+std::string readValue(const std::string& text, glm::uvec3& value, const SettingRange& range);
+std::string readValue(const std::string& text, bool& value);
+std::string readChoice(const std::string& text, std::size_t& value, const SettingChoices& choices);
+template <class T>
+requires std::is_enum_v<T> std::string readValue(const std::string& text, T& value,
+                                                 const SettingChoices& choices) {
+    std::size_t index = 0;
+    std::string defect = readChoice(text, index, choices);
+    if (defect.empty())
+        value = T(index);
+    return defect;
+}
+
+} // namespace limn
