@@ -122,7 +122,7 @@ struct EditorState {
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;
     BakeStatus bake;
-    RelightStatus relight;
+    LightingStatus relight;
     RelightPlace relightPlace;
     FrameStatus frame;
     std::string loading; ///< what is being opened; empty: nothing

@@ -4,6 +4,8 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/panels/overlay_panel.h"
+#include "engine/lightmap/atlas.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -35,6 +37,14 @@ LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapL
             at != known.end())
             fitted.instances[i] = layout.instances[at->second];
     return fitted;
+}
+
+// Older documents have none, and no edit but this one adds objects of the kind.
+static void addTechniqueChoice(Document& document) {
+    for (const auto& [id, object] : document.objects)
+        if (std::holds_alternative<TechniqueChoice>(object))
+            return;
+    addObject(document, TechniqueChoice{});
 }
 
 Session::Session(SessionOptions options)
@@ -122,11 +132,15 @@ void Session::takeOpened() {
     state.relightPlace = before.relightPlace;
     state.autoBake = before.autoBake;
     state.document = std::move(file.imported.document);
+    addTechniqueChoice(state.document);
     state.saved = state.document.objects;
     state.assets = std::move(file.imported.assets);
     state.meshBounds = std::move(file.meshBounds);
     state.projectPath = std::move(file.projectPath);
     log(LogLine::Level::Info, "Opened " + file.what);
+    if (const std::string defect = choiceDefect(singleton<TechniqueChoice>(state.document));
+        !defect.empty())
+        log(LogLine::Level::Warning, file.what + ": " + defect + "; there is no bounced light");
     for (std::string& repair : file.imported.repairs)
         log(LogLine::Level::Warning, std::move(repair));
     const bool hasBake = file.baked.bake != nullptr;
@@ -140,7 +154,7 @@ void Session::takeOpened() {
     state.view.flySpeed = std::max(glm::length(m_scene->bounds.size()) / 8, 0.01f);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
-    m_bakeSoon = !hasBake && m_options.bakeOnOpen && !m_scene->instances.empty();
+    m_bakeSoon = !hasBake && m_options.bakeOnOpen && lightsBake() && !m_scene->instances.empty();
     m_lightEdited = false;
 }
 
@@ -190,8 +204,15 @@ void Session::useBake(BakedScene baked) {
     m_relightJob.setBake(m_baked);
 }
 
+bool Session::lightsBake() const {
+    const Technique* technique = findTechnique(m_scene->technique.technique);
+    return technique && !technique->light;
+}
+
 void Session::fitLayout() {
-    if (!m_baked.bake)
+    if (!lightsBake())
+        m_layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(*m_scene));
+    else if (!m_baked.bake)
         m_layout = nullptr;
     else if (sameInstances(*m_scene,
                            *m_baked.scene)) // a pointer into the bake, which it keeps alive
@@ -230,7 +251,8 @@ void Session::followDocument() {
         m_bakeSecondsAtLightEdit = bakeSeconds();
         m_lightEdited = true;
     }
-    const bool sameList = sameInstances(*m_scene, *scene);
+    const bool sameList = sameInstances(*m_scene, *scene) &&
+                          m_scene->technique.technique == scene->technique.technique;
     if (!sameBakeInputs(*m_scene, *scene))
         state.prediction = predictBake(*scene, true);
     m_scene = std::move(scene);
@@ -272,7 +294,8 @@ void Session::showStatus() {
     m_bakeJob.report(state.bake);
     if (state.bake.running)
         m_bakeSecondsRunning = state.bake.elapsedSeconds;
-    state.bake.freshness = freshness(m_baked, m_relit, *m_scene);
+    state.bake.freshness =
+        lightsBake() ? freshness(m_baked, m_relit, *m_scene) : BakeFreshness::NotUsed;
     state.bake.lightEdited = m_lightEdited;
     state.bake.secondsSinceLightEdit = m_lightEdited ? bakeSeconds() - m_bakeSecondsAtLightEdit : 0;
     const bool traced = m_relit.hashedScene && sameBakeInputs(*m_relit.hashedScene, *m_scene);

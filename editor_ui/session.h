@@ -47,7 +47,7 @@ public:
     const BakedScene& baked() const { return m_baked; }
     /// Whoever draws the viewport is to light baked() on its device, and fills state.relight.
     bool viewportRelights() const {
-        return m_baked.bake && state.relightPlace.used() == RelightOn::Gpu;
+        return m_baked.bake && lightsBake() && state.relightPlace.used() == RelightOn::Gpu;
     }
 
     /// What an overlay of light shows; null: there is no such overlay, or the viewport relights.
@@ -68,6 +68,8 @@ private:
     void followDocument();
     void followTime();
     void showStatus();
+    /// The document's technique is one that lights bakes.
+    bool lightsBake() const;
     void useBake(BakedScene baked);
     void fitLayout();
     void log(LogLine::Level level, std::string text);

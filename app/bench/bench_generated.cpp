@@ -11,6 +11,7 @@
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/relight_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,8 +136,9 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
         request.camera = m.view.camera;
         request.width = m.view.width;
         request.height = m.view.height;
+        request.layout = {baked, &baked->lightmap};
         request.bake = baked;
-        request.relight = [&] { return CpuLight{field, lit}; };
+        request.relight = [&] { return CpuLight{field, reportOf(lit)}; };
         const Result<RenderedImage> picture = (*draw)(m.scene, request);
         if (!picture)
             return tl::make_unexpected(picture.error());

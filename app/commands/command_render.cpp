@@ -9,14 +9,18 @@
 
 #include "engine/core/log.h"
 #include "engine/files/image_file.h"
+#include "engine/lightmap/atlas.h"
 #include "engine/measure/compare.h"
 #include "engine/techniques/illuminance/bake/bake_defect.h"
 #include "engine/techniques/illuminance/bake/bake_file.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/relight_report.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -31,6 +35,8 @@ struct Options {
     SceneOptions scene;
     CameraOptions camera;
     OverlayFlags overlay;
+    std::string technique;             ///< empty: the document's
+    std::vector<std::string> settings; ///< of techniques, KEY=VALUE
     std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
     float exposureEv = 0;
     std::uint32_t frames = 1;
@@ -38,8 +44,11 @@ struct Options {
     bool noDimming = false, allCaches = false, json = false;
 };
 
-/// What a picture needs of a bake: indirect light, and what is drawn over it. Empty: nothing.
+/// What a picture needs besides the scene: indirect light, and what is drawn over it. Empty:
+/// nothing.
 struct Baked {
+    std::unique_ptr<Lighting> lighting;           ///< of a technique that needs no bake
+    std::shared_ptr<const LightmapLayout> layout; ///< of the light
     std::shared_ptr<const Bake> bake;
     std::shared_ptr<const TraceScene> trace;
     bool light = false;                   ///< the picture shows bounced light
@@ -95,13 +104,20 @@ Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& 
 }
 
 CpuLight relight(const Scene& scene, Baked& baked) {
+    if (baked.lighting) {
+        LightingReport report = baked.lighting->update(
+            {.scene = scene, .trace = baked.trace.get(), .bounces = scene.bake.maxBounces},
+            progressOnStderr());
+        endProgressLine();
+        return {*baked.lighting->field(), std::move(report)};
+    }
     if (!baked.relighter) // an overlay of light has one already
         baked.relighter = std::make_unique<Relighter>(baked.bake);
     const RelightStats stats =
         baked.relighter->relight(scene, *baked.trace, baked.bake->settings.maxBounces,
                                  progressOnStderr(), baked.seen ? &*baked.seen : nullptr);
     endProgressLine();
-    return {baked.relighter->field(), stats};
+    return {baked.relighter->field(), reportOf(stats)};
 }
 
 Result<void> addOverlay(const Options& options, const Scene& scene, const TraceScene& trace,
@@ -127,10 +143,22 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
         return Baked{}; // nothing receives light, or nobody asks
     Baked baked;
     baked.trace = std::make_shared<const TraceScene>(scene);
+    const Technique& technique = *findTechnique(scene.technique.technique);
+    if (technique.light) {
+        if (options.overlay.wanted() || !options.bake.empty())
+            return fail(fmt::format("{}: shows a bake, and the technique \"{}\" needs none",
+                                    options.overlay.wanted() ? "--overlay" : "--bake",
+                                    technique.name));
+        baked.lighting = technique.light();
+        baked.layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(scene));
+        baked.light = true;
+        return baked;
+    }
     Result<Bake> made = obtainBake(options, scene, *baked.trace);
     if (!made)
         return tl::make_unexpected(made.error());
     baked.bake = std::make_shared<const Bake>(std::move(*made));
+    baked.layout = {baked.bake, &baked.bake->lightmap}; // lives as long as the bake
     if (options.overlay.wanted())
         if (const Result<void> added = addOverlay(options, scene, *baked.trace, camera, baked);
             !added)
@@ -202,11 +230,29 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
+    request.layout = baked.layout;
     request.bake = baked.bake;
     request.seen = baked.seen ? &*baked.seen : nullptr;
     request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));
     request.overlay = baked.overlay;
     return request;
+}
+
+/// {"device", "ms", "bounces", "converged", "grows"}, the steps' "STEP_ms", and the counters.
+nlohmann::ordered_json lightingJson(const std::string& device, const LightingReport& report) {
+    nlohmann::ordered_json json = {{"device", device},
+                                   {"ms", report.totalMs},
+                                   {"bounces", report.bounces},
+                                   {"converged", report.converged},
+                                   {"grows", report.diverges}};
+    for (const LightingStep& step : report.steps)
+        json[std::string(step.id) + "_ms"] = step.ms;
+    for (const LightingCounter& counter : report.counters)
+        if (counter.unit == CounterUnit::Count)
+            json[counter.id] = std::uint64_t(counter.value);
+        else
+            json[counter.id] = counter.value;
+    return json;
 }
 
 nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& image,
@@ -219,14 +265,7 @@ nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& i
     json["height"] = image.linear.height;
     json["invalid_pixels"] = countInvalidPixels(image.linear);
     if (!image.relightDevice.empty())
-        json["relight"] = {{"device", image.relightDevice},
-                           {"ms", image.relight.totalMs},
-                           {"bounces", image.relight.bounces},
-                           {"converged", image.relight.converged},
-                           {"passed_on", image.relight.passedOn},
-                           {"grows", image.relight.grows},
-                           {"caches_unseen", image.relight.cachesUnseen},
-                           {"caches_unread", image.relight.cachesUnread}};
+        json["relight"] = lightingJson(image.relightDevice, image.relight);
     if (overlay)
         json["overlay"] = legendJson(overlay->legend);
     return json;
@@ -279,7 +318,7 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
         const Result<RenderedImage> image = (*draw)(scene, request);
         if (!image)
             return tl::make_unexpected(image.error());
-        if (image->relight.grows)
+        if (image->relight.diverges)
             logWarning("bounced light grew with every bounce and was stopped: bake again");
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const std::string path = framePath(options, frame);
@@ -301,6 +340,22 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
     return {};
 }
 
+/// The document's choice, with what the command line says.
+Result<void> chooseTechnique(const Options& options, TechniqueChoice& choice) {
+    if (!options.technique.empty())
+        choice.technique = options.technique;
+    for (const std::string& setting : options.settings) {
+        const std::size_t equals = setting.find('=');
+        double value = 0;
+        if (equals == std::string::npos ||
+            !CLI::detail::lexical_cast(setting.substr(equals + 1), value) || !std::isfinite(value))
+            return fail(fmt::format("--set: \"{}\" is not KEY=NUMBER", setting));
+        choice.settings[setting.substr(0, equals)] = value;
+    }
+    const std::string defect = choiceDefect(choice);
+    return defect.empty() ? Result<void>{} : fail(defect);
+}
+
 Exit runRender(const Options& options) {
     for (const Result<void>& possible :
          {checkOutputFile(options.output, {".exr", ".png"},
@@ -313,6 +368,8 @@ Exit runRender(const Options& options) {
         return failed(imported.error().message);
     Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
     scene.bake.dimming = scene.bake.dimming && !options.noDimming;
+    if (const Result<void> chosen = chooseTechnique(options, scene.technique); !chosen)
+        return failed(chosen.error().message);
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
         return failed(camera.error().message);
@@ -342,6 +399,16 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command
         ->add_option("-o,--output", options->output, "picture: .exr (linear) or .png (tone-mapped)")
         ->required();
+    command
+        ->add_option("--technique", options->technique,
+                     "what bounced light is computed by, instead of the document's: " +
+                         techniqueNames())
+        ->check([](const std::string& name) {
+            return findTechnique(name) ? std::string()
+                                       : fmt::format("\"{}\" is not {}", name, techniqueNames());
+        });
+    command->add_option("--set", options->settings,
+                        "KEY=NUMBER: a setting of the technique; may be repeated");
     command->add_option("--view", options->view, "what it shows")
         ->check(CLI::IsMember(strings(kViewNames)));
     command->add_option("--exposure", options->exposureEv, "stops before tone mapping [EV]")

@@ -22,11 +22,11 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
         const CpuLight light = request.relight();
         field = &light.field;
         result.relightDevice = "cpu";
-        result.relight = light.stats;
+        result.relight = light.report;
     }
     result.linear =
-        renderField(TraceScene(scene), *field, request.bake ? request.bake->lightmap : noLayout,
-                    options, progressOnStderr());
+        renderField(TraceScene(scene), *field, request.layout ? *request.layout : noLayout, options,
+                    progressOnStderr());
     endProgressLine();
     if (!request.tonemapped)
         return result;

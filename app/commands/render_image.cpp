@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
 #include "engine/techniques/illuminance/gpu/viewport_relighter.h"
+#include "engine/techniques/illuminance/relight/relight_report.h"
 
 #include <algorithm>
 
@@ -56,18 +57,18 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
                                  RenderedImage& result) {
     if (!request.relight)
         return {};
-    if (!chosen)
+    if (!chosen && request.bake)
         if (const Result<void> done = chooseRelighter(request); !done)
             return done;
     if (!relighter) {
         const CpuLight light = request.relight();
         viewport.setIndirect(light.field);
         result.relightDevice = "cpu";
-        result.relight = light.stats;
+        result.relight = light.report;
         return {};
     }
-    result.relight =
-        relighter->relight(viewport, scene, request.bake->settings.maxBounces, {}, request.seen);
+    result.relight = reportOf(
+        relighter->relight(viewport, scene, request.bake->settings.maxBounces, {}, request.seen));
     result.relightDevice = device->properties.deviceName;
     return {};
 }
@@ -79,10 +80,7 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
         return fail(fmt::format("--width, --height: {} draws at most {} pixels a side",
                                 properties.deviceName, limit));
     RenderedImage result;
-    if (request.bake) // the layout lives as long as the bake
-        viewport.setScene(scene, {request.bake, &request.bake->lightmap});
-    else
-        viewport.setScene(scene, nullptr);
+    viewport.setScene(scene, request.layout);
     if (const auto lit = relight(scene, request, result); !lit)
         return tl::make_unexpected(lit.error());
     viewport.setOverlay(request.overlay);

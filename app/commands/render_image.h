@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/lighting/lighting_report.h"
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
@@ -16,10 +17,10 @@ namespace limn {
 
 struct OverlayData;
 
-/// Bounced light as a CPU works it out, and what that took.
+/// Bounced light as a CPU computes it, and what that took.
 struct CpuLight {
     const IndirectField& field;
-    RelightStats stats;
+    LightingReport report;
 };
 
 struct RenderRequest {
@@ -28,10 +29,11 @@ struct RenderRequest {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
-    bool tonemapped = false;          ///< the picture is wanted, not only the numbers
-    std::shared_ptr<const Bake> bake; ///< null: nothing is baked
-    /// Lights `bake` on the CPU. Empty: no indirect light.
+    bool tonemapped = false;                      ///< the picture is wanted, not only the numbers
+    std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
+    /// Computes the light on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
+    std::shared_ptr<const Bake> bake;     ///< that a device can light; null: only the CPU can
     const CacheFlags* seen = nullptr;     ///< caches that the picture looks up; null: light all
     RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the device that draws lights `bake` instead
     std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
@@ -42,7 +44,7 @@ struct RenderedImage {
     Image picture; ///< tone-mapped, where asked for
     std::string device;
     std::string relightDevice; ///< empty: there is no indirect light
-    RelightStats relight;
+    LightingReport relight;
 };
 
 /// Draws pictures one after the other and keeps what the next one can use.

@@ -210,6 +210,7 @@ void EditorApp::writeStats() const {
         {"bake_seconds", m_session.bakeSeconds()},
         {"bake_seconds_since_light_edit", s.bake.secondsSinceLightEdit},
         {"bake_up_to_date", s.bake.freshness == BakeFreshness::UpToDate},
+        {"technique", singleton<TechniqueChoice>(s.document).technique},
         {"relight_calls", s.relight.calls},
         {"relight_converged", s.relight.converged},
         {"relight_on", kRelightOnNames[std::size_t(s.relightPlace.used())]},

@@ -42,7 +42,7 @@ struct DrawnPicture {
     ViewportStats stats;
     bool running = false;              ///< another one is being drawn
     std::shared_ptr<const Bake> lit;   ///< that what follows is about
-    RelightStatus relight;             ///< by this device
+    LightingStatus relight;            ///< by this device
     std::string refusal;               ///< why the device cannot light it; empty: it can
     std::optional<RelightTimes> times; ///< of bakes like it, measured now or before
     std::string error;                 ///< why there will be no more pictures

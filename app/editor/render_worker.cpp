@@ -27,10 +27,8 @@ RenderWorker::RenderWorker(bool validate) : device(openDevice(validate)), viewpo
 void RenderWorker::takeBake(const PictureRequest& request) {
     if (request.lit.bake == shown.lit.bake)
         return;
-    m_relighter = nullptr;
+    dropRelighter();
     m_litOf = nullptr;
-    m_seen = {};
-    m_whole = m_everWhole = false;
     relight = {};
     refusal.clear();
     times.reset();
@@ -50,15 +48,22 @@ void RenderWorker::takeScene(const PictureRequest& request) {
     viewport.setLighting(*request.scene);
 }
 
+void RenderWorker::dropRelighter() {
+    m_lighting = nullptr;
+    m_driver = LightingDriver();
+}
+
 void RenderWorker::makeRelighter(const PictureRequest& request) {
-    if (m_relighter || !refusal.empty())
+    if (m_lighting || !refusal.empty())
         return;
-    auto made = ViewportRelighter::create(*device, request.lit.bake);
-    if (made)
-        m_relighter = std::move(*made);
-    else
+    auto made = DeviceIlluminance::create(*device, viewport, request.lit.bake, request.lit.scene);
+    if (!made) {
         refusal = made.error().message;
-    relight.converged = m_whole = m_everWhole = false;
+        return;
+    }
+    m_lighting = made->get();
+    m_driver = LightingDriver(std::move(*made));
+    relight.converged = false;
     relight.bounces = 0;
 }
 
@@ -66,9 +71,9 @@ void RenderWorker::measure(const PictureRequest& request) {
     if (!request.measure || !request.lit.bake || times)
         return;
     makeRelighter(request);
-    if (!m_relighter)
+    if (!m_lighting)
         return;
-    times = measureRelight(viewport, *m_relighter, *request.scene, *request.measure);
+    times = measureRelight(viewport, m_lighting->relighter(), *request.scene, *request.measure);
     // Where there is no folder to keep it in, it is measured again next time.
     (void)rememberRelightTimes(defaultRelightTimesFile(), m_timesKey, *times);
     viewport.setLighting(*request.scene);
@@ -86,41 +91,28 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
             sameStaticGeometry(*request.lit.scene, *request.scene)
                 ? request.scene
                 : std::make_shared<const Scene>(relitScene(*request.lit.scene, *request.scene));
-        relight.converged = m_whole = false;
-        relight.bounces = 0;
+        m_driver.lightChanged();
     }
     const auto start = Clock::now();
-    const CacheFlags* seen = seenBy(request);
-    const auto light = [&](std::uint32_t bounces, const CacheFlags* wanted) {
-        const RelightStats stats = m_relighter->relight(viewport, *m_litScene, bounces, {}, wanted);
-        m_whole = stats.cachesUnseen == 0;
-        m_everWhole |= m_whole;
-        return stats;
-    };
-    const bool newLight = !relight.converged;
-    while (!relight.converged) {
-        relight.last = light(bouncesPerCall(request.scene->bake.maxBounces), seen);
-        countUpdate(relight, request.scene->bake.maxBounces);
+    const ViewportOptions& o = request.options;
+    const Viewpoint view{o.camera, float(o.width) / float(o.height)};
+    const LightingInput input{.scene = *m_litScene,
+                              .view = showsLight(request.overlay.kind) ? nullptr : &view};
+    using Rest = LightingDriver::Rest;
+    const bool newLight = !m_driver.converged();
+    while (!m_driver.converged()) {
+        countUpdate(relight, m_driver, m_driver.step(input, Rest::Later));
         if (hurry || msSince(start) >= m_pictureMs)
             break;
     }
     // What has come into view, and where there is time for it the rest.
-    if (relight.converged && !m_whole && !(newLight && hurry))
-        light(0, hurry ? seen : nullptr);
+    if (m_driver.converged())
+        m_driver.step(input, newLight && hurry ? Rest::Later : hurry ? Rest::Seen : Rest::All);
     m_ownField = true;
 }
 
-/// Null: all, as at first, so that there is light wherever somebody looks later.
-const CacheFlags* RenderWorker::seenBy(const PictureRequest& request) {
-    if (!m_everWhole || showsLight(request.overlay.kind))
-        return nullptr;
-    const ViewportOptions& o = request.options;
-    return &seenFrom(m_seen, *request.lit.scene, *request.lit.bake,
-                     {o.camera, float(o.width) / float(o.height)});
-}
-
 void RenderWorker::takeField(const PictureRequest& request) {
-    m_relighter = nullptr;
+    dropRelighter();
     // The relighter's field stays until the one that replaces it is there.
     const bool gone = !request.lit.bake && (m_ownField || shown.field);
     if (!gone && !(request.field && (m_ownField || request.field != shown.field)))
@@ -144,14 +136,15 @@ void RenderWorker::makeOverlay(const PictureRequest& request) {
                            request.scene != shown.scene &&
                            (!shown.scene || shown.scene->materials != request.scene->materials);
     const bool light = showsLight(request.overlay.kind);
-    const bool newLight = light && (request.light != shown.light || m_relighter);
+    const bool newLight = light && (request.light != shown.light || m_lighting);
     if (request.bake == shown.bake && request.overlay == shown.overlay && !newAlbedo && !newLight)
         return;
     overlay = nullptr;
     if (request.bake && request.overlay.kind != Overlay::None) {
         const std::shared_ptr<const LitBake> lit =
-            light && m_relighter ? std::make_shared<const LitBake>(readLit(m_relighter->gpu()))
-                                 : request.light;
+            light && m_lighting
+                ? std::make_shared<const LitBake>(readLit(m_lighting->relighter().gpu()))
+                : request.light;
         overlay = std::make_shared<const OverlayData>(
             limn::makeOverlay(*request.bake, relitScene(*request.bakedScene, *request.scene),
                               request.overlay, lit.get()));
@@ -168,7 +161,7 @@ Image RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry)
     const bool here = request.relight && request.lit.bake;
     if (here)
         makeRelighter(request);
-    if (here && m_relighter)
+    if (here && m_lighting)
         bounce(request, hurry);
     else
         takeField(request);

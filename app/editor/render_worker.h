@@ -3,8 +3,8 @@
 
 #include "app/editor/render_job.h"
 #include "engine/gpu/device.h"
-#include "engine/techniques/illuminance/gpu/viewport_relighter.h"
-#include "engine/techniques/illuminance/relight/seen_caches.h"
+#include "engine/lighting/lighting_driver.h"
+#include "engine/techniques/illuminance/gpu/device_illuminance.h"
 
 namespace limn {
 
@@ -19,38 +19,34 @@ public:
 
     /// Light is still bouncing, or not lit where the picture does not show it: the picture shown is
     /// to be drawn again.
-    bool bouncing() const {
-        return shown.relight && m_relighter && !(relight.converged && m_whole);
-    }
+    bool bouncing() const { return shown.relight && m_lighting && !m_driver.done(); }
 
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
     PictureRequest shown;
     std::shared_ptr<const OverlayData> overlay; ///< of `shown`; null: none
-    RelightStatus relight;                      ///< by the device
+    LightingStatus relight;                     ///< by the device
     std::string refusal;                        ///< why it cannot light shown.lit; empty: it can
     std::optional<RelightTimes> times;          ///< of bakes like shown.lit
 
 private:
     void takeBake(const PictureRequest& request);
     void takeScene(const PictureRequest& request);
+    void dropRelighter();
     void makeRelighter(const PictureRequest& request);
     void measure(const PictureRequest& request);
     void takeField(const PictureRequest& request);
     void bounce(const PictureRequest& request, const std::atomic<bool>& hurry);
-    const CacheFlags* seenBy(const PictureRequest& request);
     void makeOverlay(const PictureRequest& request);
 
-    std::unique_ptr<ViewportRelighter> m_relighter; ///< of shown.lit, while it is needed
-    bool m_litMoving = false;                       ///< by shadow maps that may be coarse
-    bool m_ownField = false;                        ///< the viewport shows the relighter's
-    std::shared_ptr<const Scene> m_litOf;           ///< that `m_litScene` was made of
-    std::shared_ptr<const Scene> m_litScene;        ///< as the bake can be lit with
-    std::string m_timesKey;                         ///< of shown.lit
-    SeenFrom m_seen;                                ///< of shown.lit
-    bool m_whole = false;                           ///< the field has the newest light everywhere
-    bool m_everWhole = false;                       ///< it had some of shown.lit's
-    double m_pictureMs = 0;                         ///< what the last picture took, without bounces
+    LightingDriver m_driver;                 ///< of shown.lit, while it is needed
+    DeviceIlluminance* m_lighting = nullptr; ///< the driver's
+    bool m_litMoving = false;                ///< by shadow maps that may be coarse
+    bool m_ownField = false;                 ///< the viewport shows the relighter's
+    std::shared_ptr<const Scene> m_litOf;    ///< that `m_litScene` was made of
+    std::shared_ptr<const Scene> m_litScene; ///< as the bake can be lit with
+    std::string m_timesKey;                  ///< of shown.lit
+    double m_pictureMs = 0;                  ///< what the last picture took, without bounces
 };
 
 } // namespace limn

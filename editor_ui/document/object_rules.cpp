@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/object_rules.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -77,6 +78,10 @@ static bool valid(const BakeSettings& b) {
     return settingsDefect(b).empty();
 }
 
+static bool valid(const TechniqueChoice& c) {
+    return std::ranges::all_of(c.settings, [](const auto& s) { return std::isfinite(s.second); });
+}
+
 bool isValid(const Object& object) {
     return std::visit([](const auto& o) { return valid(o); }, object);
 }
@@ -123,6 +128,8 @@ const char* kindName(const Object& object) {
         return "Camera";
     if (std::holds_alternative<Sky>(object))
         return "Sky";
+    if (std::holds_alternative<TechniqueChoice>(object))
+        return "Technique of bounced light";
     return "Bake settings";
 }
 

@@ -3,7 +3,8 @@
 
 #include "editor_ui/jobs/background_priority.h"
 #include "engine/scene/mesh/input_hash.h"
-#include "engine/techniques/illuminance/relight/bouncing.h"
+#include "engine/techniques/illuminance/relight/cpu_illuminance.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <array>
@@ -71,22 +72,22 @@ struct RelightJob::Worker {
     std::shared_ptr<const TraceScene> trace;
     std::uint64_t inputHash = 0;
     BakedScene baked;
-    std::unique_ptr<Relighter> relighter;
+    LightingDriver driver;
+    const CpuIlluminance* illuminance = nullptr; ///< the driver's, where that lights the bake
     std::array<std::shared_ptr<IndirectField>, 3>
         pool; ///< fields nobody looks at any more are used again
-    RelightStatus status;
+    LightingStatus status;
     std::shared_ptr<const LitBake> lit; ///< null: nobody asks
     bool lighting = true;
-    bool whole = false;            ///< the field has the newest light everywhere
-    bool everWhole = false;        ///< it had some of this bake's
     std::optional<Viewpoint> view; ///< newest; none: all is looked at
-    SeenFrom seen;                 ///< of the bake
+    std::optional<Scene> relit;    ///< what is lit where the bake is older than the scene
 
-    bool hasWork() const { return lighting && relighter && scene && !(status.converged && whole); }
-    const CacheFlags* seenNow();
+    bool hasWork() const { return lighting && scene && !driver.done(); }
+    bool lights() const { return lighting && driver.lighting(); }
     void setLighting(bool here);
     void takeScene(std::shared_ptr<const Scene> next);
     void takeBake(BakedScene next);
+    void makeLighting();
     void relight(const Progress& progress);
     std::shared_ptr<const IndirectField> copyField();
     std::shared_ptr<const LitBake> copyLit() const;
@@ -96,22 +97,36 @@ void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
     const bool sameRays = scene && sameGeometry(*scene, *next);
     const bool sameFixed = scene && sameStaticGeometry(*scene, *next);
     const bool sameInputs = scene && sameBakeInputs(*scene, *next);
+    const bool sameTechnique = scene && scene->technique.technique == next->technique.technique;
     scene = std::move(next);
     if (!sameRays)
         trace = sameFixed ? std::make_shared<const TraceScene>(*scene, *trace)
                           : std::make_shared<const TraceScene>(*scene);
     if (!sameInputs)
         inputHash = bakeInputHash(*scene);
-    status.converged = whole = false;
-    status.bounces = 0;
+    if (!sameTechnique)
+        makeLighting();
+    driver.lightChanged();
 }
 
 void RelightJob::Worker::takeBake(BakedScene next) {
     baked = std::move(next);
-    relighter = baked.bake ? std::make_unique<Relighter>(baked.bake) : nullptr;
-    seen = {};
-    status.converged = whole = everWhole = false;
-    status.bounces = 0;
+    makeLighting();
+}
+
+/// Of the scene's technique; of none where that lights bakes and there is no bake.
+void RelightJob::Worker::makeLighting() {
+    const Technique* technique = scene ? findTechnique(scene->technique.technique) : nullptr;
+    illuminance = nullptr;
+    if (technique && technique->light) {
+        driver = LightingDriver(technique->light());
+    } else if (technique && baked.bake) {
+        auto made = std::make_unique<CpuIlluminance>(baked.bake, baked.scene);
+        illuminance = made.get();
+        driver = LightingDriver(std::move(made));
+    } else {
+        driver = LightingDriver();
+    }
 }
 
 void RelightJob::Worker::setLighting(bool here) {
@@ -120,25 +135,13 @@ void RelightJob::Worker::setLighting(bool here) {
     lighting = here;
 }
 
-/// Null: all, as at first, so that there is light wherever somebody looks later.
-const CacheFlags* RelightJob::Worker::seenNow() {
-    return view && everWhole ? &seenFrom(seen, *baked.scene, *baked.bake, *view) : nullptr;
-}
-
 void RelightJob::Worker::relight(const Progress& progress) {
-    const bool rest = status.converged; // is left
-    const std::uint32_t bounces = rest ? 0 : bouncesPerCall(scene->bake.maxBounces);
-    const CacheFlags* wanted = rest ? nullptr : seenNow();
-    const bool fresh = inputHash == baked.bake->sceneHash;
-    const RelightStats stats = fresh ? relighter->relight(*scene, *trace, bounces, progress, wanted)
-                                     : relighter->relight(relitScene(*baked.scene, *scene),
-                                                          *baked.trace, bounces, progress, wanted);
-    whole = stats.cachesUnseen == 0;
-    everWhole |= whole;
-    if (rest) // the panels go on to show what bounces took
-        return;
-    status.last = stats;
-    countUpdate(status, scene->bake.maxBounces);
+    const bool fresh = !illuminance || inputHash == baked.bake->sceneHash;
+    const Scene& lit = fresh ? *scene : relit.emplace(relitScene(*baked.scene, *scene));
+    const LightingInput input{.scene = lit,
+                              .trace = fresh ? trace.get() : baked.trace.get(),
+                              .view = view ? &*view : nullptr};
+    countUpdate(status, driver, driver.step(input, LightingDriver::Rest::All, progress));
 }
 
 std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
@@ -147,29 +150,31 @@ std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
             continue;
         if (!field)
             field = std::make_shared<IndirectField>();
-        *field = relighter->field();
+        *field = *driver.lighting()->field();
         return field;
     }
-    return std::make_shared<const IndirectField>(relighter->field());
+    return std::make_shared<const IndirectField>(*driver.lighting()->field());
 }
 
 /// Empty where nothing is lit here.
 std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
     auto copy = std::make_shared<LitBake>();
-    if (relighter && lighting)
-        *copy = {relighter->radiosity(), relighter->cacheSh(), int(relighter->field().bands)};
+    if (illuminance && lighting) {
+        const Relighter& r = illuminance->relighter();
+        *copy = {r.radiosity(), r.cacheSh(), int(r.field().bands)};
+    }
     return copy;
 }
 
-std::uint32_t bouncesPerCall(std::uint32_t maxBounces) {
-    return maxBounces <= kFewBounces ? maxBounces : 2;
-}
-
-void countUpdate(RelightStatus& status, std::uint32_t maxBounces) {
+void countUpdate(LightingStatus& status, const LightingDriver& driver,
+                 const LightingReport* report) {
+    status.bounces = driver.bounces();
+    status.converged = driver.converged();
+    if (!report)
+        return;
     ++status.calls;
-    status.history.add(status.last);
-    status.bounces += status.last.bounces;
-    status.converged = status.last.converged || status.bounces >= maxBounces;
+    status.last = *report;
+    status.history.add(*report);
 }
 
 RelightJob::RelightJob(std::function<void()> wake)
@@ -271,15 +276,15 @@ void RelightJob::run() {
         else if (field || !worker.lit)
             worker.lit = worker.copyLit();
         lock.lock();
-        if (field || !worker.relighter || !worker.lighting)
-            m_result.field = worker.lighting ? std::move(field) : nullptr;
+        if (field || !worker.lights())
+            m_result.field = std::move(field);
         m_result.lit = worker.lit;
         m_result.trace = worker.trace;
         m_result.hashedScene = worker.scene;
         m_result.inputHash = worker.inputHash;
         m_result.status = worker.status;
         m_result.status.running = worker.hasWork() || m_nextScene;
-        m_result.status.converged = worker.status.converged && worker.whole && !m_nextScene;
+        m_result.status.converged = worker.lights() && worker.driver.done() && !m_nextScene;
         lock.unlock();
         m_wake();
         lock.lock();

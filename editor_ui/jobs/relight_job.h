@@ -2,9 +2,9 @@
 #pragma once
 
 #include "editor_ui/jobs/bake_job.h"
+#include "engine/lighting/lighting_driver.h"
+#include "engine/scene/camera.h"
 #include "engine/techniques/illuminance/overlay/overlay.h"
-#include "engine/techniques/illuminance/relight/relight.h"
-#include "engine/techniques/illuminance/relight/seen_caches.h"
 
 #include <condition_variable>
 
@@ -12,18 +12,16 @@ namespace limn {
 
 /// What the relighting thread has to show. Everything is immutable or a copy.
 struct Relit {
-    std::shared_ptr<const IndirectField> field; ///< null: no bake yet
+    std::shared_ptr<const IndirectField> field; ///< null: nothing is lit here
     std::shared_ptr<const LitBake> lit; ///< that the field belongs to; null unless keepLit(true)
     std::shared_ptr<const TraceScene> trace;  ///< of the newest scene but for the last moments
     std::shared_ptr<const Scene> hashedScene; ///< what `inputHash` belongs to
     std::uint64_t inputHash = 0;              ///< bakeInputHash(*hashedScene)
-    RelightStatus status;
+    LightingStatus status;
 };
 
 /// Keeps the bounced light up to date with the newest scene on a thread of its own: a few bounces
-/// at a time until converged, then it sleeps. While light changes it lights what is seen, by the
-/// newest setView(); once converged, the rest: a field that has converged is right everywhere, and
-/// before that what comes into view is right with the next field. Whatever lights, it also builds
+/// at a time until converged, by a LightingDriver, then it sleeps. Whatever lights, it also builds
 /// the TraceScene and the hash that decides about a new bake, because both take long on large
 /// scenes. No call waits for that work.
 class RelightJob {
@@ -37,7 +35,8 @@ public:
     /// The newest scene; those it had no time for are dropped.
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// The bake to light. Null members: none, and the field is dropped.
+    /// The bake to light, by the technique that lights bakes. Null members: none, and its field is
+    /// dropped.
     void setBake(BakedScene baked);
 
     /// Whether this thread lights the bake; at first it does. Not: somebody else does, and there is
@@ -69,11 +68,9 @@ private:
     std::thread m_thread; ///< last: starts when everything else is there
 };
 
-/// Bounces between two looks at what the user did meanwhile: 2, or a few that are all.
-std::uint32_t bouncesPerCall(std::uint32_t maxBounces);
-
-/// Counts status.last in. At `maxBounces` it has converged.
-void countUpdate(RelightStatus& status, std::uint32_t maxBounces);
+/// Takes in a driver's update, and how far it is. `report`: as LightingDriver::step() returned it.
+void countUpdate(LightingStatus& status, const LightingDriver& driver,
+                 const LightingReport* report);
 
 /// True if a bake of `a` serves `b` as well, as far as can be told without hashing the meshes.
 bool sameBakeInputs(const Scene& a, const Scene& b);

@@ -56,6 +56,9 @@ static void bakeStateLine(EditorState& state) {
         ImGui::TextDisabled("A first look of few rays; the full bake is being made.");
     else
         switch (bake.freshness) {
+        case BakeFreshness::NotUsed:
+            ImGui::TextDisabled("The technique of bounced light needs no bake.");
+            break;
         case BakeFreshness::None:
             ImGui::TextColored(ImColor(color::kWarning),
                                "Bake needed: nothing is baked yet, so there is no bounced light.");

@@ -165,6 +165,8 @@ static void bakeWords(EditorState& state) {
         return;
     }
     switch (state.bake.freshness) {
+    case BakeFreshness::NotUsed:
+        return;
     case BakeFreshness::None:
         ImGui::TextColored(ImColor(color::kWarning), "Bake needed: nothing baked yet");
         break;
@@ -194,10 +196,13 @@ static void idleWords(EditorState& state) {
     bakeWords(state);
     if (state.bake.freshness == BakeFreshness::None)
         return;
-    ImGui::SameLine(0, 24);
-    const RelightStatus& r = state.relight;
-    if (r.last.grows)
+    if (state.bake.freshness != BakeFreshness::NotUsed)
+        ImGui::SameLine(0, 24);
+    const LightingStatus& r = state.relight;
+    if (r.last.diverges)
         ImGui::TextUnformatted("Light grew with every bounce and was stopped: bake again");
+    else if (r.converged && r.bounces == 0)
+        ImGui::TextDisabled("Light up to date");
     else if (r.converged)
         ImGui::TextDisabled("Light converged after %u bounce%s", r.bounces,
                             r.bounces == 1 ? "" : "s");

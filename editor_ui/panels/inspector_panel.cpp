@@ -34,6 +34,8 @@ static void section(FieldEdit& edit, Object& object) {
         cameraSection(edit, *camera);
     else if (auto* settings = std::get_if<BakeSettings>(&object))
         bakeSection(edit, *settings);
+    else if (auto* choice = std::get_if<TechniqueChoice>(&object))
+        techniqueSection(edit, *choice);
 }
 
 void inspectorPanel(EditorState& state) {

@@ -18,5 +18,6 @@ void materialSection(FieldEdit& edit, Material& material);
 void skySection(FieldEdit& edit, Sky& sky);
 void cameraSection(FieldEdit& edit, Camera& camera);
 void bakeSection(FieldEdit& edit, BakeSettings& settings);
+void techniqueSection(FieldEdit& edit, TechniqueChoice& choice);
 
 } // namespace limn

@@ -90,6 +90,7 @@ static std::vector<Row> visibleRows(const EditorState& state) {
     section("Objects", nodeRows);
     section("Cameras", rowsOfKind<Camera>);
     section("Environment", rowsOfKind<Sky>);
+    section("Bounced light", rowsOfKind<TechniqueChoice>);
     section("Baking", rowsOfKind<BakeSettings>);
     section("Materials", rowsOfKind<Material>);
     return rows;

@@ -3,7 +3,7 @@
 
 #include <imgui.h>
 
-#include <algorithm>
+#include <string>
 
 #include <glm/common.hpp>
 
@@ -12,57 +12,35 @@ namespace limn {
 /// Ranges wider than this have a slider of equal ratios, not of equal steps.
 static constexpr double kWide = 16;
 
-namespace {
-
-/// The label of a row and, when it goes, what follows its widget.
-struct Row {
-    FieldEdit& edit;
-    const Setting& setting;
-
-    Row(FieldEdit& e, const Setting& s) : edit(e), setting(s) {
-        fieldLabel(s.label, s.tooltip);
-        ImGui::PushID(s.key);
-    }
-    ~Row() {
-        ImGui::PopID();
-        fieldEdited(edit, setting.label);
-    }
-    Row(const Row&) = delete;
-    Row& operator=(const Row&) = delete;
-};
-
-} // namespace
+/// "##rays": a widget without a label, by the setting's key.
+static std::string idOf(const Setting& setting) {
+    return std::string("##") + setting.key;
+}
 
 static ImGuiSliderFlags sliderFlags(const SettingRange& range) {
     return ImGuiSliderFlags_AlwaysClamp |
            (range.upper > kWide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
 }
 
-void settingRow(FieldEdit& edit, const Setting& setting, bool& value) {
-    const Row row(edit, setting);
-    ImGui::Checkbox("##value", &value);
+void settingWidget(const Setting& setting, bool& value) {
+    ImGui::Checkbox(idOf(setting).c_str(), &value);
 }
 
-void settingRow(FieldEdit& edit, const Setting& setting, std::uint32_t& value,
-                const SettingRange& range) {
-    const Row row(edit, setting);
+void settingWidget(const Setting& setting, std::uint32_t& value, const SettingRange& range) {
     const auto lower = std::uint32_t(range.lowest), upper = std::uint32_t(range.upper);
-    ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &lower, &upper, "%u",
+    ImGui::SliderScalar(idOf(setting).c_str(), ImGuiDataType_U32, &value, &lower, &upper, "%u",
                         sliderFlags(range));
 }
 
-void settingRow(FieldEdit& edit, const Setting& setting, float& value, const SettingRange& range) {
-    const Row row(edit, setting);
-    ImGui::SliderFloat("##value", &value, float(range.lower), float(range.upper), "%.3f",
-                       sliderFlags(range));
+void settingWidget(const Setting& setting, float& value, const SettingRange& range) {
+    ImGui::SliderFloat(idOf(setting).c_str(), &value, float(range.lower), float(range.upper),
+                       "%.3f", sliderFlags(range));
 }
 
-void settingRow(FieldEdit& edit, const Setting& setting, glm::uvec3& value,
-                const SettingRange& range) {
-    const Row row(edit, setting);
+void settingWidget(const Setting& setting, glm::uvec3& value, const SettingRange& range) {
     int cells[3] = {int(value.x), int(value.y), int(value.z)};
-    if (!ImGui::DragInt3("##value", cells, 0.1f, int(range.lower), int(range.upper), "%d",
-                         ImGuiSliderFlags_AlwaysClamp))
+    if (!ImGui::DragInt3(idOf(setting).c_str(), cells, 0.1f, int(range.lower), int(range.upper),
+                         "%d", ImGuiSliderFlags_AlwaysClamp))
         return;
     const glm::uvec3 wanted(cells[0], cells[1], cells[2]);
     const bool cleared = (wanted.x == 0 && value.x > 0) || (wanted.y == 0 && value.y > 0) ||
@@ -71,9 +49,8 @@ void settingRow(FieldEdit& edit, const Setting& setting, glm::uvec3& value,
     value = cleared || !any ? glm::uvec3(0) : glm::max(wanted, glm::uvec3(1));
 }
 
-void choiceRow(FieldEdit& edit, const Setting& setting, int& value, const SettingChoices& choices) {
-    const Row row(edit, setting);
-    ImGui::Combo("##value", &value, choices.labels.data(), int(choices.labels.size()));
+void settingWidget(const Setting& setting, int& value, const SettingChoices& choices) {
+    ImGui::Combo(idOf(setting).c_str(), &value, choices.labels.data(), int(choices.labels.size()));
 }
 
 } // namespace limn

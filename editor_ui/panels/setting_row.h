@@ -11,23 +11,28 @@
 
 namespace limn {
 
-// The inspector's row for a setting: its label, tooltip and a widget that keeps to its limits. The
-// last of them is for any enumeration.
+// The widget of a setting, which keeps to its limits. The last of them is for any enumeration.
 
-void settingRow(FieldEdit& edit, const Setting& setting, bool& value);
-void settingRow(FieldEdit& edit, const Setting& setting, std::uint32_t& value,
-                const SettingRange& range);
-void settingRow(FieldEdit& edit, const Setting& setting, float& value, const SettingRange& range);
+void settingWidget(const Setting& setting, bool& value);
+void settingWidget(const Setting& setting, std::uint32_t& value, const SettingRange& range);
+void settingWidget(const Setting& setting, float& value, const SettingRange& range);
 /// Cells along three sides; all of them are 0, or none.
-void settingRow(FieldEdit& edit, const Setting& setting, glm::uvec3& value,
-                const SettingRange& range);
-void choiceRow(FieldEdit& edit, const Setting& setting, int& value, const SettingChoices& choices);
+void settingWidget(const Setting& setting, glm::uvec3& value, const SettingRange& range);
+void settingWidget(const Setting& setting, int& value, const SettingChoices& choices);
 template <class T>
 requires std::is_enum_v<T>
-void settingRow(FieldEdit& edit, const Setting& setting, T& value, const SettingChoices& choices) {
+void settingWidget(const Setting& setting, T& value, const SettingChoices& choices) {
     int index = int(value);
-    choiceRow(edit, setting, index, choices);
+    settingWidget(setting, index, choices);
     value = T(index);
+}
+
+/// The inspector's row for a setting of the object that is edited: label, tooltip and widget.
+template <class T, class... Limits>
+void settingRow(FieldEdit& edit, const Setting& setting, T& value, const Limits&... limits) {
+    fieldLabel(setting.label, setting.tooltip);
+    settingWidget(setting, value, limits...);
+    fieldEdited(edit, setting.label);
 }
 
 } // namespace limn

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "editor_ui/panels/time_history.h"
+#include "engine/lighting/lighting_report.h"
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
-#include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/relight/relight_choice.h"
 
 #include <cstdint>
@@ -16,6 +16,7 @@ namespace limn {
 
 /// How the bake stands to the document.
 enum class BakeFreshness {
+    NotUsed,  ///< the technique that lights the document needs no bake
     None,     ///< nothing baked yet
     Checking, ///< the document changed; its hash is being computed
     UpToDate,
@@ -44,11 +45,11 @@ struct BakeStatus {
     std::string error; ///< why the last bake gave nothing; empty: it gave something
 };
 
-/// What the panels show of the relighting thread.
-struct RelightStatus {
-    RelightStats last;
+/// What the panels show of bounced light and whoever updates it.
+struct LightingStatus {
+    LightingReport last; ///< of the last update that bounced light
     TimeHistory history;
-    std::uint64_t calls = 0;   ///< of relight() since the scene was opened
+    std::uint64_t calls = 0;   ///< updates since the scene was opened
     std::uint32_t bounces = 0; ///< since the last edit
     bool running = false;
     bool converged = false;

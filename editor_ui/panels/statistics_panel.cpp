@@ -7,6 +7,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace limn {
@@ -47,12 +49,13 @@ static std::string ms(double milliseconds) {
 }
 
 static void timeTable(const EditorState& state) {
-    const RelightStats& r = state.relight.last;
     const FrameStatus& f = state.frame;
     if (!beginTable("time", "Time per step"))
         return;
-    for (const RelightStep& step : kRelightSteps)
-        row(step.label, ms(step.ms(r)), step.tooltip, step.color);
+    const std::vector<LightingStep>& steps = state.relight.last.steps;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        row(steps[i].label, ms(steps[i].ms), steps[i].tooltip,
+            kStepColors[std::min(i, kStepColors.size() - 1)]);
     row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
     row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
     row("Surfaces", ms(f.surfacesMs),
@@ -124,55 +127,37 @@ static void placeRow(RelightPlace& place) {
         ImGui::EndCombo();
 }
 
+static std::string counterText(const LightingCounter& counter) {
+    switch (counter.unit) {
+    case CounterUnit::Count:
+        return groupedNumber(static_cast<unsigned long long>(counter.value));
+    case CounterUnit::Milliseconds:
+        return ms(counter.value);
+    case CounterUnit::Share:
+        return counter.value > 0 ? fmt::format("{:.3f}", counter.value) : "\u2013";
+    }
+    return {};
+}
+
 static void relightTable(EditorState& state) {
-    const RelightStatus& r = state.relight;
+    const LightingStatus& r = state.relight;
     if (!beginTable("relight", "Bounced light"))
         return;
     row("State",
-        r.last.grows  ? "stopped"
-        : r.converged ? "converged"
-        : r.running   ? "bouncing"
-                      : "idle",
-        r.last.grows ? "Every bounce brought more light than the one before: bake again"
-                     : "Converged: another bounce would change nothing");
+        r.last.diverges ? "stopped"
+        : r.converged   ? "converged"
+        : r.running     ? "bouncing"
+                        : "idle",
+        r.last.diverges ? "Every bounce brought more light than the one before: bake again"
+                        : "Converged: another bounce would change nothing");
     placeRow(state.relightPlace);
     for (const RelightOn on : {RelightOn::Cpu, RelightOn::Gpu})
         row(on == RelightOn::Cpu ? "  CPU" : "  GPU", measuredMs(state.relightPlace, on),
             "One update of one bounce with every light moved: what Auto compares");
     row("Bounces", std::to_string(r.bounces), "Since the last edit");
-    row("Passed on", r.last.passedOn > 0 ? fmt::format("{:.3f}", r.last.passedOn) : "\u2013",
-        "Share of the light of a bounce that the next one hands on, below 1 where no light comes "
-        "from nowhere; known from the third bounce after an edit on");
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
-    row("Shadow rays", groupedNumber(r.last.shadowRays),
-        "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps");
-    row("Lit anew", groupedNumber(r.last.lightsTraced),
-        "Lights that the last call worked out, because they or an object moved; 0 where only their "
-        "colour or strength changed");
-    row("Lights off", groupedNumber(r.last.lightsOff),
-        "Off, black or out of reach of every surface: they cost nothing");
-    row("Links", groupedNumber(r.last.links),
-        "Of the caches that the last call lit, once for each bounce");
-    row("  passed over", groupedNumber(r.last.linksPassedOver),
-        "What they come from sends no light: a black sky or, where the CPU reads cones, surfaces "
-        "in the dark. Nothing is lost without them");
-    row("Bands lit",
-        std::to_string(r.last.bandsLit) + " of " +
-            std::to_string(r.last.bandsLit + r.last.bandsSkipped),
-        "The others would be seen in glossy reflections only, and no surface needs them");
-    row("Grid skipped", groupedNumber(r.last.gridCachesSkipped),
-        "Cells not lit, because no object reads them: none is dynamic or without lightmap");
-    row("Unseen", groupedNumber(r.last.cachesUnseen),
-        "Caches of the lightmap that the last bounce did not light, because the picture does not "
-        "show them; they are lit when the light stands still");
-    row("Unread", groupedNumber(r.last.cachesUnread),
-        "Caches of the lightmap that the bounces before the last did not light, because no surfel "
-        "reads them");
-    row("Dimmed", groupedNumber(r.last.cachesDimmed),
-        "Caches that dynamic objects take bounced light from; 0 where there are none");
-    row("  links", groupedNumber(r.last.linksDimmed), "Of those caches");
-    row("Dimming", ms(r.last.dimMs),
-        "Finding what dynamic objects hide, by the last call; 0 while they stand still");
+    for (const LightingCounter& counter : r.last.counters)
+        row(counter.label, counterText(counter), counter.tooltip);
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
     row("Since edit",
         state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",

@@ -11,27 +11,36 @@ namespace limn {
 
 namespace {
 
-float sumOf(const std::array<float, kRelightSteps.size()>& steps) {
+float sumOf(const TimeHistory::Steps& steps) {
     return std::accumulate(steps.begin(), steps.end(), 0.f);
 }
 
-void barTooltip(const std::array<float, kRelightSteps.size()>& steps, std::size_t age) {
+void barTooltip(const TimeHistory& history, std::size_t age) {
+    const TimeHistory::Steps& steps = history.at(age);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(age == 0 ? "The last update"
                                     : fmt::format("{} updates ago", age).c_str());
-    for (std::size_t i = 0; i < steps.size(); ++i)
-        ImGui::TextUnformatted(
-            fmt::format("{}: {:.2f} ms", kRelightSteps[i].label, steps[i]).c_str());
+    for (std::size_t i = 0; i < steps.size() && history.labels[i]; ++i)
+        ImGui::TextUnformatted(fmt::format("{}: {:.2f} ms", history.labels[i], steps[i]).c_str());
     ImGui::EndTooltip();
 }
 
 } // namespace
 
-void TimeHistory::add(const RelightStats& stats) {
-    if (stats.skipped)
+void TimeHistory::add(const LightingReport& report) {
+    if (report.skipped)
         return;
-    for (std::size_t i = 0; i < kRelightSteps.size(); ++i)
-        ms[std::size_t(count % kLength)][i] = float(kRelightSteps[i].ms(stats));
+    Steps steps{};
+    decltype(labels) named{};
+    for (std::size_t i = 0; i < report.steps.size(); ++i) {
+        const std::size_t at = std::min(i, steps.size() - 1);
+        steps[at] += float(report.steps[i].ms);
+        named[at] = report.steps[i].label;
+    }
+    if (named != labels)
+        count = 0; // another technique
+    labels = named;
+    ms[std::size_t(count % kLength)] = steps;
     ++count;
 }
 
@@ -55,14 +64,14 @@ void timeHistory(const TimeHistory& history) {
     for (std::size_t age = 0; age < history.size(); ++age) {
         const float right = from.x + width - bar * float(age);
         float y = from.y + height;
-        for (std::size_t i = 0; i < kRelightSteps.size() && most > 0; ++i) {
+        for (std::size_t i = 0; i < kStepColors.size() && most > 0; ++i) {
             const float top = y - height * history.at(age)[i] / most;
-            draw.AddRectFilled({right - bar, top}, {right, y}, kRelightSteps[i].color);
+            draw.AddRectFilled({right - bar, top}, {right, y}, kStepColors[i]);
             y = top;
         }
         if (ImGui::IsItemHovered() && ImGui::GetMousePos().x < right &&
             ImGui::GetMousePos().x >= right - bar)
-            barTooltip(history.at(age), age);
+            barTooltip(history, age);
     }
 }
 

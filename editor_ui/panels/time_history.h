@@ -1,46 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/lighting/lighting_report.h"
 
 #include <array>
 #include <cstdint>
 
 namespace limn {
 
-/// A step of relighting as the statistics show it.
-struct RelightStep {
-    const char *label, *tooltip;
-    std::uint32_t color; ///< bytes R, G, B, A from the lowest
-    double (*ms)(const RelightStats&);
-};
+/// Colours of an update's steps, by Okabe and Ito (Color Universal Design, 2008), so that the
+/// colour-blind tell them apart; bytes R, G, B, A from the lowest.
+inline constexpr std::array<std::uint32_t, 7> kStepColors = {
+    0xff009fe6, 0xffe9b456, 0xff739e00, 0xffb27200, 0xffa779cc, 0xff42e4f0, 0xff005ed5};
 
-/// In the order they run. Colours by Okabe and Ito (Color Universal Design, 2008), so that the
-/// colour-blind tell them apart.
-inline constexpr std::array<RelightStep, 5> kRelightSteps = {
-    {{"Direct light", "Lights onto the surfels, with shadow rays", 0xff009fe6,
-      [](const RelightStats& r) { return r.directMs; }},
-     {"Surfel light", "Bounced light at the surfels, and what they send on", 0xffe9b456,
-      [](const RelightStats& r) { return r.surfelLightMs + r.surfelReadMs; }},
-     {"Pull", "Sums flux up the cluster tree", 0xff739e00,
-      [](const RelightStats& r) { return r.pullMs; }},
-     {"Cache light", "Gathers linked clusters into the caches; finds what moved objects hide",
-      0xffb27200, [](const RelightStats& r) { return r.cacheLightMs + r.dimMs; }},
-     {"Field", "What the viewport samples, from the caches", 0xffa779cc,
-      [](const RelightStats& r) { return r.fieldMs; }}}};
-
-/// Milliseconds of the latest updates that did any work, step by step.
+/// Milliseconds of the latest updates that did any work, step by step. Begins anew with the first
+/// update of other steps.
 struct TimeHistory {
     static constexpr std::size_t kLength = 96;
-    std::array<std::array<float, kRelightSteps.size()>, kLength> ms{}; ///< a ring
-    std::uint64_t count = 0; ///< ever added; the latest is number (count - 1) mod kLength
+    using Steps = std::array<float, kStepColors.size()>; ///< those beyond the last are in the last
 
-    void add(const RelightStats& stats);
+    std::array<Steps, kLength> ms{}; ///< a ring
+    std::uint64_t count = 0;         ///< ever added; the latest is number (count - 1) mod kLength
+    std::array<const char*, kStepColors.size()> labels{}; ///< of the latest; null: no such step
+
+    void add(const LightingReport& report);
     std::size_t size() const { return count < kLength ? std::size_t(count) : kLength; }
     /// Of the update that came `age` updates before the latest; age < size().
-    const std::array<float, kRelightSteps.size()>& at(std::size_t age) const {
-        return ms[std::size_t((count - 1 - age) % kLength)];
-    }
+    const Steps& at(std::size_t age) const { return ms[std::size_t((count - 1 - age) % kLength)]; }
     float longest() const; ///< [ms] of all steps of one update together
 };
 

@@ -83,6 +83,12 @@ void describeBakeSettings(Fields& fields, T& b) {
     });
 }
 
+template <class Fields, class T>
+void describeTechniqueChoice(Fields& fields, T& t) {
+    fields("name", t.technique);
+    fields("settings", t.settings);
+}
+
 /// Calls use(name, object, describe) with the kind's name in files.
 template <class Use>
 void describeObject(const Object& object, const Use& use) {
@@ -99,8 +105,10 @@ void describeObject(const Object& object, const Use& use) {
                 use("camera", o, [](auto& f, auto& c) { describeCamera(f, c); });
             else if constexpr (std::is_same_v<T, Sky>)
                 use("sky", o, [](auto& f, auto& s) { describeSky(f, s); });
-            else
+            else if constexpr (std::is_same_v<T, BakeSettings>)
                 use("bakeSettings", o, [](auto& f, auto& b) { describeBakeSettings(f, b); });
+            else
+                use("technique", o, [](auto& f, auto& t) { describeTechniqueChoice(f, t); });
         },
         object);
 }

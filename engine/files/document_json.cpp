@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <concepts>
+#include <map>
 #include <set>
 #include <span>
 
@@ -49,6 +50,8 @@ struct FieldWriter {
         else if constexpr (std::is_integral_v<T> || std::is_same_v<T, std::string> ||
                            std::is_same_v<T, std::vector<std::uint32_t>>)
             out[name] = value;
+        else if constexpr (std::is_same_v<T, std::map<std::string, double>>)
+            out[name] = Json(value);
         else if constexpr (std::is_same_v<T, glm::quat>)
             for (const float v : {value.x, value.y, value.z, value.w})
                 out[name].push_back(shortest(v));
@@ -178,6 +181,15 @@ private:
         for (std::size_t i = 0; i < json.size() && m_problem.empty(); ++i)
             read(json[i], fmt::format("{}[{}]", name, i), value[i]);
     }
+    void read(const Json& json, const std::string& name, std::map<std::string, double>& value) {
+        if (!json.is_object())
+            return report(name, "not an object");
+        value.clear();
+        for (const auto& [key, number] : json.items()) {
+            double& to = value[key];
+            read(number, name + "." + key, to);
+        }
+    }
     /// Vectors and quaternions; the latter as x, y, z, w.
     template <class V>
     requires requires { V::length(); }
@@ -246,9 +258,10 @@ static std::string invariantOf(const Object& object) {
 /// The object under whichever kind's name `json` has.
 static Result<Object> readObject(const Json& json, const std::string& path,
                                  const glm::dvec3& origin) {
-    static const std::array<Object, 6> kinds = {Node{},   Material{}, Light{},
-                                                Camera{}, Sky{},      BakeSettings{}};
-    Result<Object> result = fail(path + ": no node, material, light, camera, sky or bakeSettings");
+    static const std::array<Object, 7> kinds = {Node{}, Material{},     Light{},          Camera{},
+                                                Sky{},  BakeSettings{}, TechniqueChoice{}};
+    Result<Object> result =
+        fail(path + ": no node, material, light, camera, sky, bakeSettings or technique");
     for (const Object& kind : kinds)
         describeObject(kind, [&](const char* name, auto object, const auto& describe) {
             const auto found = json.find(name);

@@ -140,6 +140,13 @@ void writeUv(const ChartPlace& place, const AtlasInput& in, LightmapLayout& layo
 
 } // namespace
 
+LightmapLayout layoutWithoutLightmap(const Scene& scene) {
+    LightmapLayout layout;
+    layout.meshes.resize(scene.assets->meshes.size());
+    layout.instances.resize(scene.instances.size());
+    return layout;
+}
+
 double wantedTexels(const Scene& scene) {
     const double perMetre = scene.bake.texelsPerMetre;
     if (!(perMetre > 0))

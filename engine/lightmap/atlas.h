@@ -59,6 +59,10 @@ struct Bilinear {
 };
 Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv);
 
+/// The layout of a scene in which no instance has a place in the lightmap: all are lit from the
+/// grid.
+LightmapLayout layoutWithoutLightmap(const Scene& scene);
+
 /// How far below an instance's front its back lies, in normalised atlas coordinates.
 float backOffset(const LightmapLayout& layout, std::uint32_t instance);
 

@@ -67,6 +67,10 @@ inline std::uint32_t chromaBandsOf(const BakeSettings& s) {
     return s.chromaBands == 0 || s.chromaBands > s.bands ? s.bands : s.chromaBands;
 }
 
+/// So few bounces, or fewer, are taken as they are asked for (BakeSettings::maxBounces): whenever
+/// something changes they begin from no bounced light at all. More go on from the light that was.
+inline constexpr std::uint32_t kFewBounces = 8;
+
 /// Which of the settings is out of its range, in words; empty: none.
 std::string settingsDefect(const BakeSettings& settings);
 

@@ -19,6 +19,13 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+/// From where a picture is seen.
+struct Viewpoint {
+    Camera camera;
+    float aspect = 1; ///< width over height
+    bool operator==(const Viewpoint&) const = default;
+};
+
 /// World to view; the view looks down -Z. Robust when `up` is parallel to the view direction.
 glm::mat4 viewMatrix(const Camera& camera);
 

@@ -38,6 +38,7 @@ std::string objectName(const Object& object) {
         std::string operator()(const Camera& o) const { return o.name; }
         std::string operator()(const Sky&) const { return "Sky"; }
         std::string operator()(const BakeSettings&) const { return "Bake settings"; }
+        std::string operator()(const TechniqueChoice&) const { return "Technique"; }
     } name;
     return std::visit(name, object);
 }

@@ -6,6 +6,7 @@
 #include "engine/scene/light/light.h"
 #include "engine/scene/sky.h"
 #include "engine/scene/surface/material.h"
+#include "engine/scene/technique_choice.h"
 
 #include <cstdint>
 #include <map>
@@ -49,7 +50,7 @@ struct Node {
 /// A material object. Mesh::material names Material objects by their order of id.
 /// (Material itself is in material.h.)
 
-using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings>;
+using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings, TechniqueChoice>;
 
 /// Everything a user can edit. A plain value; heavy, immutable data is in Assets. Node transforms
 /// are the file's. Lights and cameras are in world space, whose origin is `origin`.
@@ -66,7 +67,8 @@ struct Document {
 /// Adds `object` under a fresh id.
 ObjectId addObject(Document& document, Object object);
 
-/// The single object of type T (Sky, BakeSettings), or T's defaults where the document has none.
+/// The single object of type T (Sky, BakeSettings, TechniqueChoice), or T's defaults where the
+/// document has none.
 template <class T>
 T singleton(const Document& document) {
     for (const auto& [id, object] : document.objects)
@@ -75,7 +77,7 @@ T singleton(const Document& document) {
     return {};
 }
 
-/// The display name; "Sky" and "Bake settings" for those without one.
+/// The display name; "Sky", "Bake settings" and "Technique" for those without one.
 std::string objectName(const Object& object);
 
 } // namespace limn

@@ -113,6 +113,7 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, do
     showTime(scene, document, seconds);
     scene.sky = singleton<Sky>(document);
     scene.bake = singleton<BakeSettings>(document);
+    scene.technique = singleton<TechniqueChoice>(document);
     scene.bounds = instanceBounds(scene, true);
     return scene;
 }

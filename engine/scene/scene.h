@@ -54,6 +54,7 @@ struct Scene {
     std::vector<Camera> cameras;
     Sky sky;
     BakeSettings bake;
+    TechniqueChoice technique;
     Bounds bounds;        ///< world space, of all instances; 0 for an empty scene
     glm::dvec3 origin{0}; ///< of world space, in the file's coordinates [m]
 

@@ -54,7 +54,7 @@ TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {
     // The lamp moves while one looks forward and the other back; then both look back.
     turned.draw(looking(1, moved), hurry);
     still.draw(looking(-1, moved), hurry);
-    EXPECT_GT(turned.relight.last.cachesUnseen, made->caches.lightmapCount / 4);
+    EXPECT_GT(counterOf(turned.relight.last, "caches_unseen"), made->caches.lightmapCount / 4);
     EXPECT_TRUE(turned.bouncing());
     const Image a = turned.draw(looking(-1, moved), hurry),
                 b = still.draw(looking(-1, moved), hurry);
@@ -68,7 +68,8 @@ TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
     RenderWorker turned(false), still(false);
     drawn(turned, looking(1, first));
     drawn(turned, looking(1, moved));
-    EXPECT_GT(turned.relight.last.cachesUnseen, 0U) << "the bounces were for what is seen";
+    EXPECT_GT(counterOf(turned.relight.last, "caches_unseen"), 0U)
+        << "the bounces were for what is seen";
     const std::uint64_t calls = turned.relight.calls;
     const Image a = turned.draw(looking(-1, moved), hurry);
     EXPECT_EQ(turned.relight.calls, calls) << "nothing is left to do";
@@ -99,25 +100,27 @@ TEST_F(RenderWorkerTest, AMovedObjectTakesItsDimmingAlong) {
     made = std::make_shared<const Bake>(*bake(*trace));
     RenderWorker worker(false);
     const Image before = drawn(worker, looking(-1, first));
-    const std::uint64_t dimmed = worker.relight.last.linksDimmed;
+    const double dimmed = counterOf(worker.relight.last, "links_occluded");
     EXPECT_GT(dimmed, 100U);
     const auto there = withBlock(3);
     const Image after = drawn(worker, looking(-1, there));
     EXPECT_NE(after.rgba, before.rgba);
-    EXPECT_GT(worker.relight.last.linksDimmed, 100U);
+    EXPECT_GT(counterOf(worker.relight.last, "links_occluded"), 100U);
     RenderWorker other(false);
     drawn(other, looking(-1, there));
-    EXPECT_EQ(worker.relight.last.linksDimmed, other.relight.last.linksDimmed);
+    EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"),
+              counterOf(other.relight.last, "links_occluded"));
     Scene unbaked = *there;
     unbaked.bake.links = 64;
     drawn(worker, looking(-1, std::make_shared<const Scene>(unbaked)));
-    EXPECT_EQ(worker.relight.last.linksDimmed, other.relight.last.linksDimmed)
+    EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"),
+              counterOf(other.relight.last, "links_occluded"))
         << "until there is another bake";
     const Image off = drawn(worker, looking(-1, withBlock(3, false)));
-    EXPECT_EQ(worker.relight.last.linksDimmed, 0U);
+    EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"), 0U);
     EXPECT_NE(off.rgba, after.rgba);
     drawn(worker, looking(-1, first));
-    EXPECT_EQ(worker.relight.last.linksDimmed, dimmed);
+    EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"), dimmed);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/relight_job.h"
 
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/seen_caches.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +48,7 @@ struct RelightJobTest : testing::Test {
         return false;
     }
     static bool rests(const RelightJob& job) {
-        const RelightStatus s = job.result().status;
+        const LightingStatus s = job.result().status;
         return s.converged && !s.running;
     }
 
@@ -74,7 +76,8 @@ TEST_F(RelightJobTest, LightsWhatIsSeenWhileALightMovesAndAllAtRest) {
     job.setScene(moved);
     ASSERT_TRUE(until([&] { return rests(job) && job.result().hashedScene == moved; }));
     const Relit relit = job.result();
-    EXPECT_GT(relit.status.last.cachesUnseen, 300U) << "bounces were for what is seen";
+    EXPECT_GT(counterOf(relit.status.last, "caches_unseen"), 300U)
+        << "bounces were for what is seen";
     // Whichever way the camera turns now: a full relight shows no other light.
     Relighter full(made);
     full.relight(*scene, *trace, 64);
@@ -109,10 +112,10 @@ TEST_F(RelightJobTest, WhatComesIntoViewIsRightWithTheNextField) {
     ASSERT_GT(fields.size(), 2U);
     Relighter full(made); // lights all in every call
     full.relight(*scene, *trace, 64);
-    full.relight(*moved, *trace, bouncesPerCall(64));
+    full.relight(*moved, *trace, bouncesPerUpdate(64));
     EXPECT_LT(difference(*fields[0], full.field(), seen(a)), 1e-3);
     EXPECT_GT(difference(*fields[0], full.field(), seen(b)), 0.1) << "nobody looks there";
-    full.relight(*moved, *trace, bouncesPerCall(64));
+    full.relight(*moved, *trace, bouncesPerUpdate(64));
     EXPECT_LT(difference(*fields[1], full.field(), seen(b)), 1e-3);
 }
 
@@ -144,7 +147,7 @@ TEST_F(RelightJobTest, LightsAllForOverlaysOfLight) {
     job.setScene(lampAt(*scene, {3.2f, 1.8f, 4}));
     ASSERT_TRUE(until([&] { return rests(job); }));
     EXPECT_GT(job.result().status.calls, 2U);
-    EXPECT_EQ(job.result().status.last.cachesUnseen, 0U);
+    EXPECT_EQ(counterOf(job.result().status.last, "caches_unseen"), 0);
 }
 
 } // namespace

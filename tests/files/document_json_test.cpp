@@ -27,12 +27,13 @@ TEST(DocumentJson, EveryDocumentComesBackEqual) {
 TEST(DocumentJson, DefaultsComeBackAndMissingFieldsTakeThem) {
     Document document;
     for (Object object : {Object(Node{}), Object(Material{}), Object(Light{}), Object(Camera{}),
-                          Object(Sky{}), Object(BakeSettings{})})
+                          Object(Sky{}), Object(BakeSettings{}), Object(TechniqueChoice{})})
         addObject(document, object);
     EXPECT_TRUE(*documentFromJson(documentToJson(document)) == document);
     const Result<Document> sparse = documentFromJson(R"({"version": 1, "objects": [
         {"id": 1, "node": {}}, {"id": 2, "material": {}}, {"id": 3, "light": {}},
-        {"id": 4, "camera": {}}, {"id": 5, "sky": {}}, {"id": 6, "bakeSettings": {}}]})");
+        {"id": 4, "camera": {}}, {"id": 5, "sky": {}}, {"id": 6, "bakeSettings": {}},
+        {"id": 7, "technique": {}}]})");
     ASSERT_TRUE(sparse) << sparse.error().message;
     EXPECT_TRUE(*sparse == document);
 }

@@ -92,7 +92,7 @@ private:
         return t;
     }
     Object other() {
-        switch (below(5)) {
+        switch (below(6)) {
         case 0: {
             Material m;
             m.name = text();
@@ -138,6 +138,8 @@ private:
         }
         case 3:
             return Sky{SkyKind(below(3)), color(), color(), color(), text(), light(), number()};
+        case 4:
+            return TechniqueChoice{text(), {{text(), number()}, {"radiance", unit()}}};
         default: {
             BakeSettings b;
             b.surfels = 64 + below(1000000);

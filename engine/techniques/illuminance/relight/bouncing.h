@@ -102,10 +102,6 @@ private:
     std::array<double, 4> m_latest{}; ///< passed on by the latest rounds
 };
 
-/// So few bounces, or fewer, are taken as they are asked for (BakeSettings::maxBounces): whenever
-/// something changes they begin from no bounced light at all. More go on from the light that was.
-inline constexpr std::uint32_t kFewBounces = 8;
-
 /// The bands that receivers see at last, where `lit` of the bake's are lit.
 inline LightBands finalBands(const BakeSettings& settings, int lit) {
     return {lit, std::min(int(chromaBandsOf(settings)), lit)};

@@ -34,13 +34,6 @@ CacheFootprints cacheFootprints(const Scene& scene, const Bake& bake);
 /// on the eye; and those without any. `aspect`: width over height.
 CacheFlags seenCaches(const CacheFootprints& footprints, const Camera& camera, float aspect);
 
-/// From where a picture is seen.
-struct Viewpoint {
-    Camera camera;
-    float aspect = 1; ///< width over height
-    bool operator==(const Viewpoint&) const = default;
-};
-
 /// What is seen of one bake from the newest viewpoint.
 struct SeenFrom {
     CacheFootprints footprints; ///< empty until needed

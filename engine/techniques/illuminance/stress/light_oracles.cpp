@@ -37,7 +37,7 @@ double largest(glm::vec3 v) {
 
 /// Counts NaN and infinities in what nodes send, caches hold and the field shows.
 Judgement judgeFinite(const Subject& subject) {
-    const Lighting& l = subject.base.light;
+    const RelitState& l = subject.base.light;
     return judged(double(countNotFinite(l.radiosity) + countNotFinite(l.sh) +
                          countNotFinite(l.field.lightmap) + countNotFinite(l.field.grid)),
                   0);

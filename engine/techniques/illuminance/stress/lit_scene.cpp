@@ -5,12 +5,12 @@
 
 namespace limn {
 
-Lighting lightOf(const Relighter& relighter, const RelightStats& stats) {
+RelitState lightOf(const Relighter& relighter, const RelightStats& stats) {
     return {relighter.radiosity(), relighter.cacheSh(), relighter.field(), stats};
 }
 
-Lighting lightOf(const std::shared_ptr<const Bake>& bake, const Scene& scene,
-                 const TraceScene& trace, std::uint32_t bounces, const Progress& progress) {
+RelitState lightOf(const std::shared_ptr<const Bake>& bake, const Scene& scene,
+                   const TraceScene& trace, std::uint32_t bounces, const Progress& progress) {
     Relighter relighter(bake);
     const RelightStats stats = relighter.relight(scene, trace, bounces, progress);
     return lightOf(relighter, stats);

@@ -14,7 +14,7 @@
 namespace limn {
 
 /// What a relighter made of a scene: copies of what it tells.
-struct Lighting {
+struct RelitState {
     std::vector<glm::vec4> radiosity; ///< as Relighter::radiosity()
     std::vector<glm::vec3> sh;        ///< as Relighter::cacheSh()
     IndirectField field;
@@ -26,15 +26,15 @@ struct LitScene {
     Scene scene;
     std::shared_ptr<const TraceScene> trace;
     std::shared_ptr<const Bake> bake;
-    Lighting light;
+    RelitState light;
 };
 
 /// Of a fresh relighter after at most `bounces`.
-Lighting lightOf(const std::shared_ptr<const Bake>& bake, const Scene& scene,
-                 const TraceScene& trace, std::uint32_t bounces, const Progress& progress);
+RelitState lightOf(const std::shared_ptr<const Bake>& bake, const Scene& scene,
+                   const TraceScene& trace, std::uint32_t bounces, const Progress& progress);
 
 /// Of a relighter as it is now.
-Lighting lightOf(const Relighter& relighter, const RelightStats& stats);
+RelitState lightOf(const Relighter& relighter, const RelightStats& stats);
 
 /// Bakes and lights by as many bounces as the scene's settings allow. Fails as bake() does.
 Result<LitScene> bakeAndLight(const Scene& scene, const Progress& progress);

@@ -151,6 +151,7 @@ private:
                                   [](Light& l) { l.roll = 0; }});
     }
     bool makePlain(ObjectId, const Camera&) { return false; }
+    bool makePlain(ObjectId, const TechniqueChoice&) { return false; }
     bool makePlain(ObjectId id, const Sky&) {
         return tryAll<Sky>(id, {[](Sky& s) { s = {}; },
                                 [](Sky& s) {

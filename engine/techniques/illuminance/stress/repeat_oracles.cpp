@@ -22,14 +22,14 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-bool sameBits(const Lighting& a, const Lighting& b) {
+bool sameBits(const RelitState& a, const RelitState& b) {
     return sameBits(a.radiosity, b.radiosity) && sameBits(a.sh, b.sh) &&
            sameBits(a.field.lightmap, b.field.lightmap) && sameBits(a.field.grid, b.field.grid);
 }
 
 /// 0 where bake and light have the same bits as the subject's, 1 where the light, 2 where the bake
 /// has others.
-Judgement judgeSame(const Subject& subject, const Bake& bake, const Lighting& light) {
+Judgement judgeSame(const Subject& subject, const Bake& bake, const RelitState& light) {
     if (bake.hash() != subject.base.bake->hash() || bake.counts != subject.base.bake->counts)
         return judged(2, 0);
     return judged(sameBits(light, subject.base.light) ? 0 : 1, 0);

@@ -31,7 +31,7 @@ Judgement judgeBrightness(const Subject& subject) {
     RandomStream random(subject.seed + 6);
     const float k = std::exp2(float(random.whole(-8, 8)));
     const Scene scene = brighter(s.scene, k);
-    const Lighting light =
+    const RelitState light =
         lightOf(s.bake, scene, *s.trace, scene.bake.maxBounces, subject.progress);
     if (light.sh.size() != s.light.sh.size())
         return broken();
@@ -143,7 +143,7 @@ Judgement judgeIncrements(const Subject& subject) {
                           subject.progress);
     const RelightStats stats =
         relighter.relight(s.scene, *s.trace, s.scene.bake.maxBounces, subject.progress);
-    const Lighting light = lightOf(relighter, stats);
+    const RelitState light = lightOf(relighter, stats);
     constexpr std::uint32_t kFewBounces = 8;
     if (s.scene.bake.maxBounces <= kFewBounces) {
         std::uint64_t different = light.sh.size() != s.light.sh.size();

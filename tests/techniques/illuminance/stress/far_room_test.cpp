@@ -77,7 +77,7 @@ double difference(const std::vector<V>& a, const std::vector<V>& b) {
     return differs / all;
 }
 
-double sumOf(const Lighting& light) {
+double sumOf(const RelitState& light) {
     double sum = 0;
     for (const glm::vec4& b : light.radiosity)
         sum += double(b.x) + double(b.y) + double(b.z);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "engine/lighting/lighting_driver.h"
+
+#include <utility>
+
+namespace limn {
+
+std::uint32_t bouncesPerUpdate(std::uint32_t maxBounces) {
+    return maxBounces <= kFewBounces ? maxBounces : 2;
+}
+
+LightingDriver::LightingDriver(std::unique_ptr<Lighting> lighting)
+    : m_lighting(std::move(lighting)) {}
+
+void LightingDriver::lightChanged() {
+    m_converged = m_whole = false;
+    m_bounces = 0;
+}
+
+const LightingReport* LightingDriver::step(LightingInput input, Rest rest,
+                                           const Progress& progress) {
+    if (done() || (m_converged && rest == Rest::Later))
+        return nullptr;
+    const bool resting = m_converged;
+    const std::uint32_t most = input.scene.bake.maxBounces;
+    input.bounces = resting ? 0 : bouncesPerUpdate(most);
+    if (!m_everWhole || (resting && rest == Rest::All))
+        input.view = nullptr;
+    LightingReport report = m_lighting->update(input, progress);
+    m_whole = report.whole;
+    m_everWhole |= m_whole;
+    if (resting)
+        return nullptr;
+    m_report = std::move(report);
+    m_bounces += m_report.bounces;
+    m_converged = m_report.converged || m_bounces >= most;
+    return &m_report;
+}
+
+} // namespace limn

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/relight/cpu_illuminance.h"
+
+#include "engine/techniques/illuminance/relight/relight_report.h"
+
+namespace limn {
+
+LightingReport CpuIlluminance::update(const LightingInput& input, const Progress& progress) {
+    const CacheFlags* seen =
+        input.view ? &seenFrom(m_seen, *m_baked, *m_bake, *input.view) : nullptr;
+    return reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
+}
+
+} // namespace limn

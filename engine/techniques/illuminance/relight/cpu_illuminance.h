@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/lighting/lighting.h"
+#include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/seen_caches.h"
+
+#include <memory>
+
+namespace limn {
+
+/// A bake lit on the CPU.
+class CpuIlluminance : public Lighting {
+public:
+    /// `baked` is the scene that `bake` was made from.
+    CpuIlluminance(std::shared_ptr<const Bake> bake, std::shared_ptr<const Scene> baked)
+        : m_relighter(bake), m_bake(std::move(bake)), m_baked(std::move(baked)) {}
+
+    /// input.trace is not null.
+    LightingReport update(const LightingInput& input, const Progress& progress) override;
+
+    const IndirectField* field() const override { return &m_relighter.field(); }
+    const Relighter& relighter() const { return m_relighter; }
+
+private:
+    Relighter m_relighter;
+    std::shared_ptr<const Bake> m_bake;
+    std::shared_ptr<const Scene> m_baked;
+    SeenFrom m_seen;
+};
+
+} // namespace limn

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/relight/relight_report.h"
+
+namespace limn {
+
+LightingReport reportOf(const RelightStats& r) {
+    LightingReport report;
+    report.totalMs = r.totalMs;
+    report.bounces = r.bounces;
+    report.converged = r.converged;
+    report.skipped = r.skipped;
+    report.diverges = r.grows;
+    report.whole = r.cachesUnseen == 0;
+    report.steps = {
+        {"direct", "Direct light", "Lights onto the surfels, with shadow rays", r.directMs},
+        {"surfel_light", "Surfel light", "Bounced light at the surfels, and what they send on",
+         r.surfelLightMs + r.surfelReadMs},
+        {"pull", "Pull", "Sums flux up the cluster tree", r.pullMs},
+        {"cache_light", "Cache light",
+         "Gathers linked clusters into the caches; finds what moved objects hide",
+         r.cacheLightMs + r.dimMs},
+        {"field", "Field", "What the viewport samples, from the caches", r.fieldMs}};
+    report.counters = {
+        {"passed_on", "Passed on",
+         "Share of the light of a bounce that the next one hands on, below 1 where no light comes "
+         "from nowhere; known from the third bounce after an edit on",
+         r.passedOn, CounterUnit::Share},
+        {"shadow_rays", "Shadow rays",
+         "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps",
+         double(r.shadowRays)},
+        {"lights_recomputed", "Lights recomputed",
+         "Lights that moved, or past which an object moved; 0 where only their colour or strength "
+         "changed",
+         double(r.lightsTraced)},
+        {"lights_off", "Lights off",
+         "Off, black or out of reach of every surface: they cost nothing", double(r.lightsOff)},
+        {"links", "Links", "Of the caches that the last call lit, once for each bounce",
+         double(r.links)},
+        {"links_skipped", "  skipped",
+         "What they come from sends no light: a black sky or, where the CPU reads cones, surfaces "
+         "in the dark. Nothing is lost without them",
+         double(r.linksPassedOver)},
+        {"bands_lit", "Bands lit", "Bands of spherical harmonics that some surface reads",
+         double(r.bandsLit)},
+        {"bands_skipped", "  skipped",
+         "Bands that would be seen in glossy reflections only, and no surface needs them",
+         double(r.bandsSkipped)},
+        {"grid_skipped", "Grid skipped",
+         "Cells not lit, because no object reads them: none is dynamic or without lightmap",
+         double(r.gridCachesSkipped)},
+        {"caches_unseen", "Unseen",
+         "Caches of the lightmap that the last bounce did not light, because the picture does not "
+         "show them; they are lit when the light stands still",
+         double(r.cachesUnseen)},
+        {"caches_unread", "Unread",
+         "Caches of the lightmap that the bounces before the last did not light, because no surfel "
+         "reads them",
+         double(r.cachesUnread)},
+        {"caches_occluded", "Occluded",
+         "Caches that dynamic objects take bounced light from; 0 where there are none",
+         double(r.cachesDimmed)},
+        {"links_occluded", "  links", "Of those caches", double(r.linksDimmed)},
+        {"occlusion_ms", "Occlusion",
+         "Finding what dynamic objects hide, by the last call; 0 while they stand still", r.dimMs,
+         CounterUnit::Milliseconds}};
+    return report;
+}
+
+} // namespace limn

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/technique_table.h"
+
+#include "engine/field/sample_field.h"
+#include "engine/lightmap/atlas.h"
+#include "engine/lightmap/texel_points.h"
+#include "engine/techniques/illuminance/relight/cpu_illuminance.h"
+#include "tests/techniques/illuminance/relight/lit_room.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace limn {
+namespace {
+
+/// A technique with what it needs to light a scene.
+struct Lit {
+    Scene scene;
+    std::shared_ptr<const TraceScene> trace;
+    LightmapLayout layout;
+    std::unique_ptr<Lighting> lighting;
+
+    Lit(const Technique& technique, const Scene& of) : scene(of) {
+        scene.technique.technique = technique.name;
+        trace = std::make_shared<const TraceScene>(scene);
+        if (technique.light) {
+            layout = layoutWithoutLightmap(scene);
+            lighting = technique.light();
+        } else {
+            const auto made = std::make_shared<const Bake>(*bake(*trace));
+            layout = made->lightmap;
+            lighting = std::make_unique<CpuIlluminance>(made, std::make_shared<const Scene>(scene));
+        }
+    }
+    LightingReport update(std::uint32_t bounces = 64) {
+        return lighting->update({.scene = scene, .trace = trace.get(), .bounces = bounces}, {});
+    }
+    /// At the middle of each triangle of the first instance, on its front.
+    std::vector<glm::vec3> irradiance() const {
+        std::vector<glm::vec3> all;
+        const Instance& instance = scene.instances[0];
+        const Mesh& mesh = scene.meshOf(instance);
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+            const WorldPoint at = worldPoint(scene, instance, {t, glm::vec2(1 / 3.f)});
+            all.push_back(sampleIrradiance({.field = *lighting->field(),
+                                            .layout = layout,
+                                            .scene = scene,
+                                            .instance = 0,
+                                            .triangle = t,
+                                            .u = 1 / 3.f,
+                                            .v = 1 / 3.f,
+                                            .position = at.position,
+                                            .normal = at.normal}));
+        }
+        return all;
+    }
+};
+
+TEST(Techniques, AreNamedOnceAndExplained) {
+    std::set<std::string> names, labels;
+    ASSERT_FALSE(techniques().empty());
+    for (const Technique* t : techniques()) {
+        EXPECT_TRUE(names.insert(t->name).second) << t->name;
+        EXPECT_TRUE(labels.insert(t->label).second) << t->label;
+        EXPECT_GT(std::string(t->summary).size(), 20U) << t->name;
+        EXPECT_EQ(findTechnique(t->name), t);
+        for (const TechniqueSetting& s : t->settings) {
+            EXPECT_TRUE(std::string(s.setting.key).starts_with(std::string(t->name) + "."));
+            EXPECT_TRUE(s.usual >= s.range.lower && s.usual <= s.range.upper) << s.setting.key;
+        }
+    }
+    EXPECT_EQ(findTechnique("magic"), nullptr);
+    EXPECT_EQ(techniques()[0]->name, TechniqueChoice{}.technique) << "the default comes first";
+}
+
+TEST(Techniques, AChoiceOfNoneOrOfUnknownSettingsIsADefect) {
+    EXPECT_EQ(choiceDefect({}), "");
+    EXPECT_NE(choiceDefect({"magic", {}}).find("\"magic\" is not illuminance"), std::string::npos);
+    EXPECT_NE(choiceDefect({"illuminance", {{"illuminance.glow", 3}}}).find("illuminance.glow"),
+              std::string::npos);
+}
+
+// What holds of every technique.
+TEST(Techniques, LightIsFiniteAndGrowsWithTheSkyAndIsKeptWhileNothingChanges) {
+    Scene scene = *litRoom(300, 400);
+    scene.lights.clear();
+    scene.materials[0].baseColor = glm::vec4(glm::vec3(0.5f), 1);
+    scene.sky.radiance = glm::vec3(0.5f, 1, 2);
+    for (const Technique* technique : techniques()) {
+        SCOPED_TRACE(technique->name);
+        Lit lit(*technique, scene);
+        const LightingReport first = lit.update();
+        EXPECT_FALSE(first.skipped);
+        EXPECT_TRUE(first.whole);
+        EXPECT_FALSE(first.steps.empty());
+        double steps = 0;
+        for (const LightingStep& step : first.steps) {
+            EXPECT_TRUE(step.label && step.tooltip);
+            EXPECT_GE(step.ms, 0) << step.id;
+            steps += step.ms;
+        }
+        EXPECT_LE(steps, first.totalMs * 1.001 + 0.01);
+        const std::vector<glm::vec3> once = lit.irradiance();
+        for (const glm::vec3 e : once)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_TRUE(std::isfinite(e[c]) && e[c] >= 0);
+        EXPECT_TRUE(first.converged);
+        EXPECT_TRUE(lit.update().skipped) << "nothing changed";
+        EXPECT_EQ(lit.irradiance(), once);
+        lit.scene.sky.radiance *= 2;
+        lit.update();
+        const std::vector<glm::vec3> twice = lit.irradiance();
+        for (std::size_t i = 0; i < once.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(twice[i][c], 2 * once[i][c], 2e-3f * (once[i][c] + 1e-3f));
+    }
+}
+
+} // namespace
+} // namespace limn
