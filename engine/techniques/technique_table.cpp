@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/technique_table.h"
 
+#include "engine/techniques/ambient/ambient.h"
 #include "engine/techniques/illuminance/relight/illuminance.h"
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace limn {
 
-static constexpr std::array kTechniques = {&kIlluminanceTechnique};
+static constexpr std::array kTechniques = {&kIlluminanceTechnique, &kAmbientTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;

@@ -216,6 +216,45 @@ TEST_F(SessionTest, RelightingRestsWhileTheViewportDoesItAndGoesOnAfterwards) {
     EXPECT_TRUE(session.field());
 }
 
+TEST_F(SessionTest, AnotherTechniqueLightsAtOnceAndUndoBringsTheBakedLightBack) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_FALSE(hasUnsavedChanges(session.state)) << "that it is listed is no edit";
+    const auto baked = session.field();
+    ASSERT_GT(baked->lightmapWidth, 0U);
+    Edit edit{"Technique", {}};
+    for (const auto& [id, object] : session.state.document.objects)
+        if (std::holds_alternative<TechniqueChoice>(object))
+            edit.changes.push_back(
+                {id, object,
+                 TechniqueChoice{"ambient", {{"ambient.constant", 1}, {"ambient.radiance", 2}}}});
+    ASSERT_EQ(edit.changes.size(), 1U);
+    apply(session.state.history, session.state.document, edit);
+    const double before = session.bakeSeconds();
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] {
+        return session.idle() && session.field() && session.field()->lightmapWidth == 0;
+    }));
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::NotUsed);
+    EXPECT_EQ(session.bakeSeconds(), before);
+    EXPECT_TRUE(session.layout()->instances[0].uv.empty()) << "all are lit from the grid";
+    EXPECT_NEAR(session.field()->grid[0].x, 2 * 2 * std::sqrt(3.14159265), 1e-4);
+    session.state.relightPlace.gpuCan = true;
+    session.state.relightPlace.wanted = RelightOn::Gpu;
+    EXPECT_FALSE(session.viewportRelights()) << "there is no bake to light";
+    session.state.relightPlace.wanted = RelightOn::Cpu;
+
+    ASSERT_TRUE(undoEdit(session.state));
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] {
+        return session.idle() && session.field() && session.field()->lightmapWidth > 0;
+    }));
+    EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
+    EXPECT_EQ(session.field()->lightmap, baked->lightmap);
+    EXPECT_EQ(session.bakeSeconds(), before) << "the bake was kept";
+}
+
 TEST_F(SessionTest, AMovedObjectMakesANewBakeNeededAndTheOldLightStays) {
     Session session(options());
     session.open(project);
