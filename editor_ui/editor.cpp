@@ -32,7 +32,7 @@ struct Places {
 };
 
 constexpr float kSplitter = 5;
-constexpr float kLeastPanel = 150, kLeastPicture = 160;
+constexpr float kMinPanel = 150, kMinPicture = 160;
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
@@ -41,13 +41,13 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
 
 } // namespace
 
-/// Keeps the panels within the window, the picture never smaller than kLeastPicture where there is
+/// Keeps the panels within the window, the picture never smaller than kMinPicture where there is
 /// room.
 static LayoutState fitted(LayoutState layout, float width, float height) {
-    const float sides = std::max(width - kLeastPicture - 2 * kSplitter, 2 * 20.f);
-    layout.left = std::clamp(layout.left, std::min(kLeastPanel, sides / 2), sides / 2);
-    layout.right = std::clamp(layout.right, std::min(kLeastPanel, sides / 2), sides - layout.left);
-    const float most = std::max(height - kLeastPicture, 20.f);
+    const float sides = std::max(width - kMinPicture - 2 * kSplitter, 2 * 20.f);
+    layout.left = std::clamp(layout.left, std::min(kMinPanel, sides / 2), sides / 2);
+    layout.right = std::clamp(layout.right, std::min(kMinPanel, sides / 2), sides - layout.left);
+    const float most = std::max(height - kMinPicture, 20.f);
     layout.bottom = std::clamp(layout.bottom, std::min(80.f, most), most);
     return layout;
 }

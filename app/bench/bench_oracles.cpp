@@ -22,7 +22,7 @@ namespace limn {
 namespace {
 
 /// Of each oracle so many failing cases are minimised.
-constexpr std::uint64_t kMostCaseFiles = 3;
+constexpr std::uint64_t kMaxCaseFiles = 3;
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -110,7 +110,7 @@ Result<void> keepFailing(const OracleBench& o, const StressCase& stressCase,
             fmt::format("{}/{}-{}.json", o.output, oracles[k].name, result.seed);
         logInfo(fmt::format("seed {}: {} is {:.4g}, at most {:.4g} may be: {}", result.seed,
                             oracles[k].name, j.value, j.limit, result.note));
-        if (counts[k].failed >= kMostCaseFiles)
+        if (counts[k].failed >= kMaxCaseFiles)
             continue;
         const Result<void> written = writeCase(file, minimised(stressCase, oracles[k], o.output));
         if (!written)

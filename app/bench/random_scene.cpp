@@ -13,7 +13,7 @@ namespace limn {
 
 namespace {
 
-constexpr std::size_t kMostLights = 8;
+constexpr std::size_t kMaxLights = 8;
 constexpr float kPi = std::numbers::pi_v<float>;
 
 Bounds worldBounds(const Scene& scene, const Instance& instance) {
@@ -91,7 +91,7 @@ Shake RandomScene::shake() {
     const bool ofLight = what <= Shake::SwitchLight || what == Shake::RemoveLight;
     if (ofLight && lights == 0)
         what = Shake::AddLight;
-    if (what == Shake::AddLight && lights >= kMostLights)
+    if (what == Shake::AddLight && lights >= kMaxLights)
         what = Shake::RemoveLight;
     if (what == Shake::MoveObject && m_firstObject == scene.instances.size())
         what = Shake::ChangeSky;

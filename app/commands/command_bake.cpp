@@ -46,7 +46,7 @@ void printBytes(const nlohmann::json& bytes) {
 /// {"caches", "least_texels", "file_bytes", "peak_bytes"}; the peak is the process'.
 nlohmann::json summaryOf(const BakePrediction& p) {
     return {{"caches", p.caches},
-            {"least_texels", p.leastTexels},
+            {"least_texels", p.minTexels},
             {"file_bytes", p.file},
             {"peak_bytes", std::max(residentMemory() + p.working, peakMemory())}};
 }
@@ -165,10 +165,10 @@ Exit runBake(const BakeCommand& command) {
         kBakePresets.front().applyTo(scene.bake);
     applyBakeOptions(command.bake, scene.bake);
     StageStoreOptions options = command.store;
-    options.mostDiskBytes = std::uint64_t(command.storeGib * double(1 << 30));
+    options.maxDiskBytes = std::uint64_t(command.storeGib * double(1 << 30));
     if (command.noStore)
         options.folder.clear();
-    options.mostMemoryBytes = 0; // nothing asks for a stage twice
+    options.maxMemoryBytes = 0; // nothing asks for a stage twice
     StageStore store(options);
     const TraceScene trace(scene);
     releaseFreedMemory(); // what reading the scene left behind; residentMemory() would count it

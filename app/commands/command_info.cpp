@@ -139,7 +139,7 @@ static Json describe(const Bake& bake) {
     json["spacing"] = {{"mean", spacing.mean}, {"spread", spacing.spread}};
     const TreeShape tree = treeShapeOf(bake.tree);
     json["tree"] = {
-        {"most_depth", tree.mostDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};
+        {"most_depth", tree.maxDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};
     json["input"] = hexHash(bake.sceneHash);
     const nlohmann::json summary = bakeSummary(bake);
     for (const auto& [key, value] : summary.items())

@@ -64,7 +64,7 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
                        "r,g,b [nits] | gradient up=r,g,b horizon=r,g,b ground=r,g,b | FILE.hdr or "
                        "FILE.exr, a panorama; replaces the scene's");
     command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
-        ->check(numberWithin(0., double(kMostLight)));
+        ->check(numberWithin(0., double(kMaxLight)));
     addImportOptions(command, options.import);
     command
         .add_option("--sky-rotation", options.skyRotation,
@@ -187,7 +187,7 @@ Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {
         camera.target = toWorld(scene.origin, target);
         if (!withinReach(glm::vec3(eye)) || !withinReach(glm::vec3(target)))
             return fail(
-                fmt::format("--eye, --target: beyond {:g} m of the origin", kMostCoordinate));
+                fmt::format("--eye, --target: beyond {:g} m of the origin", kMaxCoordinate));
         if (camera.eye == camera.target)
             return fail("--target: may not be the eye");
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMovingMs = 60;       // a picture while things move should take no longer
 constexpr double kRestSeconds = 0.25;  // how long nothing moves before all pixels are drawn
-constexpr float kLeastScale = 0.25f;   // of the window's pixels, per axis
+constexpr float kMinScale = 0.25f;     // of the window's pixels, per axis
 constexpr float kScaleStep = 1.f / 16; // so that the size does not change with every picture
 
 } // namespace
@@ -26,7 +26,7 @@ float ViewportPicture::chooseScale(glm::uvec2 full) const {
     if (all <= most)
         return 1;
     const float wanted = float(std::sqrt(most / all));
-    return std::clamp(std::floor(wanted / kScaleStep) * kScaleStep, kLeastScale, 1.f);
+    return std::clamp(std::floor(wanted / kScaleStep) * kScaleStep, kMinScale, 1.f);
 }
 
 void ViewportPicture::takeRelit(Session& session) {

@@ -18,7 +18,7 @@ static bool atLeastZero(float v) {
 }
 
 static bool isLight(float v) {
-    return v >= 0 && v <= kMostLight;
+    return v >= 0 && v <= kMaxLight;
 }
 
 static bool isLight(glm::vec3 v) {

@@ -38,11 +38,11 @@ static void memoryLine(const EditorState& state) {
          byteText(b.surfels) + ", clusters " + byteText(b.clusters) + ", caches " +
          byteText(b.caches) + ", of which there will be about " + groupedNumber(p.caches))
             .c_str());
-    if (p.leastTexels > 0) {
+    if (p.minTexels > 0) {
         ImGui::PushTextWrapPos(0);
         ImGui::TextDisabled("The objects need at least about %s texels: one for each way that an "
                             "object faces.",
-                            groupedNumber(p.leastTexels).c_str());
+                            groupedNumber(p.minTexels).c_str());
         ImGui::PopTextWrapPos();
     }
 }

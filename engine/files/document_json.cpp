@@ -357,7 +357,7 @@ static Result<void> readHead(const Json& json, Document& document) {
         fields("scene", document.scenePath);
         fields("sceneHash", hash);
         fields("nextId", nextId);
-        fields("origin", document.origin, FieldRange{-kMostCoordinate, kMostCoordinate});
+        fields("origin", document.origin, FieldRange{-kMaxCoordinate, kMaxCoordinate});
         fields.finish();
     }
     if (!problem.empty())

@@ -140,7 +140,7 @@ static Result<ExrLayout> readAttributes(ByteReader& file) {
 }
 
 /// No compression that EXR has packs more than this into a byte: deflate packs 1032.
-constexpr std::int64_t kMostPerByte = 1100;
+constexpr std::int64_t kMaxPerByte = 1100;
 
 /// The bitmap of values and the Huffman table of a PIZ chunk.
 /// OpenEXR, ImfPizCompressor.cpp and ImfHuf.cpp.
@@ -193,7 +193,7 @@ static Result<void> checkChunks(const ExrLayout& layout, ByteReader table,
             return fail(fmt::format("chunk {}: wrong line", i));
         const std::int64_t lines = std::min<std::int64_t>(layout.linesPerChunk, height - line);
         const std::int64_t plain = lines * width * layout.texelBytes;
-        if (plain / kMostPerByte > size)
+        if (plain / kMaxPerByte > size)
             return fail(fmt::format("chunk {}: too short for its lines", i));
         if (layout.isPiz && size != plain) // of that size it is not packed
             if (const Result<void> valid = checkPiz({chunk.rest.first(std::size_t(size))}); !valid)

@@ -70,8 +70,8 @@ Result<void> unpackRow(Bytes& rest, std::vector<Rgbe>& row) {
 }
 
 Result<void> readRow(Bytes& rest, std::vector<Rgbe>& row) {
-    constexpr std::size_t kLeastPacked = 8, kMostPacked = 32767;
-    const bool canBePacked = row.size() >= kLeastPacked && row.size() <= kMostPacked;
+    constexpr std::size_t kMinPacked = 8, kMaxPacked = 32767;
+    const bool canBePacked = row.size() >= kMinPacked && row.size() <= kMaxPacked;
     if (canBePacked && rest.size() >= 4 && rest[0] == 2 && rest[1] == 2 && rest[2] < 128) {
         if (std::size_t(rest[2] << 8 | rest[3]) != row.size())
             return malformed();
@@ -104,7 +104,7 @@ Result<ImageF> decodeHdr(Bytes file, const MemoryBudget& memory) {
     if (!isRgbe || !takeNumber(size, "-Y ", image.height) || !takeNumber(size, "+X ", image.width))
         return malformed();
     const std::uint64_t texels = std::uint64_t(image.width) * image.height;
-    if (texels > kMostTexels)
+    if (texels > kMaxTexels)
         return fail("too large");
     // A run of 127 equal bytes takes two, for each of four channels.
     if (texels / 127 * 8 > text.size())

@@ -15,7 +15,7 @@ struct FieldRange {
     double upper = std::numeric_limits<double>::max();
 };
 inline constexpr FieldRange kNotNegative{0};
-inline constexpr FieldRange kLightRange{0, kMostLight};
+inline constexpr FieldRange kLightRange{0, kMaxLight};
 inline constexpr FieldRange kUnitRange{0, 1};
 inline constexpr FieldRange kFilmFrames{1, 256};
 

@@ -19,7 +19,7 @@ Result<void> readSkyImage(Sky& sky, const MemoryBudget& memory) {
         return fail(fmt::format("{}: no pixels", sky.image));
     for (glm::vec3& p : image->rgb)
         for (int c = 0; c < 3; ++c)
-            p[c] = p[c] >= 0 && std::isfinite(p[c]) ? std::min(p[c], kMostLight) : 0;
+            p[c] = p[c] >= 0 && std::isfinite(p[c]) ? std::min(p[c], kMaxLight) : 0;
     sky.panorama = makeSkyImage(std::move(*image));
     return {};
 }

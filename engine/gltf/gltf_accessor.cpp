@@ -133,7 +133,7 @@ static Result<Elements> baseElements(const tinygltf::Model& model,
                                      const tinygltf::Accessor& accessor, std::size_t size) {
     if (accessor.bufferView >= 0)
         return elementsAt(model, accessor.bufferView, accessor.byteOffset, accessor.count, size);
-    if (accessor.count > kMostZeros)
+    if (accessor.count > kMaxZeros)
         return fail(fmt::format("count: {} zeros are too many", accessor.count));
     return Elements{nullptr, 0, accessor.count};
 }

@@ -14,7 +14,7 @@ namespace limn {
 
 /// An accessor without a view is all zeros and costs its file nothing: of more, which no mesh
 /// needs, none is read.
-inline constexpr std::size_t kMostZeros = std::size_t(1) << 20;
+inline constexpr std::size_t kMaxZeros = std::size_t(1) << 20;
 
 /// An accessor's numbers, row after row. Normalised integers become [0, 1] or [-1, 1], others plain
 /// numbers; sparse values are applied. May hold NaN and infinity.

@@ -42,7 +42,7 @@ struct ExternalFile {
 struct LoadState {
     std::string folder;
     FileReach reach = FileReach::Folder;
-    std::uint64_t mostBytes = 0;     ///< of one file
+    std::uint64_t maxBytes = 0;      ///< of one file
     std::vector<ExternalFile> files; ///< in the order in which tinygltf reads them
     std::size_t filesRead = 0;
     std::string bufferProblem; ///< why the last buffer's file could not be read
@@ -69,7 +69,7 @@ static bool readWholeFile(std::vector<unsigned char>* out, std::string* error, c
         return false;
     const ExternalFile& file = state.files[state.filesRead++];
     const Result<std::string> path = fileOfUri(state.folder, file.uri, state.reach);
-    const Result<std::string> bytes = path ? readFile(*path, state.mostBytes) : path;
+    const Result<std::string> bytes = path ? readFile(*path, state.maxBytes) : path;
     if (!bytes || bytes->empty()) {
         const std::string problem = bytes ? "is empty" : bytes.error().message;
         if (file.isBuffer)
@@ -251,7 +251,7 @@ Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
     LoadState state;
     state.folder = fs::path(path).parent_path().string();
     state.reach = reach;
-    state.mostBytes = memory.most;
+    state.maxBytes = memory.most;
     state.files = externalFiles(*json);
     const auto images = json->find("images");
     state.imageProblems.resize(images == json->end() ? 0 : images->size());

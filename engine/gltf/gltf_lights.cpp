@@ -27,9 +27,9 @@ static float notNegative(double value, GltfRepairs& repairs) {
 
 static float lightNumber(double value, GltfRepairs& repairs) {
     const float f = notNegative(value, repairs);
-    if (f > kMostLight)
+    if (f > kMaxLight)
         repairs.add("light numbers above 1e10 set to it");
-    return std::min(f, kMostLight);
+    return std::min(f, kMaxLight);
 }
 
 static void readSpot(Light& light, const tinygltf::SpotLight& spot, GltfRepairs& repairs) {

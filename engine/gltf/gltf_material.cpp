@@ -97,11 +97,11 @@ static glm::vec3 readEmission(const tinygltf::Material& source, GltfRepairs& rep
     glm::vec3 emission(0);
     if (source.emissiveFactor.size() == 3)
         for (int c = 0; c < 3; ++c)
-            emission[c] = ranged(source.emissiveFactor[std::size_t(c)], 0, kMostLight, repairs);
+            emission[c] = ranged(source.emissiveFactor[std::size_t(c)], 0, kMaxLight, repairs);
     if (const auto* e = extension(source.extensions, "KHR_materials_emissive_strength"))
         emission *= ranged(double(number(member(*e, "emissiveStrength"), 1)), 0, 1e7f, repairs);
     for (int c = 0; c < 3; ++c)
-        emission[c] = ranged(double(emission[c]), 0, kMostLight, repairs);
+        emission[c] = ranged(double(emission[c]), 0, kMaxLight, repairs);
     return emission;
 }
 

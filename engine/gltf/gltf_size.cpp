@@ -27,7 +27,7 @@ std::uint64_t countOf(const tinygltf::Model& model, int index) {
         return 0;
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     const auto view = std::size_t(accessor.bufferView);
-    const std::uint64_t most = accessor.bufferView < 0 ? kMostZeros
+    const std::uint64_t most = accessor.bufferView < 0 ? kMaxZeros
                                : view < model.bufferViews.size()
                                    ? model.bufferViews[view].byteLength
                                    : 0;

@@ -15,14 +15,14 @@ namespace limn {
 /// spread over the part of the surface that lies in it; the closest point where none does.
 struct AtlasTexel {
     /// Not a Fibonacci number: every seventh direction of a Fibonacci lattice is again well spread.
-    static constexpr std::uint32_t kMostPoints = 7;
+    static constexpr std::uint32_t kMaxPoints = 7;
 
     std::uint32_t texel;     ///< y * width + x
     std::uint32_t instance;  ///< index into Scene::instances
     std::uint32_t back;      ///< 1: it stands for the back of a two-sided surface
     float width = 0;         ///< [m]
-    std::uint32_t count = 0; ///< of points, [1, kMostPoints]
-    std::array<MeshPoint, kMostPoints> points;
+    std::uint32_t count = 0; ///< of points, [1, kMaxPoints]
+    std::array<MeshPoint, kMaxPoints> points;
 };
 
 struct Atlas {

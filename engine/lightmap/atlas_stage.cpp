@@ -91,8 +91,7 @@ void variedFields(A& a, V& v, const Scene& scene, const std::vector<MeshCharts>&
           return isPointOf(scene.meshOf(scene.instances[v.instance]), p);
       }));
     a("back", v.back, rule::count(v.at.size()), rule::below(2));
-    a("fours", v.fours, rule::count(v.at.size()),
-      rule::within(kLeastDensityClass, kMostDensityClass));
+    a("fours", v.fours, rule::count(v.at.size()), rule::within(kMinDensityClass, kMaxDensityClass));
 }
 
 template <class A, class D>
@@ -100,7 +99,7 @@ void bakeDensityFields(A& a, D& d, const Scene& scene, const std::vector<MeshCha
     a.each("texels", d.texels, rule::noneOr(scene.instances.size()), [&](auto& factors) {
         const auto i = std::size_t(&factors - d.texels.data());
         a("factors", factors, rule::noneOr(charts[scene.instances[i].mesh].chartSize.size()),
-          rule::within(std::exp2(2 * kLeastDensityClass), std::exp2(2 * kMostDensityClass)));
+          rule::within(std::exp2(2 * kMinDensityClass), std::exp2(2 * kMaxDensityClass)));
     });
     a.each("surfels", d.surfels, rule::noneOr(scene.assets->meshes.size()), [&](auto& s) {
         densityFields(a, s, scene.assets->meshes[std::size_t(&s - d.surfels.data())]);
@@ -136,7 +135,7 @@ void atlasFields(A& a, T& t, const Scene& scene, const std::vector<MeshCharts>& 
     a("texels", t.texels, rule::each("out of range", [&](std::size_t i, const AtlasTexel& texel) {
           return texel.texel < std::uint64_t(l.width) * l.height && texel.back <= 1 &&
                  (i == 0 || t.texels[i - 1].texel < texel.texel) && texel.width >= 0 &&
-                 texel.width < kMostCoordinate && hasCharts(scene, charts, texel.instance) &&
+                 texel.width < kMaxCoordinate && hasCharts(scene, charts, texel.instance) &&
                  arePointsOf(scene.meshOf(scene.instances[texel.instance]), texel);
       }));
     a("texelsPerMetre", t.texelsPerMetre, rule::within(1e-30, 1e30));
@@ -169,15 +168,14 @@ void sideFields(A& a, S& s, const Scene& scene, const Atlas& atlas) {
 /// As many as can be needed, so that the atlas' size stays a number of 31 bits.
 template <class A, class F>
 void fineFields(A& a, F& f) {
-    constexpr std::size_t kMostPlaces = 1 << 24;
+    constexpr std::size_t kMaxPlaces = 1 << 24;
     a.each("levels", f.places,
            rule::holds("too many",
                        [&](const auto& levels) {
                            std::size_t places = 0;
                            for (const auto& level : levels)
                                places += level.size();
-                           return levels.size() <= std::size_t(kFineLevels) &&
-                                  places <= kMostPlaces;
+                           return levels.size() <= std::size_t(kFineLevels) && places <= kMaxPlaces;
                        }),
            [&](auto& places) {
                a("places", places, rule::holds("out of order", [](const auto& level) {
@@ -247,8 +245,8 @@ LaidTexels layTexels(const TexelInput& in) {
     constexpr std::uint64_t kTrial = 4; // times those wanted
     const LaidTexels trial = in.lay(share(in.density.baseShare), kTrial * wanted);
     const double base = double(trial.atlas.texels.size()), all = base + double(trial.fine.texels());
-    constexpr double kLeastBase = 0.25;
-    return in.lay(share(std::max(base / std::max(all, 1.), kLeastBase)), wanted);
+    constexpr double kMinBase = 0.25;
+    return in.lay(share(std::max(base / std::max(all, 1.), kMinBase)), wanted);
 }
 
 /// To those that lead to finer texels.

@@ -80,14 +80,14 @@ struct DisjointSets {
 /// Whether the chart is worth a place of its own.
 bool standsAlone(const MeshChartShapes& shapes, const MeshCharts& charts, std::uint32_t chart,
                  float texelsPerUnit) {
-    constexpr float kMostOverhead = 2.5f, kMostDepth = 2, kMostCells = 4096;
+    constexpr float kMaxOverhead = 2.5f, kMaxDepth = 2, kMaxCells = 4096;
     const glm::vec2 size = charts.chartSize[chart] * texelsPerUnit;
-    if ((size.x + 1) * (size.y + 1) <= kMostOverhead * size.x * size.y)
+    if ((size.x + 1) * (size.y + 1) <= kMaxOverhead * size.x * size.y)
         return true;
     const int axis = shapes.side[chart] / 2;
     const glm::vec3 extent = (shapes.upper[chart] - shapes.lower[chart]) * texelsPerUnit;
     const glm::vec2 plane = along(axis, extent) + 1.f;
-    return !(extent[axis] <= kMostDepth && plane.x * plane.y <= kMostCells);
+    return !(extent[axis] <= kMaxDepth && plane.x * plane.y <= kMaxCells);
 }
 
 /// The cells of all pieces of an instance.

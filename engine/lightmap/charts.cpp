@@ -30,7 +30,7 @@ struct Adjacency {
 /// Triangles belong together when they share an edge of equal end points.
 Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& point,
                          const Stop& stop) {
-    constexpr std::size_t kMostSheets = 8; // more share no neighbourhood worth the quadratic walk
+    constexpr std::size_t kMaxSheets = 8; // more share no neighbourhood worth the quadratic walk
     const std::size_t corners = mesh.indices.size() / 3 * 3;
     const auto edge = [&](std::size_t i) {
         return std::minmax(point[mesh.indices[i]], point[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]]);
@@ -60,7 +60,7 @@ Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& poi
     result.begin.push_back(0);
     for (std::size_t i = 0; i < corners; ++i) {
         const auto [from, to] = sheets[i];
-        for (std::uint32_t k = from; to - from <= kMostSheets && k < to; ++k)
+        for (std::uint32_t k = from; to - from <= kMaxSheets && k < to; ++k)
             if (sorted[k].second / 3 != i / 3)
                 result.neighbours.push_back(sorted[k].second / 3);
         if (i % 3 == 2)

@@ -13,8 +13,8 @@ bool isPointOf(const Mesh& mesh, const MeshPoint& point) {
 }
 
 bool isAtlasSize(std::uint64_t width, std::uint64_t height, std::uint64_t used) {
-    constexpr std::uint64_t kMostSide = 1 << 20, kEmpty = 4096;
-    return width > 0 && height > 0 && width <= kMostSide && height <= kMostSide &&
+    constexpr std::uint64_t kMaxSide = 1 << 20, kEmpty = 4096;
+    return width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide &&
            width * height < kFineLookup && width * height <= (used + 16) * kEmpty;
 }
 

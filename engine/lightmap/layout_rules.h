@@ -43,7 +43,7 @@ namespace rule {
 
 /// Every coordinate lies within the reach of scenes.
 inline auto inReach() {
-    return within(-double(kMostCoordinate), double(kMostCoordinate));
+    return within(-double(kMaxCoordinate), double(kMaxCoordinate));
 }
 
 /// Unit vectors, as rounding leaves them.
@@ -66,8 +66,8 @@ void chartFields(A& a, C& c, const Mesh* mesh) {
     a("chartOfTriangle", c.chartOfTriangle, rule::count(c.indices.size() / 3),
       rule::below(c.chartSize.size()));
     a("chartUv", c.chartUv, rule::count(c.sourceVertex.size()),
-      rule::within(0, 2 * double(kMostCoordinate)));
-    a("chartSize", c.chartSize, rule::within(0, 2 * double(kMostCoordinate)),
+      rule::within(0, 2 * double(kMaxCoordinate)));
+    a("chartSize", c.chartSize, rule::within(0, 2 * double(kMaxCoordinate)),
       rule::holds("smaller than its vertices' extent",
                   [&c](const auto&) { return chartsHoldVertices(c); }));
 }

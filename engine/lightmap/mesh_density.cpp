@@ -93,11 +93,11 @@ double rounded(double centre) {
 /// that reaches to the horizon has so much area that the next power of sixteen above what it
 /// deserves would take most surfels from the house on it.
 float surfelClass(double value, double centre) {
-    constexpr int kLeast = -10;
+    constexpr int kMinimum = -10;
     const int sixteens = densityClass(value, centre);
     const double fours = std::round(std::log2(value / rounded(centre)) / 2);
     return float(sixteens >= -1 ? std::exp2(4 * std::min(sixteens, 0))
-                                : std::exp2(2 * std::clamp(fours, double(kLeast), -2.)));
+                                : std::exp2(2 * std::clamp(fours, double(kMinimum), -2.)));
 }
 
 } // namespace
@@ -106,7 +106,7 @@ int densityClass(double value, double centre) {
     const double exact = std::log2(value / rounded(centre)) / 4;
     constexpr double kUp = 0.5, kDown = 0.1;
     return int(std::clamp(std::floor(exact + (exact > 0 ? kUp : 1 - kDown)),
-                          double(kLeastDensityClass), double(kMostDensityClass)));
+                          double(kMinDensityClass), double(kMaxDensityClass)));
 }
 
 std::vector<MeshDensity> surfelDensities(const Scene& scene, std::span<const MeshCharts> charts,

@@ -76,7 +76,7 @@ std::vector<MeshDensity> surfelDensities(const Scene& scene, std::span<const Mes
                                          std::span<const MeshHits> hits);
 
 /// The range of densityClass().
-inline constexpr int kLeastDensityClass = -3, kMostDensityClass = 2;
+inline constexpr int kMinDensityClass = -3, kMaxDensityClass = 2;
 
 /// The exponent of a power of sixteen for value / centre: the nearest above 1, and below 1 hardly
 /// less than the value deserves. Both > 0; the centre is rounded, so that what changes it little

@@ -101,7 +101,7 @@ struct TexelSearch {
     MeshPoint closest{};
     std::uint32_t found = 0; ///< points met so far
     std::uint32_t met = 0;   ///< bit k: place k of the lattice lies on the surface
-    std::array<MeshPoint, AtlasTexel::kMostPoints> points;
+    std::array<MeshPoint, AtlasTexel::kMaxPoints> points;
 };
 
 /// The texels of a place that lookups meet, and what they have found.
@@ -141,9 +141,9 @@ void searchClosest(glm::vec2 centre, std::uint32_t triangle, const Corners& flat
 /// The k-th of the places looked for in a texel, relative to its centre: a rank-1 lattice over
 /// [-1/2, 1/2)^2.
 glm::vec2 latticeOffset(std::uint32_t k) {
-    constexpr float n = float(AtlasTexel::kMostPoints);
+    constexpr float n = float(AtlasTexel::kMaxPoints);
     return {(float(k) + 0.5f) / n - 0.5f,
-            (float(3 * k % AtlasTexel::kMostPoints) + 0.5f) / n - 0.5f};
+            (float(3 * k % AtlasTexel::kMaxPoints) + 0.5f) / n - 0.5f};
 }
 
 /// Points of a lattice where they lie on the triangle.
@@ -151,7 +151,7 @@ void searchLattice(glm::vec2 centre, std::uint32_t triangle, const Corners& flat
                    TexelSearch& out) {
     const glm::vec2 lower = glm::min(flat[0], glm::min(flat[1], flat[2])),
                     upper = glm::max(flat[0], glm::max(flat[1], flat[2]));
-    for (std::uint32_t k = 0; k < AtlasTexel::kMostPoints; ++k) {
+    for (std::uint32_t k = 0; k < AtlasTexel::kMaxPoints; ++k) {
         const glm::vec2 p = centre + latticeOffset(k);
         if (out.met >> k & 1 || glm::any(glm::lessThan(p, lower - 1e-4f)) ||
             glm::any(glm::greaterThan(p, upper + 1e-4f)))
@@ -170,7 +170,7 @@ void searchLattice(glm::vec2 centre, std::uint32_t triangle, const Corners& flat
 /// a texel any seven remain, all with the same chance (Vitter. Random Sampling with a Reservoir.
 /// 1985).
 void sampleByArea(const AtlasInput& in, const ChartPlace& place, Cover& cover) {
-    constexpr double kPerTexel = 24, kPerPlace = 8 * AtlasTexel::kMostPoints;
+    constexpr double kPerTexel = 24, kPerPlace = 8 * AtlasTexel::kMaxPoints;
     const std::uint32_t meshIndex = in.scene.instances[place.instance].mesh;
     const Mesh& mesh = in.scene.assets->meshes[meshIndex];
     double area = 0;
@@ -200,10 +200,10 @@ void sampleByArea(const AtlasInput& in, const ChartPlace& place, Cover& cover) {
                     continue;
                 TexelSearch& texel = cover.found[k];
                 const std::uint32_t before = fallen[k]++;
-                if (texel.found < AtlasTexel::kMostPoints)
+                if (texel.found < AtlasTexel::kMaxPoints)
                     texel.points[texel.found++] = {t, uv};
                 else if (const std::uint32_t slot = mixBits(mixBits(before) + k) % (before + 1);
-                         slot < AtlasTexel::kMostPoints)
+                         slot < AtlasTexel::kMaxPoints)
                     texel.points[slot] = {t, uv};
             }
         }

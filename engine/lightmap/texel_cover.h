@@ -13,7 +13,7 @@ namespace limn {
 struct LocalTexel {
     glm::uvec2 at;
     std::uint32_t count;
-    std::array<MeshPoint, AtlasTexel::kMostPoints> points;
+    std::array<MeshPoint, AtlasTexel::kMaxPoints> points;
 };
 
 /// A triangle and its corners in texels, the first one's middle at (1/2, 1/2).

@@ -19,7 +19,7 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kProbesPerPoint = 8;
-constexpr std::uint32_t kSlots = AtlasTexel::kMostPoints;
+constexpr std::uint32_t kSlots = AtlasTexel::kMaxPoints;
 constexpr std::uint32_t kMixed = ~0U; ///< texels of several charts
 constexpr int kCells = int(kSnapCells);
 

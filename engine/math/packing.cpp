@@ -19,9 +19,9 @@ std::uint16_t floatToHalf(float value) {
 }
 
 std::uint32_t packRgb9e5(glm::vec3 color) {
-    constexpr float kMost = 65408; // 511/512 2^16
+    constexpr float kMaximum = 65408; // 511/512 2^16
     for (int c = 0; c < 3; ++c)
-        color[c] = color[c] > 0 ? std::min(color[c], kMost) : 0.f;
+        color[c] = color[c] > 0 ? std::min(color[c], kMaximum) : 0.f;
     const float most = std::max({color.x, color.y, color.z});
     int exponent = -15; // of the step's 2^9 multiple: values lie below 2^exponent
     if (most > 0)

@@ -18,7 +18,7 @@ public:
     void build(std::span<const glm::vec3> points, float cellSize);
 
     /// Calls visit(index) for the points of the 27 cells round `p`, so for all within a cell's
-    /// size. Of a cell of more than kMostPerCell it takes so many, evenly: where a surface lies a
+    /// size. Of a cell of more than kMaxPerCell it takes so many, evenly: where a surface lies a
     /// thousandfold on itself, work stays in bounds.
     template <class Visit>
     void forNear(glm::vec3 p, const Visit& visit) const {
@@ -29,7 +29,7 @@ public:
                     forCell(keyOf(middle + glm::ivec3(x, y, z)), visit);
     }
 
-    static constexpr std::uint32_t kMostPerCell = 32;
+    static constexpr std::uint32_t kMaxPerCell = 32;
 
 private:
     struct Entry {
@@ -38,8 +38,8 @@ private:
     };
 
     glm::ivec3 cellOf(glm::vec3 p) const {
-        constexpr float kMost = float(1 << 20) - 2; // keys hold 21 bits a side
-        return glm::ivec3(glm::clamp(glm::floor((p - m_origin) * m_perSize), -kMost, kMost));
+        constexpr float kMaximum = float(1 << 20) - 2; // keys hold 21 bits a side
+        return glm::ivec3(glm::clamp(glm::floor((p - m_origin) * m_perSize), -kMaximum, kMaximum));
     }
     static std::uint64_t keyOf(glm::ivec3 cell) {
         constexpr int kOffset = 1 << 20;
@@ -53,7 +53,7 @@ private:
     void forCell(std::uint64_t key, const Visit& visit) const {
         const std::size_t bucket = bucketOf(key);
         const std::uint32_t begin = m_begin[bucket], end = m_begin[bucket + 1];
-        const std::uint32_t stride = (end - begin) / kMostPerCell + 1;
+        const std::uint32_t stride = (end - begin) / kMaxPerCell + 1;
         for (std::uint32_t i = begin; i < end; i += stride)
             if (m_entries[i].key == key)
                 visit(m_entries[i].point);

@@ -12,14 +12,14 @@ namespace limn {
 
 /// Paths end by chance, as light is absorbed, so that nothing is lost. Where next to nothing is
 /// absorbed and nothing escapes, this many segments end them all the same: 0.999^10000 = 5e-5.
-inline constexpr std::uint32_t kMostBounces = 10000;
+inline constexpr std::uint32_t kMaxBounces = 10000;
 
 /// What all paths of a render share.
 struct PathContext {
     const TraceScene& trace;
     const Emitters& emitters;
     const SkyLight& sky;
-    std::uint32_t maxBounces = kMostBounces;
+    std::uint32_t maxBounces = kMaxBounces;
 };
 
 /// Dimensions of the Sampler that a caller may use itself; paths take those from here on.

@@ -17,7 +17,7 @@ struct ReferenceOptions {
     std::uint32_t width = 512, height = 512;
     std::uint32_t samplesPerPixel = 256;
     std::uint32_t maxBounces =
-        kMostBounces; ///< path segments after the first surface; longer paths are cut
+        kMaxBounces; ///< path segments after the first surface; longer paths are cut
     std::uint32_t seed = 1;
 };
 

@@ -21,7 +21,7 @@ constexpr std::array<std::uint8_t, 8> kPng = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0
 constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
 
 /// No image has more: deflate packs 1032 bytes into one, each of eight black or white texels.
-constexpr std::uint64_t kMostTexelsPerByte = 8 * 1032;
+constexpr std::uint64_t kMaxTexelsPerByte = 8 * 1032;
 
 bool startsWith(Bytes bytes, Bytes signature) {
     return bytes.size() >= signature.size() &&
@@ -33,9 +33,9 @@ bool startsWith(Bytes bytes, Bytes signature) {
 class PngReader {
 public:
     explicit PngReader(Bytes bytes) : m_png(spng_ctx_new(SPNG_CTX_IGNORE_ADLER32)) {
-        constexpr std::size_t kMostText = std::size_t(1) << 26; // and profiles, unpacked
+        constexpr std::size_t kMaxText = std::size_t(1) << 26; // and profiles, unpacked
         spng_set_crc_action(m_png.get(), SPNG_CRC_USE, SPNG_CRC_USE);
-        spng_set_chunk_limits(m_png.get(), kMostText, kMostText);
+        spng_set_chunk_limits(m_png.get(), kMaxText, kMaxText);
         spng_set_png_buffer(m_png.get(), bytes.data(), bytes.size());
     }
 
@@ -92,9 +92,9 @@ Result<ImageSize> checkedSize(const Reader& reader, Bytes bytes) {
     if (!size)
         return fail("is damaged");
     const std::uint64_t texels = std::uint64_t(size->width) * size->height;
-    if (texels > kMostTexels)
+    if (texels > kMaxTexels)
         return fail("is too large");
-    if (texels / kMostTexelsPerByte > bytes.size())
+    if (texels / kMaxTexelsPerByte > bytes.size())
         return fail("is damaged"); // cut short: all of it would be filled in
     return *size;
 }

@@ -20,7 +20,7 @@ inline constexpr double kFarInDiagonals = 16;
 /// where the visible static meshes lie far from there, near the centre of the box around them. It
 /// is a multiple of a power of two not less than the box's diagonal, so that it has few bits,
 /// subtracting it is exact, and small changes of the file leave it where it is. 0 as well where the
-/// centre is beyond kMostCoordinate. Importing a file sets it once: edits do not move it.
+/// centre is beyond kMaxCoordinate. Importing a file sets it once: edits do not move it.
 glm::dvec3 originOf(const Document& document, std::span<const Mesh> meshes);
 
 /// World point `p` in the file's coordinates.

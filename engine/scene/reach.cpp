@@ -11,12 +11,12 @@
 namespace limn {
 
 bool withinReach(glm::vec3 p) {
-    return std::abs(p.x) <= kMostCoordinate && std::abs(p.y) <= kMostCoordinate &&
-           std::abs(p.z) <= kMostCoordinate;
+    return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+           std::abs(p.z) <= kMaxCoordinate;
 }
 
 std::string reachDefect(const Scene& scene) {
-    const std::string most = fmt::format("beyond {:g} m of the origin", kMostCoordinate);
+    const std::string most = fmt::format("beyond {:g} m of the origin", kMaxCoordinate);
     const auto placed = [&](glm::vec3 p) {
         return withinReach(glm::vec3(toFile(scene.origin, p)));
     };

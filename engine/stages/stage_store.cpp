@@ -183,7 +183,7 @@ void StageStore::Impl::remember(std::uint64_t key, Packed file) {
     memoryBytes += file->size();
     recent.emplace_front(key, std::move(file));
     known[key] = recent.begin();
-    while (memoryBytes > options.mostMemoryBytes && !recent.empty()) {
+    while (memoryBytes > options.maxMemoryBytes && !recent.empty()) {
         memoryBytes -= recent.back().second->size();
         known.erase(recent.back().first);
         recent.pop_back();
@@ -211,8 +211,8 @@ void StageStore::Impl::writeFile(std::uint64_t key, const std::string& file) {
     diskBytes += file.size();
     writtenSinceTrim += file.size();
     // Other processes write too: look again now and then.
-    if (diskBytes > options.mostDiskBytes || writtenSinceTrim > options.mostDiskBytes / 8) {
-        diskBytes = trim(options.folder, options.mostDiskBytes / 10 * 9);
+    if (diskBytes > options.maxDiskBytes || writtenSinceTrim > options.maxDiskBytes / 8) {
+        diskBytes = trim(options.folder, options.maxDiskBytes / 10 * 9);
         writtenSinceTrim = 0;
     }
 }
@@ -241,7 +241,7 @@ StageStore::StageStore(StageStoreOptions options) : m_impl(std::make_unique<Impl
     fs::create_directories(folder, error);
     if (error)
         m_impl->defect = folder + ": cannot create: " + error.message();
-    m_impl->diskBytes = trim(folder, m_impl->options.mostDiskBytes);
+    m_impl->diskBytes = trim(folder, m_impl->options.maxDiskBytes);
     m_impl->writer = std::thread([impl = m_impl.get()] { impl->write(); });
 }
 
@@ -281,8 +281,8 @@ void StageStore::put(std::uint64_t key, const std::string& bytes) {
     if (m_impl->options.folder.empty())
         return;
     // A disk slower than the baker holds it back, not the memory full.
-    constexpr std::size_t kMostWaiting = 64;
-    m_impl->changed.wait(lock, [&] { return m_impl->queue.size() < kMostWaiting; });
+    constexpr std::size_t kMaxWaiting = 64;
+    m_impl->changed.wait(lock, [&] { return m_impl->queue.size() < kMaxWaiting; });
     m_impl->queue.emplace_back(key, std::move(file));
     m_impl->changed.notify_all();
 }

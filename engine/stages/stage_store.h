@@ -10,8 +10,8 @@ namespace limn {
 
 struct StageStoreOptions {
     std::string folder; ///< made where it is missing; empty: nothing is kept on disk
-    std::uint64_t mostDiskBytes = std::uint64_t(4) << 30;
-    std::uint64_t mostMemoryBytes = std::uint64_t(1) << 30;
+    std::uint64_t maxDiskBytes = std::uint64_t(4) << 30;
+    std::uint64_t maxMemoryBytes = std::uint64_t(1) << 30;
 };
 
 /// Finished results of bake stages by the hash of what they were made from, in memory and in a

@@ -347,9 +347,9 @@ static unsigned instanceOf(const RTCRayHit& rh) {
 }
 
 bool TraceScene::Impl::traceable(const Ray& ray) const {
-    constexpr float kMost = 1e18f; // Embree's limit is 1.8e18
+    constexpr float kMaximum = 1e18f; // Embree's limit is 1.8e18
     for (int c = 0; c < 3; ++c)
-        if (!(std::abs(ray.origin[c]) < kMost) || !(std::abs(ray.direction[c]) < kMost)) {
+        if (!(std::abs(ray.origin[c]) < kMaximum) || !(std::abs(ray.direction[c]) < kMaximum)) {
             badRays.fetch_add(1, std::memory_order_relaxed);
             return false;
         }

@@ -19,7 +19,7 @@ layout(location = 2) flat out uint markShape;
 // How far a mark lies before its surface: a part of its radius, for curved surfaces, and of its depth, for rounding.
 const float kLift = 0.03, kNearer = 1.002;
 
-float leastPixels() {
+float minPixels() {
     return shape == MARK_RING ? 9.0 : shape == MARK_SQUARE ? 1.5 : 0.0;
 }
 
@@ -33,7 +33,7 @@ void main() {
     local = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0 - 1.0;
     markColor = color;
     markShape = shape;
-    const float r = max(radius, leastPixels() * push.pixelSize * distance);
+    const float r = max(radius, minPixels() * push.pixelSize * distance);
     const vec3 p = position + r * (kLift * n + local.x * t + local.y * cross(n, t));
     gl_Position = push.toClip * vec4(p, 1);
     gl_Position.z *= kNearer; // depth is near / distance

@@ -49,7 +49,7 @@ private:
     float notNegative() { return std::abs(number()); }
     float unit() { return float(m_random() & 0xffffff) / float(0xffffff); }
     glm::vec3 vec3() { return {number(), number(), number()}; }
-    float light() { return std::min(notNegative(), kMostLight); }
+    float light() { return std::min(notNegative(), kMaxLight); }
     glm::vec3 color() { return {light(), light(), light()}; }
     glm::vec3 direction() {
         glm::vec3 d{unit() - 0.5f, unit() - 0.5f, unit() + 0.01f};

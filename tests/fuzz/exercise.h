@@ -40,7 +40,7 @@ inline BakeSettings smallBake() {
 /// Uses an accepted scene as the program would: its materials, its camera, a bake and its light.
 /// Scenes of many triangles are not baked, since their bakes rightly take long.
 inline void exercise(const Scene& scene) {
-    constexpr std::size_t kMostTriangles = 2000;
+    constexpr std::size_t kMaxTriangles = 2000;
     std::size_t triangles = 0;
     for (const Instance& instance : scene.instances) {
         const auto count = std::uint32_t(scene.meshOf(instance).triangleCount());
@@ -50,7 +50,7 @@ inline void exercise(const Scene& scene) {
             require(m.albedo.x >= 0 && m.albedo.x <= 0.99f, "an albedo is in [0, 0.99]");
             require(std::isfinite(m.emission.x), "emission is finite");
         }
-        if (triangles > kMostTriangles)
+        if (triangles > kMaxTriangles)
             return;
     }
     chooseCamera(scene, std::optional<std::string>());

@@ -12,8 +12,8 @@
 using namespace limn;
 
 int main(int argc, char** argv) {
-    constexpr double kMostSeconds = 20;               // as .ci/fuzz allows
-    constexpr std::uint64_t kMostMemory = 2ULL << 30; // of resident memory [bytes]
+    constexpr double kMaxSeconds = 20;               // as .ci/fuzz allows
+    constexpr std::uint64_t kMaxMemory = 2ULL << 30; // of resident memory [bytes]
     std::vector<std::filesystem::path> files;
     std::error_code error;
     if (argc == 2)
@@ -30,9 +30,9 @@ int main(int argc, char** argv) {
         const auto begin = std::chrono::steady_clock::now();
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        require(took.count() < kMostSeconds, "an input takes less than 20 s");
+        require(took.count() < kMaxSeconds, "an input takes less than 20 s");
     }
-    require(peakMemory() < kMostMemory, "a corpus takes less than 2 GiB");
+    require(peakMemory() < kMaxMemory, "a corpus takes less than 2 GiB");
     std::fprintf(stderr, "%zu inputs\n", files.size());
     return 0;
 }

@@ -38,9 +38,9 @@ TEST(SampleLight, APointLightGrowsDownTo10NmAndToTheMostIrradiance) {
     EXPECT_FLOAT_EQ(at(1e-7f).x, 1e16f);
     EXPECT_FLOAT_EQ(at(1e-8f).x, 1e18f);
     EXPECT_EQ(at(1e-9f), at(1e-8f));
-    light.strength = kMostLight;
-    light.color = {kMostLight, 1, 0};
-    EXPECT_EQ(at(1e-8f).x, kMostIrradiance);
+    light.strength = kMaxLight;
+    light.color = {kMaxLight, 1, 0};
+    EXPECT_EQ(at(1e-8f).x, kMaxIrradiance);
     EXPECT_FLOAT_EQ(at(1e-8f).y, 1e26f);
     EXPECT_EQ(at(1e-8f).z, 0);
 }

@@ -94,8 +94,8 @@ TEST_F(Store, DamagedAndTruncatedFilesAreAbsent) {
 
 TEST_F(Store, WhatLayUnusedLongestGoesFirstWhenTheFolderIsFull) {
     StageStoreOptions options = onDisk();
-    options.mostDiskBytes = 100000;
-    options.mostMemoryBytes = 0;
+    options.maxDiskBytes = 100000;
+    options.maxMemoryBytes = 0;
     StageStore store(options);
     for (std::uint64_t key = 1; key <= 8; ++key) {
         store.put(key, noise(10000, unsigned(key)));
@@ -106,7 +106,7 @@ TEST_F(Store, WhatLayUnusedLongestGoesFirstWhenTheFolderIsFull) {
     for (std::uint64_t key = 9; key <= 12; ++key)
         store.put(key, noise(10000, unsigned(key)));
     store.flush();
-    EXPECT_LE(bytes(), options.mostDiskBytes);
+    EXPECT_LE(bytes(), options.maxDiskBytes);
     EXPECT_TRUE(store.find(1));
     EXPECT_FALSE(store.find(2));
     EXPECT_TRUE(store.find(12));
@@ -124,7 +124,7 @@ TEST_F(Store, FilesOfOthersStay) {
     }
     fs::create_symlink("notes.tmp", m_folder / "fedcba9876543210.stage");
     StageStoreOptions small = onDisk();
-    small.mostDiskBytes = 20000;
+    small.maxDiskBytes = 20000;
     for (unsigned i = 0; i < 5; ++i) {
         StageStore store(small);
         store.put(i, noise(8000, i));
@@ -166,7 +166,7 @@ TEST_F(Store, APipeInTheFolderHangsNobody) {
 }
 
 TEST_F(Store, MemoryAloneServesWithinItsSize) {
-    StageStore store({.folder = {}, .mostMemoryBytes = 50000});
+    StageStore store({.folder = {}, .maxMemoryBytes = 50000});
     for (std::uint64_t key = 1; key <= 8; ++key)
         store.put(key, noise(10000, unsigned(key)));
     EXPECT_FALSE(store.find(1));

@@ -13,7 +13,7 @@ namespace limn::render {
 
 using shared::GpuLight;
 
-static_assert(LIGHT_MOST_IRRADIANCE == kMostIrradiance);
+static_assert(LIGHT_MOST_IRRADIANCE == kMaxIrradiance);
 
 static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
     GpuLight g{};

@@ -45,7 +45,7 @@ LightSample sampleLight(const Light& light, glm::vec3 p) {
         window *= spotFalloff(light, s.toLight);
     const float intensity = light.strength * window;
     s.irradiance =
-        glm::min(light.color * (intensity / std::max(d2, kNearest * kNearest)), kMostIrradiance);
+        glm::min(light.color * (intensity / std::max(d2, kNearest * kNearest)), kMaxIrradiance);
     return s;
 }
 

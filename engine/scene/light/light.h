@@ -13,11 +13,11 @@ enum class LightKind : std::uint8_t { Directional, Point, Spot, Rectangle };
 
 /// The most that colour, strength, emission and the sky's radiance may be, so that sums of light
 /// stay within float. The sun's disc has 1.6e9 nits.
-inline constexpr float kMostLight = 1e10f;
+inline constexpr float kMaxLight = 1e10f;
 
 /// The most irradiance that a point or spot light brings in each colour, so that sums over lights
 /// and surfaces stay within float.
-inline constexpr float kMostIrradiance = 1e28f;
+inline constexpr float kMaxIrradiance = 1e28f;
 
 /// What the edges of a Rectangle may measure [m].
 inline constexpr float kMinLightSize = 1e-6f, kMaxLightSize = 1e6f;
@@ -29,9 +29,9 @@ struct Light {
     bool enabled = true;
     glm::vec3 position{0};         ///< [m]; Rectangle: of its middle; ignored by Directional
     glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels; ignored by Point
-    glm::vec3 color{1};            ///< linear Rec. 709, [0, kMostLight]
+    glm::vec3 color{1};            ///< linear Rec. 709, [0, kMaxLight]
     float strength = 100;          ///< Directional: irradiance [lux]. Point, Spot: intensity [cd].
-                                   ///< Rectangle: radiance [nits]. [0, kMostLight]
+                                   ///< Rectangle: radiance [nits]. [0, kMaxLight]
     float range = 0;               ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of
                                    ///< KHR_lights_punctual. Point, Spot
     float innerAngle = 0;          ///< Spot: half-angle of full strength [rad]
@@ -50,7 +50,7 @@ struct LightSample {
 };
 
 /// Strength of `light` at world point `p`. Irradiance grows no further within 10 nm of the light
-/// and stays below kMostIrradiance. It is zero when out of range, off, outside the cone, or at
+/// and stays below kMaxIrradiance. It is zero when out of range, off, outside the cone, or at
 /// d = 0; and from a Rectangle, see rectangle_light.h.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 

@@ -19,7 +19,7 @@ namespace {
 
 /// The coordinates along one axis at which something may change, -1 and 1 among them.
 std::vector<float> linesOf(const std::vector<LightCut>& cuts, int axis) {
-    constexpr std::size_t kMostLines = 128;
+    constexpr std::size_t kMaxLines = 128;
     std::vector<float> all = {-1, 1};
     for (const LightCut& c : cuts) {
         all.push_back(c.a[axis]);
@@ -32,13 +32,13 @@ std::vector<float> linesOf(const std::vector<LightCut>& cuts, int axis) {
     all.erase(end, all.end());
     all.front() = -1, all.back() = 1;
     std::vector<float> lines;
-    if (all.size() > kMostLines) {
-        for (std::size_t i = 0; i < kMostLines; ++i)
-            lines.push_back(all[i * (all.size() - 1) / (kMostLines - 1)]);
+    if (all.size() > kMaxLines) {
+        for (std::size_t i = 0; i < kMaxLines; ++i)
+            lines.push_back(all[i * (all.size() - 1) / (kMaxLines - 1)]);
         return lines;
     }
     // For walls that lie askew; of other numbers, so that these do not pass through cells' middles.
-    const std::size_t steps = kMostLines / all.size() + std::size_t(axis);
+    const std::size_t steps = kMaxLines / all.size() + std::size_t(axis);
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
         for (std::size_t k = 0; k < steps; ++k)
             lines.push_back(all[i] + (all[i + 1] - all[i]) * float(k) / float(steps));
@@ -195,8 +195,8 @@ std::vector<PartGrid::Part> PartGrid::runsOf(std::uint32_t part,
 }
 
 std::vector<PartGrid::Part> PartGrid::rectangles() {
-    constexpr double kLeastShare = 0.005; // of all, for what sticks out of a wall
-    constexpr std::size_t kMostRuns = 8;  // more follow a border that lies askew
+    constexpr double kMinShare = 0.005; // of all, for what sticks out of a wall
+    constexpr std::size_t kMaxRuns = 8; // more follow a border that lies askew
     const std::vector<Part> parts = findParts();
     if (parts.size() < 2)
         return parts;
@@ -212,10 +212,10 @@ std::vector<PartGrid::Part> PartGrid::rectangles() {
         if (!parts[k].atBorder)
             continue;
         std::vector<Part> runs = runsOf(k, enclosed);
-        if (runs.size() > kMostRuns)
+        if (runs.size() > kMaxRuns)
             runs = {parts[k]};
         for (const Part& run : runs)
-            if (run.centre || run.area >= 4 * kLeastShare)
+            if (run.centre || run.area >= 4 * kMinShare)
                 result.push_back(run);
     }
     std::ranges::stable_sort(result, [](const Part& a, const Part& b) {
@@ -242,12 +242,12 @@ std::vector<Light> partsBetweenWalls(const Light& light, const Scene& scene) {
     std::vector<PartGrid::Part> parts = PartGrid(cuts).rectangles();
     if (parts.size() < 2)
         return {light};
-    parts.resize(std::min(parts.size(), kMostLightParts));
+    parts.resize(std::min(parts.size(), kMaxLightParts));
     double area = 0;
     for (const PartGrid::Part& part : parts)
         area += double(part.upper.x - part.lower.x) * double(part.upper.y - part.lower.y);
-    constexpr double kWhole = 4, kLeast = 0.98, kRounding = 1.0001; // askew parts' would overlap
-    if (area < kLeast * kWhole || area > kRounding * kWhole)
+    constexpr double kWhole = 4, kMinimum = 0.98, kRounding = 1.0001; // askew parts' would overlap
+    if (area < kMinimum * kWhole || area > kRounding * kWhole)
         return {light};
     std::vector<Light> result;
     for (const PartGrid::Part& part : parts)

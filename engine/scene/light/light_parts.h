@@ -8,7 +8,7 @@
 namespace limn {
 
 /// At most so many parts of one light.
-inline constexpr std::size_t kMostLightParts = 16;
+inline constexpr std::size_t kMaxLightParts = 16;
 
 /// A light of kind Rectangle, parted where surfaces cut through it: rectangles round what they
 /// enclose of it, the one with its centre first, then the largest, and what is left beside these.

@@ -56,12 +56,12 @@ static Result<float> parseNonNegative(std::string_view word, std::string_view te
 }
 
 static tl::unexpected<Error> tooMuchLight(std::string_view word) {
-    return fail(fmt::format("'{}': may not be more than {:g}", word, kMostLight));
+    return fail(fmt::format("'{}': may not be more than {:g}", word, kMaxLight));
 }
 
 static Result<float> parseStrength(std::string_view word, std::string_view text) {
     Result<float> strength = parseNonNegative(word, text);
-    if (strength && *strength > kMostLight)
+    if (strength && *strength > kMaxLight)
         return tooMuchLight(word);
     return strength;
 }
@@ -70,7 +70,7 @@ static Result<glm::vec3> parseColor(std::string_view word, std::string_view text
     Result<glm::vec3> color = parseTriple(word, text);
     if (color && (color->x < 0 || color->y < 0 || color->z < 0))
         return fail(fmt::format("'{}': a color may not be negative", word));
-    if (color && std::max({color->x, color->y, color->z}) > kMostLight)
+    if (color && std::max({color->x, color->y, color->z}) > kMaxLight)
         return tooMuchLight(word);
     return color;
 }

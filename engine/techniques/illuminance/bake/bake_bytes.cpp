@@ -130,7 +130,7 @@ std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const
     // tables that say which surfel owns a place.
     constexpr double kPerPoint = 2 * sizeof(glm::vec3), kPerLook = 24, kPerSurfel = 400;
     const double looks = caches * std::min(s.rays / 16, 32U) * kPerLook,
-                 points = caches * AtlasTexel::kMostPoints * kPerPoint;
+                 points = caches * AtlasTexel::kMaxPoints * kPerPoint;
     const double before = atlas + points + kPerSurfel * surfels;
     const bool detail = s.cut == CutCriterion::Detail;
     const double hits = caches * s.rays * sizeof(RawHit),
@@ -202,7 +202,7 @@ std::uint64_t expectedCaches(const Scene& scene) {
     return std::uint64_t(std::min(texels, 1e15)) + std::uint64_t(grid.x) * grid.y * grid.z;
 }
 
-std::uint64_t leastTexels(const Scene& scene) {
+std::uint64_t minTexels(const Scene& scene) {
     std::vector<std::uint32_t> ways(scene.assets->meshes.size(), ~0U);
     std::uint64_t sum = 0;
     for (const Instance& i : scene.instances)
@@ -218,9 +218,9 @@ BakePrediction predictBake(const Scene& scene, bool stored) {
     const BakeSettings& s = scene.bake;
     BakePrediction p;
     p.caches = expectedCaches(scene);
-    if (const std::uint64_t least = leastTexels(scene); least > s.lightmapCaches) {
+    if (const std::uint64_t least = minTexels(scene); least > s.lightmapCaches) {
         const std::uint64_t more = least - s.lightmapCaches;
-        p.leastTexels = s.texelsPerMetre > 0 ? 0 : least;
+        p.minTexels = s.texelsPerMetre > 0 ? 0 : least;
         p.caches = s.texelsPerMetre > 0 ? std::max(p.caches, least) : p.caches + more;
     }
     const Expected e = expect(scene);

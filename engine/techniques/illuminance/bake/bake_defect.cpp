@@ -11,12 +11,12 @@
 namespace limn {
 
 bool linksAreBounded(const Caches& c, std::uint32_t bands) {
-    constexpr float kMostTransport = 1024;
+    constexpr float kMaxTransport = 1024;
     constexpr int kLargest = 0x7bff; // half; beyond it are infinity and NaN
     const auto magnitude = [](std::uint16_t half) { return half & 0x7fff; };
     const std::size_t coefficients = std::size_t(bands) * bands;
     for (std::size_t cache = 0; cache < c.size(); ++cache) {
-        const float scaled = std::ldexp(kMostTransport, c.linkExponent[cache]);
+        const float scaled = std::ldexp(kMaxTransport, c.linkExponent[cache]);
         const int most = scaled < 65504 ? floatToHalf(scaled) : kLargest;
         for (std::size_t k = c.linkBegin[cache]; k < c.linkBegin[cache + 1]; ++k) {
             if (c.shNode.empty()) {

@@ -24,7 +24,7 @@ TreeShape treeShapeOf(const ClusterTree& tree) {
             depth[child] = depth[tree.leaves() + k] + 1;
     double sum = 0;
     for (std::uint32_t i = 0; i < tree.surfels; ++i) {
-        shape.mostDepth = std::max(shape.mostDepth, depth[i]);
+        shape.maxDepth = std::max(shape.maxDepth, depth[i]);
         sum += depth[i];
     }
     shape.meanDepth = tree.surfels > 0 ? sum / tree.surfels : 0;

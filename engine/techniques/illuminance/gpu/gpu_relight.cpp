@@ -21,7 +21,7 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kMostSteps = 4;
+constexpr std::uint32_t kMaxSteps = 4;
 
 using Clock = std::chrono::steady_clock;
 
@@ -39,7 +39,7 @@ struct Sent {
 
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
-        : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMostSteps),
+        : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMaxSteps),
           keptLights(d, bake->surfels.size()), dimming(d, *bake, buffers.links) {}
 
     gpu::Device& device;

@@ -11,7 +11,7 @@ namespace limn {
 void KeptLights::makeRoom(std::uint32_t lights) {
     const VkDeviceSize perLight = std::max<std::size_t>(m_surfels, 1) * sizeof(float),
                        most = std::min<VkDeviceSize>(
-                           kMostBytes, m_device.properties.limits.maxStorageBufferRange);
+                           kMaxBytes, m_device.properties.limits.maxStorageBufferRange);
     kept = std::uint32_t(std::min<VkDeviceSize>(lights, most / perLight));
     if (!unit || kept > m_places.size()) {
         const VkDeviceSize room = std::min<VkDeviceSize>(std::max(2 * kept, 1U), most / perLight);

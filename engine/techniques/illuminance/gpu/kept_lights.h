@@ -14,7 +14,7 @@ namespace limn {
 class KeptLights {
 public:
     /// Of this array, all lights together; those behind are worked out each time [bytes].
-    static constexpr VkDeviceSize kMostBytes = 64 << 20;
+    static constexpr VkDeviceSize kMaxBytes = 64 << 20;
 
     /// The device outlives this.
     KeptLights(gpu::Device& device, std::size_t surfels) : m_device(device), m_surfels(surfels) {}

@@ -18,7 +18,7 @@ namespace limn {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr std::uint32_t kMostLobes = 500;                // when no cache is picked
+constexpr std::uint32_t kMaxLobes = 500;                 // when no cache is picked
 constexpr std::uint32_t kDots = 192, kPickedDots = 1536; // of a lobe
 constexpr float kPickedScale = 3;                        // a picked lobe may reach into others
 
@@ -109,7 +109,7 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
     const auto count = std::uint32_t(caches.size());
     const auto coefficients = std::size_t(lit.bands * lit.bands);
     const bool one = picked < count, grid = one && picked >= caches.lightmapCount;
-    const std::uint32_t every = std::max(1U, (caches.lightmapCount + kMostLobes - 1) / kMostLobes);
+    const std::uint32_t every = std::max(1U, (caches.lightmapCount + kMaxLobes - 1) / kMaxLobes);
     const DirectionSet directions(one ? kPickedDots : kDots, true, 0);
     std::vector<float> basis(directions.count * coefficients);
     for (std::uint32_t k = 0; k < directions.count; ++k)

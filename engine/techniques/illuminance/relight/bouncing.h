@@ -91,8 +91,8 @@ private:
     /// changes are no more than a hundred roundings, shares scatter by some per cent, and in a
     /// white room the first one that came out low would end bounces 0.03 % to 0.1 % too early.
     double following() const {
-        constexpr double kMostPassedOn = 0.999; // noise, rounding
-        const double q = std::min(std::ranges::max(m_latest), kMostPassedOn);
+        constexpr double kMaxPassedOn = 0.999; // noise, rounding
+        const double q = std::min(std::ranges::max(m_latest), kMaxPassedOn);
         return std::max(q / (1 - q), 1.);
     }
 

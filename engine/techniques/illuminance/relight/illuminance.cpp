@@ -3,7 +3,7 @@
 
 namespace limn {
 
-const Technique kIlluminanceTechnique = {
+constinit const Technique kIlluminanceTechnique = {
     .name = "illuminance",
     .label = "Illuminance composition",
     .summary = "Surfels light clusters, clusters light caches of spherical harmonics through "

@@ -96,7 +96,7 @@ void sumLights(std::size_t surfels, SurfelLight& state) {
             const glm::vec3 strength = state.summed[l].color * state.summed[l].strength;
             const std::vector<float>& share = state.lights[l].share;
             for (std::size_t s = begin; s < end; ++s)
-                state.irradiance[s] += glm::min(strength * share[s], kMostIrradiance);
+                state.irradiance[s] += glm::min(strength * share[s], kMaxIrradiance);
         }
     });
 }

@@ -85,7 +85,7 @@ Judgement judgeScale(const Subject& subject) {
     const float s = std::exp2(float(random.whole(std::min(1, most), std::max(-1, most))));
     const Scene scaled = scaledScene(scene, s);
     for (const Light& l : scaled.lights)
-        if (l.strength > kMostLight ||
+        if (l.strength > kMaxLight ||
             (l.kind == LightKind::Rectangle && (std::min(l.size.x, l.size.y) < kMinLightSize ||
                                                 std::max(l.size.x, l.size.y) > kMaxLightSize)))
             return notJudged();
@@ -106,11 +106,11 @@ Judgement judgeScale(const Subject& subject) {
 }
 
 /// Not from or to where 24 bits of a coordinate no longer tell the parts of a scene apart.
-constexpr double kMostSizesAway = 100;
+constexpr double kMaxSizesAway = 100;
 
 Judgement judgeTranslation(const Subject& subject) {
     const Scene& scene = subject.base.scene;
-    if (sizesAway(scene) > kMostSizesAway)
+    if (sizesAway(scene) > kMaxSizesAway)
         return notJudged();
     RandomStream random(subject.seed + 2);
     const glm::dvec3 by(random.between(-8, 8), random.between(-8, 8), random.between(-8, 8));
@@ -122,7 +122,7 @@ Judgement judgeTranslation(const Subject& subject) {
 /// document says where its world space lies.
 Judgement judgeFar(const Subject& subject) {
     const Scene& scene = subject.base.scene;
-    if (!subject.document || sizesAway(scene) > kMostSizesAway)
+    if (!subject.document || sizesAway(scene) > kMaxSizesAway)
         return notJudged();
     RandomStream random(subject.seed + 6);
     const glm::dvec3 way(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
@@ -146,7 +146,7 @@ Judgement judgeAxes(const Subject& subject) {
 /// About the upright where the sky says which way is up.
 Judgement judgeTurn(const Subject& subject) {
     const Scene& scene = subject.base.scene;
-    if (sizesAway(scene) > kMostSizesAway)
+    if (sizesAway(scene) > kMaxSizesAway)
         return notJudged();
     RandomStream random(subject.seed + 3);
     glm::vec3 axis(0, 1, 0);

@@ -72,7 +72,7 @@ Judgement judgeNotNegative(const Subject& subject) {
 /// What surfels send by first light, without bounces [W m^-2].
 struct FirstLight {
     std::vector<glm::vec3> radiosity;
-    double mostAlbedo = 0, mostSky = 0; ///< pi times the sky's radiance
+    double maxAlbedo = 0, maxSky = 0; ///< pi times the sky's radiance
 };
 
 FirstLight firstLight(const LitScene& s) {
@@ -83,10 +83,10 @@ FirstLight firstLight(const LitScene& s) {
     updateSurfelLight(s.bake->surfels, s.scene, *s.trace, direct);
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         out.radiosity[i] += albedo[i] * direct.irradiance[i];
-        out.mostAlbedo = std::max(out.mostAlbedo, largest(albedo[i]));
+        out.maxAlbedo = std::max(out.maxAlbedo, largest(albedo[i]));
     }
     for (const glm::vec3 cell : skyRadiosity(s.bake->tree, s.scene.sky))
-        out.mostSky = std::max(out.mostSky, largest(cell));
+        out.maxSky = std::max(out.maxSky, largest(cell));
     return out;
 }
 
@@ -146,7 +146,7 @@ Judgement judgeEnergy(const Subject& subject) {
     const FirstLight first = firstLight(s);
     const Flux flux = fluxOf(s, first);
     const double allowed =
-        (flux.given + 3 * first.mostAlbedo * first.mostSky * flux.area) / (1 - first.mostAlbedo);
+        (flux.given + 3 * first.maxAlbedo * first.maxSky * flux.area) / (1 - first.maxAlbedo);
     if (!(allowed > 1e-30))
         return judged(flux.sent, 1e-30);
     return judged(flux.sent / allowed, 1.02 + 6 * flux.noise);

@@ -43,7 +43,7 @@ Judgement judgeBrightness(const Subject& subject) {
     return judged(double(different), 0);
 }
 
-std::uint32_t mostLinks(const Caches& caches) {
+std::uint32_t maxLinks(const Caches& caches) {
     std::uint32_t most = 0;
     for (std::size_t c = 0; c < caches.size(); ++c)
         most = std::max(most, caches.linkBegin[c + 1] - caches.linkBegin[c]);
@@ -54,8 +54,8 @@ std::uint32_t mostLinks(const Caches& caches) {
 /// way up the tree, some 40 numbers more, each rounds by sqrt(n + 40) / 4 + 1/2 units of 2^-24 of
 /// the cache's light, whose first coefficient no term exceeds by more than 4 times. Three sums are
 /// compared, and six standard deviations allowed.
-double mostRoundings(const Caches& caches) {
-    return 6 * std::sqrt(3.0) * (0.25 * std::sqrt(double(mostLinks(caches)) + 40) + 0.5);
+double maxRoundings(const Caches& caches) {
+    return 6 * std::sqrt(3.0) * (0.25 * std::sqrt(double(maxLinks(caches)) + 40) + 0.5);
 }
 
 /// The largest difference between a + b and `both`, in those units.
@@ -92,7 +92,7 @@ Judgement judgeAdditivity(const Subject& subject) {
     const Caches& caches = subject.base.bake->caches;
     return judged(roundings(reflectedOnce(subject, a), reflectedOnce(subject, b),
                             reflectedOnce(subject, scene), caches.size()),
-                  mostRoundings(caches));
+                  maxRoundings(caches));
 }
 
 /// Lights and materials in another order are the same light.
@@ -106,7 +106,7 @@ Judgement judgeOrder(const Subject& subject) {
     const Caches& caches = subject.base.bake->caches;
     return judged(roundings(other, std::vector<glm::vec3>(other.size()),
                             reflectedOnce(subject, subject.base.scene), caches.size()),
-                  mostRoundings(caches));
+                  maxRoundings(caches));
 }
 
 /// A scene on the way to that one: other strengths, places, materials and sky.

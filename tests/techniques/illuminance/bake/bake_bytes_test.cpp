@@ -108,7 +108,7 @@ TEST(BakeBytes, LinksAndCachesArePredictedWithinAQuarter) {
             expectNear(p.caches, baked.caches.size());
             expectNear(p.bytes.links, is.links);
             expectNear(p.bytes.total(), is.total());
-            EXPECT_EQ(p.leastTexels, 0U);
+            EXPECT_EQ(p.minTexels, 0U);
         }
 }
 
@@ -128,13 +128,13 @@ TEST(BakeBytes, ManySmallObjectsNeedMoreTexelsThanAreAskedFor) {
     scene.bake.lightmapCaches = 300;
     scene.bake.rays = 64;
     scene.bake.links = 16;
-    EXPECT_EQ(leastTexels(scene), 6 * 201U);
+    EXPECT_EQ(minTexels(scene), 6 * 201U);
     const BakePrediction p = predictBake(scene);
-    EXPECT_EQ(p.leastTexels, 6 * 201U);
+    EXPECT_EQ(p.minTexels, 6 * 201U);
     const auto real = double(bakeOf(scene).caches.size());
     EXPECT_NEAR(double(p.caches), real, 0.05 * real);
     scene.bake.lightmapCaches = 5000;
-    EXPECT_EQ(predictBake(scene).leastTexels, 0U);
+    EXPECT_EQ(predictBake(scene).minTexels, 0U);
 }
 
 TEST(BakeBytes, WorkingMemoryHoldsAtLeastTheArraysOfEveryStage) {

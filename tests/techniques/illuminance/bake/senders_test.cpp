@@ -200,7 +200,7 @@ TEST(TreeShape, OfAKnownTree) {
     tree.left = {0, 4, 5}; // ((0 1) 2) sky
     tree.right = {1, 2, 3};
     const TreeShape shape = treeShapeOf(tree);
-    EXPECT_EQ(shape.mostDepth, 3U);
+    EXPECT_EQ(shape.maxDepth, 3U);
     EXPECT_NEAR(shape.meanDepth, 8 / 3.0, 1e-12);
     EXPECT_NEAR(shape.balance, 0.75, 1e-12);
 }

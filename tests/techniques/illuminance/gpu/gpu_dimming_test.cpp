@@ -41,7 +41,7 @@ protected:
         cpuStats = cpu->relight(scene, trace, 3);
     }
     void expectSame() const {
-        const double terms = mostLinks(made->caches), brightest = largest(cpu->cacheSh());
+        const double terms = maxLinks(made->caches), brightest = largest(cpu->cacheSh());
         expectRounding("caches", distance(relighter->readCacheSh(), cpu->cacheSh()), terms,
                        brightest);
         expectRounding("radiosity", distance(relighter->readRadiosity(), radiosityOf(*cpu)), terms,

@@ -31,7 +31,7 @@ void compare(gpu::Device& device, const Scene& scene, const TraceScene& trace,
     EXPECT_EQ(stats.converged, cpuStats.converged);
     EXPECT_EQ(stats.links, cpuStats.links);
     EXPECT_LE(stats.linksPassedOver, cpuStats.linksPassedOver);
-    const double terms = mostLinks(bake->caches), brightest = largest(cpu.cacheSh());
+    const double terms = maxLinks(bake->caches), brightest = largest(cpu.cacheSh());
     ASSERT_GT(brightest, 0);
     expectRounding("radiosity", distance(gpu->readRadiosity(), radiosityOf(cpu)), terms,
                    largest(radiosityOf(cpu)));
@@ -75,7 +75,7 @@ TEST_F(GpuMatch, FieldsFollowLightOfAnyStrength) {
         const IndirectField field = gpu->readField();
         const double brightest = largest(cpu.cacheSh());
         EXPECT_EQ(brightest > 0, strength > 0);
-        expectHalves("lightmap", field.lightmap, cpu.field().lightmap, mostLinks(made->caches),
+        expectHalves("lightmap", field.lightmap, cpu.field().lightmap, maxLinks(made->caches),
                      brightest + 1e-30);
     }
 }
@@ -94,7 +94,7 @@ TEST_F(GpuMatch, PassesOverLinksToASkyForAsLongAsItIsBlack) {
         EXPECT_EQ(stats.linksPassedOver > 0, sky == glm::vec3(0));
         EXPECT_LE(stats.linksPassedOver, cpuStats.linksPassedOver);
         expectRounding("caches", distance(gpu->readCacheSh(), cpu.cacheSh()),
-                       mostLinks(made->caches), largest(cpu.cacheSh()));
+                       maxLinks(made->caches), largest(cpu.cacheSh()));
     }
 }
 
@@ -144,7 +144,7 @@ TEST_F(GpuMatch, LightsTheBandsThatAreAskedForAndOthersLater) {
             EXPECT_EQ(gpu->field()->bands, inputs.bands);
             const IndirectField field = gpu->readField();
             EXPECT_EQ(field.bands, inputs.bands);
-            const double terms = mostLinks(made->caches), brightest = largest(cpu->cacheSh());
+            const double terms = maxLinks(made->caches), brightest = largest(cpu->cacheSh());
             if (cpu == &needed) {
                 expectRounding("caches", distance(gpu->readCacheSh(), cpu->cacheSh()), terms,
                                brightest);
@@ -187,7 +187,7 @@ TEST_F(GpuMatch, FollowsTheLightAsTheCpuDoes) {
         const RelightStats cpuStats = cpu.relight(scene, trace, bounces);
         const auto stats = gpu->relight(surfelValues(*made, scene, trace).inputs(), bounces);
         EXPECT_EQ(stats.bounces, cpuStats.bounces);
-        const double terms = mostLinks(made->caches);
+        const double terms = maxLinks(made->caches);
         expectRounding("radiosity", distance(gpu->readRadiosity(), radiosityOf(cpu)), terms,
                        largest(radiosityOf(cpu)));
         expectRounding("caches", distance(gpu->readCacheSh(), cpu.cacheSh()), terms,

@@ -40,7 +40,7 @@ inline double largest(const std::vector<glm::vec3>& values) {
     return out;
 }
 
-inline double mostLinks(const Caches& caches) {
+inline double maxLinks(const Caches& caches) {
     std::uint32_t most = 0;
     for (std::size_t c = 0; c < caches.size(); ++c)
         most = std::max(most, caches.linkBegin[c + 1] - caches.linkBegin[c]);

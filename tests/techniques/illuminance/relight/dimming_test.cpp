@@ -266,7 +266,7 @@ Differences compareWithRays(const Scene& scene, const Dimmed& d) {
         const glm::vec3 beyond = glm::max(blocker.bounds.lower - x, x - blocker.bounds.upper);
         const bool own = c.kind[i] == CacheKind::Grid && glm::all(glm::lessThan(beyond, cell));
         const float sine = std::min(blocker.radius / glm::length(toMiddle), 1.f);
-        if (own || 1 - std::sqrt(1 - sine * sine) < 1.01f * kLeastBlocked)
+        if (own || 1 - std::sqrt(1 - sine * sine) < 1.01f * kMinBlocked)
             continue;
         const bool within = holds(*blocker.shape, blocker.toObject * (x - blocker.origin));
         for (std::uint32_t k = c.linkBegin[i]; k < c.linkBegin[i + 1]; ++k) {

@@ -15,7 +15,7 @@ TEST(StrongLight, StaysWithinFloat) {
     Scene scene = *litRoom(300, 300);
     const TraceScene trace{scene};
     const auto made = std::make_shared<const Bake>(*bake(trace));
-    Light strong{.color = glm::vec3(kMostLight), .strength = kMostLight};
+    Light strong{.color = glm::vec3(kMaxLight), .strength = kMaxLight};
     strong.position = made->surfels.position[0] + 8e-7f * made->surfels.normal[0];
     scene.lights.assign(50, strong);
     for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Rectangle}) {
@@ -23,10 +23,10 @@ TEST(StrongLight, StaysWithinFloat) {
         scene.lights.back().kind = kind;
         scene.lights.back().position = {2, 2.5f, 2};
     }
-    scene.sky.radiance = glm::vec3(kMostLight);
+    scene.sky.radiance = glm::vec3(kMaxLight);
     for (Material& m : scene.materials) {
         m.baseColor = glm::vec4(1);
-        m.emission = glm::vec3(kMostLight);
+        m.emission = glm::vec3(kMaxLight);
     }
     Relighter relighter(made, LitBands::All);
     relighter.relight(scene, trace, 64);

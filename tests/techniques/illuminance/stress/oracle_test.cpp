@@ -131,7 +131,7 @@ TEST(Oracles, SeeSumsThatDependOnTheirOrder) {
     Subject subject = room(folder);
     subject.base.scene.lights.push_back(subject.base.scene.lights[0]);
     // Together they are more than floats hold, and each of them is not. Only negative light, which
-    // no reader lets through, is not held below kMostIrradiance.
+    // no reader lets through, is not held below kMaxIrradiance.
     for (Light& l : subject.base.scene.lights) {
         l.strength = 3e38f;
         l.color = {1, -1, 1};

@@ -267,7 +267,7 @@ OwnCache ownCache(const Sight& sight, const Surfels& moved,
     const auto add = [&](std::uint32_t s, const MeshPoint& point, bool inSight) {
         const WorldPoint p = placeOf(scene, sight.set, s, point);
         const float above = kAbove * std::sqrt(moved.area[s]);
-        if (own.count < AtlasTexel::kMostPoints &&
+        if (own.count < AtlasTexel::kMaxPoints &&
             glm::dot(p.normal, moved.normal[first]) > kAlike &&
             !(inSight &&
               sight.trace.blocked(p.position + above * p.normal,

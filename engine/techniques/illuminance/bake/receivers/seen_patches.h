@@ -18,8 +18,8 @@ inline constexpr std::uint32_t kCachesPerOwn = 20;
 /// A cache that a few surfels alone read, over the part of their patches that caches see.
 struct OwnCache {
     std::uint32_t instance = 0, back = 0; ///< as AtlasTexel
-    std::uint32_t count = 0;              ///< of points, [1, AtlasTexel::kMostPoints]
-    std::array<MeshPoint, AtlasTexel::kMostPoints> points{};
+    std::uint32_t count = 0;              ///< of points, [1, AtlasTexel::kMaxPoints]
+    std::array<MeshPoint, AtlasTexel::kMaxPoints> points{};
 };
 
 /// What becomes of surfels whose patches lie partly elsewhere than where they are seen: behind a

@@ -44,8 +44,8 @@ Cluster merged(const Cluster& a, const Cluster& b, float normalWeight) {
 /// exceeds the distance to any of them.
 struct Box {
     std::array<float, 6> lower, upper;
-    float leastSpread = kInfinity, leastArea = kInfinity, mostArea = 0;
-    std::uint32_t leastNumber = kNone;
+    float minSpread = kInfinity, minArea = kInfinity, maxArea = 0;
+    std::uint32_t minNumber = kNone;
 
     Box() {
         lower.fill(kInfinity);
@@ -56,20 +56,20 @@ struct Box {
             lower[k] = std::min(lower[k], c.at[k]);
             upper[k] = std::max(upper[k], c.at[k]);
         }
-        leastSpread = std::min(leastSpread, c.spread);
-        leastArea = std::min(leastArea, c.area);
-        mostArea = std::max(mostArea, c.area);
-        leastNumber = std::min(leastNumber, number);
+        minSpread = std::min(minSpread, c.spread);
+        minArea = std::min(minArea, c.area);
+        maxArea = std::max(maxArea, c.area);
+        minNumber = std::min(minNumber, number);
     }
     void add(const Box& b) {
         for (std::size_t k = 0; k < 6; ++k) {
             lower[k] = std::min(lower[k], b.lower[k]);
             upper[k] = std::max(upper[k], b.upper[k]);
         }
-        leastSpread = std::min(leastSpread, b.leastSpread);
-        leastArea = std::min(leastArea, b.leastArea);
-        mostArea = std::max(mostArea, b.mostArea);
-        leastNumber = std::min(leastNumber, b.leastNumber);
+        minSpread = std::min(minSpread, b.minSpread);
+        minArea = std::min(minArea, b.minArea);
+        maxArea = std::max(maxArea, b.maxArea);
+        minNumber = std::min(minNumber, b.minNumber);
     }
     bool operator==(const Box&) const = default;
 };
@@ -90,8 +90,8 @@ float bound(const Cluster& a, const Box& b, float balanceWeight) {
         const float e = std::max(std::max(b.lower[k] - a.at[k], a.at[k] - b.upper[k]), 0.f);
         d += e * e;
     }
-    d += a.spread + b.leastSpread;
-    const float nearest = std::min(std::max(a.area, b.leastArea), b.mostArea);
+    d += a.spread + b.minSpread;
+    const float nearest = std::min(std::max(a.area, b.minArea), b.maxArea);
     return d + balanceWeight * (1 - std::min(a.area, nearest) / std::max(a.area, nearest));
 }
 
@@ -201,7 +201,7 @@ Nearest ClusterIndex::nearest(std::uint32_t number) const {
     const Cluster& from = m_clusters[number];
     const auto visit = [&](std::size_t node) {
         const Box& box = m_boxes[node];
-        return Visit{{bound(from, box, m_balanceWeight), box.leastNumber}, node};
+        return Visit{{bound(from, box, m_balanceWeight), box.minNumber}, node};
     };
     Nearest best;
     Visit stack[64]; // at most one for each level and one more

@@ -19,9 +19,9 @@ namespace {
 // Found by trial on Cornell and Sponza: even distances and even areas of the points' Voronoi cells
 // after ten rounds. From a step of 0.6 on it swings instead of settling.
 constexpr int kRounds = 10;
-constexpr float kReach = 1.5f;    // of repulsion [spacings]
-constexpr float kStep = 0.45f;    // displacement per force [reaches]
-constexpr float kMostStep = 0.3f; // [reaches]
+constexpr float kReach = 1.5f;   // of repulsion [spacings]
+constexpr float kStep = 0.45f;   // displacement per force [reaches]
+constexpr float kMaxStep = 0.3f; // [reaches]
 
 /// Force at distance d of the reach, in [0, 1].
 float repulsion(float d) {
@@ -80,7 +80,7 @@ struct Relaxation {
         const float length = glm::length(force);
         if (!(length > 0))
             return points[i];
-        return walk.move(points[i], force * (reach * std::min(kStep, kMostStep / length)));
+        return walk.move(points[i], force * (reach * std::min(kStep, kMaxStep / length)));
     }
 };
 

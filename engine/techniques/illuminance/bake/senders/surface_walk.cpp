@@ -50,7 +50,7 @@ MeshPoint SurfaceWalk::move(MeshPoint point, glm::vec3 step) const {
         if (opposite == 3)
             return pointOf(t, weight);
         const std::size_t a = (opposite + 1) % 3, b = (opposite + 2) % 3;
-        if (crossings == kMostCrossings || isBorder(t, std::uint32_t(a)))
+        if (crossings == kMaxCrossings || isBorder(t, std::uint32_t(a)))
             return pointOf(t, weight);
         const std::uint32_t partner = m_partner[3 * t + a], next = partner / 3;
         const glm::vec3 edge = glm::normalize(p[b] - p[a]);

@@ -17,7 +17,7 @@ public:
 
     /// Goes straight by `step` (object space, in the plane of the point's triangle), turning with
     /// the surface at edges. Ends early at a border, see edgePartners(), before a triangle without
-    /// area, and after kMostCrossings edges. The result always lies in its triangle.
+    /// area, and after kMaxCrossings edges. The result always lies in its triangle.
     MeshPoint move(MeshPoint point, glm::vec3 step) const;
 
     /// Edge k of the triangle, from its corner k to the next, is a border.
@@ -27,7 +27,7 @@ public:
     float area(std::uint32_t triangle) const { return m_geometry.area[triangle]; }
 
 private:
-    static constexpr int kMostCrossings = 32;
+    static constexpr int kMaxCrossings = 32;
 
     const Mesh& m_mesh;
     TriangleGeometry m_geometry;

@@ -70,8 +70,8 @@ std::uint32_t countPieces(const Mesh& mesh) {
 /// the side in sight the midpoint rule is off by (w / d)^2 / (12 n) or less in distance, 0.2 % for
 /// n = 32. Of a closed lamp half of the surfels look away: 64. All lamps together get a quarter of
 /// `target` at most.
-std::vector<std::uint32_t> leastSurfels(const Scene& scene, const std::vector<double>& area,
-                                        std::uint32_t target) {
+std::vector<std::uint32_t> minSurfels(const Scene& scene, const std::vector<double>& area,
+                                      std::uint32_t target) {
     constexpr std::uint32_t kLampSurfels = 64;
     std::vector<std::uint32_t> least(scene.assets->meshes.size()), users(least.size());
     for (std::size_t i = 0; i < area.size(); ++i)
@@ -124,7 +124,7 @@ std::vector<double> meanDensities(const Scene& scene, std::span<const MeshDensit
 }
 
 /// Counts per mesh from the areas of its instances times its mean density, and no fewer than
-/// leastSurfels(): those that need more than that gives take it from the others.
+/// minSurfels(): those that need more than that gives take it from the others.
 std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<double>& area,
                                           const std::vector<double>& density,
                                           std::uint32_t target) {
@@ -135,7 +135,7 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<
             sum[scene.instances[i].mesh] += area[i] * density[scene.instances[i].mesh];
             ++users[scene.instances[i].mesh];
         }
-    const std::vector<std::uint32_t> least = leastSurfels(scene, area, target);
+    const std::vector<std::uint32_t> least = minSurfels(scene, area, target);
     const auto sides = [&](std::size_t m) {
         return isTwoSided(scene.materials[scene.assets->meshes[m].material]) ? 2U : 1U;
     };
@@ -370,14 +370,13 @@ bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
 void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     // Cells of a third of the surfels' spacing: the border between two owners is off by a sixth of
     // it at most.
-    constexpr float kCellsPerSpacing = 3, kMostCells = 1024;
+    constexpr float kCellsPerSpacing = 3, kMaxCells = 1024;
     const MeshDensity& density = surfels.density;
     const double worth = summedWorth(mesh, density) / surfels.frontCount; // of a surfel
     m_density = {density.level, density.begin, {}};
     m_blocks.resize(density.uniform() ? mesh.triangleCount() : density.density.size());
     // Needles have long sides and no area. Their cells must not outnumber all else.
-    const double mostInAll =
-        256.0 * double(surfels.frontCount) + 4.0 * double(mesh.triangleCount());
+    const double maxInAll = 256.0 * double(surfels.frontCount) + 4.0 * double(mesh.triangleCount());
     double inAll = 0;
     const auto forBlocks = [&](const auto& visit) {
         for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
@@ -390,16 +389,16 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
                     area = float(worth / double(density.density[density.cell(t, at)])),
                     spacing = std::sqrt(std::max(area, 1e-30f)) * float(density.side(t));
         const float n =
-            std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMostCells);
+            std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMaxCells);
         m_blocks[blockOf(t, at)].resolution = std::uint32_t(n);
         inAll += double(n) * double(n);
     });
     std::uint32_t cells = 0;
     forBlocks([&](std::uint32_t t, glm::uvec2 at) {
         Block& block = m_blocks[blockOf(t, at)];
-        if (inAll > mostInAll)
+        if (inAll > maxInAll)
             block.resolution =
-                std::uint32_t(std::max(1.0, block.resolution * std::sqrt(mostInAll / inAll)));
+                std::uint32_t(std::max(1.0, block.resolution * std::sqrt(maxInAll / inAll)));
         block.begin = cells;
         cells += block.resolution * block.resolution;
     });

@@ -40,14 +40,14 @@ void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec
     const glm::vec3 way = sphere.centre - from;
     const float distance = glm::length(way);
     const auto count = std::uint32_t(candidate.size());
-    float leastCosine = -2; // all
+    float minCosine = -2; // all
     glm::vec3 axis(0, 0, 1);
     std::uint32_t begin = 0, end = count;
     if (distance > sphere.radius) {
         axis = glm::transpose(rays.toWorld[k]) * (way / distance);
         const float half = std::asin(std::min(1.f, sphere.radius / distance)) + 1e-3f;
         const float toAxis = std::acos(std::clamp(axis.z, -1.f, 1.f));
-        leastCosine = std::cos(half);
+        minCosine = std::cos(half);
         const float highest = toAxis > half ? std::cos(toAxis - half) : 1.f;
         const float lowest =
             toAxis + half < 3.14159f ? std::cos(std::min(toAxis + half, 3.14159f)) : -1.f;
@@ -58,7 +58,7 @@ void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec
     }
     begin += (k + rays.points - begin % rays.points) % rays.points;
     for (std::uint32_t r = begin; r < end; r += rays.points)
-        if (!candidate[r] && glm::dot(rays.local[r], axis) >= leastCosine)
+        if (!candidate[r] && glm::dot(rays.local[r], axis) >= minCosine)
             candidate[r] = 1;
 }
 

@@ -118,10 +118,10 @@ public:
         return m_worth.worth();
     }
 
-    /// After look(): refines what is worth more than `bound`, the best `mostLinks` - 1 of them.
+    /// After look(): refines what is worth more than `bound`, the best `maxLinks` - 1 of them.
     PackedLinks link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
-                     float bound, std::uint32_t mostLinks) {
-        chooseRefined(worth, bound, mostLinks);
+                     float bound, std::uint32_t maxLinks) {
+        chooseRefined(worth, bound, maxLinks);
         m_cones.clear();
         put(m_seen.size() - 1);
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
@@ -161,7 +161,7 @@ private:
         const float half = weight * irradianceShare(CacheKind::Grid, 0);
         const bool sphere = rays.local.sphere;
         const glm::vec3* local = (sphere ? in.sphere : in.hemisphere).data();
-        std::array<glm::mat3, AtlasTexel::kMostPoints> toMoment{};
+        std::array<glm::mat3, AtlasTexel::kMaxPoints> toMoment{};
         for (std::uint32_t k = 0; k < rays.points; ++k)
             toMoment[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * weight;
         for (std::uint32_t r = 0, k = 0; r < count; ++r) {
@@ -234,12 +234,12 @@ private:
         }
     }
 
-    void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t mostLinks) {
+    void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t maxLinks) {
         m_order.clear();
         for (std::uint32_t i = 0; i < worth.size(); ++i)
             if (worth[i] > bound)
                 m_order.emplace_back(-worth[i], ~i); // of equals the parent, which comes last
-        const std::size_t count = std::min<std::size_t>(m_order.size(), mostLinks - 1);
+        const std::size_t count = std::min<std::size_t>(m_order.size(), maxLinks - 1);
         if (count < m_order.size())
             std::nth_element(m_order.begin(), m_order.begin() + std::ptrdiff_t(count),
                              m_order.end());
@@ -363,8 +363,8 @@ void weighByLinks(const std::vector<float>& seen, const std::vector<double>& lin
         all[node] = all[l] + all[r];
         const double left = std::max(all[l] - below[l], 0.),
                      right = std::max(all[r] - below[r], 0.);
-        constexpr double kLeast = 1e-4; // less is rounding
-        if (left + right > kLeast * all[node])
+        constexpr double kMinimum = 1e-4; // less is rounding
+        if (left + right > kMinimum * all[node])
             tree.leftWeight[k] = float(left / (left + right));
         below[node] += below[l] + below[r];
     }
@@ -374,7 +374,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches,
                 std::vector<double>* linked) {
-    constexpr std::uint32_t kMostOfBudget = 16; // a cache may have this many times n_L
+    constexpr std::uint32_t kMaxOfBudget = 16; // a cache may have this many times n_L
     const LinkInput input{surfels,
                           hits,
                           points,
@@ -388,13 +388,13 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
     const bool shared = settings.criterion == CutCriterion::Detail;
     std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
     float bound = -1;
-    std::uint32_t mostLinks = settings.links;
+    std::uint32_t maxLinks = settings.links;
     if (shared) {
         const auto found = sharedBound(linkers, caches, settings, progress, worth);
         if (!found)
             return false;
         bound = *found;
-        mostLinks *= kMostOfBudget;
+        maxLinks *= kMaxOfBudget;
     }
     std::vector<PackedLinks> links(caches.size());
     const bool done =
@@ -405,7 +405,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                 if (!linker.look(caches, c))
                     continue;
                 links[c] =
-                    linker.link(caches, c, shared ? worth[c] : linker.weigh(), bound, mostLinks);
+                    linker.link(caches, c, shared ? worth[c] : linker.weigh(), bound, maxLinks);
                 if (shared)
                     worth[c] = {};
             }

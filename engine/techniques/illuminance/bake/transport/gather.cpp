@@ -265,7 +265,7 @@ SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind k
     return kind == CacheKind::Hemisphere && !(view.cosTheta > 0) ? SenderView{} : view;
 }
 
-std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker) {
+std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker) {
     const auto targets = std::uint32_t(aimTargets(scene, set, linker).size());
     return linker == Linker::Gather ? std::min(targets, kMaxAimed) : targets;
 }

@@ -53,7 +53,7 @@ struct GatherHits {
 struct CacheRays {
     DirectionSet local;
     std::uint32_t points;
-    std::array<glm::mat3, AtlasTexel::kMostPoints> toWorld;
+    std::array<glm::mat3, AtlasTexel::kMaxPoints> toWorld;
 
     glm::vec3 operator[](std::uint32_t r) const { return toWorld[r % points] * local[r]; }
 };
@@ -133,6 +133,6 @@ bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& cac
 inline constexpr std::uint32_t kMaxAimed = 512;
 
 /// Greatest number of senders that one cache aims at.
-std::uint32_t mostAimed(const Scene& scene, const SurfelSet& set, Linker linker);
+std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker);
 
 } // namespace limn

@@ -31,7 +31,7 @@ std::uint64_t hashCache(const Caches& caches, const CachePoints& points, std::si
 
 template <class A, class R>
 void recordFields(A& a, R& r) {
-    constexpr std::uint64_t kMostSurfels = 1 << 24; // of all instances
+    constexpr std::uint64_t kMaxSurfels = 1 << 24; // of all instances
     a("rays", r.rays, rule::within(1, 65536));
     a("cachesPerBlock", r.cachesPerBlock, rule::within(1, 65536));
     a("clearance", r.clearance, rule::finite);
@@ -41,7 +41,7 @@ void recordFields(A& a, R& r) {
                       std::uint64_t sum = 0;
                       for (const TracedInstance& i : instances)
                           sum += i.surfelCount;
-                      return sum <= kMostSurfels;
+                      return sum <= kMaxSurfels;
                   }),
       rule::each("not placed",
                  [](std::size_t, const TracedInstance& i) { return !rule::inReach()(i.toWorld); }));

@@ -382,7 +382,7 @@ void Tracing::keepRecord(bool changed) {
 
 /// From raw hits to the cut's, aimed rays included.
 bool Tracing::finish() {
-    const bool aims = mostAimed(in.trace.scene(), in.set, in.linker) > 0;
+    const bool aims = maxAimed(in.trace.scene(), in.set, in.linker) > 0;
     const std::uint64_t key = aimedKey(in, m_key);
     if (aims && m_store)
         if (const std::optional<std::string> bytes = m_store->find(key))
@@ -462,7 +462,7 @@ Result<TraceReport> Tracing::run() {
 Result<TraceReport> traceHits(const TraceInput& in, const Progress& progress, StageStore* store,
                               GatherHits& hits) {
     const std::uint64_t caches = in.caches.size(),
-                        aimed = mostAimed(in.trace.scene(), in.set, in.linker),
+                        aimed = maxAimed(in.trace.scene(), in.set, in.linker),
                         bytes = caches * (in.rays * sizeof(RawHit) + aimed * sizeof(AimedSample)),
                         most = halfOfMemory();
     if (bytes > most)

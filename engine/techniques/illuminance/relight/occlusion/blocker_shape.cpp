@@ -125,7 +125,7 @@ std::vector<Side> convexSides(const Welded& w) {
         const glm::vec3 normal = glm::cross(b - a, c - a);
         const std::optional<Side> side =
             glm::length(normal) > 0 ? sideThrough(w, a, glm::normalize(normal)) : std::nullopt;
-        if (!side || sides.size() == BlockerShape::kMostSides)
+        if (!side || sides.size() == BlockerShape::kMaxSides)
             return {};
         sides.push_back(*side);
     }
@@ -136,7 +136,7 @@ std::vector<Side> convexSides(const Welded& w) {
                           return glm::dot(s.normal, lid->normal) > 0.99f &&
                                  within(s, w.position[w.rim[0].first], near);
                       });
-    if (!lid || hole || sides.size() == BlockerShape::kMostSides)
+    if (!lid || hole || sides.size() == BlockerShape::kMaxSides)
         return {};
     sides.push_back(*lid);
     return sides;

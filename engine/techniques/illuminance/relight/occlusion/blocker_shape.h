@@ -19,7 +19,7 @@ struct BlockerShape {
         float offset;
         bool there; ///< the mesh has triangles there, all over it
     };
-    static constexpr std::size_t kMostSides = 16;
+    static constexpr std::size_t kMaxSides = 16;
 
     Bounds box;              ///< about the mesh
     std::vector<Side> sides; ///< of a convex solid about the mesh

@@ -46,7 +46,7 @@ bool sees(const Bake& bake, std::uint32_t cache, const Blocker& b, glm::vec3 cel
         return true;
     const float sine = b.radius / distance, cosine = std::sqrt(1 - sine * sine);
     sight = {way / distance, cosine, sine};
-    return sine * sine / (1 + cosine) >= kLeastBlocked; // 1 - cosine, without cancellation
+    return sine * sine / (1 + cosine) >= kMinBlocked; // 1 - cosine, without cancellation
 }
 
 /// The lattice of DirectionSet, as strata of height and directions about the axis.
@@ -82,7 +82,7 @@ using V = hn::Vec<Floats>;
 using U = hn::Vec<Uints>;
 using M = hn::Mask<Floats>;
 
-constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(float);
+constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 
 HWY_INLINE V set(float v) {
     return hn::Set(Floats(), v);
@@ -208,7 +208,7 @@ struct ConeReader {
 /// Links that wait for a closer look, until there are enough for whole vectors.
 struct Waiting {
     static constexpr std::size_t kRoom = 512;
-    std::uint32_t link[kRoom + kMostLanes], cache[kRoom + kMostLanes];
+    std::uint32_t link[kRoom + kMaxLanes], cache[kRoom + kMaxLanes];
     std::size_t count = 0;
 
     HWY_INLINE void add(U links, U caches, M which) {
@@ -218,7 +218,7 @@ struct Waiting {
         hn::StoreU(hn::Compress(caches, mask), d, cache + count);
         count += hn::CountTrue(d, mask);
     }
-    bool full() const { return count + kMostLanes > kRoom; }
+    bool full() const { return count + kMaxLanes > kRoom; }
 };
 
 /// What is known of some links when they are looked at.
@@ -253,7 +253,7 @@ struct Finder {
     const Spread &few, &many;
     const BlockerShape& shape = *blocker.shape;
     std::size_t count = 0; ///< of sides
-    Side sides[BlockerShape::kMostSides];
+    Side sides[BlockerShape::kMaxSides];
     Sight sight; ///< of the cache at hand
     Waiting seen, ofFew, ofMany;
 
@@ -309,7 +309,7 @@ struct Finder {
         const Floats d;
         const Uints du;
         const glm::vec3 x = scene.bake.caches.position[cache];
-        float height[BlockerShape::kMostSides];
+        float height[BlockerShape::kMaxSides];
         for (std::size_t i = 0; i < count; ++i)
             height[i] = sides[i].offset - glm::dot(sides[i].normal, x - blocker.origin);
         for (std::size_t k = 0; k < seen.count; k += hn::Lanes(d)) {
@@ -371,7 +371,7 @@ struct Finder {
         const Uints d;
         if (hn::AllFalse(Floats(), which))
             return;
-        HWY_ALIGN std::uint32_t link[kMostLanes], bits[kMostLanes];
+        HWY_ALIGN std::uint32_t link[kMaxLanes], bits[kMaxLanes];
         const auto mask = hn::RebindMask(d, which),
                    isFew = hn::RebindMask(d, hn::Lt(l.cones.u, set(kNarrow)));
         const U all = hn::IfThenElse(isFew, hn::Set(d, (1U << kFewDirections) - 1),
@@ -393,7 +393,7 @@ struct Finder {
                     cache = hn::IfThenElseZero(known, hn::LoadU(du, waiting.cache + k));
             const Links l =
                 look(link, valid, gather3(&scene.bake.caches.position[0].x, cache, 3, 0));
-            HWY_ALIGN std::uint32_t blocked[kMostLanes];
+            HWY_ALIGN std::uint32_t blocked[kMaxLanes];
             hn::Store(blockedDirections(l, spread), du, blocked);
             for (std::size_t i = 0; i < std::min(hn::Lanes(d), waiting.count - k); ++i)
                 hidden[waiting.link[k + i] - firstLink] |= std::uint16_t(blocked[i]);
@@ -434,7 +434,7 @@ struct Finder {
 
     /// Of the sides above caches.
     struct Heights {
-        V of[BlockerShape::kMostSides];
+        V of[BlockerShape::kMaxSides];
         M within; ///< the cache is below all of them
     };
     Heights heightsOf(const Links& l) const {
@@ -500,8 +500,8 @@ struct Finder {
 
     M trace(V3 origin, V3 way, V tMost, M which) const {
         const Floats d;
-        HWY_ALIGN float ox[kMostLanes], oy[kMostLanes], oz[kMostLanes], x[kMostLanes],
-            y[kMostLanes], z[kMostLanes], t[kMostLanes], hit[kMostLanes];
+        HWY_ALIGN float ox[kMaxLanes], oy[kMaxLanes], oz[kMaxLanes], x[kMaxLanes], y[kMaxLanes],
+            z[kMaxLanes], t[kMaxLanes], hit[kMaxLanes];
         hn::Store(origin.x, d, ox), hn::Store(origin.y, d, oy), hn::Store(origin.z, d, oz);
         hn::Store(way.x, d, x), hn::Store(way.y, d, y), hn::Store(way.z, d, z);
         hn::Store(tMost, d, t);

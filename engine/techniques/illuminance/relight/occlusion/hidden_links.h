@@ -20,7 +20,7 @@ struct SenderPlace {
 
 /// A blocker is passed over by caches that see it in less than this share of the hemisphere's solid
 /// angle: there it takes 0.2 % of a uniform light, at most.
-inline constexpr float kLeastBlocked = 1e-3f;
+inline constexpr float kMinBlocked = 1e-3f;
 
 /// Directions that stand for a cone: few where u = 1 - cos(half-angle) is less than kNarrow, of
 /// which a hundred cones fill the hemisphere.
