@@ -26,7 +26,7 @@ struct Rect {
     float x = 0, y = 0, w = 0, h = 0;
 };
 
-/// Where everything stands; panels tile the window.
+/// Rectangles of all panels, which tile the window.
 struct Places {
     Rect left, right, bottom, bar, picture, status;
 };

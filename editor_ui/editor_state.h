@@ -78,11 +78,11 @@ struct OutlinerState {
     ObjectId renaming = 0;
     std::string newName;
     bool focusName = false;
-    ObjectId anchor = 0;   ///< where a Shift-click range begins
+    ObjectId anchor = 0;   ///< start of a Shift-click range
     ObjectId revealed = 0; ///< the last active object scrolled to
 };
 
-/// Euler angles as the user typed them, for as long as the rotation is theirs.
+/// Euler angles as typed by the user, valid while the object still has `rotation`.
 struct EulerEdit {
     ObjectId id = 0;
     glm::quat rotation{1, 0, 0, 0};
@@ -116,8 +116,8 @@ struct EditorState {
     bool paletteOpen = false;
     std::string paletteFilter;
     bool autoBake = false;
-    double seconds = 0;                      ///< after the start of films in materials
-    bool playing = false;                    ///< seconds go on
+    double seconds = 0;                      ///< since the start of animated textures
+    bool playing = false;                    ///< `seconds` advances
     BakePrediction prediction;               ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;

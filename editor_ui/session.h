@@ -11,11 +11,11 @@ namespace limn {
 
 struct SessionOptions {
     std::string projectsFolder;
-    std::function<void()>
-        wake;               ///< called from any thread when update() has something new to take in
-    bool bakeOnOpen = true; ///< a scene without a bake is baked as soon as it is open
-    std::string bakeFolder; ///< keeps finished stages of bakes; empty: memory does
-    ImportOptions import;   ///< of every scene that is opened; its memory is also the bakes'
+    std::function<void()> wake; ///< called from any thread when there is something new for update()
+    bool bakeOnOpen = true;     ///< a scene without a bake is baked as soon as it is open
+    std::string bakeFolder;     ///< for finished stages of bakes; empty: they are kept in memory
+    ImportOptions
+        import; ///< for every scene that is opened; its memory limit is also that of bakes
 };
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No
@@ -26,12 +26,12 @@ public:
 
     EditorState state;
 
-    /// Once per frame, after the panels: carries out the requests, takes in what the jobs have
-    /// finished, hands them what changed. Never waits. Screenshot requests are left in
+    /// Carries out the requests, takes in what the jobs have finished, and hands them what changed.
+    /// Call once per frame, after the panels. Never waits. Screenshot requests are left in
     /// state.requests for the window.
     void update();
 
-    /// As File > Open does it, without asking about unsaved changes.
+    /// Opens a file as File > Open does, without asking about unsaved changes.
     void open(const std::string& what);
 
     /// What the viewport shows. The pointers change exactly when their contents do.
@@ -43,18 +43,18 @@ public:
         return m_relit.field;
     } ///< null: no bake, or the viewport relights
 
-    /// Last good bake and the scene it was made from; null: none.
+    /// Last successful bake and the scene it was made from; members are null if there is none.
     const BakedScene& baked() const { return m_baked; }
-    /// Whoever draws the viewport is to light baked() on its device, and fills state.relight.
+    /// True if whoever draws the viewport must light baked() on its device and fill state.relight.
     bool viewportRelights() const {
         return m_baked.bake && lightsBake() && state.relightPlace.used() == RelightOn::Gpu;
     }
 
-    /// What an overlay of light shows; null: there is no such overlay, or the viewport relights.
+    /// Lit bake for an overlay of light; null if there is no such overlay or the viewport relights.
     const std::shared_ptr<const LitBake>& lit() const { return m_relit.lit; }
 
     bool wantsQuit() const { return m_quit; }
-    /// Nothing is being opened, saved, baked or relit.
+    /// True if nothing is being opened, saved, baked or relit.
     bool idle() const;
     /// Seconds of baking since the start, finished, cancelled or running.
     double bakeSeconds() const;
@@ -68,7 +68,7 @@ private:
     void followDocument();
     void followTime();
     void showStatus();
-    /// The document's technique is one that lights bakes.
+    /// True if the document's technique lights bakes.
     bool lightsBake() const;
     void useBake(BakedScene baked);
     void fitLayout();
@@ -79,13 +79,13 @@ private:
     FileJob m_files;
     BakeJob m_bakeJob;
     RelightJob m_relightJob;
-    double m_shownSeconds = 0; ///< of films, as m_scene shows them
+    double m_shownSeconds = 0; ///< time of animated textures in m_scene
     ObjectsById m_followed;    ///< the document's objects as m_scene shows them
     std::shared_ptr<const Scene> m_scene;
     std::shared_ptr<const LightmapLayout> m_layout;
     BakedScene m_baked;
     Relit m_relit;
-    bool m_bakeSoon = false; ///< start as soon as the trace scene is there
+    bool m_bakeSoon = false; ///< start once the trace scene exists
     bool m_quit = false;
     std::string m_savingTo;
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
@@ -95,7 +95,8 @@ private:
 /// True if the lights, the materials or the sky differ.
 bool lightChanged(const Scene& a, const Scene& b);
 
-/// The places of `scene`'s instances in the atlas of `baked`; those it does not know have none.
+/// Layout of `scene`'s instances in the atlas of `baked`. Instances unknown to `baked` have no
+/// place.
 LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapLayout& layout);
 
 } // namespace limn

@@ -22,29 +22,29 @@ void addLinksBench(CLI::App& bench, Run& run);
 void addRelightBench(CLI::App& bench, Run& run);
 void addStressBench(CLI::App& bench, Run& run);
 
-/// Writes rows, objects of the same keys, as NAME.csv and NAME.json into `folder`, which is made
-/// where it is missing, and on stdout where `json` is asked for.
+/// Writes `rows`, objects with the same keys, as NAME.csv and NAME.json into `folder`, which is
+/// created if missing. With `json`, also prints them on stdout.
 Exit writeRows(const Json& rows, const std::string& folder, const std::string& name, bool json);
 
-/// Of a table that people read.
+/// A column of a printed table.
 struct Column {
     const char* title;
-    int width;       ///< negative: flush left, and cut off there
+    int width;       ///< negative: left-aligned and truncated
     const char* key; ///< of a row
     int decimals = 2;
-    double scale = 1; ///< times the number
+    double scale = 1; ///< factor applied to the number
 };
 inline constexpr double kMiB = 1.0 / (1 << 20);
 void printTitles(std::span<const Column> columns);
 void printRow(std::span<const Column> columns, const Json& row);
 
-/// Precondition: the name is one of `names`.
+/// The enumerator called `name`. Precondition: `name` is one of `names`.
 template <class Enum, class Names>
 Enum named(const Names& names, const std::string& name) {
     return Enum(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// An option of several values between commas.
+/// Adds an option that takes several comma-separated values.
 template <class Values, class Check>
 void addList(CLI::App& command, const char* flag, Values& values, const char* text,
              const Check& check) {

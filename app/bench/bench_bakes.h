@@ -12,7 +12,7 @@
 
 namespace limn {
 
-/// Scenes, and the settings each is baked with: every combination of the lists.
+/// Scenes, each of which is baked with every combination of the listed settings.
 struct BenchBakes {
     SceneOptions common; ///< lights and sky of every scene
     std::vector<std::string> scenes;
@@ -22,28 +22,28 @@ struct BenchBakes {
     std::uint32_t rays = 1024, lightmap = 10000;
     int threads = 0; ///< 0: all
 };
-/// Returns the option of the scenes, which is required.
+/// Adds the options to `command`. Returns the option of the scenes, which is required.
 CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& options);
 
 struct BenchBake {
-    std::string name; ///< of the scene: its file's, without the ending
+    std::string name; ///< of the scene: its file name without extension
     const Scene& scene;
     const TraceScene& trace; ///< of `scene`
     std::shared_ptr<const Bake> bake;
 };
 
-/// Bakes, with progress on stderr, and calls `measure`, whose first failure ends it. Failures name
-/// the scene.
+/// Bakes with progress on stderr and calls `measure` for each bake. Stops at the first failure;
+/// errors name the scene.
 Result<void> forEachBake(const BenchBakes& options,
                          const std::function<Result<void>(const BenchBake&)>& measure);
 
-/// The settings that tell rows apart, in the order of their columns.
+/// The settings that distinguish rows, in the order of their columns.
 Json settingsOf(const BenchBake& baked);
 
 struct Spread {
     double median = 0, p95 = 0;
 };
-/// Precondition: there are values.
+/// Median and 95th percentile. Precondition: `values` is not empty.
 Spread spreadOf(std::vector<double> values);
 
 /// Adds "NAME_median_ms" and "NAME_p95_ms" to a row; without a name "median_ms" and "p95_ms".

@@ -36,7 +36,7 @@ struct ErrorBench {
     bool json = false;
 };
 
-/// What is tried where the command line says nothing; generated scenes have the defaults alone.
+/// Values tried if the command line gives none; generated scenes use only the defaults.
 const SettingsSweep kUsualSweep = {{"surfels", {"16384", "32768", "131072"}},
                                    {"links", {"32", "64", "128", "256", "512"}},
                                    {"cut", {"solid-angle", "detail"}},
@@ -44,7 +44,8 @@ const SettingsSweep kUsualSweep = {{"surfels", {"16384", "32768", "131072"}},
                                    {"rays", {"1024"}},
                                    {"lightmapCaches", {"10000"}}};
 
-/// What the same bake gives with a link to every sender in sight, to tell the cut's own error.
+/// Result of the same bake with a link to every visible sender, which isolates the error of the
+/// cut.
 CacheReference withoutCut(const TraceScene& trace, const std::shared_ptr<const Bake>& bake) {
     Relighter relighter(bake, LitBands::All);
     relighter.relight(trace.scene(), trace, 1); // reflected once

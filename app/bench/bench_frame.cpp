@@ -30,7 +30,7 @@ struct FrameBench {
     bool json = false;
 };
 
-/// What a frame took: passes in the GPU's time, but for relighting on the CPU [ms].
+/// Times of a frame: GPU times of passes, except for relighting on the CPU [ms].
 struct FrameTimes {
     double shadowMaps = 0;
     double lightsOnSurfels = 0; ///< from shadow maps, or by rays on the CPU
@@ -157,7 +157,7 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"all [ms]", 8, "median_ms"},
                                {"p95", 8, "p95_ms"}};
 
-/// To the right, unit.
+/// Unit vector to the camera's right.
 glm::vec3 across(const Camera& camera) {
     return glm::normalize(rayDirection(camera, 1, 1, 0) - rayDirection(camera, 1, 0, 0));
 }

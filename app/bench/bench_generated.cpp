@@ -62,7 +62,8 @@ struct Measured {
         view.samplesPerPixel = std::min(kFirstSamples, o.samplesPerPixel) / 2;
     }
 
-    /// The error of a picture, with as many samples of the references as make it sure.
+    /// The error of a picture. Adds samples to the references until the error is certain or the
+    /// maximum is reached.
     Comparison errorOf(const ImageF& picture) {
         if (truth.samplesPerPixel == 0)
             truth = *renderReferenceSet(trace, view, progressOnStderr()); // never cancelled
@@ -94,7 +95,7 @@ Json settingsOf(const BakeSettings& s) {
             {"cut", kCutNames[std::size_t(s.cut)]}};
 }
 
-/// What a bake makes of the scene, from one camera.
+/// The scene rendered with the light of a bake, from one camera.
 ImageF drawn(const Measured& m, const Camera& camera, const IndirectField& field,
              const LightmapLayout& layout) {
     FieldRenderOptions options;
@@ -111,7 +112,7 @@ void addErrors(Json& row, const std::string& prefix, const Comparison& c) {
     row[prefix + "bias"] = c.bias;
 }
 
-/// `draw`: by Vulkan; null where that is not asked for.
+/// `draw` draws with Vulkan; null if that is not requested.
 Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPicture* draw) {
     Result<Bake> made = bake(m.trace, progressOnStderr(), nullptr, &settings);
     endProgressLine();
@@ -240,7 +241,7 @@ void printGroups(std::span<const Column> columns, const Json& groups) {
         printRow(columns, group);
 }
 
-/// Of each group of scenes with each settings.
+/// Distributions for each group of scenes with each settings.
 Json distributions(const Json& rows, const std::vector<BakeSettings>& settings, bool viewport) {
     Json result = Json::array();
     for (const BakeSettings& s : settings) {

@@ -10,21 +10,21 @@
 
 namespace limn {
 
-/// Pictures of generated scenes against the reference.
+/// Options of the comparison of generated scenes with references.
 struct GeneratedBench {
     std::uint32_t scenes = 0;
     std::uint64_t firstSeed = 0;
-    std::uint32_t samplesPerPixel = 512; ///< of a reference, at most
+    std::uint32_t samplesPerPixel = 512; ///< maximum for a reference
     std::string size = "160x90";
-    bool viewport = false; ///< in Vulkan too
-    std::string device;    ///< for that; empty: the best
+    bool viewport = false; ///< also draw in Vulkan
+    std::string device;    ///< for `viewport`; empty: the best
     std::string output;    ///< folder
     bool json = false;
 };
 void addGeneratedOptions(CLI::App& command, GeneratedBench& options);
 
-/// A row per scene and settings, and the distribution per settings: over all seeds, over even and
-/// odd ones, and over each kind of scene.
+/// Writes a row per scene and settings, and the distribution per settings: over all seeds, over
+/// even and odd ones, and over each kind of scene.
 Exit runGeneratedBench(const GeneratedBench& options, const std::vector<BakeSettings>& settings);
 
 } // namespace limn

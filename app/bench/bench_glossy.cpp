@@ -36,7 +36,7 @@ struct GlossyBench {
     bool pictures = false, json = false;
 };
 
-/// A picture of a metal object, and which of its pixels show nothing else.
+/// A picture of a metal object, and the pixels that show only that object.
 struct GlossyView {
     Scene scene;
     Camera camera;
@@ -47,7 +47,8 @@ struct GlossyView {
     double noise = 0; ///< standard error of `truth` there, over `mean`
 };
 
-/// Makes the instances of a node a metal of nine tenths' reflectance; false: there are none.
+/// Makes the instances of a node a metal with a reflectance of 0.9; returns false if there are
+/// none.
 bool makeMetal(Scene& scene, const Document& document, const std::string& name, float roughness) {
     Material metal;
     metal.baseColor = {0.9f, 0.9f, 0.9f, 1};
@@ -96,7 +97,7 @@ PictureError errorOf(const GlossyView& view, const ImageF& image) {
     return {std::sqrt(square / values) / view.mean, sum / values / view.mean};
 }
 
-/// Two references of other seeds, whose difference is their noise.
+/// Renders two references with different seeds, whose difference is their noise.
 void findTruth(GlossyView& view, const GlossyBench& o, const TraceScene& trace) {
     ReferenceOptions options;
     options.camera = view.camera;

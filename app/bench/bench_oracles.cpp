@@ -21,12 +21,12 @@ namespace limn {
 
 namespace {
 
-/// Of each oracle so many failing cases are minimised.
+/// Maximum number of failing cases that are minimised per oracle.
 constexpr std::uint64_t kMaxCaseFiles = 3;
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// Ends the run behind the case that runs; a second signal ends the process.
+/// Ends the run after the current case; a second signal ends the process.
 void stopAfterCase(int signal) {
     interrupted = 1;
     std::signal(signal, SIG_DFL);
@@ -97,7 +97,7 @@ Exit report(const OracleBench& o, const std::vector<CaseResult>& cases,
     return ends["crashed"] == 0 ? Exit::Done : failed("cases ended the process");
 }
 
-/// Writes what is left of the case for each oracle that it fails.
+/// Writes the minimised case for each oracle that it fails.
 Result<void> keepFailing(const OracleBench& o, const StressCase& stressCase,
                          const CaseResult& result, const std::vector<Oracle>& oracles,
                          const std::vector<CaseResult>& before) {

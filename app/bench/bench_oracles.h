@@ -8,20 +8,20 @@
 
 namespace limn {
 
-/// Hostile scenes before oracles.
+/// Options of the run that tests hostile scenes with oracles.
 struct OracleBench {
     std::uint32_t scenes = 0;
     std::uint64_t firstSeed = 0;
-    std::string caseFile; ///< one case instead
+    std::string caseFile; ///< runs this single case instead
     double caseSeconds = 30;
-    std::uint32_t deviceShare = 16; ///< the device is asked for one seed in so many; 0: never
+    std::uint32_t deviceShare = 16; ///< the device judges one seed in this many; 0: never
     std::string device;             ///< part of its name; empty: the best
     std::string output;             ///< folder
     bool json = false;
 };
 void addOracleOptions(CLI::App& command, OracleBench& options);
 
-/// Goes on where an earlier run in the same folder ended. Fails where an oracle did, or a case
+/// Continues where an earlier run in the same folder ended. Fails if an oracle failed or a case
 /// crashed.
 Exit runOracleBench(const OracleBench& options);
 

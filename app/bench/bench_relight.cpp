@@ -31,7 +31,7 @@ struct RelightBench {
     bool json = false;
 };
 
-/// What a run took, step by step.
+/// Name of a step and the member that holds its time.
 struct Step {
     const char* name;
     double RelightStats::*ms;
@@ -45,14 +45,14 @@ constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
                            {"field", &RelightStats::fieldMs},
                            {"", &RelightStats::totalMs}};
 
-/// What a device did with a bake.
+/// Measurements of a device with a bake.
 struct Measured {
     std::string device, caches;
     std::vector<RelightStats> runs;
     std::optional<double> nrmse; ///< of the field at what is seen, against that of "all"
 };
 
-/// Adds up the field of caches that are seen, and by how much it differs from another's.
+/// Sums up the field of visible caches and its difference from another field.
 struct FieldDifference {
     double square = 0, difference = 0;
 
@@ -70,7 +70,7 @@ struct FieldDifference {
     double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
 };
 
-/// With every light and dynamic object moved.
+/// The scene of run k, with every light and dynamic object moved.
 Scene sceneAt(const RelightBench& o, const Scene& scene, int k) {
     Scene moved = scene;
     if (o.anew)
@@ -82,7 +82,7 @@ Scene sceneAt(const RelightBench& o, const Scene& scene, int k) {
 
 constexpr std::uint32_t kToRest = 64; ///< bounces
 
-/// With every light and dynamic object moved each run. What is to be compared takes turns.
+/// Moves every light and dynamic object in each run. The variants to be compared take turns.
 Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& scene,
                                            const BenchBake& baked) {
     const Result<Camera> camera = chooseCamera(scene, o.camera);
@@ -104,8 +104,8 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
         const Scene lit = sceneAt(o, scene, k);
         const TraceScene trace(lit, baked.trace);
         for (std::size_t m = 0; m < all.size(); ++m) {
-            // The first lights materials too, until the light rests; without lights it would stay
-            // so.
+            // The first run also lights materials and continues until the light converges; without
+            // lights it would remain converged.
             const bool first = k == 0, toRest = first && !lit.lights.empty();
             const bool every = first || all[m].caches == "all";
             const RelightStats stats = relighters[m]->relight(

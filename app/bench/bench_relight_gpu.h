@@ -12,7 +12,7 @@
 
 namespace limn {
 
-/// What a device took for the runs of a bench.
+/// Statistics of a device over the runs of a benchmark.
 struct GpuRuns {
     std::string device;
     /// directMs: shadow rays on the CPU and the upload of their light. surfelReadMs is part of
@@ -20,10 +20,9 @@ struct GpuRuns {
     std::vector<RelightStats> runs;
 };
 
-/// Relights `wanted` bands `runs` times, the k-th time as sceneAt(k), whose lights and dynamic
-/// objects may lie elsewhere than in the scene of `trace`.
-/// `device`: part of the Vulkan device's name; empty: the best. Fails when there is none, or when
-/// the bake is too large for it.
+/// Relights the bands `wanted` `runs` times. Run k lights sceneAt(k), whose lights and dynamic
+/// objects may lie elsewhere than in the scene of `trace`. `device` is part of the Vulkan device's
+/// name; empty selects the best. Fails if there is no such device or the bake is too large for it.
 Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                              const std::shared_ptr<const Bake>& bake, LitBands wanted,
                              std::uint32_t bounces, int runs,

@@ -48,12 +48,12 @@ std::uint64_t countInvalid(const std::vector<glm::vec4>& values) {
 struct ShakeResult {
     std::array<std::uint64_t, kShakeNames.size()> shakes{};
     std::uint64_t frames = 0, fieldLooks = 0, invalidPixels = 0, invalidField = 0;
-    std::uint64_t linksDimmed = 0; ///< of all frames
+    std::uint64_t linksDimmed = 0; ///< in all frames
     std::uint64_t residentStart = 0, residentWarm = 0, residentEnd = 0;
     std::uint64_t gpuBytesWarm = 0, gpuBytesEnd = 0;
     std::vector<double> frameMs;
 
-    /// After the warm-up. 0 where it took all of the time: that says nothing.
+    /// Growth after the warm-up [MiB]; 0 if the warm-up took all of the time, which proves nothing.
     double growthMiB() const {
         if (residentWarm == 0)
             return 0;
@@ -61,15 +61,15 @@ struct ShakeResult {
     }
 };
 
-/// A viewport with bounced light that draws whatever a scene has become.
+/// A viewport with bounced light that draws the current state of a changing scene.
 class StressedViewport {
 public:
     StressedViewport(gpu::Device& device, const BenchBake& baked, const ViewportOptions& options)
         : m_device(device), m_bake(baked.bake), m_viewport(device), m_options(options) {}
 
-    /// Grows the shadow maps to their most, which lights would do by chance, sooner or later.
+    /// Grows the shadow maps to their maximum, which random lights would do sooner or later.
     void fillShadowMaps(Scene scene);
-    /// One frame after some changes.
+    /// Draws one frame after some changes.
     Result<void> draw(RandomScene& random, ShakeResult& result);
     std::uint64_t gpuBytes() {
         m_device.waitIdle();
@@ -187,7 +187,7 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"frame ms", 9, "median_ms"},
                                {"p95", 8, "p95_ms"}};
 
-/// What is wrong with a run; empty: nothing.
+/// Describes what is wrong with a run; empty if nothing is.
 std::string defectOf(const ShakeBench& o, const ShakeResult& r,
                      const std::vector<std::string>& messages) {
     if (!messages.empty())

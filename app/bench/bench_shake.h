@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Baked scenes that change by chance under Vulkan validation.
+/// Options of the run that changes baked scenes at random under Vulkan validation.
 struct ShakeBench {
     BenchBakes bakes;
     CameraOptions camera;
@@ -19,7 +19,7 @@ struct ShakeBench {
     bool json = false;
 };
 
-/// With its defaults; but for scenes, the folder, the device and --json.
+/// Adds the options with their defaults, except for scenes, output folder, device and --json.
 void addShakeOptions(CLI::App& command, ShakeBench& options);
 
 Exit runShakeBench(const ShakeBench& options);

@@ -35,7 +35,8 @@ double ofRounding(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>&
     return most / (6 * 4 * roundings * std::ldexp(scale, -24));
 }
 
-/// So many bounces: each adds roundings, and more of them end at another one now and then.
+/// Number of bounces. Each adds rounding errors, and with more bounces CPU and device occasionally
+/// end at different ones.
 constexpr std::uint32_t kBounces = 5;
 
 Judgement judgeDevice(gpu::Device& device, const Subject& subject) {

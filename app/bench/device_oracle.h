@@ -8,8 +8,9 @@
 
 namespace limn {
 
-/// The Vulkan device relights as the CPU does. Judges one seed in `share`, none where that is 0 or
-/// there is no device. `device`: part of its name; empty: the best.
+/// Oracle that checks that the Vulkan device relights as the CPU does. It judges one seed in
+/// `share`, and none if `share` is 0 or there is no device. `device` is part of its name; empty
+/// selects the best.
 Oracle deviceOracle(const std::string& device, std::uint32_t share);
 
 } // namespace limn

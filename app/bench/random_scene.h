@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// What is done to a scene that is to be shaken.
+/// Kinds of random changes to a scene.
 enum class Shake {
     MoveLight,
     ChangeLight,
@@ -24,16 +24,15 @@ inline constexpr std::array<std::string_view, 8> kShakeNames = {
     "move_light",   "change_light",    "switch_light", "add_light",
     "remove_light", "change_material", "change_sky",   "move_object"};
 
-/// Changes a scene by chance, without any change that a bake would have to follow. The same seed
-/// makes the same changes.
+/// Changes a scene at random in ways that need no new bake. The same seed makes the same changes.
 class RandomScene {
 public:
-    /// Adds two dynamic instances, copies of the smallest of the scene, at its end.
+    /// Appends two dynamic instances, copies of the scene's smallest one.
     RandomScene(const Scene& scene, std::uint32_t seed);
 
     Scene scene;
 
-    Shake shake(); ///< one change
+    Shake shake(); ///< makes one change
 
     float number(); ///< [0, 1)
     std::uint32_t below(std::uint32_t end);
@@ -46,7 +45,7 @@ private:
     void moveObject(Instance& instance);
 
     std::uint32_t m_state;
-    std::size_t m_firstObject; ///< index of the instances added
+    std::size_t m_firstObject; ///< index of the first added instance
     Instance m_object;         ///< as copied
     glm::vec3 m_objectCentre;
 };

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// The settings that no ray depends on, from those that vary slowest to the fastest.
+/// The settings that no ray depends on, in the order from the slowest-varying to the fastest.
 static constexpr std::array<std::string_view, 6> kTracesNothing = {
     "bands", "chromaBands", "storage", "clustering", "cut", "links"};
 

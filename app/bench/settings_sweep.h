@@ -15,12 +15,12 @@ namespace limn {
 /// setBakeSetting() takes them. A setting without values keeps its default.
 using SettingsSweep = std::map<std::string, std::vector<std::string>>;
 
-/// A list between commas for every setting that has a flag. What is given there replaces the
-/// values that `sweep` has.
+/// Adds an option with a comma-separated list for every setting that has a flag. Given values
+/// replace those in `sweep`.
 void addSweepOptions(CLI::App& command, SettingsSweep& sweep);
 
-/// A row of settings for each combination. What needs no new rays varies fastest, so that rows
-/// find the stages of the rows before them.
+/// One row of settings per combination. Settings that need no new rays vary fastest, so that rows
+/// reuse the stages of the rows before them.
 std::vector<BakeSettings> sweepRows(const SettingsSweep& sweep);
 
 } // namespace limn

@@ -16,14 +16,14 @@ namespace limn {
 
 /// Flags that replace the document's bake settings.
 struct BakeOptions {
-    /// Settings by their keys, with what they are to be, as setBakeSetting() takes it; checked.
+    /// Keys of settings and their new values, as setBakeSetting() takes them; already checked.
     std::vector<std::pair<std::string, std::string>> given;
     const BakePreset* preset = nullptr;
     int threads = 0; ///< 0: all
 };
 void addBakeOptions(CLI::App& command, BakeOptions& options);
 
-/// Puts what was given on the command line, and checked there, into `settings`.
+/// Applies the options, which were checked by the command line, to `settings`.
 void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
 
 /// Whether the setting of that key was given.

@@ -8,11 +8,11 @@
 
 namespace limn {
 
-/// What the shell sees: 0 done, 1 failed (one line on stderr), 2 bad usage.
+/// Exit status of the process: 0 done, 1 failed (one line on stderr), 2 bad usage.
 enum class Exit : int { Done = 0, Failed = 1, Usage = 2 };
 
-/// Every command adds itself to `app` and stores into `run` what is to be done once it was chosen.
-/// One file per command: app/command_NAME.cpp.
+/// Action of the chosen command. Every command adds itself to `app` and stores its action in `run`
+/// when it is chosen. There is one file per command: app/commands/command_NAME.cpp.
 using Run = std::function<Exit()>;
 
 void addBakeCommand(CLI::App& app, Run& run);
@@ -23,7 +23,7 @@ void addCompareCommand(CLI::App& app, Run& run);
 void addInfoCommand(CLI::App& app, Run& run);
 void addEditCommand(CLI::App& app, Run& run);
 
-/// Prints `limn: message` on stderr.
+/// Prints `limn: message` on stderr and returns Exit::Failed.
 Exit failed(const std::string& message);
 
 } // namespace limn

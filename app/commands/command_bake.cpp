@@ -105,7 +105,7 @@ void printStep(const MeasuredBake& made) {
     std::fflush(stdout);
 }
 
-/// Why the error asked for is not held; empty where it is.
+/// Why the requested error was not reached; empty if it was.
 std::string shortfall(const MeasuredBake& made, double error) {
     const char* why = "";
     switch (made.end) {

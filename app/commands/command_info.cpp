@@ -106,9 +106,9 @@ static Result<Json> describeResult(const Result<T>& read) {
     return describe(*read);
 }
 
-// What the bake's links and all of it would take in either storage, as Table 4 of Jendersie, Kuri,
-// Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition with Chrominance
-// Compression. 2016
+// Memory of the bake's links and of the whole bake in either storage, as Table 4 of Jendersie,
+// Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition with
+// Chrominance Compression. 2016
 static Json storageTable(const Bake& bake) {
     Json table = Json::array();
     for (std::uint32_t bands = 2; bands <= 8; ++bands) {
@@ -148,7 +148,8 @@ static Json describe(const Bake& bake) {
     return json;
 }
 
-/// What a file holds, by its extension; anything without one of ours is opened as a scene.
+/// Describes a file according to its extension; files without one of our extensions are opened as
+/// scenes.
 static Result<Json> describeFile(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension == ".exr" || extension == ".hdr")

@@ -44,8 +44,8 @@ struct Options {
     bool noDimming = false, allCaches = false, json = false;
 };
 
-/// What a picture needs besides the scene: indirect light, and what is drawn over it. Empty:
-/// nothing.
+/// What a picture needs besides the scene: indirect light and an overlay. Empty if it needs
+/// neither.
 struct Baked {
     std::unique_ptr<Lighting> lighting;           ///< of a technique that needs no bake
     std::shared_ptr<const LightmapLayout> layout; ///< of the light
@@ -170,7 +170,7 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
     return baked;
 }
 
-// Before anything is read or baked for it.
+// Checks the overlay before anything is read or baked for it.
 Result<void> checkOverlay(const Options& options) {
     if (!options.overlay.wanted())
         return checkOverlayFlags(options.overlay);
@@ -284,7 +284,7 @@ void printReport(const std::string& path, const Options& options, const Rendered
         fmt::print("{}", legendText(overlay->legend));
 }
 
-// "film.png" of frame 3 of 100: "film-03.png"; the only frame keeps the name.
+// "film.png" becomes "film-03.png" for frame 3 of 100; a single frame keeps the name.
 std::string framePath(const Options& options, std::uint32_t frame) {
     if (options.frames == 1)
         return options.output;
@@ -299,7 +299,8 @@ Result<void> writePicture(const std::string& path, const RenderedImage& image) {
     return path.ends_with(".png") ? writePng(path, image.picture) : writeExr(path, image.linear);
 }
 
-// Each frame is lit from the one before: films change little in between.
+// Lighting of each frame starts from the previous one, because animated textures change little in
+// between.
 Result<void> renderFrames(const Options& options, const Document& document, Scene& scene,
                           const Camera& camera) {
     using Clock = std::chrono::steady_clock;
@@ -340,7 +341,7 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
     return {};
 }
 
-/// The document's choice, with what the command line says.
+/// Applies the command line's technique and settings to the document's choice.
 Result<void> chooseTechnique(const Options& options, TechniqueChoice& choice) {
     if (!options.technique.empty())
         choice.technique = options.technique;

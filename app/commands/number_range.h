@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// Takes numbers in [least, most] alone: CLI::Range lets "nan" pass.
+/// Accepts only numbers in [least, most]. CLI::Range would accept "nan".
 inline CLI::Validator numberWithin(double least, double most) {
     return CLI::Validator(
         [=](std::string& text) {

@@ -26,7 +26,7 @@ struct Kind {
 constexpr Kind kKinds[] = {
     {".limnbake", "LIMNBAKE"}, {".png", "\x89PNG"}, {".exr", "\x76\x2f\x31\x01"}};
 
-/// Whether what is there already is what its name says.
+/// Whether the existing file has the format that its name says.
 bool holdsItsKind(const fs::path& file) {
     std::string bytes(8, '\0');
     std::ifstream in(file, std::ios::binary);

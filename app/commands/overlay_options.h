@@ -16,7 +16,7 @@
 
 namespace limn {
 
-/// Flags that say what is drawn over a picture.
+/// Flags that select the overlay drawn over a picture.
 struct OverlayFlags {
     std::string name = "none";
     std::optional<std::uint32_t> depth, cache;
@@ -26,11 +26,11 @@ struct OverlayFlags {
 };
 void addOverlayFlags(CLI::App& command, OverlayFlags& flags);
 
-/// Fails where a flag does not go with the overlay named, or one that it needs is missing.
+/// Fails if a flag does not apply to the named overlay or a flag that it needs is missing.
 Result<void> checkOverlayFlags(const OverlayFlags& flags);
 
-/// Precondition: checkOverlayFlags passed. Fails where there is no such cache, or nothing to pick
-/// at the pixel of a picture of that size.
+/// The options that `flags` select. Precondition: checkOverlayFlags() succeeded. Fails if there is
+/// no such cache, or nothing to pick at the pixel of a picture of that size.
 Result<OverlayOptions> overlayOptions(const OverlayFlags& flags, const Bake& bake,
                                       const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height);

@@ -12,7 +12,8 @@
 
 namespace limn {
 
-// Nothing is measured for one picture: that would take longer than to relight it on either.
+// Nothing is measured for a single picture, because that would take longer than relighting it on
+// either device.
 static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
     const VkPhysicalDeviceProperties& p = device.properties;
     return chooseRelight(
@@ -23,7 +24,7 @@ static RelightOn choose(const gpu::Device& device, const RenderRequest& request)
 
 namespace {
 
-/// One device with what it keeps between pictures.
+/// A device and what it keeps between pictures.
 struct GpuDrawing {
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
@@ -52,7 +53,7 @@ Result<void> GpuDrawing::chooseRelighter(const RenderRequest& request) {
     return {};
 }
 
-// Bounces until nothing changes, as the CPU does.
+// Bounces until nothing changes, as on the CPU.
 Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& request,
                                  RenderedImage& result) {
     if (!request.relight)

@@ -17,7 +17,7 @@ namespace limn {
 
 struct OverlayData;
 
-/// Bounced light as a CPU computes it, and what that took.
+/// Bounced light computed on the CPU, and the report of that computation.
 struct CpuLight {
     const IndirectField& field;
     LightingReport report;
@@ -29,13 +29,13 @@ struct RenderRequest {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
-    bool tonemapped = false;                      ///< the picture is wanted, not only the numbers
+    bool tonemapped = false;                      ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
     /// Computes the light on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
-    std::shared_ptr<const Bake> bake;     ///< that a device can light; null: only the CPU can
+    std::shared_ptr<const Bake> bake;     ///< bake that a device can light; null: only the CPU can
     const CacheFlags* seen = nullptr;     ///< caches that the picture looks up; null: light all
-    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the device that draws lights `bake` instead
+    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the drawing device lights `bake` instead
     std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
 };
 
@@ -51,13 +51,13 @@ struct RenderedImage {
 using DrawPicture =
     std::function<Result<RenderedImage>(const Scene& scene, const RenderRequest& request)>;
 
-/// By the Vulkan viewport, on the device in whose name `device` is; empty: the best. Fails when
-/// there is none. Drawing fails where the picture is larger than the device allows, or the bake too
-/// large to be lit on it. Only in builds with Vulkan.
+/// Draws with the Vulkan viewport on the device whose name contains `device`; empty selects the
+/// best. Fails if there is none. Drawing fails if the picture is larger than the device allows or
+/// the bake is too large to be lit on it. Only in builds with Vulkan.
 Result<DrawPicture> drawingOnGpu(const std::string& device);
 
 /// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
-/// `request.relightOn` is not looked at.
+/// `request.relightOn` is ignored.
 RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
 
 } // namespace limn

@@ -22,27 +22,27 @@ struct SceneOptions {
     std::vector<std::string> lights;
     std::string sky;
     std::optional<float> skyStrength, skyRotation; ///< factor, degrees
-    double seconds = 0;                            ///< after the start of films
+    double seconds = 0;                            ///< since the start of animated textures
     std::vector<std::string> dynamics;
     ImportOptions import;
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
-/// The flags without the scene.
+/// Adds all flags except the scene.
 void addLightOptions(CLI::App& command, SceneOptions& options);
 
 void addDynamicOption(CLI::App& command, SceneOptions& options);
 
-/// --memory and --outside-files.
+/// Adds --memory and --outside-files.
 void addImportOptions(CLI::App& command, ImportOptions& options);
 
 void addTimeOption(CLI::App& command, SceneOptions& options);
 
-/// As if it had been imported; the dark room's camera is the second one.
+/// The generated scene as if it had been imported. The dark room's camera is the second one.
 ImportedScene importedScene(const GeneratedScene& generated);
 
-/// Imports, or generates what is named generated:SEED; adds the lights and the sky, logs the
-/// repairs.
+/// Imports the scene, or generates one named generated:SEED. Adds the lights and the sky and logs
+/// the repairs.
 Result<ImportedScene> openScene(const SceneOptions& options);
 
 struct CameraOptions {

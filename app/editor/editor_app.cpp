@@ -93,8 +93,8 @@ bool EditorApp::waitForWork() {
     const bool due =
         m_framesOwed > 0 || state.view.animating || state.playing || m_window->pending();
     const auto before = Clock::now();
-    // No sleep without an end: a thread of the Vulkan driver that reads the same X connection can
-    // take in the event we sleep for, a key or a wake(), without waking us. A look costs nothing
+    // Sleeps are bounded: a thread of the Vulkan driver that reads the same X connection can
+    // consume the event we sleep for, a key or a wake(), without waking us. Checking costs nothing
     // and draws nothing.
     const double longest = m_wasIdle ? kLookWhenIdleSeconds : kLookWhenBusySeconds;
     m_window->wait(due ? 0 : seconds < 0 ? longest : seconds);

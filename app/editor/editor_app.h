@@ -22,7 +22,7 @@ struct EditorAppOptions {
 };
 
 /// Opens the window and runs until the user quits. Fails without a display or a Vulkan driver, and,
-/// with `validate`, when the validation layer had something to say.
+/// with `validate`, if the validation layer reported anything.
 Result<void> runEditor(const EditorAppOptions& options);
 
 } // namespace limn

@@ -15,7 +15,8 @@ struct GLFWcursor;
 
 namespace limn {
 
-/// A GLFW window whose events go into a queue. One at a time; the main thread's.
+/// A GLFW window whose events go into a queue. There is only one at a time, used by the main
+/// thread.
 class EditorWindow {
 public:
     EditorWindow(const EditorWindow&) = delete;
@@ -24,16 +25,16 @@ public:
 
     InputQueue input;
     std::vector<std::string> dropped; ///< files dropped on the window, not yet taken
-    bool closed = false;              ///< the user asked to close it; whoever takes that resets it
-    bool damaged = true;              ///< must be drawn again; whoever draws resets it
+    bool closed = false;              ///< the user asked to close it; reset by whoever handles that
+    bool damaged = true;              ///< must be redrawn; reset by whoever draws
 
-    /// Waits for an event, at most `seconds` (< 0: without end; 0: not at all).
+    /// Waits for an event, at most `seconds` (< 0: indefinitely; 0: not at all).
     void wait(double seconds);
     /// Ends wait() from any thread.
     void wake();
-    /// True once after wake().
+    /// Returns true once after wake().
     bool takeWake() { return m_woken.exchange(false); }
-    /// Something came that no frame has shown yet.
+    /// True if something happened that no frame has shown yet.
     bool pending() const {
         return !input.events.empty() || !dropped.empty() || closed || damaged || m_woken;
     }
@@ -41,12 +42,12 @@ public:
     glm::uvec2 size() const; ///< of the framebuffer [px]
     float scale() const;     ///< of the interface, 1 on usual screens
 
-    /// What a gpu::Device needs to present here.
+    /// Description of a gpu::Device that can present to this window.
     gpu::DeviceDesc deviceDesc() const;
-    /// Fails where the driver cannot draw into the window.
+    /// Fails if the driver cannot draw into the window.
     Result<VkSurfaceKHR> createSurface(VkInstance instance) const;
 
-    /// Connects ImGui's clipboard; call with its context made.
+    /// Connects ImGui's clipboard; call after its context was created.
     void connectImGui();
     /// Shows ImGui's cursor.
     void showCursor(int imguiCursor);
@@ -63,7 +64,7 @@ private:
     std::atomic<bool> m_woken{false};
 };
 
-/// Fails without a display.
+/// Creates the window. Fails without a display.
 Result<std::unique_ptr<EditorWindow>> createEditorWindow(std::uint32_t width, std::uint32_t height);
 
 } // namespace limn

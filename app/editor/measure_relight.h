@@ -7,9 +7,10 @@
 
 namespace limn {
 
-/// Times one update of one bounce on the CPU and on the viewport's device, with every light moved:
-/// the median of three, after one that warms up. `trace` is of `scene`, `relighter` of the bake in
-/// use and `viewport` shows the scene; it is left with other lights and the relighter's field.
+/// Measures one update of one bounce on the CPU and on the viewport's device with every light
+/// moved: the median of three updates after a warm-up. `trace` belongs to `scene` and `relighter`
+/// to the bake in use. `viewport` shows the scene; it is left with other lights and the relighter's
+/// field.
 RelightTimes measureRelight(Viewport& viewport, ViewportRelighter& relighter, const Scene& scene,
                             const TraceScene& trace);
 

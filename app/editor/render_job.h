@@ -17,7 +17,7 @@ namespace limn {
 
 class RenderWorker;
 
-/// What a picture is to show. Pointers stand for their contents.
+/// What a picture is to show. Equal pointers imply equal contents.
 struct PictureRequest {
     std::shared_ptr<const Scene> scene;           ///< not null
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
@@ -25,23 +25,23 @@ struct PictureRequest {
     ViewportOptions options;
     bool moving = false; ///< shadow maps that change may be coarse
     OverlayOptions overlay;
-    std::shared_ptr<const Bake> bake;        ///< that the overlay shows; null: there is no overlay
-    std::shared_ptr<const Scene> bakedScene; ///< that `bake` was made from
+    std::shared_ptr<const Bake> bake;        ///< bake that the overlay shows; null: no overlay
+    std::shared_ptr<const Scene> bakedScene; ///< scene that `bake` was made from
     std::shared_ptr<const LitBake> light;    ///< for overlays that showsLight(), unless `relight`
     BakedScene lit;       ///< whose bounced light is shown; null members: no bake
-    bool relight = false; ///< it is worked out here, on the viewport's device, instead of `field`
-    /// Of `scene`. Set: how long relighting takes is measured first, on either device. `lit` is of
-    /// `scene`, too.
+    bool relight = false; ///< it is computed here, on the viewport's device, instead of `field`
+    /// Trace scene of `scene`. If set, the time of relighting is first measured on either device;
+    /// `lit` then belongs to `scene`, too.
     std::shared_ptr<const TraceScene> measure;
 };
 
 struct DrawnPicture {
     std::shared_ptr<const Image> image; ///< tone-mapped; null: none yet
-    std::uint64_t number = 0;           ///< of this picture, from 1
+    std::uint64_t number = 0;           ///< of this picture, counted from 1
     OverlayLegend legend;               ///< of its overlay
     ViewportStats stats;
     bool running = false;              ///< another one is being drawn
-    std::shared_ptr<const Bake> lit;   ///< that what follows is about
+    std::shared_ptr<const Bake> lit;   ///< bake that the following members are about
     LightingStatus relight;            ///< by this device
     std::string refusal;               ///< why the device cannot light it; empty: it can
     std::optional<RelightTimes> times; ///< of bakes like it, measured now or before
@@ -50,8 +50,8 @@ struct DrawnPicture {
 
 /// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload
 /// nor a slow picture holds up the window: on a software rasteriser everything on one queue would
-/// wait for it. The picture comes back through the CPU. Where it relights, it draws again after a
-/// few bounces until they have converged; then it sleeps.
+/// wait for it. The picture comes back through the CPU. If it relights, it redraws after every few
+/// bounces until they have converged; then it sleeps.
 class RenderJob {
 public:
     /// `wake` is called from the thread when there is a new result().
@@ -60,7 +60,7 @@ public:
     RenderJob(const RenderJob&) = delete;
     RenderJob& operator=(const RenderJob&) = delete;
 
-    /// The newest picture wanted; those it had no time for are dropped.
+    /// Requests a picture. Earlier requests that were not started are dropped.
     void draw(PictureRequest request);
 
     DrawnPicture result() const;
@@ -71,15 +71,15 @@ private:
     void publish(RenderWorker& worker, std::shared_ptr<const Image> image);
 
     std::function<void()> m_wake;
-    std::atomic<bool> m_hurry{false}; ///< another picture is wanted, or none
-    mutable std::mutex m_mutex;       ///< of what follows
+    std::atomic<bool> m_hurry{false}; ///< another picture is requested, or the job is stopping
+    mutable std::mutex m_mutex;       ///< guards the members below
     std::condition_variable m_changed;
     std::optional<PictureRequest> m_next;
-    std::shared_ptr<const Scene> m_lastScene; ///< asked for
+    std::shared_ptr<const Scene> m_lastScene; ///< of the latest request
     DrawnPicture m_result;
     std::vector<std::string> m_messages;
     bool m_stop = false;
-    std::thread m_thread; ///< last: starts when everything else is there
+    std::thread m_thread; ///< declared last, so that it starts after all other members exist
 };
 
 } // namespace limn

@@ -81,7 +81,8 @@ void RenderWorker::measure(const PictureRequest& request) {
     m_litOf = nullptr;
 }
 
-// For as long as the last picture took: half of the time goes to the light, half to showing it.
+// Bounces for as long as the last picture took, so that half of the time goes to the light and half
+// to showing it.
 void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>& hurry) {
     const bool finer = m_litMoving && !request.moving;
     m_litMoving = request.moving;
@@ -105,7 +106,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
         if (hurry || msSince(start) >= m_pictureMs)
             break;
     }
-    // What has come into view, and where there is time for it the rest.
+    // Lights what has come into view and, if there is time, the rest.
     if (m_driver.converged())
         m_driver.step(input, newLight && hurry ? Rest::Later : hurry ? Rest::Seen : Rest::All);
     m_ownField = true;
@@ -113,7 +114,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
 
 void RenderWorker::takeField(const PictureRequest& request) {
     dropRelighter();
-    // The relighter's field stays until the one that replaces it is there.
+    // The relighter's field stays until its replacement exists.
     const bool gone = !request.lit.bake && (m_ownField || shown.field);
     if (!gone && !(request.field && (m_ownField || request.field != shown.field)))
         return;

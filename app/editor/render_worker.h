@@ -8,17 +8,17 @@
 
 namespace limn {
 
-/// What RenderJob's thread draws with; nobody else touches it.
+/// What RenderJob's thread draws with. No other thread uses it.
 class RenderWorker {
 public:
-    /// Throws where there is no device.
+    /// Throws if there is no device.
     explicit RenderWorker(bool validate);
 
-    /// `hurry`: another picture is wanted, so that bounces can wait.
+    /// Draws a picture. `hurry` is set if another picture is requested; bounces then wait.
     Image draw(PictureRequest request, const std::atomic<bool>& hurry);
 
-    /// Light is still bouncing, or not lit where the picture does not show it: the picture shown is
-    /// to be drawn again.
+    /// True if the light is still bouncing or not all caches are lit, so that the picture shown
+    /// must be redrawn.
     bool bouncing() const { return shown.relight && m_lighting && !m_driver.done(); }
 
     std::unique_ptr<gpu::Device> device;
@@ -41,10 +41,10 @@ private:
 
     LightingDriver m_driver;                 ///< of shown.lit, while it is needed
     DeviceIlluminance* m_lighting = nullptr; ///< the driver's
-    bool m_litMoving = false;                ///< by shadow maps that may be coarse
-    bool m_ownField = false;                 ///< the viewport shows the relighter's
-    std::shared_ptr<const Scene> m_litOf;    ///< that `m_litScene` was made of
-    std::shared_ptr<const Scene> m_litScene; ///< as the bake can be lit with
+    bool m_litMoving = false;                ///< lit by shadow maps that may be coarse
+    bool m_ownField = false;                 ///< the viewport shows the relighter's field
+    std::shared_ptr<const Scene> m_litOf;    ///< scene from which `m_litScene` was made
+    std::shared_ptr<const Scene> m_litScene; ///< scene with which the bake can be lit
     std::string m_timesKey;                  ///< of shown.lit
     double m_pictureMs = 0;                  ///< what the last picture took, without bounces
 };

@@ -16,7 +16,8 @@ public:
     ScreenshotWriter(const ScreenshotWriter&) = delete;
     ScreenshotWriter& operator=(const ScreenshotWriter&) = delete;
 
-    /// Returns the path it will have. Waits for the picture before, if that is still being written.
+    /// Starts writing `image` and returns its path. Waits for the previous picture if that is still
+    /// being written.
     std::string write(Image image);
 
 private:

@@ -16,8 +16,8 @@ struct WindowPicture {
 };
 
 /// Draws ImGui's lists over a picture into a swapchain, with ImGui's own Vulkan backend, which
-/// wants a VkRenderPass. Make it after ImGui's context and fonts, destroy it before them. One at a
-/// time.
+/// requires a VkRenderPass. Create it after ImGui's context and fonts and destroy it before them.
+/// There is only one at a time.
 class UiRenderer {
 public:
     UiRenderer(gpu::Device& device, const gpu::Swapchain& swapchain);

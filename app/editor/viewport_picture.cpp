@@ -73,7 +73,7 @@ void ViewportPicture::takeDrawn(Session& session) {
     state.overlay.legend = m_drawn.legend;
 }
 
-/// Once per bake, when nothing else is done whose time it would take or spoil.
+/// Measures once per bake, when nothing else runs that it would delay or that would distort it.
 bool ViewportPicture::measureNow(const Session& session) {
     const EditorState& state = session.state;
     const RelightPlace& place = state.relightPlace;

@@ -11,24 +11,24 @@
 
 namespace limn {
 
-/// Asks for a picture of the session's scene when, and only when, something it shows has changed;
-/// with fewer pixels while things move, where the device is too slow for all of them.
+/// Requests a picture of the session's scene if, and only if, something that it shows has changed.
+/// While things move, the picture has fewer pixels if the device is too slow for full resolution.
 class ViewportPicture {
 public:
     ViewportPicture(gpu::Device& windowDevice, bool validate, std::function<void()> wake)
         : m_device(windowDevice), m_job(validate, std::move(wake)) {}
 
-    /// Asks for a new picture if one is due, takes in the last one drawn, and fills state.frame.
+    /// Requests a new picture if one is due, takes in the last one drawn, and fills state.frame.
     void update(Session& session);
 
-    /// Records what brings the newest picture to the window's device; returns what the window
+    /// Records the upload of the newest picture to the window's device; returns what the window
     /// shows.
     WindowPicture record(VkCommandBuffer cmd, const ViewState& view);
 
-    /// Seconds until update() should be called again although nothing happens; < 0: never.
+    /// Seconds until update() should be called again even if nothing happens; < 0: never.
     double secondsToNext() const;
 
-    /// No picture is due or being drawn.
+    /// True if no picture is due or being drawn.
     bool idle() const { return !m_drawn.running && secondsToNext() < 0; }
 
     std::shared_ptr<const Image> image() const { return m_drawn.image; }
@@ -63,11 +63,12 @@ private:
     DrawnPicture m_drawn;
     gpu::Image m_image;           ///< on the window's device
     std::uint64_t m_onDevice = 0; ///< number of the picture in m_image
-    std::optional<Shown> m_shown; ///< as asked for last
+    std::optional<Shown> m_shown; ///< the latest request
     std::chrono::steady_clock::time_point m_changed;
-    /// Of the last picture: of its shadow maps, which do not depend on its size, and of the rest.
+    /// Times of the last picture: of its shadow maps, which do not depend on its size, and of the
+    /// rest.
     double m_shadowMs = 0, m_msPerPixel = 0; ///< 0: none yet
-    std::shared_ptr<const Bake> m_measured;  ///< that relighting was measured for last
+    std::shared_ptr<const Bake> m_measured;  ///< bake for which relighting was measured last
     bool m_reduced = false; ///< the picture asked for has fewer pixels than the window has for it
 };
 

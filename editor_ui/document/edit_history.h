@@ -10,7 +10,8 @@
 
 namespace limn {
 
-/// One object, before and after. No `before`: it was created. No `after`: it was deleted.
+/// One object before and after an edit. Without `before` it was created; without `after` it was
+/// deleted.
 struct Change {
     ObjectId id = 0;
     std::optional<Object> before, after;

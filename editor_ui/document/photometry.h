@@ -13,9 +13,9 @@ float lumen(const Light& light);
 /// Strength [cd, nits] that gives `flux` [lm]; the light's own strength when it has no flux.
 float strengthForLumen(const Light& light, float flux);
 
-/// Linear Rec. 709 colour of a black body, largest component 1, none below 0. Outside [1667, 25000]
-/// K: that of the nearest end. Kim, Kang, Hong, Hwang. Design of advanced color temperature control
-/// system for HDTV applications. 2002
+/// Linear Rec. 709 colour of a black body, with a largest component of 1 and none below 0.
+/// Temperatures are clamped to [1667, 25000] K. Kim, Kang, Hong, Hwang. Design of advanced color
+/// temperature control system for HDTV applications. 2002
 glm::vec3 blackbodyColor(float kelvin);
 
 /// Temperature [K] whose chromaticity is nearest to `color`; 6500 for black.

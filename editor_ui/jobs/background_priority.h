@@ -5,12 +5,12 @@
 
 namespace limn {
 
-/// Lets the calling thread run only when the window's has nothing to do. For the rest of the
-/// thread's life.
+/// Lowers the priority of the calling thread below that of the window's thread, for the rest of its
+/// life.
 void lowerThreadPriority();
 
-/// While it lives, every thread that oneTBB gives work to is a background thread. The window's
-/// thread must not run parallel loops.
+/// While it exists, every thread that runs oneTBB work is a background thread. The window's thread
+/// must not run parallel loops.
 class BackgroundWorkers : public tbb::task_scheduler_observer {
 public:
     BackgroundWorkers();

@@ -17,16 +17,16 @@
 
 namespace limn {
 
-/// A bake with what it was made from. Null: none.
+/// A bake and what it was made from. The members are null if there is none.
 struct BakedScene {
     std::shared_ptr<const Bake> bake;
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const TraceScene> trace;
-    bool preview = false; ///< of few rays; the full bake follows
+    bool preview = false; ///< made with few rays; the full bake follows
 };
 
-/// Bakes beside the editor, one bake at a time. No call waits for the baker, but for the
-/// destructor, which cancels it.
+/// Bakes in the background, one bake at a time. No call waits for the baker except the destructor,
+/// which cancels the bake.
 class BakeJob {
 public:
     /// `wake` is called from the bake's thread when there is progress or a result to show. Finished
@@ -36,19 +36,21 @@ public:
     BakeJob(const BakeJob&) = delete;
     BakeJob& operator=(const BakeJob&) = delete;
 
-    /// False while one is running. `trace` is of `scene`; null: built on the thread. With `preview`
-    /// there are two results: first one of previewSettings(), to have something to look at.
+    /// Starts a bake; returns false if one is running. `trace` belongs to `scene`; if null, it is
+    /// built on the thread. With `preview` there are two results, the first with previewSettings(),
+    /// to have something to look at.
     bool start(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
                bool preview);
     void cancel() { m_cancel = true; }
     bool running() const { return m_running; }
-    /// While one is running, or what it gave has not been taken.
+    /// True while a bake is running or its result has not been taken.
     bool busy() const;
 
-    /// What the last bake gave, once: the bake, its preview, or why there is none ("cancelled").
+    /// Returns the result of the last bake once: the bake, its preview, or the error ("cancelled").
     std::optional<Result<BakedScene>> takeResult();
 
-    /// Stage, fractions and time left of the running bake; the other fields are left alone.
+    /// Fills in stage, fractions and time left of the running bake; leaves the other fields
+    /// unchanged.
     void report(BakeStatus& status) const;
 
 private:
@@ -63,7 +65,7 @@ private:
     std::thread m_thread;
     std::atomic<bool> m_cancel{false}, m_running{false};
     std::chrono::steady_clock::time_point m_start;
-    mutable std::mutex m_mutex; ///< of what follows
+    mutable std::mutex m_mutex; ///< guards the members below
     std::string m_stage;
     float m_stageFraction = 0;
     std::chrono::steady_clock::time_point m_stageStart;

@@ -57,7 +57,7 @@ bool FileJob::start(std::function<void()> work) {
     return true;
 }
 
-/// The bake beside a project, if there is one that fits what the project now holds.
+/// The bake beside a project, if there is one that fits the project's current contents.
 static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene& imported,
                              const MemoryBudget& memory) {
     std::error_code error;

@@ -15,16 +15,16 @@
 
 namespace limn {
 
-/// What opening a file gave.
+/// The result of opening a file.
 struct OpenedFile {
-    std::string what;        ///< as asked for
+    std::string what;        ///< as requested
     std::string projectPath; ///< where Save writes; empty for a scene and for sample projects
     ImportedScene imported;
     std::vector<Bounds> meshBounds; ///< object space, as Assets::meshes
     BakedScene baked;               ///< the bake that lay beside the project, if it fits
 };
 
-/// Reads and writes files on a thread, one at a time. No call waits for the disk but the
+/// Reads and writes files on a thread, one at a time. No call waits for the disk except the
 /// destructor.
 class FileJob {
 public:
@@ -34,20 +34,20 @@ public:
     FileJob(const FileJob&) = delete;
     FileJob& operator=(const FileJob&) = delete;
 
-    /// While one is running, or what it gave has not been taken.
+    /// True while a job is running or its result has not been taken.
     bool busy() const;
 
-    /// Each starts its work and returns true, or false while another is running.
+    /// Each of these starts its work and returns true, or returns false while another is running.
     bool open(std::string what);
     bool openSkyImage(std::string path);
     /// Writes the project and, beside it, the bake if there is one.
     bool save(std::string path, Document document, std::shared_ptr<const Bake> bake);
 
-    /// What the last open() gave, once.
+    /// Returns the result of the last open() once.
     std::optional<Result<OpenedFile>> takeOpened();
-    /// The panorama that the last openSkyImage() read, once, or why not.
+    /// Returns the panorama that the last openSkyImage() read, or its error, once.
     std::optional<Result<Sky>> takeSky();
-    /// The document that was written, once, or why not.
+    /// Returns the document that was written, or the error, once.
     std::optional<Result<Document>> takeSaved();
 
 private:
@@ -58,16 +58,16 @@ private:
     std::function<void()> m_wake;
     std::thread m_thread;
     std::atomic<bool> m_running{false}, m_cancel{false};
-    mutable std::mutex m_mutex; ///< of what follows
+    mutable std::mutex m_mutex; ///< guards the members below
     std::optional<Result<OpenedFile>> m_opened;
     std::optional<Result<Sky>> m_sky;
     std::optional<Result<Document>> m_saved;
 };
 
-/// Box of each mesh in its own space; 0 for an empty mesh.
+/// Bounding box of each mesh in object space; 0 for an empty mesh.
 std::vector<Bounds> boundsOfMeshes(const Assets& assets);
 
-/// Where the bake of a project lies: NAME.limnbake beside NAME.limn.
+/// Path of a project's bake: NAME.limnbake beside NAME.limn.
 std::string bakePathOf(const std::string& projectPath);
 
 } // namespace limn

@@ -6,12 +6,12 @@
 
 namespace limn {
 
-/// Files opened lately, newest first, from $XDG_CONFIG_HOME/limn/recent (else ~/.config). Empty
-/// where there is none.
+/// Recently opened files, newest first, from $XDG_CONFIG_HOME/limn/recent (else ~/.config). Empty
+/// if there are none.
 std::vector<std::string> readRecentFiles();
 
-/// `recent` with `path` first, at most ten, without repeats; written back, in silence where that
-/// fails.
+/// Returns `recent` with `path` first, without duplicates and at most ten long, and writes it back.
+/// A failure to write is ignored.
 std::vector<std::string> addRecentFile(std::vector<std::string> recent, const std::string& path);
 
 } // namespace limn

@@ -75,7 +75,7 @@ struct RelightJob::Worker {
     LightingDriver driver;
     const CpuIlluminance* illuminance = nullptr; ///< the driver's, where that lights the bake
     std::array<std::shared_ptr<IndirectField>, 3>
-        pool; ///< fields nobody looks at any more are used again
+        pool; ///< fields that are no longer in use are reused
     LightingStatus status;
     std::shared_ptr<const LitBake> lit; ///< null: nobody asks
     bool lighting = true;
@@ -114,7 +114,7 @@ void RelightJob::Worker::takeBake(BakedScene next) {
     makeLighting();
 }
 
-/// Of the scene's technique; of none where that lights bakes and there is no bake.
+/// Creates the lighting of the scene's technique; none if that lights bakes and there is no bake.
 void RelightJob::Worker::makeLighting() {
     const Technique* technique = scene ? findTechnique(scene->technique.technique) : nullptr;
     illuminance = nullptr;
@@ -156,7 +156,7 @@ std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
     return std::make_shared<const IndirectField>(*driver.lighting()->field());
 }
 
-/// Empty where nothing is lit here.
+/// Null if nothing is lit here.
 std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
     auto copy = std::make_shared<LitBake>();
     if (illuminance && lighting) {
@@ -216,7 +216,7 @@ void RelightJob::setLighting(bool here) {
         if (here == m_lighting)
             return;
         m_lighting = here;
-        m_cancel = !here; // what is under way is of no use any more
+        m_cancel = !here; // work in progress is no longer needed
         m_result.status.running |= here;
     }
     m_changed.notify_one();
@@ -224,7 +224,7 @@ void RelightJob::setLighting(bool here) {
 
 void RelightJob::setView(const Viewpoint& view) {
     const std::lock_guard lock(m_mutex);
-    m_view = view; // looked at by the next bounces
+    m_view = view; // read by the next bounces
 }
 
 void RelightJob::keepLit(bool keep) {

@@ -10,20 +10,20 @@
 
 namespace limn {
 
-/// What the relighting thread has to show. Everything is immutable or a copy.
+/// Results of the relighting thread. Everything is immutable or a copy.
 struct Relit {
     std::shared_ptr<const IndirectField> field; ///< null: nothing is lit here
-    std::shared_ptr<const LitBake> lit; ///< that the field belongs to; null unless keepLit(true)
-    std::shared_ptr<const TraceScene> trace;  ///< of the newest scene but for the last moments
-    std::shared_ptr<const Scene> hashedScene; ///< what `inputHash` belongs to
-    std::uint64_t inputHash = 0;              ///< bakeInputHash(*hashedScene)
+    std::shared_ptr<const LitBake> lit;         ///< lit bake of `field`; null unless keepLit(true)
+    std::shared_ptr<const TraceScene> trace;    ///< of the newest scene, with a short delay
+    std::shared_ptr<const Scene> hashedScene;   ///< scene of `inputHash`
+    std::uint64_t inputHash = 0;                ///< bakeInputHash(*hashedScene)
     LightingStatus status;
 };
 
-/// Keeps the bounced light up to date with the newest scene on a thread of its own: a few bounces
-/// at a time until converged, by a LightingDriver, then it sleeps. Whatever lights, it also builds
-/// the TraceScene and the hash that decides about a new bake, because both take long on large
-/// scenes. No call waits for that work.
+/// Keeps the bounced light up to date with the newest scene on its own thread. A LightingDriver
+/// computes a few bounces at a time until they have converged; then the thread sleeps. In any case
+/// it also builds the TraceScene and the hash that decides whether a new bake is needed, because
+/// both take long for large scenes. No call waits for that work.
 class RelightJob {
 public:
     /// `wake` is called from the thread whenever there is something new in result().
@@ -32,21 +32,22 @@ public:
     RelightJob(const RelightJob&) = delete;
     RelightJob& operator=(const RelightJob&) = delete;
 
-    /// The newest scene; those it had no time for are dropped.
+    /// Sets the newest scene. Scenes that were not taken in time are dropped.
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// The bake to light, by the technique that lights bakes. Null members: none, and its field is
-    /// dropped.
+    /// Sets the bake to light, for the technique that lights bakes. With null members there is no
+    /// bake, and its field is dropped.
     void setBake(BakedScene baked);
 
-    /// Whether this thread lights the bake; at first it does. Not: somebody else does, and there is
-    /// no field.
+    /// Sets whether this thread lights the bake (initially true). If false, it is lit elsewhere and
+    /// there is no field.
     void setLighting(bool here);
 
-    /// From where the field is looked at. Without it, and while keepLit(true), all caches are lit.
+    /// Sets the viewpoint from which the field is seen. Without one, and while keepLit(true), all
+    /// caches are lit.
     void setView(const Viewpoint& view);
 
-    /// Whether Relit::lit is wanted, for an overlay of light. At first it is not.
+    /// Sets whether Relit::lit is wanted for an overlay of light (initially false).
     void keepLit(bool keep);
 
     Relit result() const;
@@ -56,7 +57,7 @@ private:
     void run();
 
     std::function<void()> m_wake;
-    mutable std::mutex m_mutex; ///< of what follows
+    mutable std::mutex m_mutex; ///< guards the members below
     std::condition_variable m_changed;
     std::shared_ptr<const Scene> m_nextScene; ///< not yet taken
     std::optional<BakedScene> m_nextBake;     ///< not yet taken
@@ -65,22 +66,23 @@ private:
     bool m_stop = false;
     Relit m_result;
     std::atomic<bool> m_cancel{false};
-    std::thread m_thread; ///< last: starts when everything else is there
+    std::thread m_thread; ///< declared last, so that it starts after all other members exist
 };
 
-/// Takes in a driver's update, and how far it is. `report`: as LightingDriver::step() returned it.
+/// Adds a driver's update and its progress to `status`. `report` is the result of
+/// LightingDriver::step().
 void countUpdate(LightingStatus& status, const LightingDriver& driver,
                  const LightingReport* report);
 
 /// True if a bake of `a` serves `b` as well, as far as can be told without hashing the meshes.
 bool sameBakeInputs(const Scene& a, const Scene& b);
 
-/// True if rays meet the same surfaces; sameStaticGeometry(): those of dynamic objects aside.
+/// True if rays meet the same surfaces. sameStaticGeometry() ignores those of dynamic objects.
 bool sameGeometry(const Scene& a, const Scene& b);
 bool sameStaticGeometry(const Scene& a, const Scene& b);
 
-/// `baked` with the lights, materials, sky, bounces and dimming of `now`: what a bake older than
-/// the document can still be lit with.
+/// Copy of `baked` with the lights, materials, sky, bounces and `dimming` of `now`. A bake older
+/// than the document can still be lit with it.
 Scene relitScene(const Scene& baked, const Scene& now);
 
 } // namespace limn

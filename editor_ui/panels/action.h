@@ -34,10 +34,10 @@ const Action& actionById(const char* id);
 /// Ends the gesture, then runs the action if it is enabled.
 void runAction(EditorState& state, const Action& action);
 
-/// "Undo Move Key light": the label with what it would act on.
+/// Label of an action with what it would act on, such as "Undo Move Key light".
 std::string actionLabel(const EditorState& state, const Action& action);
 
-/// Runs the action whose shortcut this is. Returns false when there is none.
+/// Runs the action whose shortcut this is. Returns false if there is none.
 bool runShortcut(EditorState& state, const Shortcut& pressed);
 
 } // namespace limn

@@ -24,7 +24,7 @@ double secondsLeft(const StageSeconds& expected, const std::string& stage, doubl
     if (at == expected.end())
         return std::max(0.0, expected.back().second - stageSeconds);
     double left = std::max(0.0, at->second - stageSeconds);
-    // A pace read off sooner would jump about.
+    // An earlier estimate of the pace would fluctuate.
     if (fraction > 0.05 && stageSeconds > 0.2)
         left = stageSeconds * (1 - fraction) / fraction;
     for (auto later = at + 1; later != expected.end(); ++later)

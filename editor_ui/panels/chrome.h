@@ -11,8 +11,8 @@ void menuBar(EditorState& state);
 /// Tools, view, tone mapping and exposure above the picture. Draws into the current window.
 void viewBar(EditorState& state);
 
-/// One line at the bottom: what is baking, how far, how long still, Cancel; else the state in
-/// words. Draws into the current window.
+/// One line at the bottom: stage, progress and time left of a running bake with a Cancel button,
+/// else the state in words. Draws into the current window.
 void statusBar(EditorState& state);
 
 /// The list of all actions with a filter (Ctrl-P).

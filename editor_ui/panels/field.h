@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// One object being edited by the widgets of a section. Made before the first of them.
+/// One object being edited by the widgets of a section. Must be created before the first of them.
 struct FieldEdit {
     EditorState& state;
     ObjectId id;
@@ -24,17 +24,17 @@ void fieldLabel(const char* label, const char* tooltip);
 /// numbers to drag.
 void positionField(const char* id, glm::vec3& position, const glm::dvec3& origin);
 
-/// Of a node's translation [m].
+/// The same for a node's translation [m].
 void positionField(const char* id, glm::dvec3& translation);
 
-/// After the row's widget: values that the object's rules forbid are undone, the others become part
-/// of the gesture.
+/// Call after the row's widget. Values that the object's rules forbid are undone; others become
+/// part of the gesture.
 void fieldEdited(FieldEdit& edit, const char* label);
 
-/// Text cut to `width` pixels with an ellipsis; the whole of it is in a tooltip when it was cut.
+/// Draws text cut to `width` pixels with an ellipsis. If it was cut, a tooltip shows all of it.
 void elidedText(const std::string& text, float width);
 
-/// A tooltip of `text`, wrapped, while the last item is hovered.
+/// Shows `text` as a wrapped tooltip while the last item is hovered.
 void wrappedTooltip(const char* text);
 
 /// "12 345 678"

@@ -23,7 +23,7 @@ enum class Icon {
 /// Draws a line icon of `size` pixels, centred; needs no font.
 void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, ImU32 color);
 
-/// The same as an item as high as a line of text.
+/// Draws the icon as an ImGui item as high as a line of text.
 void iconItem(Icon icon, ImU32 color);
 
 } // namespace limn

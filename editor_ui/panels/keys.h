@@ -18,7 +18,7 @@ inline constexpr int kPad0 = 320, kPad1 = 321, kPad3 = 323, kPad7 = 327, kPadDec
                      kPadEnter = 335;
 inline constexpr int kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342, kLeftSuper = 343;
 inline constexpr int kRightShift = 344, kRightControl = 345, kRightAlt = 346, kRightSuper = 347;
-/// 'A'..'Z', '0'..'9'.
+/// Key code of 'A'..'Z' or '0'..'9'.
 constexpr int of(char upper) {
     return upper;
 }

@@ -62,7 +62,7 @@ void pickCacheAt(EditorState& state, glm::vec2 mouse) {
     const auto& baked = overlay.scene->instances;
     const auto same = std::ranges::find_if(
         baked, [&](const Instance& i) { return i.node == seen.node && i.mesh == seen.mesh; });
-    // One that the bake does not know is lit from the grid, as its number past the end says.
+    // An instance unknown to the bake gets the number past the end: it is lit from the grid.
     hit.instance = std::uint32_t(same - baked.begin());
     if (const auto cache = cacheAt(*overlay.bake, *overlay.scene, hit))
         pickCache(overlay, *cache);
@@ -178,7 +178,7 @@ static void cutRows(const OverlayState& overlay) {
     ImGui::Text("%s, %s", kindText(caches.kind[cut.cache]), valid ? "valid" : "invalid");
     const glm::dvec3& origin = overlay.scene->origin;
     const glm::dvec3 p = toFile(origin, caches.position[cut.cache]);
-    // Three digits tell places apart only near the origin.
+    // Three significant digits distinguish positions only near the origin.
     ImGui::Text(origin == glm::dvec3(0) ? "At %.3g, %.3g, %.3g m" : "At %.3f, %.3f, %.3f m", p.x,
                 p.y, p.z);
     if (!valid) {

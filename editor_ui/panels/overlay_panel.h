@@ -8,18 +8,19 @@ namespace limn {
 /// The list of overlays, for the bar above the picture.
 void overlayCombo(EditorState& state);
 
-/// The overlay's parameter, what its colours mean, and all about a picked cache. Draws into the
-/// current window. Precondition: one is shown.
+/// Shows the overlay's parameter, the meaning of its colours, and details of a picked cache. Draws
+/// into the current window. Precondition: an overlay is shown.
 void overlayPanel(EditorState& state);
 
-/// The overlay shows this bake from now on. A picked cache stays picked by its place.
+/// Sets the bake that the overlay shows. A picked cache is replaced by the nearest one of the same
+/// kind.
 void setOverlayBake(OverlayState& overlay, std::shared_ptr<const Bake> bake,
                     std::shared_ptr<const Scene> scene);
 
-/// Picks a cache for the link cut; one that does not exist: none.
+/// Picks a cache for the link cut; an index out of range clears the pick.
 void pickCache(OverlayState& overlay, std::uint32_t cache);
 
-/// Picks the cache that lights the surface under the mouse; keeps the old one where there is none.
+/// Picks the cache that lights the surface under the mouse; keeps the old one if there is none.
 void pickCacheAt(EditorState& state, glm::vec2 mouse);
 
 } // namespace limn

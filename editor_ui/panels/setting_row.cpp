@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// Ranges wider than this have a slider of equal ratios, not of equal steps.
+/// Ranges with an upper end above this have a logarithmic slider.
 static constexpr double kWide = 16;
 
 /// "##rays": a widget without a label, by the setting's key.

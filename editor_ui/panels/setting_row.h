@@ -11,12 +11,12 @@
 
 namespace limn {
 
-// The widget of a setting, which keeps to its limits. The last of them is for any enumeration.
+// Widgets that edit a setting within its limits. The last overload is for any enumeration.
 
 void settingWidget(const Setting& setting, bool& value);
 void settingWidget(const Setting& setting, std::uint32_t& value, const SettingRange& range);
 void settingWidget(const Setting& setting, float& value, const SettingRange& range);
-/// Cells along three sides; all of them are 0, or none.
+/// Numbers of cells along the three axes; either all of them are 0 or none.
 void settingWidget(const Setting& setting, glm::uvec3& value, const SettingRange& range);
 void settingWidget(const Setting& setting, int& value, const SettingChoices& choices);
 template <class T>

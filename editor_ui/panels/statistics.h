@@ -14,7 +14,7 @@
 
 namespace limn {
 
-/// How the bake stands to the document.
+/// Whether the bake is up to date with the document.
 enum class BakeFreshness {
     NotUsed,  ///< the technique that lights the document needs no bake
     None,     ///< nothing baked yet
@@ -23,7 +23,7 @@ enum class BakeFreshness {
     Needed, ///< objects, masks or settings changed since
 };
 
-/// What the panels show of the baker.
+/// State of the baker as shown in the panels.
 struct BakeStatus {
     bool running = false;
     std::string stage;       ///< of the running bake
@@ -32,20 +32,20 @@ struct BakeStatus {
     double elapsedSeconds = 0;
     double secondsLeft = -1; ///< < 0: not known yet
     BakeFreshness freshness = BakeFreshness::None;
-    /// Of the last good bake.
+    /// Results of the last successful bake.
     BakeCounts counts;
     BakeBytes bytes;
     std::vector<std::pair<std::string, double>> seconds; ///< per stage
     double totalSeconds = 0;
-    std::vector<std::string> notes; ///< what it made again and why
-    bool preview = false;           ///< it is a first look; the full one is being made
+    std::vector<std::string> notes; ///< what was rebuilt and why
+    bool preview = false;           ///< it is a preview; the full bake is running
     bool lightEdited = false;       ///< since the scene was opened
     double secondsSinceLightEdit =
         0;             ///< spent baking since a light, material or sky was last edited
-    std::string error; ///< why the last bake gave nothing; empty: it gave something
+    std::string error; ///< why the last bake has no result; empty: it has one
 };
 
-/// What the panels show of bounced light and whoever updates it.
+/// State of bounced light and its updates as shown in the panels.
 struct LightingStatus {
     LightingReport last; ///< of the last update that bounced light
     TimeHistory history;
@@ -55,21 +55,20 @@ struct LightingStatus {
     bool converged = false;
 };
 
-/// Where bounced light is worked out: by RelightJob, or by whoever draws the viewport, on its
-/// device.
+/// Where bounced light is computed: by RelightJob, or by whoever draws the viewport on its device.
 struct RelightPlace {
     RelightOn wanted = RelightOn::Auto;
     bool gpuCan = false;               ///< there is a device that draws, and it can light the bake
     std::string refusal;               ///< why it cannot; empty: it can, or there is none
     std::optional<RelightTimes> times; ///< of bakes like this one; not known until measured
 
-    /// Never Auto.
+    /// The place in use; never Auto.
     RelightOn used() const { return chooseRelight(wanted, gpuCan, times); }
 };
 
-/// What the panels show of the window and its viewport.
+/// State of the window and its viewport as shown in the panels.
 struct FrameStatus {
-    /// Of the last picture.
+    /// Times of the last picture.
     double uploadMs = 0, shadowMs = 0, surfacesMs = 0, shadeMs = 0, viewportMs = 0;
     std::uint32_t shadowMapsDrawn = 0;
     std::uint64_t gpuBytes = 0;

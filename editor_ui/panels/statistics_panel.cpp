@@ -88,7 +88,7 @@ static const char* placeTooltip(RelightOn device) {
     return "";
 }
 
-/// Which device relights, with what either takes.
+/// Shows which device relights and the time that each takes.
 static void placeRow(RelightPlace& place) {
     constexpr const char* kLabels[] = {"Auto", "CPU", "GPU"};
     const bool onGpu = place.used() == RelightOn::Gpu;

@@ -5,10 +5,10 @@ namespace limn {
 
 struct EditorState;
 
-/// Time per step, counts, bytes, seconds per bake stage. Draws into the current window.
+/// Shows time per step, counts, bytes, and seconds per bake stage. Draws into the current window.
 void statisticsPanel(EditorState& state);
 
-/// What was repaired on import and what went wrong since. Draws into the current window.
+/// Shows what was repaired on import and what has gone wrong since. Draws into the current window.
 void logPanel(const EditorState& state);
 
 } // namespace limn

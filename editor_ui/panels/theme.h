@@ -5,8 +5,8 @@
 
 namespace limn {
 
-/// Colours that carry meaning; told apart by hue and lightness, and always beside words
-/// (colour-blind safe: blue, orange and light grey rather than red and green).
+/// Colours that carry meaning. They are distinguished by hue and lightness and always accompanied
+/// by words (colour-blind safe: blue, orange and light grey rather than red and green).
 namespace color {
 inline constexpr ImU32 kAccent = IM_COL32(88, 156, 235, 255);
 inline constexpr ImU32 kWarning = IM_COL32(240, 170, 70, 255);

@@ -5,9 +5,9 @@ namespace limn {
 
 struct EditorState;
 
-/// The mouse in the picture: navigation, picking, the gizmo; icons of lights and outlines drawn
-/// over it. Draws into the current window, which shows the picture through; keeps state.view.origin
-/// and size.
+/// Handles the mouse in the picture (navigation, picking, the gizmo) and draws icons of lights and
+/// outlines over it. Draws into the current window, through which the picture is visible. Updates
+/// state.view.origin and size.
 void viewportPanel(EditorState& state);
 
 } // namespace limn

@@ -22,11 +22,11 @@ void look(Camera& camera, float yaw, float pitch);
 /// Moves eye and target along the camera's own axes [m].
 void fly(Camera& camera, float right, float up, float forward);
 
-/// Keeps the direction and places the eye so that `bounds` fills the picture. A point gets a sphere
-/// of 1 m.
+/// Keeps the direction and places the eye so that `bounds` fills the picture. A point counts as a
+/// sphere of 1 m.
 void focus(Camera& camera, const Bounds& bounds);
 
-/// The views of the numpad: where the eye stands, seen from the target.
+/// Sides of the target on which the numpad views place the eye.
 enum class Side { Front, Back, Right, Left, Top, Bottom };
 void lookFrom(Camera& camera, Side side);
 

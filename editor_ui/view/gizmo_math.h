@@ -19,7 +19,7 @@ struct Picture {
     float aspect() const { return size.x / size.y; }
 };
 
-/// Pixel of a world point; nothing when it is not in front of the eye.
+/// Pixel of a world point; std::nullopt if it is not in front of the eye.
 std::optional<glm::vec2> toPixel(const Picture& picture, glm::vec3 world);
 
 /// Unit direction from the eye through a pixel.
@@ -28,7 +28,7 @@ glm::vec3 pixelDirection(const Picture& picture, glm::vec2 pixel);
 /// The parts of the translate gizmo.
 enum class Handle { None, X, Y, Z, YZ, ZX, XY };
 
-/// World length of an arrow at `origin`: about 90 pixels whatever the distance [m].
+/// World-space length of an arrow at `origin`, which is about 90 pixels at any distance [m].
 float arrowLength(const Picture& picture, glm::vec3 origin);
 
 /// Corners of a plane handle, and end of an axis arrow, in world space.
@@ -38,13 +38,14 @@ glm::vec3 arrowTip(Handle handle, glm::vec3 origin, float length);
 /// Axis of X, Y, Z; normal of YZ, ZX, XY.
 glm::vec3 handleAxis(Handle handle);
 
-/// The handle under the mouse, planes after arrows; axes that point at the eye cannot be taken.
+/// The handle under the mouse; arrows take precedence over planes. Axes that point at the eye
+/// cannot be picked.
 Handle handleAt(const Picture& picture, glm::vec3 origin, glm::vec2 mouse);
 
 /// World displacement that keeps the grabbed point under the mouse, which went from `start` to
 /// `now` [px]. Along an axis: the points of the axis closest to the two rays. In a plane: their
-/// intersections. Nothing when the axis points at the eye, the plane is edge-on, or a ray misses
-/// it.
+/// intersections. Returns std::nullopt if the axis points at the eye, the plane is edge-on, or a
+/// ray misses it.
 std::optional<glm::vec3> dragDisplacement(const Picture& picture, Handle handle, glm::vec3 origin,
                                           glm::vec2 start, glm::vec2 now);
 

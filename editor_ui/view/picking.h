@@ -5,11 +5,11 @@
 
 namespace limn {
 
-/// What lies under the mouse: a light's icon within 12 px first, then the nearest surface's node.
-/// 0: nothing.
+/// The object under the mouse: a light's icon within 12 px, else the nearest surface's node; 0 if
+/// there is none.
 ObjectId objectAt(const EditorState& state, glm::vec2 mouse);
 
-/// Selects what lies under the mouse. `extend` adds or takes it away instead of replacing the
+/// Selects the object under the mouse. `extend` adds or removes it instead of replacing the
 /// selection.
 void pick(EditorState& state, glm::vec2 mouse, bool extend);
 

@@ -11,9 +11,9 @@
 namespace limn {
 
 // One list of fields serves all directions: `template <class A, class T> void fields(A& a, T& t)`
-// calls a("name", t.field, rules...) for each. With a ByteWriter and a const T it writes, with a
-// ByteReader and a T it reads, with a FieldCheck it checks the rules.
-// Little-endian, as in memory: an array or string is a u64 count and its elements.
+// calls a("name", t.field, rules...) for each field. It writes with a ByteWriter and a const T,
+// reads with a ByteReader and a T, and checks the rules with a FieldCheck. Data is little-endian,
+// as in memory; an array or string is a u64 count followed by its elements.
 
 /// Appends fields to `bytes`.
 class ByteWriter {
@@ -47,8 +47,8 @@ public:
     }
 };
 
-/// Takes fields from bytes that outlive it. Where they end too soon `ok` becomes false and what is
-/// read is empty; no count makes it allocate more than the bytes could hold.
+/// Reads fields from bytes, which must outlive the reader. If the bytes end too early, `ok` becomes
+/// false and the fields are empty; no count makes it allocate more than the bytes could hold.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view source) : m_rest(source) {}
@@ -59,10 +59,10 @@ public:
     requires(sizeof...(Rules) > 0) void operator()(std::string_view, T& field, const Rules&...) {
         take(field);
     }
-    /// Applies the rule, too: `fields` may rely on the number of elements.
+    /// Also applies the rule, so that `fields` may rely on the number of elements.
     template <class T, class Rule, class F>
     void each(std::string_view, std::vector<T>& v, const Rule& rule, const F& fields) {
-        v.resize(count(sizeof(std::uint64_t))); // of an array's length, the least there can be
+        v.resize(count(sizeof(std::uint64_t))); // an element is at least an array's length
         if (rule(v)) {
             ok = false;
             v.clear();
@@ -75,7 +75,7 @@ private:
     template <class T>
     requires std::is_trivially_copyable_v<T>
     void take(T& value) { takeBytes(&value, sizeof value); }
-    /// Another byte than 0 or 1 would be no bool.
+    /// Any byte other than 0 or 1 is invalid.
     void take(bool& value) {
         std::uint8_t byte = 0;
         take(byte);
@@ -102,7 +102,8 @@ private:
             std::memcpy(out, m_rest.data(), size);
         m_rest.remove_prefix(size);
     }
-    /// A count of elements of at least `elementSize` bytes that the rest can hold.
+    /// Reads a count of elements of at least `elementSize` bytes; 0 if the remaining bytes cannot
+    /// hold them.
     std::size_t count(std::size_t elementSize) {
         std::uint64_t n = 0;
         take(n);

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// An open file, closed when it goes. Below 0: none.
+/// An open file descriptor, closed on destruction. Negative: no file.
 class Descriptor {
 public:
     explicit Descriptor(int number = -1) : m_number(number) {}
@@ -23,7 +23,7 @@ public:
     explicit operator bool() const { return m_number >= 0; }
     int number() const { return m_number; }
 
-    /// False, with errno set, where a delayed write has failed.
+    /// Returns false, with errno set, if a delayed write has failed.
     bool close() {
         const int number = std::exchange(m_number, -1);
         return number < 0 || ::close(number) == 0;

@@ -14,12 +14,12 @@
 
 namespace limn {
 
-// What values a field of an archive may have. A rule is called with the field and returns what is
-// wrong with it, or nullptr. Rules may look at other fields of what is checked: fields are checked
-// in the order in which they are listed, and none after the first that is wrong.
+// Rules for the values of an archive's fields. A rule is called with the field and returns a
+// description of the error, or nullptr. Rules may refer to other fields: fields are checked in the
+// order in which they are listed, up to the first error.
 
-/// Whether predicate(x) holds for every number in a number, an enum, a vector or matrix of glm, or
-/// an array of those.
+/// Whether predicate(x) holds for every number in a number, an enum, a glm vector or matrix, or an
+/// array of those.
 template <class T, class Predicate>
 bool allNumbers(const T& value, const Predicate& predicate) {
     if constexpr (std::is_enum_v<T>) {
@@ -41,17 +41,17 @@ bool allNumbers(const T& value, const Predicate& predicate) {
 
 namespace rule {
 
-/// Every value will do.
+/// Accepts every value.
 inline constexpr auto any = [](const auto&) -> const char* { return nullptr; };
 
-/// `words` where test(field) is false.
+/// Returns `words` if test(field) is false.
 template <class Test>
 auto holds(const char* words, Test test) {
     return
         [words, test](const auto& field) -> const char* { return test(field) ? nullptr : words; };
 }
 
-/// `words` where test(index, element) is false for an element.
+/// Returns `words` if test(index, element) is false for any element.
 template <class Test>
 auto each(const char* words, Test test) {
     return holds(words, [test](const auto& field) {
@@ -62,29 +62,29 @@ auto each(const char* words, Test test) {
     });
 }
 
-/// The number of elements.
+/// The field has n elements.
 inline auto count(std::uint64_t n) {
     return holds("of another length", [n](const auto& field) { return field.size() == n; });
 }
-/// The number of elements where there are any.
+/// The field is empty or has n elements.
 inline auto noneOr(std::uint64_t n) {
     return holds("of another length",
                  [n](const auto& field) { return field.empty() || field.size() == n; });
 }
 
-/// Every number < end: indices, enums.
+/// Every number is < end: for indices and enums.
 inline auto below(std::uint64_t end) {
     return holds("out of range", [end](const auto& field) {
         return allNumbers(field, [end](auto x) { return std::uint64_t(x) < end; });
     });
 }
-/// Every number < end, or `mark`.
+/// Every number is < end or equal to `mark`.
 inline auto belowOr(std::uint64_t end, std::uint32_t mark) {
     return holds("out of range", [end, mark](const auto& field) {
         return allNumbers(field, [=](std::uint32_t x) { return x < end || x == mark; });
     });
 }
-/// Every number in [low, high]; NaN is not.
+/// Every number is in [low, high]; NaN is rejected.
 inline auto within(double low, double high) {
     return holds("out of range, or not a number", [low, high](const auto& field) {
         return allNumbers(field, [=](auto x) { return double(x) >= low && double(x) <= high; });
@@ -95,7 +95,7 @@ inline constexpr auto finite = [](const auto& field) -> const char* {
     return allNumbers(field, [](auto x) { return std::isfinite(x); }) ? nullptr : "not a number";
 };
 
-/// n + 1 offsets that do not run backwards, from 0 to `end`.
+/// The field has n + 1 non-decreasing offsets from 0 to `end`.
 inline auto offsets(std::uint64_t n, std::uint64_t end) {
     return holds("offsets that do not cover what they should", [n, end](const auto& field) {
         if (field.size() != n + 1 || field.front() != 0 || field.back() != end)
@@ -109,8 +109,8 @@ inline auto offsets(std::uint64_t n, std::uint64_t end) {
 
 } // namespace rule
 
-/// The archive that checks what another one has read: the same list of fields, whose rules it
-/// applies. A field cannot be listed without a rule.
+/// The archive that checks what another one has read: it applies the rules of the same list of
+/// fields. A field cannot be listed without a rule.
 class FieldCheck {
 public:
     std::string defect; ///< of the first field that breaks a rule, "surfels: out of range"
@@ -134,9 +134,9 @@ public:
     }
 };
 
-/// Reads what `fields(archive)` lists, then checks it: it is called with a ByteReader and then with
-/// a FieldCheck. False where `bytes` are fewer or more than the fields, and where a rule is broken;
-/// the fields then hold anything.
+/// Reads and checks the fields that `fields(archive)` lists, calling it with a ByteReader and then
+/// with a FieldCheck. Returns false if `bytes` are fewer or more than the fields or a rule is
+/// broken; the fields are then unspecified.
 template <class Fields>
 bool readFields(std::string_view bytes, const Fields& fields) {
     ByteReader reader(bytes);

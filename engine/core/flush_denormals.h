@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// For as long as the object lives, this thread's float arithmetic takes denormal numbers, those
-/// below 2^-126, for 0, and gives 0 for them: some processors do them many times more slowly. On
-/// x86; elsewhere nothing changes. What was set before holds again afterwards.
+/// While the object lives, this thread's float arithmetic treats denormal inputs and results (below
+/// 2^-126) as 0, because some processors are many times slower with them. Only on x86; elsewhere it
+/// has no effect. The destructor restores the previous mode.
 class FlushDenormals {
 public:
 #if defined(__SSE2__)

@@ -25,7 +25,7 @@ std::uint64_t hashVector(const std::vector<T>& v, std::uint64_t seed) {
     return hashBytes(v.data(), v.size() * sizeof(T), hashValue(std::uint64_t(v.size()), seed));
 }
 
-/// 16 lower-case hexadecimal digits.
+/// The hash as 16 lower-case hexadecimal digits.
 std::string hexHash(std::uint64_t hash);
 
 } // namespace limn

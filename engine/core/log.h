@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// Lines for people, on stderr: stdout belongs to results.
+/// Writes a line for people to stderr; stdout is reserved for results.
 void logInfo(std::string_view message);
 void logWarning(std::string_view message);
 void logError(std::string_view message);

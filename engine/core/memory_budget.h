@@ -11,16 +11,16 @@ namespace limn {
 /// Half of the machine's memory [bytes].
 std::uint64_t halfOfMemory();
 
-/// "7.5 GiB", "20 MiB".
+/// Formats a size for people: "7.5 GiB", "20 MiB".
 std::string bytesText(std::uint64_t bytes);
 
-/// How much memory a job may take. Readers ask before they allocate what a file or an option can
-/// make large.
+/// Maximum memory that a job may use. Readers check it before they allocate an amount that a file
+/// or an option can make large.
 struct MemoryBudget {
     std::uint64_t most = halfOfMemory(); ///< [bytes]
 
-    /// Fails where `needed` bytes are more than that: "{what} would need 7.5 GiB of memory, 4 GiB
-    /// are allowed (--memory)".
+    /// Fails if `needed` exceeds the budget: "{what} would need 7.5 GiB of memory, 4 GiB are
+    /// allowed (--memory)".
     Result<void> allow(const std::string& what, std::uint64_t needed) const;
 };
 

@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// How a long job talks to whoever started it. Default-constructed: silent, never cancelled.
+/// Progress reports and cancellation of a long job. Default-constructed: silent, never cancelled.
 /// May be called from any thread, one call at a time per job.
 struct Progress {
     /// `stage` is a short noun ("surfels", "trace"); `fraction` in [0, 1] of that stage.

@@ -37,14 +37,15 @@ fs::path folderOf(const fs::path& target) {
     return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-/// Gives the nameless file `file` the name `name`; false and EEXIST where there is one.
+/// Gives the unnamed file `file` the name `name`. Returns false, with EEXIST, if the name is taken.
 bool link(int file, const fs::path& name) {
     const std::string self = fmt::format("/proc/self/fd/{}", file);
     return linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
-/// No call exchanges a nameless file for one that has a name, so it gets another one first. One
-/// writer of a folder does so at a time; what it finds under that name is of one that was killed.
+/// Replaces a named file by an unnamed one. No system call exchanges the two directly, so the
+/// unnamed file gets a temporary name first. Only one writer of a folder does so at a time; an
+/// existing file of that name was left by a writer that was killed.
 bool replaceByNameless(int file, const fs::path& target, int folder) {
     if (link(file, target))
         return true;
@@ -63,8 +64,8 @@ bool replaceByNameless(int file, const fs::path& target, int folder) {
     return false;
 }
 
-/// A file of the folder, open for writing, that vanishes if it gets no name. Where the file system
-/// knows no such files, it is named already.
+/// A file of the folder, open for writing, that is deleted unless it gets a name. On file systems
+/// without unnamed files it has a temporary name from the start.
 struct NewFile {
     Descriptor file;
     std::string name; ///< empty: none

@@ -13,7 +13,7 @@ struct Error {
     std::string message;
 };
 
-/// A value, or the reason there is none. Whoever asks for one must look at it.
+/// A value, or the reason why there is none. It must not be discarded.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
 public:

@@ -17,7 +17,7 @@ namespace {
 constexpr float kLargestHalf = 65504;
 constexpr std::size_t kTexels = 4096; ///< of one task
 
-/// Where value number `value` of a field is.
+/// Position of the value with index `value` of a field.
 struct Place {
     std::uint32_t coefficient;
     int channel;

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kSide = int(kGridDepthSide);
 
-/// A texel beyond the map's border is one within it: the square's sides are folded at their middle.
+/// Index of the texel (x, y), which may lie beyond the border: each side of the square is folded at
+/// its middle, so the texel beyond it is one within the map.
 std::uint32_t texelAt(int x, int y) {
     if (x < 0 || x >= kSide) {
         x = x < 0 ? -1 - x : 2 * kSide - 1 - x;

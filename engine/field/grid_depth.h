@@ -10,39 +10,40 @@
 
 namespace limn {
 
-// How far a cell of the grid sees, in every direction: an octahedral map of kGridDepthSide^2 texels
-// per cell. A way of w from the cell's centre lies at w / |w|_1 on the octahedron, and a wall that
-// it meets at w has depth |w|_1. Of a plane 1 / depth is linear on each face of the octahedron, so
-// the inverse is kept, and bilinear lookups find flat walls where they are; moments of the depth,
-// as in Majercik et al. Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields,
-// 2019, would spread over the width of a texel. 16-bit unorms of reach / (64 depth); 0: the sky,
-// all ones: the cell lies in a solid. 512 bytes a cell.
+// Distances from a grid cell to the surfaces around it, as an octahedral map of kGridDepthSide^2
+// texels per cell. The vector w from the cell's centre maps to w / |w|_1 on the octahedron, and a
+// wall hit at w has depth |w|_1. For a plane, 1 / depth is linear on each face of the octahedron,
+// so the map stores the inverse and bilinear lookups reproduce flat walls exactly; moments of the
+// depth, as in Majercik et al. Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
+// Fields, 2019, would spread over the width of a texel. Texels are 16-bit unorms of reach / (64
+// depth). 0 means the sky; all ones mean that the cell lies in a solid. A cell takes 512 bytes.
 
 inline constexpr std::uint32_t kGridDepthSide = 16;
 inline constexpr std::uint32_t kGridDepthTexels = kGridDepthSide * kGridDepthSide;
-inline constexpr float kGridDepthScale = 64; ///< the nearest depth told apart is reach / this
+inline constexpr float kGridDepthScale = 64; ///< the smallest representable depth is reach / this
 
-/// The four texels about a direction, with bilinear weights.
+/// The four texels around a direction, with bilinear weights.
 struct GridDepthLookup {
     std::array<std::uint32_t, 4> texel;
     std::array<float, 4> weight;
 };
 
-/// `d` need not be unit, but not 0.
+/// Lookup in direction `d`, which must not be 0 but need not be of unit length.
 GridDepthLookup gridDepthLookup(glm::vec3 d);
 
-/// Where a texel's middle lies on the octahedron, |p|_1 = 1.
+/// Centre of a texel on the octahedron, |p|_1 = 1.
 glm::vec3 gridDepthPoint(std::uint32_t texel);
 
-/// |v|_1
+/// The 1-norm |v|_1 = |x| + |y| + |z|.
 float norm1(glm::vec3 v);
 
-/// |w|_1 from one cell's centre to the farthest one it shares points with [m].
+/// |w|_1 from a cell's centre to the farthest centre of a cell that shares points with it [m].
 float gridReach(const Bounds& bounds, glm::uvec3 size);
 
-/// How much a cell of the map `texels` sees of a point that lies `way` from its centre, in [0, 1]:
-/// 1 up to 1.05 of the depth there, 0 from 1.15 of it. Where faces of the octahedron meet depths
-/// come out up to 1 / 16 too large, in corners between walls too small.
+/// Visibility in [0, 1] of the point at offset `way` from a cell's centre, by the cell's map
+/// `texels`: 1 up to 1.05 times the depth in that direction, falling to 0 at 1.15 times. Depths
+/// come out up to 1 / 16 too large where faces of the octahedron meet, and too small in corners
+/// between walls.
 float seenFromCell(const std::uint16_t* texels, glm::vec3 way, float reach);
 
 } // namespace limn

@@ -12,27 +12,29 @@
 
 namespace limn {
 
-/// Real-time indirect light, as the viewport samples it: spherical harmonics of incident radiance.
-/// Coefficient (l, m) is number i = l(l+1)+m; real, orthonormal, no Condon-Shortley sign.
-/// E(n) = max(0, sum A_l c_i Y_i(n)) over the first three bands, A = {pi, 2pi/3, pi/4} [W m^-2];
-/// exitant radiance is albedo E / pi. Reflections read all bands that they need and are there.
+/// Real-time indirect light as the viewport samples it: spherical harmonics of incident radiance.
+/// Coefficient (l, m) has index i = l(l+1)+m; real, orthonormal, no Condon-Shortley sign. E(n) =
+/// max(0, sum A_l c_i Y_i(n)) over the first three bands, A = {pi, 2pi/3, pi/4} [W m^-2]; exitant
+/// radiance is albedo E / pi. Reflections read as many of the available bands as they need.
 struct IndirectField {
     std::uint32_t bands = 3; ///< [2, 8]; 3 unless a surface of the scene is glossy
-    /// Bands in colour, the others being grey; 0: all of them.
+    /// Number of bands in colour; the bands above are grey. 0: all bands.
     std::uint32_t chromaBands = 0;
 
     std::uint32_t lightmapWidth = 0, lightmapHeight = 0; ///< texels; 0: no lightmap
     /// Layer i holds coefficient i: lightmap[(i * height + y) * width + x], RGB in xyz, w = 0.
-    /// Texels outside charts are never needed by a bilinear lookup: 0, or of surfels' own caches.
+    /// Texels outside charts are never read by a bilinear lookup; they hold 0 or the light of
+    /// surfels' own caches.
     std::vector<glm::vec4> lightmap;
 
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;      ///< cell c's centre is lower + (c + 0.5) / gridSize * size
     std::vector<glm::vec4>
         grid; ///< grid[((i * sz + z) * sy + y) * sx + x]; invalid cells are filled
-    /// How far each cell sees, kGridDepthTexels numbers per cell; null: the cells see everything.
+    /// Depth maps, kGridDepthTexels values per cell; null: every point counts as visible from all
+    /// cells.
     std::shared_ptr<const std::vector<std::uint16_t>> gridDepth;
-    std::uint64_t version = 0; ///< grows with every change of the numbers above
+    std::uint64_t version = 0; ///< incremented with every change of the values above
 
     std::uint32_t coefficients() const { return bands * bands; }
     std::uint32_t chroma() const {

@@ -26,12 +26,14 @@ Coefficients sampleLightmap(const IndirectField& field, const LightmapLayout& la
     return c;
 }
 
-// Where no cell of the eight sees the point, all count as if they did.
+// If none of the eight cells sees the point, all count as if they did.
 constexpr float kUnseen = 1e-5f;
-// Of a cell's shortest side, along the normal: a surface should not hide itself.
+// Offset along the normal, relative to a cell's shortest side, so that a surface does not occlude
+// itself.
 constexpr float kDepthBias = 0.01f;
 
-/// Weights, which sum to 1, of the eight cells about `p`: trilinear, times what each sees of it.
+/// Weights of the eight cells around `p`, with sum 1: trilinear, times the visibility of `p` from
+/// each.
 struct GridLookup {
     std::array<std::size_t, 8> cell;
     std::array<float, 8> weight;
@@ -80,7 +82,7 @@ Coefficients sampleGrid(const IndirectField& field, glm::vec3 p, glm::vec3 n,
     return c;
 }
 
-/// The first bands^2 coefficients at a surface point, the others 0.
+/// The first bands^2 coefficients at a surface point; the others are 0.
 Coefficients sampleField(const FieldPoint& at, int bands) {
     const auto count = std::size_t(bands * bands);
     const LightmapLayout& layout = at.layout;

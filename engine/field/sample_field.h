@@ -11,8 +11,8 @@
 
 namespace limn {
 
-/// A surface point that looks a field up: in the lightmap, or in the grid where its instance has no
-/// lightmap.
+/// A surface point at which a field is looked up: in the lightmap, or in the grid if its instance
+/// has no lightmap.
 struct FieldPoint {
     const IndirectField& field;
     const LightmapLayout& layout;
@@ -20,15 +20,15 @@ struct FieldPoint {
     std::uint32_t instance, triangle;
     float u, v; ///< barycentrics of the triangle
     glm::vec3 position;
-    glm::vec3 normal;  ///< unit, of the side in question
-    bool back = false; ///< that side is the back of a two-sided surface
+    glm::vec3 normal;  ///< unit, of the side that is looked up
+    bool back = false; ///< whether that side is the back of a two-sided surface
 };
 
-/// Irradiance [W m^-2], >= 0.
+/// Irradiance at the point [W m^-2], >= 0.
 glm::vec3 sampleIrradiance(const FieldPoint& at);
 
-/// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`: of the first `bands`
-/// bands, or as many as the field has, by their factors.
+/// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`. Uses the first `bands`
+/// bands, or as many as the field has, each weighted by its factor in `factors`.
 glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors);
 

@@ -12,8 +12,9 @@
 
 namespace limn {
 
-// The fields of every object, once for reading and writing: fields(name, value [, range or names]).
-// fields.place() is for a world position, which files state in the coordinates of the scene file.
+// Lists the fields of every object, once for both reading and writing: fields(name, value [, range
+// or names]). fields.place() is for world positions, which files store in the scene file's
+// coordinates.
 
 template <class Fields, class T>
 void describeTransform(Fields& fields, T& t) {
@@ -43,7 +44,7 @@ void describeLight(Fields& fields, T& l) {
     fields("strength", l.strength, kLightRange);
     fields("range", l.range, kNotNegative);
     fields("innerAngle", l.innerAngle, FieldRange{0, glm::half_pi<double>()});
-    // One float above pi/2 is as near as floats come to it.
+    // The nearest float to pi/2 lies above it.
     fields("outerAngle", l.outerAngle, FieldRange{0, double(glm::half_pi<float>())});
     fields("size", l.size, FieldRange{kMinLightSize, kMaxLightSize});
     fields("roll", l.roll);
@@ -89,7 +90,7 @@ void describeTechniqueChoice(Fields& fields, T& t) {
     fields("settings", t.settings);
 }
 
-/// Calls use(name, object, describe) with the kind's name in files.
+/// Calls use(name, object, describe) with the name that files use for the object's kind.
 template <class Use>
 void describeObject(const Object& object, const Use& use) {
     std::visit(

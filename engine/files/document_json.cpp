@@ -22,7 +22,7 @@ namespace limn {
 
 using Json = nlohmann::ordered_json;
 
-/// The double with the digits that bring the same float back, so that 0.1f is written as 0.1.
+/// The double with the fewest digits that convert back to the same float: 0.1f becomes 0.1.
 static double shortest(float value) {
     const std::string digits = fmt::format("{}", value);
     double out = double(value); // stays where it is no number
@@ -36,7 +36,7 @@ static double shortest(double value) {
 
 namespace {
 
-/// Fields into a JSON object.
+/// Writes fields to a JSON object.
 struct FieldWriter {
     Json& out;
     const glm::dvec3& origin; ///< of world space, in the file's coordinates
@@ -85,7 +85,8 @@ private:
     }
 };
 
-/// Fields out of a JSON object. The first problem stays in `problem` and nothing more is read.
+/// Reads fields from a JSON object. After the first error, stored in `problem`, nothing more is
+/// read.
 class FieldReader {
 public:
     FieldReader(const Json& in, std::string path, std::string& problem, const glm::dvec3& origin)
@@ -114,7 +115,7 @@ public:
             inner.finish();
         }
     }
-    /// Reports what was not asked for.
+    /// Reports fields of the JSON object that were not read.
     void finish() {
         if (m_problem.empty())
             for (const auto& [key, value] : m_in.items())
@@ -190,7 +191,7 @@ private:
             read(number, name + "." + key, to);
         }
     }
-    /// Vectors and quaternions; the latter as x, y, z, w.
+    /// Reads vectors and quaternions; the latter as x, y, z, w.
     template <class V>
     requires requires { V::length(); }
     void read(const Json& json, const std::string& name, V& value, FieldRange range = {}) {
@@ -233,7 +234,7 @@ static bool isUnitVector(const V& v) {
     return isUnit(sum);
 }
 
-/// What no single field's range can say.
+/// Checks conditions that involve several fields of an object.
 static std::string invariantOf(const Object& object) {
     if (const Node* node = std::get_if<Node>(&object)) {
         if (!isUnitVector(node->transform.rotation))
@@ -255,7 +256,7 @@ static std::string invariantOf(const Object& object) {
     return {};
 }
 
-/// The object under whichever kind's name `json` has.
+/// Reads the object from the field that names its kind.
 static Result<Object> readObject(const Json& json, const std::string& path,
                                  const glm::dvec3& origin) {
     static const std::array<Object, 7> kinds = {Node{}, Material{},     Light{},          Camera{},
@@ -309,7 +310,7 @@ static Result<void> readEntry(const Json& json, const std::string& path, Documen
     return {};
 }
 
-/// Parents exist, are nodes, and lead to a root.
+/// Checks that parents exist, are nodes, and lead to a root.
 static Result<void> checkTree(const Document& document) {
     std::map<ObjectId, ObjectId> walk; // node -> the walk that met it first
     for (const auto& [id, object] : document.objects) {
@@ -402,7 +403,8 @@ static Result<ProjectText> readProject(const Json& json) {
 }
 
 Result<ProjectText> readProjectText(const std::string& json) {
-    // Deeper than any project; nlohmann builds values without recursion, but copies them with it.
+    // Deeper than any project. nlohmann parses values without recursion, but copies them
+    // recursively.
     constexpr int kMaxDepth = 16;
     bool tooDeep = false;
     const auto limit = [&](int depth, Json::parse_event_t, Json&) {

@@ -10,13 +10,13 @@ namespace limn {
 
 inline constexpr int kProjectVersion = 1;
 
-/// A document as a project file states it.
+/// The contents of a project file.
 struct ProjectText {
     Document document;
-    bool hasObjects = false; ///< false: the file leaves the objects to the scene's import
+    bool hasObjects = false; ///< false: the objects come from the scene's import
 };
 
-/// Fails, naming the field, on what documentFromJson refuses.
+/// Parses a project file. Fails, naming the field, on whatever documentFromJson() rejects.
 Result<ProjectText> readProjectText(const std::string& json);
 
 } // namespace limn

@@ -6,7 +6,7 @@
 
 namespace limn {
 
-// What files and flags call the values of the document's enumerations, in their order.
+// Names of the values of the document's enumerations in files and flags, in their order.
 
 inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "clamp", "mirror"};
 inline constexpr std::array<std::string_view, 3> kAlphaNames = {"opaque", "mask", "blend"};

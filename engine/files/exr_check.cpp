@@ -12,7 +12,7 @@ namespace limn {
 
 namespace {
 
-/// Reads forward; once past the end it stays there and gives zeros.
+/// Reads forward; at the end it stays there and returns zeros.
 struct ByteReader {
     std::span<const std::uint8_t> rest;
     bool ok = true;
@@ -34,7 +34,7 @@ struct ByteReader {
             std::memcpy(&value, bytes.data(), sizeof(T));
         return value;
     }
-    /// Up to the zero byte, which is taken too.
+    /// Reads a string up to its zero byte, which is consumed, too.
     std::string_view text() {
         const auto* end = static_cast<const std::uint8_t*>(
             rest.empty() ? nullptr : std::memchr(rest.data(), 0, rest.size()));
@@ -47,7 +47,7 @@ struct ByteReader {
     }
 };
 
-/// What the chunk table depends on.
+/// Properties that determine the chunk table.
 struct ExrLayout {
     std::int32_t linesPerChunk = 0;
     bool isPiz = false;
@@ -139,11 +139,11 @@ static Result<ExrLayout> readAttributes(ByteReader& file) {
     return layout;
 }
 
-/// No compression that EXR has packs more than this into a byte: deflate packs 1032.
+/// Upper limit of EXR's compression ratio: deflate packs 1032 bytes into one.
 constexpr std::int64_t kMaxPerByte = 1100;
 
-/// The bitmap of values and the Huffman table of a PIZ chunk.
-/// OpenEXR, ImfPizCompressor.cpp and ImfHuf.cpp.
+/// Checks the bitmap of values and the Huffman table of a PIZ chunk, after OpenEXR's
+/// ImfPizCompressor.cpp and ImfHuf.cpp.
 static Result<void> checkPiz(ByteReader chunk) {
     constexpr std::uint32_t kBitmap = 8192, kCodes = 65537;
     const auto least = chunk.number<std::uint16_t>(), most = chunk.number<std::uint16_t>();
@@ -167,7 +167,7 @@ static Result<void> checkPiz(ByteReader chunk) {
     return {};
 }
 
-/// Each chunk is inside the file, has bytes of its own, and starts a block of lines of its own.
+/// Checks that each chunk lies in the file, shares no bytes, and starts its own block of lines.
 static Result<void> checkChunks(const ExrLayout& layout, ByteReader table,
                                 std::span<const std::uint8_t> file) {
     const std::int64_t height = std::int64_t(layout.maxY) - layout.minY + 1;

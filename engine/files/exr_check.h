@@ -18,12 +18,13 @@ struct ExrSize {
 
 inline constexpr std::size_t kExrPadding = 1024;
 
-/// Whether an OpenEXR file is what tinyexr 1.0 may be given: single-part scan lines whose
-/// attributes, window and chunks lie within the file. tinyexr trusts them and reads or writes out
-/// of bounds where they do not. No two chunks share bytes, and none has fewer than its lines can be
-/// packed into, so that time and memory are bounded by the file's size. The tables of PIZ chunks
-/// fit into them. tinyexr also reads up to kExrPadding bytes past the end of a file whose codes are
-/// damaged, which must be there. The message names the attribute at fault.
+/// Checks that an OpenEXR file is safe for tinyexr 1.0, which trusts the file and otherwise reads
+/// or writes out of bounds. The file must have a single part of scan lines whose attributes, window
+/// and chunks lie within the file. No two chunks may share bytes, and no chunk may be smaller than
+/// its lines can be packed into, so that time and memory are bounded by the file's size. The tables
+/// of PIZ chunks must fit into their chunks. tinyexr also reads up to kExrPadding bytes past the
+/// end of a file whose codes are damaged; the caller must provide them. The message names the
+/// invalid attribute.
 Result<ExrSize> checkExr(std::span<const std::uint8_t> file);
 
 } // namespace limn

@@ -24,14 +24,14 @@ tl::unexpected<Error> truncated() {
     return fail("truncated HDR");
 }
 
-/// Up to the end of the line, which is taken too.
+/// Reads up to the end of the line, which is consumed, too.
 std::string_view takeLine(std::string_view& rest) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     return line;
 }
 
-/// "-Y 480 +X 640": a number after the letters of its axis.
+/// Parses one axis of "-Y 480 +X 640": a number after the letters of its axis.
 bool takeNumber(std::string_view& line, std::string_view axis, std::uint32_t& number) {
     if (!line.starts_with(axis))
         return false;
@@ -48,7 +48,7 @@ glm::vec3 colorOf(const Rgbe& texel) {
     return glm::vec3(texel[0], texel[1], texel[2]) * scale;
 }
 
-/// A row whose channels follow one another, each in runs of one byte and in others as they are.
+/// Unpacks a row whose channels follow one another, each as runs of one byte and as literal bytes.
 Result<void> unpackRow(Bytes& rest, std::vector<Rgbe>& row) {
     constexpr std::size_t kRun = 128; // and what is above counts
     for (std::size_t channel = 0; channel < 4; ++channel)
@@ -106,7 +106,7 @@ Result<ImageF> decodeHdr(Bytes file, const MemoryBudget& memory) {
     const std::uint64_t texels = std::uint64_t(image.width) * image.height;
     if (texels > kMaxTexels)
         return fail("too large");
-    // A run of 127 equal bytes takes two, for each of four channels.
+    // A run of 127 equal bytes takes two bytes, in each of four channels.
     if (texels / 127 * 8 > text.size())
         return truncated();
     if (const Result<void> fits =

@@ -10,12 +10,12 @@
 
 namespace limn {
 
-/// Whether the file begins as a Radiance picture does.
+/// Whether the file begins with the header of a Radiance picture.
 bool isHdr(std::span<const std::uint8_t> file);
 
-/// The texels of a Radiance picture (.hdr) whose rows run from the top left, packed or plain. Fails
-/// on a file that ends before they do, and on one that would need more than `memory` before it
-/// allocates; messages are what follows the file's name: "malformed HDR".
+/// Decodes a Radiance picture (.hdr) whose rows run from the top left, run-length encoded or not.
+/// Fails on truncated files, and, before allocating, on files that need more than `memory`.
+/// Messages follow the file's name: "malformed HDR".
 /// Ward. Real Pixels. Graphics Gems II, 1991
 Result<ImageF> decodeHdr(std::span<const std::uint8_t> file, const MemoryBudget& memory);
 

@@ -77,7 +77,7 @@ Result<void> writeExr(const std::string& path, const ImageF& image) {
 
 namespace {
 
-/// Frees what tinyexr allocated, whichever way a function is left.
+/// Frees what tinyexr allocated on every exit of a function.
 struct ExrFile {
     EXRHeader header;
     EXRImage image;
@@ -102,7 +102,7 @@ static tl::unexpected<Error> exrFailure(const std::string& path, const char* pro
     return fail(fmt::format("{}: {}", path, reason.substr(0, reason.find('\n'))));
 }
 
-/// The indices of R, G and B; wants them as floats.
+/// Finds the indices of R, G and B and requests them as floats.
 static Result<std::array<int, 3>> colorChannels(const std::string& path, EXRHeader& header) {
     std::array<int, 3> channels = {-1, -1, -1};
     for (int c = 0; c < header.num_channels; ++c)
@@ -125,7 +125,7 @@ static Result<ImageF> readExr(const std::string& path, std::span<const std::uint
     const Result<ExrSize> size = checkExr(bytes);
     if (!size)
         return fail(fmt::format("{}: {}", path, size.error().message));
-    // tinyexr's planes of all channels, and the pixels made of three of them.
+    // tinyexr's planes of all channels, and the pixels built from three of them.
     const std::uint64_t needed =
         size->texels() * (size->channels * sizeof(float) + sizeof(glm::vec3));
     if (const Result<void> fits = memory.allow(path, needed); !fits)
@@ -141,7 +141,7 @@ static Result<ImageF> readExr(const std::string& path, std::span<const std::uint
     const Result<std::array<int, 3>> channels = colorChannels(path, exr.header);
     if (!channels)
         return tl::make_unexpected(channels.error());
-    // On failure tinyexr frees the image, by its number of channels, which it has not set by then.
+    // On failure tinyexr frees the image using its number of channels, which is not set by then.
     exr.image.num_channels = exr.header.num_channels;
     if (LoadEXRImageFromMemory(&exr.image, &exr.header, bytes.data(), bytes.size(), &problem) !=
         TINYEXR_SUCCESS) {

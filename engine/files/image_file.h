@@ -9,18 +9,19 @@
 
 namespace limn {
 
-/// 32-bit float RGB EXR, linear, row 0 at the top. The old file is there until the new one is
-/// whole.
+/// Writes 32-bit float RGB EXR, linear, row 0 at the top. The old file is kept until the new one is
+/// complete.
 Result<void> writeExr(const std::string& path, const ImageF& image);
 
-/// Any EXR or .hdr with R, G, B channels. Fails where it would not fit into memory, before anything
-/// is allocated for it.
+/// Reads an EXR or .hdr with R, G, B channels. Fails, before allocating, if it would not fit into
+/// memory.
 Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memory = {});
 
-/// 8-bit PNG, written as is. The old file is there until the new one is whole.
+/// Writes an 8-bit PNG without converting the values. The old file is kept until the new one is
+/// complete.
 Result<void> writePng(const std::string& path, const Image& image);
 
-/// A PNG, or a JPEG of whatever name.
+/// Reads a PNG or a JPEG, whatever the file's extension.
 Result<Image> readPng(const std::string& path);
 
 } // namespace limn

@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// What a number may be. Every number must be finite besides.
+/// Range of a number in a file. Every number must also be finite.
 struct FieldRange {
     double lower = std::numeric_limits<double>::lowest();
     double upper = std::numeric_limits<double>::max();
@@ -19,7 +19,7 @@ inline constexpr FieldRange kLightRange{0, kMaxLight};
 inline constexpr FieldRange kUnitRange{0, 1};
 inline constexpr FieldRange kFilmFrames{1, 256};
 
-// The fields of materials, as those of other objects in document_fields.h.
+// Lists the fields of materials; document_fields.h lists those of other objects.
 
 template <class Fields, class T>
 void describeTexture(Fields& fields, T& t) {

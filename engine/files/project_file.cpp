@@ -16,7 +16,7 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
-/// `file` as seen from the project's folder; empty stays empty.
+/// `file` relative to the project's folder; an empty path stays empty.
 static Result<std::string> relativeTo(const std::string& project, const std::string& file) {
     if (file.empty())
         return std::string();
@@ -28,7 +28,7 @@ static Result<std::string> relativeTo(const std::string& project, const std::str
     return relative.generic_string();
 }
 
-/// Counts the world positions of an object from another origin.
+/// Converts the world positions of an object from one origin to another.
 static void moveOrigin(Object& object, const glm::dvec3& from, const glm::dvec3& to) {
     const auto move = [&](glm::vec3& p) { p = toWorld(to, toFile(from, p)); };
     if (Light* light = std::get_if<Light>(&object))
@@ -54,7 +54,7 @@ Result<void> saveProject(const std::string& path, const Document& document) {
             sky->panorama = nullptr; // its file holds it
         }
     }
-    // What would not load again must not replace what does.
+    // A project that cannot be loaded again must not replace one that can.
     const std::string text = documentToJson(stored);
     const Result<Document> again = documentFromJson(text);
     if (!again)
@@ -64,7 +64,7 @@ Result<void> saveProject(const std::string& path, const Document& document) {
     return replaceFile(path, text);
 }
 
-/// Drops meshes and images that the scene no longer has.
+/// Removes references to meshes and images that the scene no longer has.
 static void dropLost(ImportedScene& scene) {
     std::size_t meshes = 0, images = 0;
     const auto lose = [&](TextureRef& texture) {
@@ -90,7 +90,7 @@ static void dropLost(ImportedScene& scene) {
         scene.repairs.push_back(fmt::format("{} images are no longer in the scene file", images));
 }
 
-/// Finds the sky's image beside the project; where it cannot be read, the sky has its colour.
+/// Loads the sky's image relative to the project; if it cannot be read, the sky shows its colour.
 static void openSky(const fs::path& folder, ImportedScene& scene, const MemoryBudget& memory) {
     for (auto& [id, object] : scene.document.objects) {
         Sky* sky = std::get_if<Sky>(&object);
@@ -150,7 +150,7 @@ Result<ImportedScene> openAny(const std::string& what, const std::string& projec
     if (extension == ".gltf" || extension == ".glb" || fs::is_regular_file(what, error))
         return importGltf(what, progress, options);
     const fs::path folder(projectsFolder);
-    // A name is a name: no way out of the folder.
+    // A sample's name must not contain a path out of the folder.
     if (!what.empty() && what.find('/') == std::string::npos && what[0] != '.')
         for (const fs::path& base : {folder / what, folder})
             for (const char* end : {".limn", ".gltf", ".glb"})

@@ -8,25 +8,25 @@
 
 namespace limn {
 
-/// Document <-> JSON, schema version 1. Missing fields take defaults; unknown fields and wrong
-/// types are errors that name the path of the field ("objects[3].light.color[1]: not a number").
-/// Positions are in the coordinates of the scene file, as doubles; "origin", left out where it is
-/// 0, says about which place the document counted them, so that each comes back as the same float
-/// wherever doubles are fine enough.
+/// Converts a document to and from JSON, schema version 1. Missing fields take defaults; unknown
+/// fields and wrong types are errors that name the path of the field ("objects[3].light.color[1]:
+/// not a number"). Positions are doubles in the coordinates of the scene file. "origin", omitted if
+/// it is 0, is the origin of the document's world space, so that each position is read back as the
+/// same float wherever doubles are precise enough.
 std::string documentToJson(const Document& document);
 Result<Document> documentFromJson(const std::string& json);
 
-/// Writes a temporary file beside `path`, syncs, renames. The scene path is stored relative to the
-/// project.
+/// Saves a project atomically: writes a temporary file beside `path`, syncs and renames it. The
+/// scene path is stored relative to the project.
 Result<void> saveProject(const std::string& path, const Document& document);
 
 /// Reads the project and its glTF. Objects of the project replace those of the import. A scene
-/// whose content changed since the save is imported and reported in `repairs`. `options` are for
-/// the glTF and the sky's panorama.
+/// whose content changed since the save is still imported and reported in `repairs`. `options`
+/// apply to the glTF and the sky's panorama.
 Result<ImportedScene> loadProject(const std::string& path, const Progress& progress = {},
                                   const ImportOptions& options = {});
 
-/// A .gltf/.glb, a .limn, or the name of a sample project ("cornell"), looked for in
+/// Opens a .gltf/.glb, a .limn, or a sample project by name ("cornell"), which is looked up in
 /// `projectsFolder`.
 Result<ImportedScene> openAny(const std::string& what, const std::string& projectsFolder,
                               const Progress& progress = {}, const ImportOptions& options = {});

@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// Reads the panorama that `sky.image` names, .hdr or .exr. Pixels that are negative or NaN become
-/// black. Fails with the file's name, also where it would not fit into memory, and leaves the sky
-/// as it was.
+/// Reads the panorama named by `sky.image`, .hdr or .exr. Negative and NaN pixels become black.
+/// Fails, with the file's name in the message, if it cannot be read or would not fit into memory;
+/// the sky is then unchanged.
 Result<void> readSkyImage(Sky& sky, const MemoryBudget& memory = {});
 
 } // namespace limn

@@ -15,7 +15,7 @@ namespace limn {
 
 using glm::dvec3;
 
-/// Planes of the grid along each axis, rising.
+/// Grid planes along each axis, in ascending order.
 struct Blocks::Grid {
     std::array<std::vector<double>, 3> planes;
 
@@ -62,8 +62,8 @@ int Blocks::whatIsAt(dvec3 p) const {
     return kOutside;
 }
 
-/// Every plane of `edges`, and as many between them as make steps of `spacing` or less; with one
-/// empty cell at either end.
+/// All planes of `edges`, subdivided into steps of at most `spacing`, with one empty cell at either
+/// end.
 static std::vector<double> planesFrom(std::vector<double> edges, double spacing) {
     for (double& e : edges)
         e = snapped(e);

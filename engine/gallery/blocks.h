@@ -10,26 +10,28 @@
 
 namespace limn {
 
-/// What fills a box of a building. From kFirstRoom on: the air of rooms of that number.
+/// Contents of a box of a building. Values from kFirstRoom on are the air of the room with that
+/// number.
 inline constexpr int kSolid = -1, kOutside = 0, kFirstRoom = 1;
 
-/// Which way a face of a building looks.
+/// Direction that a face of a building faces.
 enum class Facing { Up, Down, Sideways };
 
-/// A building of boxes along the axes [m]. Its faces lie between what is solid and what is not, and
-/// look away from the solid. Between two spaces that are not solid stands a wall without thickness
-/// that looks into the room, or into the one of the lower number. All faces share one irregular
+/// A building made of axis-aligned boxes [m]. Faces lie between solid and non-solid boxes and face
+/// away from the solid. Two different non-solid spaces are separated by a wall without thickness,
+/// which faces into the room, or into the room with the lower number. All faces share one irregular
 /// grid, so there are neither gaps nor T-junctions.
 class Blocks {
 public:
-    /// Fills a box; what was in it before is replaced.
+    /// Fills a box, replacing its previous contents.
     void fill(glm::dvec3 lower, glm::dvec3 upper, int what);
 
-    /// Leaves out the walls without thickness in that box.
+    /// Removes walls without thickness inside the box.
     void open(glm::dvec3 lower, glm::dvec3 upper);
 
-    /// Adds the faces as quads with edges of `spacing` [m] or less to the mesh that `meshOf` names
-    /// for them. Edges are longer where there would be more than kMaxBlockFaces quads otherwise.
+    /// Adds the faces as quads with edges of at most `spacing` [m] to the mesh that `meshOf`
+    /// returns for them. Edges are longer if there would otherwise be more than kMaxBlockFaces
+    /// quads.
     void build(double spacing, const std::function<Mesh&(Facing)>& meshOf) const;
 
 private:

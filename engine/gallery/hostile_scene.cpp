@@ -22,7 +22,7 @@ namespace {
 
 using glm::dvec3;
 
-/// Draws a scene within about a unit cube, then places it.
+/// Draws a scene within about a unit cube, then places it in the world.
 class HostileMaker {
 public:
     explicit HostileMaker(std::uint64_t seed) : m_random(seed ^ 0x686f7374696c65U) {}
@@ -112,7 +112,7 @@ private:
         return std::uint32_t(m_assets.meshes.size() - 1);
     }
 
-    /// `at` in the unit of the room.
+    /// Adds a node at `at`, in units of the room.
     void addNode(std::uint32_t mesh, dvec3 at, Transform t, bool dynamic) {
         Node node;
         node.name = fmt::format("Object {}", m_nodes.size() + 1);
@@ -223,7 +223,7 @@ private:
         }
     }
 
-    /// In world space.
+    /// Position of a light in world space.
     glm::vec3 lightPlace(const Document& document) {
         if (isThing(0.15) && !m_nodes.empty()) { // on a triangle, or at its corner
             const auto index = std::size_t(m_random.whole(0, int(m_nodes.size()) - 1));

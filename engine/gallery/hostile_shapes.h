@@ -9,21 +9,21 @@
 
 namespace limn {
 
-/// Shapes that add themselves to a mesh, in a unit of their own and without rounding; normals are
-/// left to be generated unless they are smooth.
+/// Functions that add shapes to a mesh, in arbitrary units and without rounding. Only smooth shapes
+/// get normals; those of the others are generated later.
 
 void addTriangle(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
 
-/// Some faces (bits of Face) of a box along the axes, facing in or out.
+/// Adds some faces (bits of Face) of an axis-aligned box, facing in or out.
 void addFaces(Mesh& mesh, glm::dvec3 lower, glm::dvec3 upper, unsigned faces, bool inward);
 
-/// An octahedron whose triangles were divided in four `levels` times, on a sphere, smooth.
+/// Adds a smooth sphere: an octahedron whose triangles are divided into four `levels` times.
 void addBall(Mesh& mesh, glm::dvec3 centre, double radius, int levels, bool inward);
 
-/// Triangles of that length, `thinness` of it high.
+/// Adds triangles of that length, with a height of `thinness` times the length.
 void addNeedles(Mesh& mesh, double length, double thinness, int count, RandomStream& random);
 
-/// A rough ground of 2 n^2 triangles, half of `size` to either side.
+/// Adds a rough ground of 2 n^2 triangles that extends half of `size` to either side.
 void addHills(Mesh& mesh, glm::dvec3 size, int n, RandomStream& random);
 
 } // namespace limn

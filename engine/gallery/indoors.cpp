@@ -23,7 +23,7 @@ struct WallHole {
     dvec3 inward; ///< unit
 };
 
-/// Rooms under construction.
+/// A building of rooms under construction.
 struct House {
     Blocks blocks;
     bool onGround = false; ///< the floor is a sheet that the walls stand on
@@ -41,7 +41,7 @@ struct House {
             blocks.open({room.lower.x, room.lower.y - 0.01, room.lower.z},
                         {room.upper.x, room.lower.y + 0.01, room.upper.z});
     }
-    /// A hole of `depth` through the wall of `room` at the lower or upper end of `axis`.
+    /// Cuts a hole of `depth` through the wall of `room` at the lower or upper end of `axis`.
     WallHole cut(Box room, int axis, bool upper, Box hole, double depth) {
         const double wall = upper ? room.upper[axis] : room.lower[axis];
         hole.lower[axis] = upper ? wall : wall - depth;
@@ -62,7 +62,7 @@ Box drawnRoom(SceneMaker& m) {
     return {dvec3(0), size};
 }
 
-/// Sun through an opening onto the floor or the far wall.
+/// Adds a sun that shines through an opening onto the floor or the far wall.
 void addSunThrough(SceneMaker& m, Box room, const WallHole& o) {
     const dvec3 from = (o.hole.lower + o.hole.upper) / 2.0;
     const dvec3 away{m.random.between(0.2, 0.8), m.random.between(0, 0.2),
@@ -88,7 +88,7 @@ void addSky(SceneMaker& m, double strength) {
     m.setSky(sky);
 }
 
-/// A point (0), spot (1) or rectangle light (2) below the ceiling.
+/// Adds a point (0), spot (1) or rectangle light (2) below the ceiling.
 void addLamp(SceneMaker& m, Box room, int kind) {
     Light light;
     light.color = m.lightColor();
@@ -111,7 +111,7 @@ void addLamp(SceneMaker& m, Box room, int kind) {
     m.addLight(light);
 }
 
-/// A glowing panel in the middle of the ceiling.
+/// Adds an emissive panel in the middle of the ceiling.
 void addPanel(SceneMaker& m, Box room) {
     const dvec2 half{m.random.between(0.15, 0.6), m.random.between(0.15, 0.6)};
     const dvec3 c = room.at(0.5, 1, 0.5) - dvec3(0, m.random.between(0.02, 0.3), 0);
@@ -123,7 +123,7 @@ void addPanel(SceneMaker& m, Box room) {
     m.add(std::move(mesh), m.addLamp(color * float(nits), false));
 }
 
-/// Light for a room without windows.
+/// Adds light to a room without windows.
 void lightFromInside(SceneMaker& m, Box room) {
     if (m.random.chance(0.35))
         addPanel(m, room);
@@ -132,7 +132,7 @@ void lightFromInside(SceneMaker& m, Box room) {
             addLamp(m, room, m.random.whole(0, 2));
 }
 
-/// Light through openings: sun, sky or both, now and then a lamp besides.
+/// Adds light through openings: sun, sky or both, and sometimes a lamp.
 void lightThrough(SceneMaker& m, Box room, const std::vector<WallHole>& openings) {
     const double draw = m.random.number();
     if (draw < 0.75)
@@ -143,7 +143,7 @@ void lightThrough(SceneMaker& m, Box room, const std::vector<WallHole>& openings
         addLamp(m, room, m.random.whole(0, 2));
 }
 
-/// Windows in the walls that `allowed` says (-x, +x, -z, +z).
+/// Adds windows to the walls that `allowed` permits (-x, +x, -z, +z).
 std::vector<WallHole> addWindows(SceneMaker& m, House& house, Box room, int count,
                                  const std::array<bool, 4>& allowed) {
     std::vector<WallHole> openings;
@@ -162,7 +162,7 @@ std::vector<WallHole> addWindows(SceneMaker& m, House& house, Box room, int coun
     return openings;
 }
 
-/// From one end of the longer side towards the other one.
+/// Sets a camera that looks from one end of the longer side towards the other.
 void lookAlong(SceneMaker& m, Box room, bool dark = false) {
     const bool alongX = room.size().x >= room.size().z;
     const double end = m.random.chance(0.5) ? 0.22 : 0.78;
@@ -178,7 +178,7 @@ void lookAlong(SceneMaker& m, Box room, bool dark = false) {
         m.setCamera(eye, target);
 }
 
-/// Low boxes that stand about, clear of the camera's height.
+/// Adds low boxes below and away from the camera.
 void addFurniture(SceneMaker& m, Box room, int count, double floor) {
     for (int i = 0; i < count; ++i) {
         const dvec3 size{m.random.between(0.3, 1.2), m.random.between(0.3, 0.9),
@@ -190,7 +190,7 @@ void addFurniture(SceneMaker& m, Box room, int count, double floor) {
     }
 }
 
-/// The walls, and the ground where they stand on one.
+/// Adds the walls, and the ground if the house stands on one.
 void addHouse(SceneMaker& m, const House& house, Box around, double margin) {
     m.addBlocks(house.blocks);
     if (house.onGround)
@@ -199,14 +199,14 @@ void addHouse(SceneMaker& m, const House& house, Box around, double margin) {
                     {around.upper.x + margin, around.upper.z + margin});
 }
 
-/// Makes the walls of a room reach below the ground that it stands on.
+/// Extends the walls of a room below the ground that it stands on.
 Box standing(Box room, bool onGround) {
     if (onGround)
         room.lower.y -= kBelowGround;
     return room;
 }
 
-/// Through its openings, or from inside where it has none.
+/// Lights a room through its openings, or from inside if it has none.
 void lightRoom(SceneMaker& m, const Box& room, const std::vector<WallHole>& openings) {
     if (openings.empty())
         lightFromInside(m, room);
@@ -234,7 +234,7 @@ void makeTwoRooms(SceneMaker& m) {
     House house;
     house.onGround = m.random.chance(0.5);
     const Box lit = standing(drawnRoom(m), house.onGround);
-    // Sheets that face in cannot share a wall: where two meet, either may be hit from behind.
+    // Inward-facing sheets cannot share a wall: where two meet, either may be hit from behind.
     const double gap = m.traits.walls == WallStyle::Solid      ? m.traits.thickness
                        : m.traits.walls == WallStyle::FacingIn ? m.random.between(0.05, 0.5)
                                                                : 0;
@@ -269,7 +269,7 @@ static void addShelf(SceneMaker& m, Box room, double side) {
     m.addThing({{x, 0, z + width - thick}, {x + depth, height + thick, z + width}});
 }
 
-/// A picture frame of four bars on the wall at the room's lower z, and the picture in it.
+/// Adds a picture frame of four bars on the wall at the room's lower z, and the picture in it.
 static void addFrame(SceneMaker& m, Box room) {
     const double w = m.random.between(0.3, 1), h = m.random.between(0.3, 0.8);
     const double bar = m.random.between(0.02, 0.06), deep = m.random.between(0.015, 0.05);
@@ -363,7 +363,7 @@ void makeDoorAjar(SceneMaker& m) {
     const auto openings =
         addWindows(m, house, lit, m.random.whole(0, 1), {true, true, false, true});
     m.addBlocks(house.blocks);
-    // The door turns about the jamb at the upper x, into the dark room.
+    // The door turns around the jamb at the upper x, into the dark room.
     Mesh door;
     addBox(door, {-width + 0.005, 0.01, -0.04}, {0, 1.99, 0});
     Transform hinge;
@@ -377,7 +377,7 @@ void makeDoorAjar(SceneMaker& m) {
     m.setCamera(eye, {x + width / 2, 1, dark.upper.z});
 }
 
-/// A lamp of one of four shapes at a place of the room.
+/// Adds a lamp of one of four shapes at a position in the room.
 static void addShapedLamp(SceneMaker& m, Box room, int shape) {
     const dvec3 share{m.random.between(0.35, 0.65), m.random.between(0.74, 0.86),
                       m.random.between(0.35, 0.65)}; // clear of the camera

@@ -14,7 +14,8 @@ using glm::dvec2, glm::dvec3;
 
 static constexpr double kPi = 3.14159265358979323846;
 
-/// The sun, at an elevation of 30 to 65 degrees, from the quarter that `from` (level) leads to.
+/// Adds a sun at an elevation of 30 to 65 degrees, in the quadrant of the horizontal direction
+/// `from`.
 static void addSun(SceneMaker& m, dvec2 from) {
     const dvec3 to{from.x + m.random.between(-0.5, 0.5), m.random.between(0.6, 1.8),
                    from.y + m.random.between(-0.5, 0.5)};
@@ -57,7 +58,7 @@ void makeCourt(SceneMaker& m) {
         blocks.fill({-wall, -0.5, -wall}, size + dvec3(wall, 0, wall), kSolid);
     blocks.fill(dvec3(0), size, kFirstRoom);
     blocks.open({0, size.y - 0.01, 0}, {size.x, size.y + 0.01, size.z});
-    // A storey that stands out, or niches.
+    // A protruding storey, or niches.
     if (m.random.chance(0.5)) {
         const double deep = m.random.between(0.5, 1.5), y = size.y * m.random.between(0.4, 0.7);
         blocks.fill({0, y, 0}, {size.x, y + m.random.between(0.2, 1), deep}, kSolid);
@@ -128,14 +129,14 @@ void makeStreet(SceneMaker& m) {
                 {0.7 * length, m.random.between(1, 3), -side * width});
 }
 
-/// [0, 1), the same for the same lattice point.
+/// Hash in [0, 1) of a lattice point.
 static double latticeNoise(std::uint64_t seed, int x, int y, int z) {
     const auto part = [](int i, std::uint64_t factor) { return std::uint64_t(i + 1000) * factor; };
     return RandomStream(seed ^ part(x, 0x8da6b343U) ^ part(y, 0xd8163841U) ^ part(z, 0xcb1ab31fU))
         .number();
 }
 
-/// Smooth between the points of the lattice, [0, 1).
+/// Noise in [0, 1), interpolated smoothly between lattice points.
 static double valueNoise(std::uint64_t seed, dvec3 p) {
     const dvec3 cell = glm::floor(p), t = p - cell, s = t * t * (3.0 - 2.0 * t);
     double sum = 0;
@@ -154,7 +155,7 @@ void makeCave(SceneMaker& m) {
     const bool opens = m.random.chance(0.5);
     const double end = opens ? m.random.between(0.75, 0.88) : 1; // of the way from below to above
     const int around = m.random.whole(16, 64), up = around / 2;
-    // Star-shaped about the origin: nothing is nearer than (1 - depth) of the smallest radius.
+    // Star-shaped about the origin: no point is nearer than (1 - depth) of the smallest radius.
     const auto point = [&](double u, double v, double grown) {
         const double polar = kPi * v * end, angle = 2 * kPi * u;
         const dvec3 d(std::sin(polar) * std::cos(angle), -std::cos(polar),

@@ -5,8 +5,8 @@
 
 namespace limn {
 
-/// Numbers that look random, the same on every machine: SplitMix64, from integers and exact
-/// divisions alone.
+/// Pseudo-random numbers that are identical on every machine: SplitMix64, computed with integers
+/// and exact divisions only.
 /// Steele, Lea, Flood. Fast Splittable Pseudorandom Number Generators. 2014
 class RandomStream {
 public:
@@ -19,11 +19,11 @@ public:
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
         return z ^ (z >> 31);
     }
-    /// [0, 1), of 53 bits.
+    /// Uniform in [0, 1), with 53 bits.
     double number() { return double(bits() >> 11) * 0x1p-53; }
-    /// [a, b)
+    /// Uniform in [a, b).
     double between(double a, double b) { return a + (b - a) * number(); }
-    /// {first, ..., last}
+    /// Uniform in {first, ..., last}.
     int whole(int first, int last) { return first + int(bits() % std::uint64_t(last - first + 1)); }
     bool chance(double share) { return number() < share; }
 

@@ -56,7 +56,8 @@ void SceneMaker::avoid(WallStyle style) {
         m.doubleSided = traits.doubleSided;
 }
 
-/// Squares of random greys, each a little noisy. `darkest` is that of an encoded texel, of 1.
+/// Adds a texture of squares with random greys and slight noise. `darkest` is the minimum of an
+/// encoded texel, relative to 1.
 std::int32_t SceneMaker::addImage(int size, int cells, double darkest) {
     Image image{"texture", std::uint32_t(size), std::uint32_t(size), {}};
     std::vector<double> greys(std::size_t(cells * cells));
@@ -107,7 +108,7 @@ std::uint32_t SceneMaker::addLamp(glm::vec3 nits, bool picture) {
     return std::uint32_t(m_materials.size() - 1);
 }
 
-/// Appends a mesh that is placed as told.
+/// Appends a mesh with the given transform.
 static void append(Mesh& to, const Mesh& from, const Transform& placement) {
     const auto first = std::uint32_t(to.positions.size());
     for (std::size_t i = 0; i < from.positions.size(); ++i) {

@@ -16,7 +16,7 @@ namespace limn {
 /// How walls are modelled.
 enum class WallStyle { Solid, TwoSided, FacingIn };
 
-/// Materials that every scene has; lamps come after them.
+/// Materials that every scene has; those of lamps follow them.
 enum Part : std::uint32_t {
     FloorPart,
     WallPart,
@@ -26,31 +26,31 @@ enum Part : std::uint32_t {
     PartCount
 };
 
-/// What is the same all over a scene.
+/// Properties that hold throughout a scene.
 struct Traits {
     WallStyle walls = WallStyle::Solid;
     double thickness = 0; ///< of walls [m], before scaling; 0 unless they are solid
     double spacing = 1e9; ///< largest edge of walls [m]
-    double scale = 1;     ///< of the whole scene, vertices or root node
+    double scale = 1;     ///< of the whole scene, applied to the vertices or to the root node
     bool scaledByNode = false;
     bool joined = false;      ///< one mesh per material
     bool doubleSided = false; ///< every material
     bool textured = false;
 };
 
-/// A box along the axes [m].
+/// An axis-aligned box [m].
 struct Box {
     glm::dvec3 lower, upper;
 
     glm::dvec3 size() const { return upper - lower; }
-    /// The point at these shares of its size.
+    /// Point at these fractions of its size.
     glm::dvec3 at(double x, double y, double z) const {
         return lower + glm::dvec3(x, y, z) * size();
     }
 };
 
-/// Collects the parts of a scene in metres, upright and unscaled. The seed's traits are drawn when
-/// it is made.
+/// Collects the parts of a scene in metres, upright and unscaled. The constructor draws the seed's
+/// traits.
 class SceneMaker {
 public:
     explicit SceneMaker(std::uint64_t seed);
@@ -58,25 +58,26 @@ public:
     RandomStream random;
     Traits traits;
 
-    /// Draws walls again until they are not `style`.
+    /// Draws the walls again until their style is not `style`.
     void avoid(WallStyle style);
 
-    /// Adds a mesh of that part, or lamp, placed by a rotation and then a translation.
+    /// Adds a mesh of a part or lamp, placed by a rotation and then a translation.
     void add(Mesh mesh, std::uint32_t part, const Transform& placement = {});
     void addBlocks(const Blocks& blocks, bool withFloor = true);
-    /// A level rectangle that faces up, in quads of the traits' spacing, 64 a side at most.
+    /// Adds a horizontal rectangle that faces up, in quads of the traits' spacing, at most 64 per
+    /// side.
     void addGround(double y, glm::dvec2 lower, glm::dvec2 upper);
-    /// A box that stands alone, turned about the upright axis through its middle.
+    /// Adds a free-standing box, rotated about the vertical axis through its centre.
     void addThing(const Box& box, double turn = 0);
 
-    /// A material of its own that glows, with a picture where asked for.
+    /// Adds an emissive material, textured if `picture`, and returns its part number.
     std::uint32_t addLamp(glm::vec3 nits, bool picture);
     void addLight(Light light);
     void setSky(const Sky& sky) { m_sky = sky; }
     void setCamera(glm::dvec3 eye, glm::dvec3 target);
     void setDarkCamera(glm::dvec3 eye, glm::dvec3 target);
 
-    glm::vec3 lightColor(); ///< near white, its largest channel 1
+    glm::vec3 lightColor(); ///< near white, with a largest channel of 1
     GeneratedScene finish();
 
 private:
@@ -96,10 +97,10 @@ private:
     glm::quat m_turn{1, 0, 0, 0}; ///< of the whole scene about +Y
 };
 
-/// A turn by the angle 2 atan(t) about an axis (unit), from a square root alone.
+/// Rotation by the angle 2 atan(t) about a unit axis, computed with a square root only.
 glm::quat turnBy(double t, glm::vec3 axis = {0, 1, 0});
 
-/// Each calls add... and set... until the scene is whole.
+/// Functions that each build one kind of scene by calling add... and set....
 void makeRoom(SceneMaker& maker);
 void makeTwoRooms(SceneMaker& maker);
 void makeCourt(SceneMaker& maker);
@@ -112,7 +113,7 @@ void makeDoorAjar(SceneMaker& maker);
 void makeLamps(SceneMaker& maker);
 void makeHouseOnPlane(SceneMaker& maker);
 
-/// A sun, a sky, or both, as shine on what stands in the open.
+/// Adds a sun, a sky or both, as for outdoor scenes.
 void lightFromOutside(SceneMaker& maker);
 
 } // namespace limn

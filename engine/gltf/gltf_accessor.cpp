@@ -100,7 +100,7 @@ Result<std::span<const std::uint8_t>> viewBytes(const tinygltf::Model& model, in
 
 namespace {
 
-/// Elements within a buffer, known to lie inside it.
+/// Elements that are known to lie inside a buffer.
 struct Elements {
     const std::uint8_t* first = nullptr; ///< null: all zeros
     std::size_t stride = 0;

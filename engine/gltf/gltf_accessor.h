@@ -12,12 +12,12 @@
 
 namespace limn {
 
-/// An accessor without a view is all zeros and costs its file nothing: of more, which no mesh
-/// needs, none is read.
+/// Maximum size of an accessor without a view, which is all zeros and takes no space in the file.
+/// Larger ones, which no mesh needs, are rejected.
 inline constexpr std::size_t kMaxZeros = std::size_t(1) << 20;
 
-/// An accessor's numbers, row after row. Normalised integers become [0, 1] or [-1, 1], others plain
-/// numbers; sparse values are applied. May hold NaN and infinity.
+/// Values of an accessor, row after row. Normalised integers become [0, 1] or [-1, 1], others plain
+/// numbers; sparse values are applied. May contain NaN and infinity.
 struct AccessorValues {
     std::vector<float> values; ///< count * components
     std::uint32_t components = 1;
@@ -28,13 +28,14 @@ struct AccessorValues {
     }
 };
 
-/// Fails, naming the accessor's field, where type or ranges do not fit its views and buffers.
+/// Reads an accessor. Fails, naming the accessor's field, if its type or ranges do not fit its
+/// views and buffers.
 Result<AccessorValues> readNumbers(const tinygltf::Model& model, int accessor);
 
-/// Scalars of an unsigned integer type.
+/// Reads scalars of an unsigned integer type.
 Result<std::vector<std::uint32_t>> readIndices(const tinygltf::Model& model, int accessor);
 
-/// The bytes of a buffer view. Fails where it does not lie within its buffer.
+/// Bytes of a buffer view. Fails if it does not lie within its buffer.
 Result<std::span<const std::uint8_t>> viewBytes(const tinygltf::Model& model, int bufferView);
 
 } // namespace limn

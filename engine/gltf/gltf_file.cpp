@@ -20,7 +20,7 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
-/// Extensions that may be required: what they say is read.
+/// Required extensions that are supported.
 static constexpr std::array<std::string_view, 5> kKnownExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_mesh_quantization", "KHR_texture_transform"};
@@ -30,7 +30,7 @@ static constexpr int kMaxJsonDepth = 128;
 
 namespace {
 
-/// A buffer or an image that lies in a file of its own.
+/// A buffer or an image in a file of its own.
 struct ExternalFile {
     bool isBuffer = false;
     std::size_t index = 0; ///< in the root's `buffers` or `images`
@@ -38,7 +38,7 @@ struct ExternalFile {
     std::uint64_t length = 0; ///< of a buffer; its file may be longer, which tinygltf would refuse
 };
 
-/// What tinygltf's callbacks work on.
+/// State of tinygltf's callbacks.
 struct LoadState {
     std::string folder;
     FileReach reach = FileReach::Folder;
@@ -52,8 +52,8 @@ struct LoadState {
 
 } // namespace
 
-/// tinygltf asks for each file in its folder, then in the working directory. What it asks for is
-/// ignored: readWholeFile() finds the file by itself.
+/// tinygltf searches for each file in its folder, then in the working directory. The path it asks
+/// for is ignored: readWholeFile() finds the file independently.
 static bool fileExists(const std::string&, void*) {
     return true;
 }
@@ -131,7 +131,7 @@ static bool isGlb(std::string_view bytes) {
     return bytes.starts_with("glTF");
 }
 
-/// The JSON part of the file; of a .glb its first chunk.
+/// The JSON text of the file; for a .glb its first chunk.
 static Result<std::string_view> jsonText(std::string_view bytes) {
     if (!isGlb(bytes))
         return bytes;
@@ -156,7 +156,7 @@ static Result<void> checkExtensions(const nlohmann::json& json) {
         if (std::ranges::find(kKnownExtensions, name.get<std::string>()) == kKnownExtensions.end())
             return fail(
                 fmt::format("extensionsRequired: {} is not supported", name.get<std::string>()));
-    // Compressed geometry without the fallback that an extension not required must have.
+    // Compressed geometry without the fallback that a non-required extension must have.
     constexpr const char* kDraco = "KHR_draco_mesh_compression";
     const nlohmann::json& accessors = json.value("accessors", nlohmann::json::array());
     const nlohmann::json meshes = json.value("meshes", nlohmann::json::array());
@@ -169,7 +169,7 @@ static Result<void> checkExtensions(const nlohmann::json& json) {
     return {};
 }
 
-/// tinygltf reads all buffers, then all images.
+/// External files in the order in which tinygltf reads them: all buffers, then all images.
 static std::vector<ExternalFile> externalFiles(const nlohmann::json& json) {
     std::vector<ExternalFile> files;
     for (const char* kind : {"buffers", "images"}) {
@@ -185,7 +185,7 @@ static std::vector<ExternalFile> externalFiles(const nlohmann::json& json) {
     return files;
 }
 
-/// Parses and checks the JSON by itself, so that errors carry the field.
+/// Parses and checks the JSON before tinygltf does, so that errors name the field.
 static Result<nlohmann::json> readJson(std::string_view text) {
     if (text.empty())
         return fail("empty");
@@ -213,7 +213,7 @@ static Result<void> parseModel(std::string_view bytes, std::string_view json, Lo
     loader.SetImageLoader(keepEncoded, &state);
     std::string error, warning;
     bool loaded = false;
-    // tinygltf joins paths to the folder, but asks for none that it does not find there.
+    // tinygltf joins paths to the folder, but requests no file that it does not find there.
     const std::string folder = state.folder.empty() ? "." : state.folder;
     try {
         loaded =

@@ -13,19 +13,19 @@
 
 namespace limn {
 
-/// A glTF as tinygltf reads it, its buffers loaded, its images still encoded. Nothing in `model`
-/// has been checked beyond JSON types: every index, offset and number must be validated by who uses
-/// it.
+/// A glTF as read by tinygltf, with its buffers loaded and its images still encoded. Only the JSON
+/// types in `model` have been checked: its users must validate every index, offset and number.
 struct GltfFile {
     tinygltf::Model model;
     std::vector<std::vector<std::uint8_t>>
         encodedImages;                      ///< per image; empty: in a buffer view, or missing
-    std::vector<std::string> imageProblems; ///< per image: why its file was not read; empty: it was
+    std::vector<std::string> imageProblems; ///< per image: why its file could not be read, or empty
     std::uint64_t hash = 0;                 ///< of the main file and the buffers
 };
 
-/// Fails, without the path in the message, on files that are no glTF 2.0, on missing buffers and on
-/// required extensions we lack. An image that cannot be read is no failure.
+/// Reads a glTF file. Fails, without the path in the message, on files that are not glTF 2.0, on
+/// missing buffers and on unsupported required extensions. An image that cannot be read is not a
+/// failure.
 Result<GltfFile> readGltfFile(const std::string& path, FileReach reach, const MemoryBudget& memory);
 
 } // namespace limn

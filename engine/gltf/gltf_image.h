@@ -13,12 +13,12 @@
 
 namespace limn {
 
-/// The bytes of an image: of its file, or in a buffer view, which may be malformed.
+/// Encoded bytes of an image, from its file or from a buffer view, which may be malformed.
 Result<std::span<const std::uint8_t>> encodedImage(const GltfFile& file, std::size_t index);
 
 /// Decodes the file's images in parallel and frees their encoded bytes. An image that is missing or
-/// cannot be decoded becomes one white texel and a repair. Progress stage "images"; when cancelled
-/// the result is incomplete.
+/// cannot be decoded becomes one white texel and is reported in `repairs`. Progress stage "images";
+/// the result is incomplete when cancelled.
 std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs);
 
 } // namespace limn

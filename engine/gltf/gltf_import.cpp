@@ -20,14 +20,14 @@
 
 namespace limn {
 
-/// Extensions whose absence from the picture needs no word.
+/// Extensions that are supported; any other one is reported as ignored.
 static constexpr std::array<std::string_view, 5> kUsedExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_mesh_quantization", "KHR_texture_transform"};
 
 namespace {
 
-/// A primitive of the file and what became of it.
+/// A primitive of the file and the result of reading it.
 struct PrimitiveWork {
     std::size_t mesh = 0, primitive = 0;
     Mesh result;

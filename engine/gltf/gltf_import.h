@@ -17,7 +17,7 @@ struct ImportedScene {
     Document document;
     std::shared_ptr<const Assets> assets;
     std::vector<std::string>
-        repairs; ///< one sentence each: what was mended or left out, with counts
+        repairs; ///< one sentence each: what was repaired or left out, with counts
 };
 
 struct ImportOptions {
@@ -25,9 +25,9 @@ struct ImportOptions {
     MemoryBudget memory;
 };
 
-/// Reads a .gltf or .glb (glTF 2.0). Fails with file and field on what cannot be repaired:
-/// malformed JSON, indices or accessors out of range, missing buffers, required extensions we lack,
-/// cycles; and on what would not fit into memory.
+/// Reads a .gltf or .glb (glTF 2.0). Fails, with file and field, on what cannot be repaired:
+/// malformed JSON, indices or accessors out of range, missing buffers, unsupported required
+/// extensions and cycles; and on what would not fit into memory.
 Result<ImportedScene> importGltf(const std::string& path, const Progress& progress = {},
                                  const ImportOptions& options = {});
 

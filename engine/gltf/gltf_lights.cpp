@@ -10,7 +10,7 @@
 
 namespace limn {
 
-/// Unit direction of the node's local axis, or `otherwise` where the matrix is singular.
+/// Unit world direction of the node's local axis, or `otherwise` if the matrix is singular.
 static glm::vec3 axis(const glm::mat4& toWorld, glm::vec3 local, glm::vec3 otherwise) {
     const glm::dvec3 d = glm::dmat3(toWorld) * glm::dvec3(local);
     const double length = glm::length(d);
@@ -80,7 +80,7 @@ static void addCamera(Document& document, const tinygltf::Camera& source,
     camera.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : "Camera";
     camera.fovY = fovY;
     camera.eye = glm::vec3(toWorld[3]);
-    // Far from the origin a metre ahead is the same place.
+    // Far from the origin, floats cannot distinguish a point one metre ahead.
     const float ahead = std::max({1.f, 1e-3f * std::abs(camera.eye.x),
                                   1e-3f * std::abs(camera.eye.y), 1e-3f * std::abs(camera.eye.z)});
     camera.target = camera.eye + ahead * axis(toWorld, {0, 0, -1}, {0, 0, -1});

@@ -11,8 +11,8 @@
 namespace limn {
 
 /// Adds the KHR_lights_punctual light and the perspective camera of nodes[index], if it has them,
-/// in world space, into which `toWorld` takes the node. Both look down -Z of the node; its scale
-/// changes neither.
+/// in world space. `toWorld` is the node's transform. Both look down the node's -Z; its scale
+/// affects neither.
 void addLightAndCamera(Document& document, const tinygltf::Model& model, std::size_t index,
                        const glm::mat4& toWorld, GltfRepairs& repairs);
 

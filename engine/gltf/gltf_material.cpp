@@ -85,7 +85,7 @@ static TextureRef readTexture(const tinygltf::Model& model, const Info& info,
     return texture;
 }
 
-/// `value` as a float in [lower, upper]; a repair where it was not.
+/// Clamps `value` to [lower, upper] and reports a repair if it was outside.
 static float ranged(double value, float lower, float upper, GltfRepairs& repairs) {
     const float inside = std::clamp(float(value), lower, upper);
     if (double(inside) != value && std::abs(double(inside) - value) > 1e-6 * std::abs(value))

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Reads materials[index]. Numbers out of their range are brought into it and reported.
+/// Reads materials[index]. Numbers out of range are clamped and reported.
 Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepairs& repairs);
 
 } // namespace limn

@@ -23,7 +23,7 @@ struct Attribute {
 
 } // namespace
 
-/// Empty where the primitive lacks the attribute.
+/// Reads an attribute; empty if the primitive lacks it.
 static Result<AccessorValues> readAttribute(const tinygltf::Model& model,
                                             const tinygltf::Primitive& primitive,
                                             const Attribute& attribute, std::size_t count) {
@@ -53,7 +53,7 @@ static std::vector<V> toVectors(const AccessorValues& values, float missing) {
     return out;
 }
 
-/// Replaces rows with a number that is not finite by `instead`; returns how many.
+/// Replaces rows that contain a non-finite number by `instead`. Returns their number.
 template <class V>
 static std::size_t mendRows(std::vector<V>& rows, V instead) {
     std::size_t count = 0;
@@ -67,7 +67,8 @@ static std::size_t mendRows(std::vector<V>& rows, V instead) {
     return count;
 }
 
-/// Triangle lists out of the primitive's mode. Corners that a strip repeats to turn are left out.
+/// Converts the primitive's mode to triangle lists. Degenerate triangles that join strips are left
+/// out.
 static std::vector<std::uint32_t> asTriangles(const std::vector<std::uint32_t>& indices, int mode) {
     if (mode == TINYGLTF_MODE_TRIANGLES)
         return {indices.begin(), indices.end() - std::ptrdiff_t(indices.size() % 3)};

@@ -9,8 +9,9 @@
 
 namespace limn {
 
-/// One primitive as triangles, with all that Mesh guarantees. Empty where nothing drawable is left.
-/// `withTangents`: its material has a normal map. The material index is the caller's to set.
+/// Reads one primitive as triangles, with all guarantees of Mesh. Returns an empty mesh if nothing
+/// drawable is left. `withTangents` means that its material has a normal map. The caller sets the
+/// material index.
 Result<Mesh> readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                            bool withTangents, GltfRepairs& repairs);
 

@@ -25,7 +25,7 @@ static bool finite(const Transform& t) {
     return std::isfinite(t.rotation.x + t.rotation.y + t.rotation.z + t.rotation.w);
 }
 
-/// Brings the rotation to unit length and scales of 0 to 1; false where there was one.
+/// Normalises the rotation and replaces scales of 0 by 1. Returns false if a scale was 0.
 static bool normalise(Transform& t, GltfRepairs& repairs) {
     const glm::dquat q(t.rotation);
     const double length = glm::length(q);
@@ -56,7 +56,7 @@ bool decompose(const glm::mat4& m, Transform& transform, GltfRepairs& repairs) {
         scale.x = -scale.x;
     glm::dmat3 r(1);
     if (scale.x != 0 && scale.y != 0 && scale.z != 0) {
-        // Gram-Schmidt; without shear it changes nothing.
+        // Gram-Schmidt orthogonalisation; without shear it changes nothing.
         r[0] = a[0] / scale.x;
         r[1] = a[1] / scale.y - r[0] * glm::dot(r[0], a[1] / scale.y);
         r[1] = glm::length(r[1]) > 1e-6 ? glm::normalize(r[1]) : glm::dvec3(0);
@@ -83,7 +83,7 @@ static glm::mat4 toMatrix(const std::vector<double>& values) {
     return m;
 }
 
-/// The node's own transform; false where it hides the node.
+/// Reads the node's local transform. Returns false if it makes the node invisible.
 static bool readTransform(const tinygltf::Node& node, Transform& t, GltfRepairs& repairs) {
     if (node.matrix.size() == 16) {
         const bool visible = decompose(toMatrix(node.matrix), t, repairs);
@@ -110,13 +110,13 @@ struct Visit {
     ObjectId parent = 0;
 };
 
-/// The node of a skinned mesh and where its mesh lies in double.
+/// The node of a skinned mesh and the transform of its mesh in double precision.
 struct Skinned {
     ObjectId id = 0;
     glm::dvec3 translation{0};
 };
 
-/// One run of addNodes.
+/// State of one call of addNodes().
 struct NodeReader {
     Document& document;
     const Model& model;
@@ -139,7 +139,8 @@ static Result<std::vector<int>> parentsOf(const Model& model) {
                                         parents[std::size_t(child)], i));
             parents[std::size_t(child)] = int(i);
         }
-    // Walk up from every node; meeting the walk itself is a cycle, meeting an earlier one is not.
+    // Walks up from every node; reaching the same walk again is a cycle, reaching an earlier one is
+    // not.
     std::vector<std::size_t> walk(parents.size(), 0);
     for (std::size_t i = 0; i < parents.size(); ++i)
         for (int at = int(i); at >= 0; at = parents[std::size_t(at)]) {
@@ -189,7 +190,7 @@ static Result<AccessorValues> instanceAttribute(const Model& model,
     return values;
 }
 
-/// The transforms of EXT_mesh_gpu_instancing.
+/// Reads the transforms of EXT_mesh_gpu_instancing.
 static Result<std::vector<Transform>>
 readInstances(const Model& model, const tinygltf::Value& value, GltfRepairs& repairs) {
     if (!value.IsObject() || !value.Has("attributes") || !value.Get("attributes").IsObject())
@@ -265,8 +266,8 @@ static Result<void> addNode(NodeReader& reader, const Visit& visit) {
     return {};
 }
 
-/// Places a skinned mesh as it was bound: glTF ignores the node's own transform, and at rest every
-/// joint's matrix times its inverse bind matrix is the same, so the first joint's will do.
+/// Places a skinned mesh in its bind pose. glTF ignores the node's own transform, and at rest every
+/// joint's matrix times its inverse bind matrix is the same, so that of the first joint is used.
 static Result<Skinned> addSkinned(NodeReader& reader, int index, Placements& rounded,
                                   Placements& precise) {
     const tinygltf::Node& source = reader.model.nodes[std::size_t(index)];

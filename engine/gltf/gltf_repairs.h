@@ -9,10 +9,10 @@
 
 namespace limn {
 
-/// Collects what an import mended, counted by kind.
+/// Collects the repairs of an import, counted by kind.
 struct GltfRepairs {
-    std::map<std::string, std::uint64_t> counts; ///< the sentence after its number
-    std::vector<std::string> sentences;          ///< whole ones
+    std::map<std::string, std::uint64_t> counts; ///< keyed by the sentence without its number
+    std::vector<std::string> sentences;          ///< complete sentences
 
     /// `add("triangles of zero area removed", 3)` becomes "3 triangles of zero area removed".
     void add(std::string_view what, std::uint64_t count = 1) {

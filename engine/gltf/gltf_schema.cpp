@@ -258,7 +258,8 @@ static Problem checkVersion(const Json& root) {
     return {};
 }
 
-/// tinygltf takes the address of an image in a buffer without asking whether it lies there.
+/// Checks the buffer views of images: tinygltf takes an image's address in a buffer without
+/// checking that it lies there.
 static Problem checkImageViews(const Json& root) {
     const Json& images = root.value("images", Json::array());
     for (std::size_t i = 0; i < images.size(); ++i) {

@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// Checks the types of the glTF 2.0 fields that Limn reads, their required presence, array lengths
-/// and the range of every index. tinygltf leaves out silently what has the wrong type; we name it
-/// ("nodes[3].rotation: not 4 numbers"). Extension and extras objects are not entered.
+/// Checks the types, required presence and array lengths of the glTF 2.0 fields that Limn reads,
+/// and the range of every index. tinygltf silently ignores fields of the wrong type; this check
+/// names them ("nodes[3].rotation: not 4 numbers"). Extension and extras objects are not checked.
 Result<void> checkGltfSchema(const nlohmann::json& root);
 
 } // namespace limn

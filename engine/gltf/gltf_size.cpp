@@ -18,10 +18,11 @@ namespace {
 constexpr std::uint64_t kVertexBytes =
     2 * (2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2));
 constexpr std::uint64_t kIndexBytes = 2 * sizeof(std::uint32_t);
-/// In the document, in its lists of names, as an instance of the scene, and for its rays.
+/// Memory per node in the document, in its lists of names, as an instance of the scene, and for
+/// rays.
 constexpr std::uint64_t kNodeBytes = 1024;
 
-/// Of an accessor; 0 where its view is too short to hold them, or where there is none.
+/// Number of elements of an accessor; 0 if it has no view or its view is too short.
 std::uint64_t countOf(const tinygltf::Model& model, int index) {
     if (index < 0 || std::size_t(index) >= model.accessors.size())
         return 0;
@@ -98,7 +99,7 @@ Result<void> checkGltfSize(const GltfFile& file, const MemoryBudget& memory) {
 }
 
 std::uint64_t jsonBytes(std::string_view text) {
-    // tinygltf keeps a tree of its own beside that of the JSON, and a node for every object.
+    // tinygltf keeps its own tree beside the JSON's, and a node for every object.
     constexpr std::uint64_t kPerValue = 200, kPerObject = 900;
     const auto values = std::uint64_t(std::ranges::count(text, ','));
     const auto objects = std::uint64_t(std::ranges::count(text, '{'));

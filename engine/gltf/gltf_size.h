@@ -10,14 +10,14 @@
 
 namespace limn {
 
-/// Whether what the file describes fits into memory once it is read: images as texels, vertices
-/// and triangles of all primitives, nodes of EXT_mesh_gpu_instancing. Two kilobytes can stand for
-/// gigabytes: of images that compress well, of zeros, of accessors that many share. Names the part
-/// that is largest. What is malformed counts nothing; its reader refuses it.
+/// Checks whether the decoded contents of the file fit into memory: images as texels, vertices and
+/// triangles of all primitives, nodes of EXT_mesh_gpu_instancing. Two kilobytes can stand for
+/// gigabytes, by images that compress well, zeros or shared accessors. The message names the
+/// largest part. Malformed parts count as nothing; their readers reject them.
 Result<void> checkGltfSize(const GltfFile& file, const MemoryBudget& memory);
 
-/// About what parsing a glTF's JSON takes: at most, found with files of nothing but zeros or empty
-/// nodes, and up to five times what it really is.
+/// Estimated memory for parsing a glTF's JSON [bytes]: an upper bound, measured with files of
+/// nothing but zeros or empty nodes, and up to five times the actual amount.
 std::uint64_t jsonBytes(std::string_view text);
 
 } // namespace limn

@@ -7,14 +7,14 @@
 
 namespace limn::gpu {
 
-/// Who touches a resource, and how; for images with the layout it needs.
+/// A kind of access to a resource, with the layout that it needs for images.
 struct Access {
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
-/// Contents are not needed, nothing to wait for: a fresh image.
+/// A fresh image: its contents are not needed and there is nothing to wait for.
 inline constexpr Access kUndefined{};
 inline constexpr Access kColorWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                                     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
@@ -47,10 +47,11 @@ inline constexpr Access kAllReads{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCES
 inline constexpr Access kAllWrites{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                    VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 
-/// Everything `from` did is done and visible before anything `to` does. Layouts are ignored.
+/// Records a barrier: accesses `from` complete and become visible before any access `to`. Layouts
+/// are ignored.
 void memoryBarrier(VkCommandBuffer cmd, const Access& from, const Access& to);
 
-/// The same for one image, all of its mips and layers unless told, with the change of layout.
+/// The same for one image, including its layout transition. Covers all mips and layers by default.
 void imageBarrier(VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect, const Access& from,
                   const Access& to, std::uint32_t baseMip = 0,
                   std::uint32_t mips = VK_REMAINING_MIP_LEVELS, std::uint32_t baseLayer = 0,

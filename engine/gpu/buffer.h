@@ -15,8 +15,8 @@ struct BufferDesc {
     const char* name = ""; ///< shown by validation layers and captures
 };
 
-/// Owns a VkBuffer and its memory. Move-only; empty after a move.
-/// The destructor retires both: never wait for the GPU to drop a buffer.
+/// Owns a VkBuffer and its memory. Move-only; empty after a move. The destructor retires both, so
+/// there is no need to wait for the GPU before dropping a buffer.
 class Buffer {
 public:
     Buffer() = default;
@@ -46,19 +46,19 @@ private:
     Device* m_device = nullptr;
 };
 
-/// A Gpu buffer filled with `bytes` through a staging copy recorded into `cmd`; a barrier follows
-/// that makes it visible to every later read. `bytes` must not be empty; TRANSFER_DST is added to
-/// `usage`.
+/// Creates a Gpu buffer and fills it with `bytes` through a staging copy recorded into `cmd`; a
+/// barrier follows that makes it visible to every later read. `bytes` must not be empty;
+/// TRANSFER_DST is added to `usage`.
 Buffer uploadBuffer(Device& device, VkCommandBuffer cmd, std::span<const std::byte> bytes,
                     VkBufferUsageFlags usage, const char* name);
 
-/// Replaces bytes of a buffer (TRANSFER_DST) from `offset` on through a staging copy recorded into
-/// `cmd`; a barrier follows that makes them visible to every later read. What reads the old bytes
-/// must be done, or ordered before by a barrier. `bytes` must not be empty.
+/// Replaces the bytes of a buffer (TRANSFER_DST) from `offset` on through a staging copy recorded
+/// into `cmd`; a barrier follows that makes them visible to every later read. Reads of the old
+/// bytes must have completed or be ordered before the copy by a barrier. `bytes` must not be empty.
 void updateBuffer(Device& device, VkCommandBuffer cmd, const Buffer& buffer, VkDeviceSize offset,
                   std::span<const std::byte> bytes);
 
-/// Copies a whole buffer (TRANSFER_SRC) to the CPU. Waits.
+/// Copies a whole buffer (TRANSFER_SRC) to the CPU. Waits for the GPU.
 void readBuffer(Device& device, const Buffer& buffer, std::span<std::byte> out);
 
 } // namespace limn::gpu

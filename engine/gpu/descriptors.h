@@ -16,10 +16,10 @@ struct SamplerDesc {
 };
 Sampler createSampler(Device& device, const SamplerDesc& desc);
 
-/// Binding i is types[i], one descriptor each, visible to every stage.
+/// Creates a layout in which binding i is one descriptor of types[i], visible to every stage.
 DescriptorSetLayout createSetLayout(Device& device, std::span<const VkDescriptorType> types);
 
-/// A pool for `sets` sets of that many descriptors of each type in `types`.
+/// Creates a pool for `sets` sets, each with one descriptor per entry of `types`.
 DescriptorPool createDescriptorPool(Device& device, std::uint32_t sets,
                                     std::span<const VkDescriptorType> types);
 VkDescriptorSet allocateSet(Device& device, const DescriptorPool& pool,
@@ -27,11 +27,11 @@ VkDescriptorSet allocateSet(Device& device, const DescriptorPool& pool,
 
 void writeBuffer(Device& device, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
                  VkBuffer buffer, VkDeviceSize offset = 0, VkDeviceSize range = VK_WHOLE_SIZE);
-/// A combined image sampler, the image in SHADER_READ_ONLY_OPTIMAL.
+/// Writes a combined image sampler. The image is in SHADER_READ_ONLY_OPTIMAL.
 void writeTexture(Device& device, VkDescriptorSet set, std::uint32_t binding, VkImageView view,
                   VkSampler sampler);
 
-/// An image that shaders write, in GENERAL.
+/// Writes a storage image for shaders to write. The image is in GENERAL.
 void writeStorageImage(Device& device, VkDescriptorSet set, std::uint32_t binding,
                        VkImageView view);
 

@@ -176,9 +176,9 @@ static VkSemaphore createTimeline(VkDevice device) {
     return semaphore;
 }
 
-// The leak checker tells drivers' leaks from ours by the library they come from, which must still
-// be loaded when the process ends: under AddressSanitizer the first instance with each set of
-// layers is kept.
+// The leak checker distinguishes drivers' leaks from ours by the library they come from, which must
+// still be loaded when the process ends. Under AddressSanitizer the first instance with each set of
+// layers is therefore kept.
 static void destroyInstance(VkInstance instance, [[maybe_unused]] bool validating) {
 #ifdef __SANITIZE_ADDRESS__
     static std::array<VkInstance, 2> kept{};
@@ -244,7 +244,7 @@ void Device::watchValidation() {
 Device::~Device() {
     if (device) {
         vkDeviceWaitIdle(device);
-        // A retired owner may retire others while it goes.
+        // Destroying a retired owner may retire further resources.
         while (!m_impl->retired.empty()) {
             const auto destroy = std::move(m_impl->retired.front().destroy);
             m_impl->retired.pop_front();

@@ -15,14 +15,15 @@
 namespace limn::gpu {
 
 struct DeviceDesc {
-    /// Part of the device's name, in any case ("llvmpipe"); empty: the best kind there is.
+    /// Part of the device's name, case-insensitive ("llvmpipe"); empty selects the best kind.
     std::string name;
-    /// For surfaces, as the window library names them. Not empty: VK_KHR_swapchain is enabled too.
+    /// Instance extensions for surfaces, as named by the window library. If not empty,
+    /// VK_KHR_swapchain is enabled too.
     std::vector<std::string> instanceExtensions;
     /// Whether this queue family can present. Null: nothing is presented.
     std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t queueFamily)> canPresent;
-    /// Validation and synchronisation validation; without the layer it stays off
-    /// (Device::validating).
+    /// Enables validation and synchronisation validation; without the layer it stays off (see
+    /// Device::validating).
     bool validation = false;
 };
 
@@ -33,9 +34,9 @@ struct SubmitDesc {
     VkSemaphore signal = VK_NULL_HANDLE;
 };
 
-/// A Vulkan 1.3 device with one queue for graphics, compute and transfer. One thread uses it.
-/// Submissions are numbered 1, 2, …; a resource dropped now is destroyed once every submission that
-/// may read it has completed. Outlives everything made from it.
+/// A Vulkan 1.3 device with one queue for graphics, compute and transfer. It is used by one thread.
+/// Submissions are numbered 1, 2, …; a dropped resource is destroyed once every submission that may
+/// read it has completed. The device must outlive everything created from it.
 class Device {
 public:
     ~Device(); ///< Waits for the GPU.
@@ -53,7 +54,8 @@ public:
     bool validating = false;
     MemoryBlocks memory;
 
-    /// A command buffer that is recording; it must be submitted. `name` is shown by captures.
+    /// Returns a command buffer in the recording state, which must be submitted. `name` is shown by
+    /// captures.
     VkCommandBuffer begin(const char* name);
     /// Ends and submits. Returns the submission's number.
     std::uint64_t submit(VkCommandBuffer cmd, const SubmitDesc& desc = {});
@@ -61,19 +63,19 @@ public:
     void immediate(const char* name, const std::function<void(VkCommandBuffer)>& record);
 
     std::uint64_t submitted() const { return m_submitted; } ///< number of the last submission
-    std::uint64_t completed() const;                        ///< all up to this number are done
+    std::uint64_t completed() const; ///< all submissions up to this number are done
     void wait(std::uint64_t submission);
     void waitIdle() { wait(m_submitted); }
 
     /// Calls `destroy` when no submission made so far, nor one being recorded, can still need it.
     void retire(std::function<void()> destroy);
-    /// Destroys what is due. submit() does it too.
+    /// Destroys retired resources that are due. submit() does so too.
     void collect();
 
     /// Names a handle for validation messages and captures.
     void setName(VkObjectType type, std::uint64_t objectHandle, const char* name);
 
-    /// Validation warnings and errors so far, oldest first. Any thread's.
+    /// Validation warnings and errors so far, oldest first. May be called from any thread.
     std::vector<std::string> validationMessages() const;
 
 private:
@@ -85,8 +87,8 @@ private:
     std::uint64_t m_submitted = 0;
 };
 
-/// Fails when there is no driver, no device of that name, or none with what we need (the reason
-/// says which).
+/// Fails if there is no driver, no device of that name, or none with the required features; the
+/// error says which.
 Result<std::unique_ptr<Device>> createDevice(const DeviceDesc& desc);
 
 /// Names of all Vulkan devices, best first. Empty without a driver.

@@ -63,7 +63,7 @@ static std::optional<std::uint32_t> findQueueFamily(VkInstance instance, VkPhysi
     return std::nullopt;
 }
 
-// Empty when the device has all we need.
+// Required features that the device lacks; empty if it has them all.
 static std::string whatIsMissing(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);

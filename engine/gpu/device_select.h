@@ -6,14 +6,14 @@
 
 namespace limn::gpu {
 
-/// A device that has what we need, and the queue family to use.
+/// A device with the required features, and the queue family to use.
 struct SelectedDevice {
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
     std::uint32_t queueFamily = 0;
 };
 
-/// The best device of `instance` whose name contains `desc.name`. Fails saying what is there and
-/// what it lacks.
+/// The best device of `instance` whose name contains `desc.name`. On failure the error says which
+/// devices there are and what they lack.
 Result<SelectedDevice> selectDevice(VkInstance instance, const DeviceDesc& desc);
 
 /// All devices of `instance`, best kind first: discrete, integrated, virtual, CPU.

@@ -7,8 +7,8 @@
 
 namespace limn::gpu {
 
-/// Owns one handle that `Destroy(VkDevice, T, nullptr)` ends. Move-only; empty after a move.
-/// The destructor retires the handle: frames in flight may still read it.
+/// Owns one handle that `Destroy(VkDevice, T, nullptr)` destroys. Move-only; empty after a move.
+/// The destructor retires the handle, because frames in flight may still use it.
 template <class T, auto Destroy>
 class Handle {
 public:

@@ -16,13 +16,13 @@ struct ImageDesc {
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
     bool array = false;      ///< the view is a 2D array even with one layer
-    bool layerViews = false; ///< one 2D view per layer too, to draw into
+    bool layerViews = false; ///< also one 2D view per layer, to draw into
     const char* name = "";
 
-    /// Drawn into, sampled and read back.
+    /// An image to draw into, sample and read back.
     static ImageDesc renderTarget(std::uint32_t width, std::uint32_t height, VkFormat format,
                                   const char* name);
-    /// Sampled; filled by uploadTexture().
+    /// An image to sample; filled by uploadImage().
     static ImageDesc texture(std::uint32_t width, std::uint32_t height, VkFormat format,
                              std::uint32_t mips, const char* name);
 };
@@ -55,12 +55,12 @@ private:
 
 VkImageAspectFlags aspectOf(VkFormat format);
 
-/// Mips of a full chain down to 1x1.
+/// Number of mips in a full chain down to 1x1.
 std::uint32_t mipCount(std::uint32_t width, std::uint32_t height);
 
 /// Fills every mip and layer of `image` from `bytes`: mip after mip, in each layer after layer,
 /// rows tightly packed. Leaves it in SHADER_READ_ONLY_OPTIMAL for fragment shaders. The image must
-/// be unused before (contents are dropped).
+/// not have been used before; previous contents are lost.
 void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
                  std::span<const std::byte> bytes);
 
@@ -70,7 +70,7 @@ void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& ima
                            std::span<const std::byte> bytes);
 
 /// Copies the corner (0, 0, width, height) of mip 0 of the first `layers` layers to the CPU, layer
-/// after layer, rows tightly packed. The image is in `layout` before and after. Waits.
+/// after layer, rows tightly packed. The image is in `layout` before and after. Waits for the GPU.
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
                std::uint32_t height, std::span<std::byte> out, std::uint32_t layers = 1);
 

@@ -8,11 +8,11 @@
 
 namespace limn::gpu {
 
-/// Gpu: fastest for the device. Upload: the CPU writes, mapped. Readback: the CPU reads, mapped,
-/// cached.
+/// Gpu: fastest for the device. Upload: mapped, written by the CPU. Readback: mapped and cached,
+/// read by the CPU.
 enum class MemoryKind { Gpu, Upload, Readback };
 
-/// A piece of a block.
+/// A range of a memory block.
 struct Allocation {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, size = 0; ///< bytes
@@ -20,8 +20,8 @@ struct Allocation {
     std::uint32_t block = 0;
 };
 
-/// Device memory in large blocks with first-fit free lists: drivers allow few allocations and make
-/// them slowly.
+/// Allocates device memory from large blocks with first-fit free lists, because drivers allow only
+/// few allocations and make them slowly.
 class MemoryBlocks {
 public:
     static constexpr VkDeviceSize kBlockSize = 64ull
@@ -30,7 +30,7 @@ public:
     void init(VkPhysicalDevice physicalDevice, VkDevice device);
     void destroy();
 
-    /// `optimal`: for an image with optimal tiling; those never share a block with buffers, so
+    /// Set `optimal` for images with optimal tiling; they never share a block with buffers, so
     /// bufferImageGranularity does not matter. Throws VulkanError when out of memory.
     Allocation allocate(const VkMemoryRequirements& requirements, MemoryKind kind, bool optimal);
     void free(const Allocation& allocation);

@@ -26,7 +26,7 @@ PipelineLayout createPipelineLayout(Device& device,
 
 namespace {
 
-/// A shader module for the time a pipeline is made.
+/// A shader module that exists only while a pipeline is created.
 struct Module {
     Module(VkDevice owner, Spirv words) : device(owner) {
         const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
@@ -44,7 +44,7 @@ struct Module {
     VkShaderModule handle = VK_NULL_HANDLE;
 };
 
-/// Constants by id in order, kept alive while the pipeline is made.
+/// Specialisation constants in order of id, kept alive while the pipeline is created.
 struct Specialisation {
     explicit Specialisation(std::span<const std::uint32_t> words) {
         for (std::uint32_t i = 0; i < words.size(); ++i)
@@ -69,7 +69,7 @@ static VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, Vk
             .pSpecializationInfo = &specialisation.info};
 }
 
-// The states that are the same for every pipeline, and those filled from the desc.
+// Adds the state that all pipelines share to the state given by `desc`.
 static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& desc,
                                    std::span<const VkPipelineShaderStageCreateInfo> stages) {
     VkPipelineVertexInputStateCreateInfo input{};

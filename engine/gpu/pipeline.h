@@ -28,8 +28,8 @@ struct GraphicsPipelineDesc {
     bool additive = false;  ///< colours are added to what is there
     bool depthBias = false; ///< set with vkCmdSetDepthBias
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    /// The front face is set with vkCmdSetFrontFace; else counter-clockwise on screen is the front.
-    /// No face is culled.
+    /// If true, the front face is set with vkCmdSetFrontFace; otherwise counter-clockwise on screen
+    /// is the front. No face is culled.
     bool dynamicFrontFace = false;
     /// Specialisation constants: word i is constant_id i of both stages.
     std::vector<std::uint32_t> constants;

@@ -97,7 +97,7 @@ bool Swapchain::resize(std::uint32_t newWidth, std::uint32_t newHeight) {
     m_outdated = width == 0 || height == 0;
     if (m_outdated)
         return false;
-    // Presented images may still wait for their semaphores, which no fence of ours tells.
+    // Presented images may still wait for their semaphores, which none of our fences signals.
     m_device.waitIdle();
     VK_CHECK(vkQueueWaitIdle(m_device.queue));
     retireImages();

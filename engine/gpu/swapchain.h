@@ -13,27 +13,29 @@ namespace limn::gpu {
 /// are sRGB-encoded. Usable as colour attachment and as the destination of a blit.
 class Swapchain {
 public:
-    /// The most frames between acquire() and the end of their work on the GPU.
+    /// Maximum number of frames between acquire() and the end of their work on the GPU.
     static constexpr std::uint32_t kFramesInFlight = 2;
 
-    /// Takes `surface`, which belongs to the device's instance. No images before resize().
+    /// Takes ownership of `surface`, which belongs to the device's instance. There are no images
+    /// before resize().
     Swapchain(Device& device, VkSurfaceKHR surface);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    /// Makes images of this size [px] (where the surface fixes the size: of its own). Old ones die
-    /// after their frames. False when the window is minimised: there are no images then.
+    /// Creates images of this size [px], or of the surface's own size if it fixes one. Old images
+    /// are destroyed after their frames. Returns false if the window is minimised; there are no
+    /// images then.
     bool resize(std::uint32_t newWidth, std::uint32_t newHeight);
 
     /// True if acquire() would not wait for the GPU.
     bool ready() const;
 
-    /// The next image to draw. Nothing when the window changed size (resize() is due) or no image
-    /// came in time.
+    /// Index of the next image to draw; std::nullopt if the window changed size (resize() is due)
+    /// or no image was available in time.
     std::optional<std::uint32_t> acquire();
-    /// Submits `cmd`, which leaves the acquired image in PRESENT_SRC_KHR and touches it first in
-    /// the transfer stage, and presents it.
+    /// Submits `cmd` and presents the acquired image. `cmd` first accesses the image in the
+    /// transfer stage and leaves it in PRESENT_SRC_KHR.
     void present(VkCommandBuffer cmd, std::uint32_t image);
 
     bool outdated() const { return m_outdated; } ///< resize() is due

@@ -8,19 +8,20 @@
 
 namespace limn::gpu {
 
-/// Writes the time at which all work recorded before is done. Not while rendering. The barrier
-/// behind it makes a software rasteriser write it now and not with the work that follows.
+/// Writes the time at which all previously recorded work is done. Must not be called inside a
+/// rendering. The barrier after it makes a software rasteriser write the time now and not with the
+/// work that follows.
 void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query);
 
-/// Times how long the GPU takes over the steps of one command buffer.
+/// Measures the GPU time of each step of one command buffer.
 class Timestamps {
 public:
-    Timestamps(Device& device, std::uint32_t most); ///< at most so many steps
+    Timestamps(Device& device, std::uint32_t most); ///< `most`: maximum number of steps
 
     void begin(VkCommandBuffer cmd);
-    /// A step ends here: when all work recorded before is done.
+    /// Ends a step at the time when all previously recorded work is done.
     void mark(VkCommandBuffer cmd);
-    /// Per step since begin() [ms]. The command buffer must be done.
+    /// Duration of each step since begin() [ms]. The command buffer must have completed.
     std::vector<double> steps() const;
 
 private:

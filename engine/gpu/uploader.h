@@ -6,8 +6,8 @@
 
 namespace limn::gpu {
 
-/// Copies many things to the GPU in a few submissions, with bounded staging memory.
-/// What it returns may be used by any later submission.
+/// Copies data to the GPU in few submissions with bounded staging memory. Returned resources may be
+/// used by any later submission.
 class Uploader {
 public:
     explicit Uploader(Device& device) : m_device(device) {}

@@ -29,7 +29,7 @@ std::string resultName(VkResult result) {
     return "error " + std::to_string(int(result));
 }
 
-// Only the function's name: the arguments mean nothing to whoever reads the message.
+// Keeps only the function's name, because the arguments mean nothing to the reader of the message.
 static std::string functionName(const char* call) {
     const std::string text = call;
     return text.substr(0, text.find('('));

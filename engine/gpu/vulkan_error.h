@@ -8,7 +8,8 @@
 
 namespace limn::gpu {
 
-/// A broken environment: device lost, out of memory. Caught in main; never for wrong input.
+/// Thrown for a broken environment: device lost, out of memory. Caught in main; never thrown for
+/// wrong input.
 class VulkanError : public std::runtime_error {
 public:
     VulkanError(VkResult code, const char* call);

@@ -12,26 +12,27 @@
 
 namespace limn {
 
-/// What an update of bounced light may read.
+/// Inputs of an update of bounced light.
 struct LightingInput {
     const Scene& scene;
-    const TraceScene* trace = nullptr; ///< of `scene`, for shadow rays; null where a device lights
-    std::uint32_t bounces = 2;         ///< that this update adds at most
-    /// Light is needed where this view shows it, and may be older elsewhere; null: everywhere.
+    const TraceScene* trace = nullptr; ///< of `scene`, for shadow rays; null on a device
+    std::uint32_t bounces = 2;         ///< maximum number of bounces this update adds
+    /// Light must be up to date where this view shows it and may be older elsewhere; null:
+    /// everywhere.
     const Viewpoint* view = nullptr;
 };
 
-/// The bounced light of a scene by one technique, on one device. One thread uses it.
+/// Bounced light of a scene by one technique on one device. Not thread-safe.
 class Lighting {
 public:
     virtual ~Lighting() = default;
 
-    /// Brings the light up to date with the lights, materials, sky and dynamic objects of
-    /// input.scene. Cancelled updates leave valid light. With 0 bounces it only completes what
-    /// earlier updates left out.
+    /// Updates the light to the lights, materials, sky and dynamic objects of input.scene. A
+    /// cancelled update leaves valid light. With 0 bounces, it only completes what earlier updates
+    /// left out.
     virtual LightingReport update(const LightingInput& input, const Progress& progress) = 0;
 
-    /// The light on the CPU, valid until the next update; null: it is on the device alone.
+    /// The light on the CPU, valid until the next update; null if it exists on the device only.
     virtual const IndirectField* field() const = 0;
 };
 

@@ -8,37 +8,37 @@
 
 namespace limn {
 
-/// Decides when bounced light is updated, by how many bounces, where, and when it is done; for
-/// whatever technique and on whatever device. While light changes, what the view shows is lit; once
-/// it has converged, the rest. So light that has converged is right everywhere, and before that
-/// what comes into view is right with the next update.
+/// Decides when and where bounced light is updated, by how many bounces, and when it is done, for
+/// any technique and device. While light changes, only what the view shows is updated; once it has
+/// converged, the rest follows. Converged light is therefore correct everywhere; before that,
+/// whatever comes into view is correct after the next update.
 class LightingDriver {
 public:
-    /// Lights nothing yet where `lighting` is null.
+    /// If `lighting` is null, there is no light yet.
     explicit LightingDriver(std::unique_ptr<Lighting> lighting = nullptr);
 
-    /// Lights, materials, sky or objects changed: bounces are counted from 0 again.
+    /// Lights, materials, sky or objects have changed: bounces are counted from 0 again.
     void lightChanged();
 
-    /// Nothing is left to do until lightChanged().
+    /// Whether nothing is left to do until lightChanged().
     bool done() const { return !m_lighting || (m_converged && m_whole); }
     bool converged() const { return m_converged; }
     std::uint32_t bounces() const { return m_bounces; } ///< since lightChanged()
 
-    /// Light is everywhere, perhaps older where no view has been since. Until then updates take no
-    /// heed of the view, so that there is light wherever somebody looks next.
+    /// Whether there is light everywhere, perhaps older where no view has been since. Until then
+    /// updates ignore the view, so that there is light wherever the user looks next.
     bool everWhole() const { return m_everWhole; }
 
-    /// What step() may be told to do.
+    /// What step() does once the bounces have converged.
     enum class Rest : std::uint8_t {
         All,  ///< light what the view did not show
         Seen, ///< only what has come into view
-        Later ///< leave it
+        Later ///< do nothing
     };
 
-    /// One update: a few bounces, or, where they have converged, what is left by `rest`. Of
-    /// `input`, bounces are set here. Precondition: there is a Lighting. Returns null where nothing
-    /// was to be done, and after a rest, whose report tells nothing of bounces.
+    /// Performs one update: a few bounces, or, once they have converged, the rest as `rest` says.
+    /// Overwrites input.bounces. Precondition: there is a Lighting. Returns null if there was
+    /// nothing to do, and after updating the rest, whose report contains no bounces.
     const LightingReport* step(LightingInput input, Rest rest, const Progress& progress = {});
 
     Lighting* lighting() const { return m_lighting.get(); }
@@ -50,7 +50,7 @@ private:
     bool m_converged = false, m_whole = false, m_everWhole = false;
 };
 
-/// Bounces between two looks at what the user did meanwhile: 2, or a few that are all.
+/// Number of bounces between two checks of user input: 2, or all of them if there are few.
 std::uint32_t bouncesPerUpdate(std::uint32_t maxBounces);
 
 } // namespace limn

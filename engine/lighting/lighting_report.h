@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// A part of an update of bounced light, and what it took.
+/// A step of an update of bounced light and its duration.
 struct LightingStep {
     const char* id; ///< in JSON, snake case
     const char *label, *tooltip;
@@ -16,7 +16,7 @@ struct LightingStep {
 
 enum class CounterUnit : std::uint8_t { Count, Milliseconds, Share };
 
-/// Something that an update counted.
+/// A quantity that an update counted.
 struct LightingCounter {
     const char* id; ///< in JSON, snake case
     const char *label, *tooltip;
@@ -24,19 +24,19 @@ struct LightingCounter {
     CounterUnit unit = CounterUnit::Count;
 };
 
-/// What an update of bounced light did, as the statistics panel and --json print it.
+/// What an update of bounced light did, as printed by the statistics panel and --json.
 struct LightingReport {
     std::vector<LightingStep> steps;       ///< in the order they run
-    std::vector<LightingCounter> counters; ///< of the last update; what it skipped among them
+    std::vector<LightingCounter> counters; ///< of the last update, including what it skipped
     double totalMs = 0;                    ///< from call to return
-    std::uint32_t bounces = 0;             ///< that the update added
+    std::uint32_t bounces = 0;             ///< number of bounces that the update added
     bool converged = false;                ///< another bounce would change next to nothing
-    bool skipped = false;                  ///< nothing was out of date: no work was done
-    bool diverges = false; ///< bounces were stopped because they brought ever more light
-    bool whole = true;     ///< all light is of this update, not only what the view shows
+    bool skipped = false;                  ///< nothing was out of date, so no work was done
+    bool diverges = false; ///< bounces were stopped because they kept adding more light
+    bool whole = true;     ///< all light is up to date, not only what the view shows
 };
 
-/// The value of the counter of that id; 0 where the report has none.
+/// Value of the counter with that id; 0 if the report has none.
 inline double counterOf(const LightingReport& report, std::string_view id) {
     for (const LightingCounter& counter : report.counters)
         if (counter.id == id)

@@ -10,26 +10,26 @@
 
 namespace limn {
 
-/// A number that a technique of its own may be set to.
+/// A numeric setting specific to a technique.
 struct TechniqueSetting {
     Setting setting;
     SettingRange range;
-    double usual = 0;   ///< where the document says nothing
-    bool whole = false; ///< a whole number; of range [0, 1]: a switch
+    double usual = 0;   ///< default, if the document does not set it
+    bool whole = false; ///< a whole number; with range [0, 1], a switch
 };
 
-/// A technique of bounced light, as documents, menus, --technique and tests know it.
+/// A technique of bounced light, as listed in documents, menus, --technique and tests.
 struct Technique {
     const char* name;    ///< in documents and on the command line
     const char* label;   ///< for people
     const char* summary; ///< what it does, in a sentence or two
     const char* source;  ///< authors, title, year
     std::span<const TechniqueSetting> settings;
-    /// Light that needs nothing precomputed; null: the technique lights a bake.
+    /// Creates light that needs nothing precomputed; null if the technique lights a bake.
     std::unique_ptr<Lighting> (*light)();
 };
 
-/// The value of a setting in a document, within its range.
+/// Value of a setting in a document, clamped to its range.
 double settingOf(const TechniqueChoice& choice, const TechniqueSetting& setting);
 
 } // namespace limn

@@ -17,7 +17,7 @@ namespace limn {
 
 namespace {
 
-/// Summed area [m^2], from the scales that the charts get.
+/// Total area [m^2], computed with the scales that the charts get.
 double lightmappedArea(const AtlasInput& in) {
     double sum = 0;
     for (std::size_t i = 0; i < in.scene.instances.size(); ++i) {
@@ -33,7 +33,7 @@ double lightmappedArea(const AtlasInput& in) {
     return sum;
 }
 
-/// Texels met at a density.
+/// Number of texels read by lookups at a density.
 std::uint32_t countAt(const AtlasInput& in, float density, const Progress& progress) {
     const std::vector<ChartPlace> places = placeCharts(in, density);
     std::atomic<std::uint32_t> count = 0;
@@ -48,10 +48,10 @@ std::uint32_t countAt(const AtlasInput& in, float density, const Progress& progr
     return count;
 }
 
-/// The density in texels per metre whose texel count is nearest below `wanted`, of 2^(k / 256), k
-/// whole: small changes of a scene leave its density and so its texels alone. Secants between the
-/// nearest known densities on either side, since the count is nearly a power of the density; a side
-/// that stays is approached by steps that double.
+/// Finds the density [texels per metre] of the form 2^(k / 256), k an integer, whose texel count is
+/// nearest below `wanted`; small changes of a scene therefore do not change its density and texels.
+/// Uses secants between the nearest known densities on either side, because the count is nearly a
+/// power of the density. A side that does not move is approached by steps that double.
 float findDensity(const AtlasInput& in, std::uint32_t wanted, const Progress& progress) {
     const double area = lightmappedArea(in);
     if (!(area > 0))
@@ -71,20 +71,20 @@ float findDensity(const AtlasInput& in, std::uint32_t wanted, const Progress& pr
         (above ? high : low) = k;
         (above ? highExcess : lowExcess) = excess;
         (above ? highKnown : lowKnown) = true;
-        // The count grows as density^1.5 or so.
+        // The count grows approximately as density^1.5.
         const double slope = lowKnown && highKnown ? (highExcess - lowExcess) / (high - low)
                                                    : 1.5 * std::log(2.) / kSteps;
         const double guess = k - excess / std::max(slope, 1e-9);
         next = above ? int(std::floor(guess)) : int(std::ceil(guess));
         next = above ? std::min(next, k - beyond) : std::max(next, k + beyond);
-        // More would leave the range.
+        // A larger step would leave the range.
         beyond = std::min(2 * beyond, high - low + kSteps);
     }
     return density(low);
 }
 
-/// Packs those places that have so many sides into rows of texels from `top` on; sets their
-/// offsets. Returns how many rows they take.
+/// Packs the places with that many sides into rows of texels from `top` on and sets their offsets.
+/// Returns the number of rows used.
 std::uint32_t packPlaces(std::vector<ChartPlace>& places, std::uint32_t sides, std::uint32_t width,
                          std::uint32_t top) {
     std::vector<stbrp_rect> rects;
@@ -108,7 +108,7 @@ std::uint32_t packPlaces(std::vector<ChartPlace>& places, std::uint32_t sides, s
 }
 
 /// Packs the places and sets the atlas size: the fronts of two-sided instances at the top, their
-/// backs in the same order below, and the rest under both. So one distance leads from every front
+/// backs in the same order below, and all others under both. One offset thus leads from every front
 /// to its back.
 void packAtlas(std::vector<ChartPlace>& places, LightmapLayout& layout) {
     std::uint64_t area = 0;

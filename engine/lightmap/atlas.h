@@ -11,47 +11,50 @@
 
 namespace limn {
 
-/// A texel that a bilinear lookup can meet, and the side of the surface it stands for: points
-/// spread over the part of the surface that lies in it; the closest point where none does.
+/// A texel that a bilinear lookup can read, with sample points on the side of the surface that it
+/// represents: points spread over the part of the surface inside the texel, or the closest surface
+/// point if there is none inside.
 struct AtlasTexel {
-    /// Not a Fibonacci number: every seventh direction of a Fibonacci lattice is again well spread.
+    /// 7 is not a Fibonacci number: every seventh direction of a Fibonacci lattice is again well
+    /// spread.
     static constexpr std::uint32_t kMaxPoints = 7;
 
     std::uint32_t texel;     ///< y * width + x
     std::uint32_t instance;  ///< index into Scene::instances
-    std::uint32_t back;      ///< 1: it stands for the back of a two-sided surface
+    std::uint32_t back;      ///< 1: it represents the back of a two-sided surface
     float width = 0;         ///< [m]
-    std::uint32_t count = 0; ///< of points, [1, kMaxPoints]
+    std::uint32_t count = 0; ///< number of points, [1, kMaxPoints]
     std::array<MeshPoint, kMaxPoints> points;
 };
 
 struct Atlas {
     LightmapLayout layout;
     std::vector<AtlasTexel> texels; ///< ordered by texel; each texel once
-    /// Per texel, whether some point of it lies open; empty until findTexelSides() says.
+    /// Per texel, whether any of its points is open; empty until findTexelSides() has computed it.
     std::vector<std::uint8_t> open;
     float texelsPerMetre = 0; ///< world density used
 };
 
-/// Places every static instance's charts in one atlas. A chart of extent e metres gets round(e *
-/// density) + 1 texels a side, its borders on texel centres, so bilinear lookups stay inside
-/// without padding; a side under half a texel becomes one texel; charts smaller than that in both
-/// share a texel with their neighbours of like orientation. A two-sided surface has two places of
-/// like shape, one for each side: light on one side says nothing about the other. The density is
-/// settings.texelsPerMetre, or found by bisection so that about settings.lightmapCaches texels are
-/// met. `charts` per mesh, as Assets::meshes. Of the instances it reads only mesh, dynamic,
-/// atlasScale and whether they are two-sided. Unfinished when cancelled.
+/// Places the charts of every static instance in one atlas. A chart of extent e metres gets round(e
+/// * density) + 1 texels per side, with its borders on texel centres, so that bilinear lookups stay
+/// inside without padding. A side shorter than half a texel becomes one texel; charts shorter than
+/// that in both directions share a texel with neighbours of similar orientation. A two-sided
+/// surface gets two places of the same shape, one per side, because each side is lit independently.
+/// The density is settings.texelsPerMetre, or found by bisection so that lookups read about
+/// settings.lightmapCaches texels. `charts` are per mesh, as Assets::meshes. Of the instances only
+/// mesh, dynamic, atlasScale and whether they are two-sided are read. The result is incomplete when
+/// cancelled.
 Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeSettings& settings,
                  std::vector<std::vector<float>> factors = {}, const Progress& progress = {});
 
-/// How many texels the bake settings ask for: lightmapCaches, or as many as texelsPerMetre squared
-/// gives on the lit sides of all static instances.
+/// Number of texels that the bake settings ask for: lightmapCaches, or texelsPerMetre squared times
+/// the area of the lit sides of all static instances.
 double wantedTexels(const Scene& scene);
 
 /// Mean length scale of the instance's transform, rounded to 12 bits.
 float atlasScale(const Instance& instance);
 
-/// The four texels and weights of a bilinear lookup at normalised `uv`; indices y * width + x,
+/// The four texels and weights of a bilinear lookup at normalised `uv`. Indices are y * width + x,
 /// clamped to the atlas.
 struct Bilinear {
     std::uint32_t texel[4];
@@ -59,38 +62,36 @@ struct Bilinear {
 };
 Bilinear bilinearAt(const LightmapLayout& layout, glm::vec2 uv);
 
-/// The layout of a scene in which no instance has a place in the lightmap: all are lit from the
-/// grid.
+/// Layout of a scene in which no instance has a lightmap and the grid lights all of them.
 LightmapLayout layoutWithoutLightmap(const Scene& scene);
 
-/// How far below an instance's front its back lies, in normalised atlas coordinates.
+/// Offset in v from an instance's front to its back, in normalised atlas coordinates.
 float backOffset(const LightmapLayout& layout, std::uint32_t instance);
 
-/// A lookup between four texels, the finest ones there are.
+/// A bilinear lookup, resolved to the finest texels that cover it.
 struct AtlasLookup {
-    glm::vec2 base;      ///< the first of them
-    glm::vec2 f;         ///< between it and the next ones, in [0, 1)^2
-    std::uint32_t snaps; ///< LightmapLayout::snaps of that place
-    bool inside;         ///< the atlas; else no snap
+    glm::vec2 base;      ///< coordinates of the upper left of its four texels
+    glm::vec2 f;         ///< position between that texel and the next ones, in [0, 1)^2
+    std::uint32_t snaps; ///< LightmapLayout::snaps of that position
+    bool inside;         ///< whether it lies in the atlas; otherwise it has no snap
 };
 AtlasLookup lookupAt(const LightmapLayout& layout, glm::vec2 uv);
 
-/// Moves a lookup to the finest texels and to the side of walls that it belongs to:
-/// LightmapLayout::snaps. Not to be applied
-/// twice.
+/// Redirects a lookup to the finest texels and to its own side of walls, by LightmapLayout::snaps.
+/// Must not be applied twice.
 glm::vec2 snapLookup(const LightmapLayout& layout, glm::vec2 uv);
 
-/// The lookup at `f`, in [0, 1]^2, between texel `base`, whole, and the next ones, after one of the
-/// kSnaps.
+/// Normalised coordinate of the lookup at `f`, in [0, 1]^2, between the texel at whole coordinates
+/// `base` and the next ones, after applying `snap`, one of the kSnaps.
 glm::vec2 snappedUv(const LightmapLayout& layout, glm::vec2 base, glm::vec2 f, std::uint32_t snap);
 
-/// lightmapUv() before it is snapped.
+/// lightmapUv() without snapping.
 glm::vec2 unsnappedUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
                       std::uint32_t triangle, float u, float v, bool back);
 
-/// Normalised atlas coordinate of the lookup at barycentrics (u, v) of a triangle, of its back
-/// where `back`; on a one-sided surface both are its front. Snapped. Precondition: the instance has
-/// a lightmap.
+/// Normalised, snapped atlas coordinate of the lookup at barycentrics (u, v) of a triangle, on its
+/// back if `back`; a one-sided surface always uses its front. Precondition: the instance has a
+/// lightmap.
 glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
                      std::uint32_t triangle, float u, float v, bool back);
 

@@ -40,7 +40,7 @@ bool chartMeshes(const Scene& scene, const std::vector<std::uint64_t>& meshes,
         });
 }
 
-/// Of all that buildAtlas reads.
+/// Hash of everything that buildAtlas() reads.
 std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& meshes,
                        const BakeSettings& settings, const BakeDensity& density) {
     std::uint64_t h = hashValue(settings.texelsPerMetre, settings.lightmapCaches);
@@ -54,7 +54,7 @@ std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& mes
     return h;
 }
 
-/// Of what rays meet, and `seed`.
+/// Hash of all surfaces that rays can hit, and `seed`.
 std::uint64_t surfacesKey(const TraceScene& trace, const std::vector<std::uint64_t>& meshes,
                           std::uint64_t seed) {
     const Scene& scene = trace.scene();
@@ -66,15 +66,15 @@ std::uint64_t surfacesKey(const TraceScene& trace, const std::vector<std::uint64
     return h;
 }
 
-/// Lamps have one density: caches aim at their surfels by areas, which are exact only then. (Which
-/// materials emit may change without tracing anything again.)
+/// Gives lamps a uniform density: caches sample their surfels by area, which is exact only then.
+/// (The set of emissive materials may change without tracing anything again.)
 void evenLamps(const Scene& scene, std::vector<MeshDensity>& surfels) {
     for (const Instance& i : scene.instances)
         if (!surfels.empty() && emits(scene.materialOf(i)))
             surfels[i.mesh] = {};
 }
 
-/// Of an instance that has a place in the atlas.
+/// Whether an instance has a place in the atlas.
 bool hasCharts(const Scene& scene, const std::vector<MeshCharts>& charts, std::size_t instance) {
     return instance < scene.instances.size() && !scene.instances[instance].dynamic &&
            !charts[scene.instances[instance].mesh].chartSize.empty();
@@ -124,7 +124,7 @@ BakeDensity densityStage(const TraceScene& trace, const std::vector<std::uint64_
         });
 }
 
-/// All but the charts, which are kept per mesh.
+/// Lists all fields but the charts, which are stored per mesh.
 template <class A, class T>
 void atlasFields(A& a, T& t, const Scene& scene, const std::vector<MeshCharts>& charts) {
     auto& l = t.layout;
@@ -149,7 +149,7 @@ void atlasFields(A& a, T& t, const Scene& scene, const std::vector<MeshCharts>& 
     });
 }
 
-/// Those of an atlas' texels.
+/// Lists the fields of an atlas' texels.
 template <class A, class S>
 void sideFields(A& a, S& s, const Scene& scene, const Atlas& atlas) {
     a("texels", s.texels, rule::count(atlas.texels.size()),
@@ -165,7 +165,8 @@ void sideFields(A& a, S& s, const Scene& scene, const Atlas& atlas) {
     });
 }
 
-/// As many as can be needed, so that the atlas' size stays a number of 31 bits.
+/// Lists the fields of fine lookups, limited to what can be needed, so that the atlas' size fits in
+/// 31 bits.
 template <class A, class F>
 void fineFields(A& a, F& f) {
     constexpr std::size_t kMaxPlaces = 1 << 24;
@@ -184,14 +185,14 @@ void fineFields(A& a, F& f) {
            });
 }
 
-/// An atlas of coarse texels, and where finer ones are to be added to it.
+/// An atlas of coarse texels and the lookups at which finer ones are to be added.
 struct LaidTexels {
     Atlas atlas;
     FineLookups fine;
     std::uint64_t key = 0; ///< of both
 };
 
-/// What the texels of a bake follow from, and where they are kept.
+/// Inputs from which the texels of a bake are computed, and the store of the results.
 struct TexelInput {
     const TraceScene& trace;
     const Scene& scene;
@@ -205,7 +206,8 @@ struct TexelInput {
     LaidTexels lay(std::uint32_t base, std::uint64_t most) const;
 };
 
-/// About `base` texels, and finer ones up to `most` in all. Unfinished when cancelled.
+/// Lays about `base` coarse texels, and finer ones up to `most` in total. Incomplete when
+/// cancelled.
 LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
     BakeSettings settings = scene.bake;
     settings.lightmapCaches = std::max(base, 1U);
@@ -233,8 +235,8 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
     return result;
 }
 
-/// As many texels as the settings ask for. How many finer ones a scene deserves is not known before
-/// they are laid once; then both kinds are reduced by the same factor.
+/// Lays as many texels as the settings ask for. The number of finer ones that a scene needs is
+/// known only after a first trial; then both kinds are reduced by the same factor.
 LaidTexels layTexels(const TexelInput& in) {
     const std::uint64_t wanted = in.scene.bake.lightmapCaches;
     if (in.density.varied.empty())
@@ -249,7 +251,7 @@ LaidTexels layTexels(const TexelInput& in) {
     return in.lay(share(std::max(base / std::max(all, 1.), kMinBase)), wanted);
 }
 
-/// To those that lead to finer texels.
+/// Adds `snaps` to those elements that lead to finer texels.
 void addSnaps(std::vector<std::uint32_t> snaps, LightmapLayout& layout) {
     if (snaps.empty())
         return;

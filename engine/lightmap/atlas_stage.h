@@ -13,13 +13,13 @@
 namespace limn {
 
 struct PlacedAtlas {
-    Atlas atlas;                      ///< each texel's points are the open ones
+    Atlas atlas;                      ///< each texel keeps its open points only
     std::vector<MeshDensity> surfels; ///< per mesh
 };
 
-/// The stages charts, density and atlas, by the scene's bake settings: what `store` (may be null)
-/// knows of them, else made anew. Texels are equally dense all over where the settings say how
-/// dense. `meshes`: hashMeshes(scene). `rays` grows by the rays traced. Nothing when cancelled.
+/// Runs the stages charts, density and atlas with the scene's bake settings, reusing results in
+/// `store` (may be null). The texel density is uniform if the settings prescribe it. `meshes` is
+/// hashMeshes(scene). Adds the rays traced to `rays`. Returns std::nullopt when cancelled.
 std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
                                       const std::vector<std::uint64_t>& meshes,
                                       const Progress& progress, StageStore* store,

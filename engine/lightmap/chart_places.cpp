@@ -32,7 +32,7 @@ std::uint32_t sideTexels(float texels) {
     return texels < 0.5f ? 1U : std::uint32_t(std::lround(std::min(texels, kLargestSide))) + 1;
 }
 
-/// `size`: extent in the place's plane, object units.
+/// Sets the place's texel size; `size` is its extent in its plane in object units.
 void fitSize(ChartPlace& place, glm::vec2 size, float texelsPerUnit) {
     for (int k = 0; k < 2; ++k) {
         place.size[k] = sideTexels(size[k] * texelsPerUnit);
@@ -40,13 +40,13 @@ void fitSize(ChartPlace& place, glm::vec2 size, float texelsPerUnit) {
     }
 }
 
-/// A chart that looks for others to share texels with.
+/// A chart that may share texels with others.
 struct Piece {
     std::uint32_t chart;
     glm::ivec2 lower, upper; ///< cells of one texel that its bounds meet
 };
 
-/// A cell of one texel in a slab, and a piece in it.
+/// A cell of one texel in a slab, and a piece that covers it.
 struct CellUse {
     std::uint8_t side;
     int slab;
@@ -59,7 +59,7 @@ struct CellUse {
     }
 };
 
-/// Sets that are joined pairwise; a set is named by its least member.
+/// Union-find: sets that are joined pairwise and identified by their smallest member.
 struct DisjointSets {
     std::vector<std::uint32_t> parent;
 
@@ -90,7 +90,7 @@ bool standsAlone(const MeshChartShapes& shapes, const MeshCharts& charts, std::u
     return !(extent[axis] <= kMaxDepth && plane.x * plane.y <= kMaxCells);
 }
 
-/// The cells of all pieces of an instance.
+/// Cells covered by the pieces of an instance.
 std::vector<CellUse> cellsOf(const MeshChartShapes& shapes, std::span<const Piece> pieces,
                              float texelsPerUnit) {
     std::vector<CellUse> uses;
@@ -109,7 +109,7 @@ std::vector<CellUse> cellsOf(const MeshChartShapes& shapes, std::span<const Piec
     return uses;
 }
 
-/// Joins pieces in the same cell or in neighbouring ones of the same slab.
+/// Joins pieces in the same cell or in adjacent cells of the same slab.
 DisjointSets joinTouching(const std::vector<CellUse>& uses, std::size_t pieces) {
     DisjointSets sets(pieces);
     std::size_t above = 0; // first use of the cell over uses[i]
@@ -129,7 +129,7 @@ DisjointSets joinTouching(const std::vector<CellUse>& uses, std::size_t pieces) 
     return sets;
 }
 
-/// One place per set of pieces that touch.
+/// Adds one place per set of touching pieces.
 void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit, float factor,
                  std::span<const Piece> pieces, std::vector<ChartPlace>& out) {
     const std::uint32_t mesh = in.scene.instances[instance].mesh;
@@ -164,7 +164,7 @@ void placePieces(const AtlasInput& in, std::uint32_t instance, float texelsPerUn
     }
 }
 
-/// The charts of an instance that have this factor.
+/// Places the charts of an instance that have this factor.
 void placeAlike(const AtlasInput& in, std::uint32_t instance, float texelsPerUnit, float factor,
                 std::vector<ChartPlace>& out) {
     const std::uint32_t mesh = in.scene.instances[instance].mesh;

@@ -12,11 +12,11 @@
 
 namespace limn {
 
-/// What does not depend on the density of texels, of one mesh, chart by chart.
+/// Properties of a mesh's charts that do not depend on the texel density.
 struct MeshChartShapes {
-    std::vector<std::uint32_t> begin, triangles; ///< of chart c: triangles[begin[c] … begin[c+1])
-    std::vector<std::uint8_t> side;      ///< that most of its area faces: +x, -x, +y, -y, +z, -z
-    std::vector<double> area;            ///< of one side in object space [m^2]
+    std::vector<std::uint32_t> begin, triangles; ///< chart c has triangles[begin[c] … begin[c+1])
+    std::vector<std::uint8_t> side; ///< direction most of its area faces: +x, -x, +y, -y, +z, -z
+    std::vector<double> area;       ///< area of one side in object space [m^2]
     std::vector<glm::vec3> lower, upper; ///< bounds in object space
 
     std::span<const std::uint32_t> trianglesOf(std::uint32_t chart) const {
@@ -25,13 +25,15 @@ struct MeshChartShapes {
 };
 MeshChartShapes shapesOf(const Mesh& mesh, const MeshCharts& charts);
 
-/// Texels per world metre make so many texels per object unit: the instance's atlasScale.
+/// Input of placeCharts(). Texels per object unit are the texels per metre in the world times
+/// `scale`.
 struct AtlasInput {
     const Scene& scene;
     const std::vector<MeshCharts>& charts; ///< per mesh
     std::vector<MeshChartShapes> shapes;   ///< per mesh
-    std::vector<float> scale;              ///< per instance
-    /// Per instance and chart, times the density [texels per metre]; empty, also per instance: 1.
+    std::vector<float> scale;              ///< per instance: its atlasScale
+    /// Multiplies the density [texels per metre], per instance and chart. Empty, as a whole or for
+    /// an instance, means 1.
     std::vector<std::vector<float>> factor;
 
     float factorOf(std::uint32_t instance, std::uint32_t chart) const {
@@ -39,43 +41,43 @@ struct AtlasInput {
     }
 };
 
-/// With every factor 1.
+/// Input with every factor 1.
 AtlasInput atlasInput(const Scene& scene, const std::vector<MeshCharts>& charts);
 
 bool hasLightmap(const AtlasInput& in, const Instance& instance);
 
-/// That are lit: 2 where the instance's material shows both.
+/// Number of lit sides: 2 if the instance's material is two-sided, else 1.
 std::uint32_t sidesOf(const AtlasInput& in, const Instance& instance);
 
 /// A rectangle of texels onto which one or several charts of an instance are drawn. Its borders lie
 /// on texel centres.
 struct ChartPlace {
     std::uint32_t instance;
-    std::uint32_t sides; ///< that need such a rectangle each
+    std::uint32_t sides; ///< number of sides, each of which needs such a rectangle
     float factor = 1;    ///< AtlasInput::factor of its charts
     std::vector<std::uint32_t> charts;
-    /// The charts' plane: -1, that of its only chart (MeshCharts::chartUv); else the plane of the
-    /// object's axes (axis + 1) mod 3 and (axis + 2) mod 3.
+    /// Plane of the charts. -1: the plane of its only chart (MeshCharts::chartUv); otherwise the
+    /// plane of the object's axes (axis + 1) mod 3 and (axis + 2) mod 3.
     int axis = -1;
     glm::uvec2 size{1};   ///< texels
-    glm::vec2 lower{0};   ///< in the plane
+    glm::vec2 lower{0};   ///< lower corner in the plane
     glm::vec2 scale{0};   ///< texels per object unit; 0 along a side of one texel
-    glm::ivec2 offset{0}; ///< in the atlas, once packed
+    glm::ivec2 offset{0}; ///< position in the atlas, set by packing
 
     glm::vec2 toTexels(glm::vec2 plane) const { return (plane - lower) * scale + 0.5f; }
 };
 
-/// Corner k of a triangle in the place's texels, relative to its offset.
+/// Corner k of a triangle in texels of the place, relative to its offset.
 glm::vec2 cornerInPlace(const AtlasInput& in, const ChartPlace& place, std::uint32_t triangle,
                         std::uint32_t k);
 
 /// Places for all charts of all static instances at `density` texels per metre.
 ///
-/// A chart of its own costs half a texel more all round than its area is worth, so a mesh of small
-/// or narrow pieces would eat up the texels of the large ones. Where the border outweighs the area
-/// by more than half, charts of an instance share a place: those that face the same side, lie in
-/// the same slab of about a texel's thickness, and whose texels touch, are drawn over each other
-/// along the object's axis. So a texel serves what lies within it, whichever piece it belongs to.
+/// A separate place costs half a texel on every side beyond the chart's own area, so a mesh of
+/// small or narrow pieces would use up the texels of the large ones. Where the border exceeds the
+/// area by more than half, charts of an instance share a place: charts that face the same side, lie
+/// in the same slab about one texel thick and have touching texels are drawn over each other along
+/// the object's axis. A texel then represents everything inside it, whichever piece it belongs to.
 std::vector<ChartPlace> placeCharts(const AtlasInput& in, float density);
 
 } // namespace limn

@@ -16,7 +16,7 @@ namespace limn {
 
 namespace {
 
-/// Looks now and then whether the bake was cancelled.
+/// Checks periodically whether the bake was cancelled.
 struct Stop {
     const Progress& progress;
     bool at(std::size_t i) const { return i % 4096 == 0 && progress.cancelled(); }
@@ -27,7 +27,7 @@ struct Adjacency {
     std::vector<std::uint32_t> begin, neighbours;
 };
 
-/// Triangles belong together when they share an edge of equal end points.
+/// Triangles are adjacent if they share an edge with equal end points.
 Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& point,
                          const Stop& stop) {
     constexpr std::size_t kMaxSheets = 8; // more share no neighbourhood worth the quadratic walk
@@ -35,7 +35,7 @@ Adjacency buildAdjacency(const Mesh& mesh, const std::vector<std::uint32_t>& poi
     const auto edge = [&](std::size_t i) {
         return std::minmax(point[mesh.indices[i]], point[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]]);
     };
-    // Edges in buckets by their lesser point, sorted by the other one, then by triangle.
+    // Edges in buckets by their smaller point, sorted by the other point, then by triangle.
     std::vector<std::uint32_t> begin(point.size() + 1, 0);
     for (std::size_t i = 0; i < corners; ++i)
         ++begin[edge(i).first + 1];
@@ -120,7 +120,7 @@ public:
     std::vector<glm::vec2> corner;      ///< per index
 };
 
-/// Islands of TEXCOORD_1, to the scale of the surface.
+/// Makes charts of the islands of TEXCOORD_1, scaled to the surface.
 void useAuthoredUv(const Mesh& mesh, const TriangleGeometry& geometry, const Stop& stop,
                    ChartGrower& out) {
     const Adjacency adjacency = buildAdjacency(mesh, weldVertices(mesh, true, stop.progress), stop);
@@ -168,8 +168,8 @@ void unwrap(const TriangleGeometry& geometry, const Stop& stop, ChartGrower& out
             out.grow(seeds[i], charts++);
 }
 
-/// One vertex per (mesh vertex, chart); the plane coordinates shifted so that each chart starts at
-/// 0.
+/// Creates one vertex per (mesh vertex, chart) and shifts the plane coordinates so that each chart
+/// starts at 0.
 MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
     MeshCharts result;
     result.chartOfTriangle = grown.chartOf;
@@ -182,7 +182,7 @@ MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
         lower[chart] = glm::min(lower[chart], grown.corner[i]);
         upper[chart] = glm::max(upper[chart], grown.corner[i]);
     }
-    // Copies of a vertex, one per chart, as chains: latest copy of each, and the one before each.
+    // Copies of a vertex, one per chart, form chains: the latest copy and the one before each.
     constexpr std::uint32_t kNone = ~0U;
     std::vector<std::uint32_t> latest(mesh.positions.size(), kNone), before, chartOf;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {

@@ -9,15 +9,15 @@
 
 namespace limn {
 
-/// Cuts a mesh into charts: pieces that lie flat, without overlap, in a plane. Uses TEXCOORD_1
-/// where it is valid (within [0, 1], no two triangles overlapping, no degenerate ones), one chart
-/// per island; else projects connected triangles along the normal of a seed, within 60 degrees of
-/// it. Deterministic. chartUv is in object units, to scale.
-/// Empty when cancelled.
+/// Cuts a mesh into charts: pieces that are flattened into a plane without overlap. Uses TEXCOORD_1
+/// if it is valid (within [0, 1], no overlapping or degenerate triangles), with one chart per
+/// island; otherwise projects connected triangles along the normal of a seed triangle, as long as
+/// they lie within 60 degrees of it. Deterministic. chartUv is to scale in object units. Returns
+/// empty charts when cancelled.
 MeshCharts buildCharts(const Mesh& mesh, const Progress& progress = {});
 
-/// Whether TEXCOORD_1 can serve as lightmap coordinates; else why not, for the report. Empty:
-/// valid. "cancelled" when cancelled.
+/// Why TEXCOORD_1 cannot serve as lightmap coordinates, for the report. Returns an empty string if
+/// it is valid and "cancelled" when cancelled.
 std::string lightmapUvDefect(const Mesh& mesh, const Progress& progress = {});
 
 } // namespace limn

@@ -18,13 +18,14 @@ namespace {
 
 constexpr double kTexelsPerProbe = 4, kMaxProbes = 8192;
 constexpr double kRaysPerTexel = 16, kMaxRays = double(1 << 19); ///< of all probes together
-/// What lies within so many texels counts alike: no texel resolves the light about it.
+/// Smaller distances than this many texels are clamped: no texel resolves the light there.
 constexpr double kAlike = 8;
-/// Charts that deserve less than this share of all texels have the density of their instance.
+/// Charts that need less than this share of all texels have the density of their instance.
 constexpr double kOwnDensity = 0.01;
-/// Charts that would waste this share of all texels on parts that see nothing near vary.
+/// Charts that would waste this share of all texels on parts that see nothing nearby are varied.
 constexpr double kWaste = 0.1;
-/// A part of a chart is near if it deserves 4 to this times the texels per metre of most of it.
+/// A part of a chart is near if it needs at least 4 to this power times the texels per metre of
+/// most of the chart.
 constexpr int kFar = 2;
 
 /// A chart of an instance.
@@ -47,7 +48,7 @@ struct Probe {
     bool inSolid = false; ///< most rays meet backs
 };
 
-/// What a probe's ray met.
+/// Hit of a probe's ray.
 struct Met {
     std::uint32_t instance = ~0U; ///< ~0: nothing that sends light
     MeshPoint point{};
@@ -99,7 +100,7 @@ private:
     BakeDensity m_result;
 };
 
-/// Areas from the scale that the atlas uses, which turning an object leaves alone.
+/// Computes areas with the scale that the atlas uses, which rotations of an object do not change.
 void DensityFinder::listCharts() {
     m_first.assign(m_scene.instances.size(), ~0U);
     for (std::uint32_t i = 0; i < m_scene.instances.size(); ++i) {
@@ -117,8 +118,9 @@ void DensityFinder::listCharts() {
     m_size = std::sqrt(m_area);
 }
 
-/// In proportion to the root of each chart's area; what charts without a probe deserve carries over
-/// to the next chart of the instance, and each instance has one.
+/// Distributes probes in proportion to the square root of each chart's area. The remainder of
+/// charts without a probe carries over to the next chart of the instance; each instance has at
+/// least one.
 void DensityFinder::addProbes() {
     const double probes = std::min(m_texels / kTexelsPerProbe, kMaxProbes);
     double roots = 0, carried = 0;
@@ -134,7 +136,7 @@ void DensityFinder::addProbes() {
     }
 }
 
-/// Point k of n lies in the triangle at (k + 1/2) / n of the chart's area.
+/// Point k of n lies in the triangle at (k + 1/2) / n of the chart's cumulative area.
 void DensityFinder::addProbes(Chart& chart, std::uint32_t count) {
     const Instance& instance = m_scene.instances[chart.instance];
     const Mesh& mesh = m_scene.meshOf(instance);
@@ -156,7 +158,7 @@ void DensityFinder::addProbes(Chart& chart, std::uint32_t count) {
     chart.end = std::uint32_t(m_probes.size());
 }
 
-/// Cosine-weighted rays.
+/// Traces cosine-weighted rays.
 void DensityFinder::look(Probe& probe, Met* met) const {
     WorldPoint at = worldPoint(m_scene, m_scene.instances[probe.instance], probe.point);
     if (probe.back)
@@ -166,7 +168,7 @@ void DensityFinder::look(Probe& probe, Met* met) const {
     const DirectionSet directions(m_rays, false, probe.seed);
     std::uint32_t backs = 0;
     for (std::uint32_t r = 0; r < m_rays; ++r) {
-        // Heights are uniform in the set, and their squares where rays are cosine-weighted.
+        // Heights are uniform in the set; for cosine-weighted rays their squares must be.
         const glm::vec3 d = directions[r];
         const float z2 = directions.height(r), flat = std::max(d.x * d.x + d.y * d.y, 1e-12f);
         const glm::vec2 disc = glm::vec2(d.x, d.y) * std::sqrt((1 - z2) / flat);
@@ -186,7 +188,7 @@ void DensityFinder::look(Probe& probe, Met* met) const {
     probe.inSolid = 2 * backs > m_rays;
 }
 
-/// Of the harmonic mean nearness, in units of the scene's size; no distance counts as less than
+/// Harmonic mean of the distances, in units of the scene's size; distances are clamped to at least
 /// `nearest` [m].
 double DensityFinder::nearness(std::uint32_t probe, float nearest) const {
     double sum = 0;
@@ -195,9 +197,9 @@ double DensityFinder::nearness(std::uint32_t probe, float nearest) const {
     return sum / m_rays * m_size;
 }
 
-/// The cubic root of each chart's mean fourth power; of small ones, and those without probes
-/// outside of solids, their instance's: an object that stands on a floor keeps its texels when it
-/// is lifted.
+/// Computes the cubic root of each chart's mean fourth power. Small charts, and those whose probes
+/// all lie in solids, use that of their instance, so an object that stands on a floor keeps its
+/// texels when it is lifted.
 void DensityFinder::findDetail(float nearest) {
     std::vector<double> sum(m_scene.instances.size()), open(sum.size());
     double texels = 0; // relative
@@ -221,7 +223,7 @@ void DensityFinder::findDetail(float nearest) {
     }
 }
 
-/// The class that most probes of a chart deserve.
+/// Density class that most probes of a chart need.
 int DensityFinder::usualClass(const Chart& chart) const {
     std::vector<int> all;
     for (std::uint32_t p = chart.begin; p < chart.end; ++p)
@@ -234,8 +236,8 @@ int DensityFinder::usualClass(const Chart& chart) const {
     return *middle;
 }
 
-/// Calls visit(chart, hit, fours, area) for each ray that hit a chart: its index in m_all, the hit,
-/// the density class that the hit's distance calls for, and the area that the ray stands for [m^2].
+/// Calls visit(chart, hit, fours, area) for each ray that hit a chart: the chart's index in m_all,
+/// the hit, the density class for the hit's distance, and the area that the ray represents [m^2].
 template <class Visit>
 void DensityFinder::forArrived(const Visit& visit) const {
     for (const Chart& c : m_all)
@@ -250,11 +252,11 @@ void DensityFinder::forArrived(const Visit& visit) const {
         }
 }
 
-/// Of each chart, how many texels its near parts need, where `fours` is 0 times their area. A part
-/// too small for probes of its own is found by the rays that arrive there: as many, per area and
-/// length, as would leave it.
+/// Number of texels that the near parts of each chart need, relative to their area at `fours` 0. A
+/// part too small for probes of its own is found by the rays that arrive there: per area and
+/// distance, as many arrive as would leave it.
 std::vector<double> DensityFinder::nearWorth() const {
-    // A block of texels has 25 where 16 would do, once on each level, and reaches beyond the part.
+    // A block has 25 texels instead of 16, on every level, and extends beyond the part.
     constexpr double kBlocks = 2.5;
     std::vector<double> worth(m_all.size());
     forArrived([&](std::uint32_t chart, const Met&, int fours, double area) {
@@ -264,7 +266,7 @@ std::vector<double> DensityFinder::nearWorth() const {
     return worth;
 }
 
-/// The varied ones, and what arrived in their near parts.
+/// Collects the varied charts and the hits in their near parts.
 std::vector<VariedChart> DensityFinder::varied() const {
     std::vector<VariedChart> result;
     std::vector<std::uint32_t> numbers(m_all.size(), ~0U);
@@ -284,8 +286,9 @@ std::vector<VariedChart> DensityFinder::varied() const {
     return result;
 }
 
-/// Sets the density of a chart. Returns what its texels are worth. A chart varies where its near
-/// parts need a share of all texels, or where one density for all of it would waste one.
+/// Sets the density of a chart. Returns the number of texels it needs, as the area that they would
+/// have at `fours` 0. A chart is varied if its near parts need a significant share of all texels,
+/// or if a single density would waste one.
 double DensityFinder::chooseChart(Chart& chart, double near) {
     const double area = chart.area * chart.sides;
     chart.even = densityClass(std::max(chart.detail, 1e-30), m_result.centre);
@@ -295,7 +298,8 @@ double DensityFinder::chooseChart(Chart& chart, double near) {
     return area * std::exp2(4 * chart.fours) + (chart.varied ? near : 0);
 }
 
-/// The width of texels decides what they can resolve, and that their number and so their width.
+/// Iterates, because the width of texels decides what they can resolve, and that determines their
+/// number and so their width.
 void DensityFinder::chooseDensities() {
     m_worth = m_area;
     double width = std::sqrt(m_area / m_texels); // where `fours` is 0 [m]
@@ -330,8 +334,8 @@ std::vector<std::vector<float>> DensityFinder::factors() const {
     return result;
 }
 
-/// Each weighs as much as the texels that its probe would stand for if no chart varied: a probe in
-/// a small near part of a chart stands for much more than that part.
+/// Weights each hit by the number of texels that its probe would represent if no chart were varied:
+/// a probe in a small near part of a chart represents much more than that part.
 std::vector<MeshHits> DensityFinder::hits() const {
     std::vector<MeshHits> result(m_in.charts.size());
     for (const Chart& c : m_all) {

@@ -11,53 +11,52 @@
 
 namespace limn {
 
-/// A chart whose parts deserve densities far apart.
+/// A chart whose parts need very different densities.
 struct VariedChart {
     std::uint32_t instance, chart;
-    /// Where rays from near by met it: parts that may be too small to be found otherwise.
+    /// Points where rays from nearby hit it; they find parts too small to be sampled otherwise.
     std::vector<MeshPoint> at;
-    std::vector<std::uint32_t> back; ///< of each: 1: on the back
-    /// Of each: texels per metre are to be multiplied by 4 to this, as those of charts are.
+    std::vector<std::uint32_t> back; ///< per point, 1: on the back
+    /// Per point: the exponent of 4 by which its texels per metre should be multiplied.
     std::vector<std::int32_t> fours;
 };
 
-/// Where a scene deserves texels and surfels.
+/// Densities of texels and surfels over a scene.
 struct BakeDensity {
-    /// Times the texels per metre, per instance and chart: a power of four. Empty, also for an
-    /// instance: 1.
+    /// Multiplies the texels per metre, per instance and chart: powers of four. Empty, as a whole
+    /// or for an instance, means 1.
     std::vector<std::vector<float>> texels;
-    std::vector<MeshDensity> surfels; ///< per mesh; empty: one density
-    /// Charts that have the density which most of their area deserves: findFineLookups() adds
-    /// texels where a part deserves more.
+    std::vector<MeshDensity> surfels; ///< per mesh; empty: uniform
+    /// Charts that are given the density that most of their area needs; findFineLookups() adds
+    /// texels to the parts that need more.
     std::vector<VariedChart> varied;
-    double baseShare = 1;   ///< of all texels, that are left if those parts have theirs
-    double centre = 1;      ///< of densityClass(), for detailOf()
-    double size = 1;        ///< [m] that nearness is relative to
-    float nearest = 0;      ///< no distance counts as less [m]
-    std::uint64_t rays = 0; ///< traced to find it
+    double baseShare = 1;   ///< share of all texels that remains after those parts get theirs
+    double centre = 1;      ///< centre of densityClass(), for detailOf()
+    double size = 1;        ///< length that distances are relative to [m]
+    float nearest = 0;      ///< smaller distances are clamped to this [m]
+    std::uint64_t rays = 0; ///< number of rays traced to compute the densities
 };
 
-/// Texels per area, relative, that a place deserves where R is size / nearness.
+/// Relative number of texels per area that a place needs, where R is size / nearness.
 double detailOf(double nearness);
 
-/// Looks round from points all over the static surfaces.
+/// Computes densities by tracing rays from points all over the static surfaces.
 ///
-/// Irradiance varies over distances like R, the harmonic mean of those to what is seen (Ward,
-/// Heckbert. Irradiance Gradients. 1992; the sky is infinitely far), and so is off by about
-/// E / (R^2 n) where it is interpolated linearly between n texels per area. Summed over all
-/// surfaces, the squares of that are least where each chart has n in proportion to the cubic root
-/// of its mean 1 / R^4. So a ground that reaches to the horizon leaves its texels to the house on
-/// it.
+/// Irradiance varies over distances like R, the harmonic mean of the distances to what is seen
+/// (Ward, Heckbert. Irradiance Gradients. 1992; the sky is infinitely far), so linear interpolation
+/// between n texels per area has an error of about E / (R^2 n). The sum of the squared errors over
+/// all surfaces is smallest where each chart has n in proportion to the cubic root of its mean 1 /
+/// R^4. A ground that reaches to the horizon thus leaves its texels to the house on it.
 ///
-/// Surfels follow what rays from the texels meet: each stands for the same share of all that light
-/// comes from, so surfaces that no cache sees, or that lie far off, get few.
+/// Surfels are distributed by the hits of rays from the texels: each surfel represents the same
+/// share of all incoming light, so surfaces that no cache sees, or that lie far away, get few.
 ///
-/// Both densities come in powers of sixteen about what most texels or hits have, so in a room whose
-/// walls are all near each other there is one density, and small moves of objects rarely change
-/// any. A chart some of whose parts deserve 256 times the texels that most of its area does varies,
-/// where these parts need a hundredth of all texels or one density for all of it would waste a
-/// tenth: it has that of most of its area. Surfels are as if none varied. `texels`: how many there
-/// will be. Of no use when cancelled.
+/// Both densities are powers of sixteen relative to what most texels or hits have, so a room whose
+/// walls are all near each other has a uniform density, and small moves of objects rarely change
+/// it. A chart is varied if some of its parts need 256 times the texels that most of its area does,
+/// and either these parts need a hundredth of all texels or a single density would waste a tenth of
+/// them; it is given the density of most of its area. Surfels are distributed as if no chart were
+/// varied. `texels` is the expected number of texels. The result must not be used when cancelled.
 BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                         std::uint32_t texels, const Progress& progress = {});
 

@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// How triangles are parted into `cells` cells in all.
+/// Lists the fields that divide a mesh's triangles into `cells` cells in total.
 template <class A, class D>
 void partFields(A& a, D& d, const Mesh& mesh, std::uint64_t cells) {
     a("level", d.level, rule::noneOr(mesh.triangleCount()),
@@ -17,7 +17,7 @@ void partFields(A& a, D& d, const Mesh& mesh, std::uint64_t cells) {
       }));
 }
 
-/// A MeshDensity of the mesh.
+/// Lists the fields of a MeshDensity of the mesh.
 template <class A, class D>
 void densityFields(A& a, D& d, const Mesh& mesh) {
     partFields(a, d, mesh, d.density.size());

@@ -21,13 +21,13 @@ constexpr std::uint32_t kNone = ~0U, kBlock = kFineCells + 1; ///< texels along 
 constexpr std::uint32_t kBlockTexels = kBlock * kBlock;
 constexpr std::uint32_t kRaysPerTexel = 4;
 
-/// A triangle in the lookups of one place, in texels of a block that it may get.
+/// A triangle in the lookups of one place, in texels of a block that may be added there.
 struct BlockTriangle {
     std::uint32_t place;
     FlatTriangle flat;
 };
 
-/// Those of the charts whose density varies.
+/// Triangles of the charts whose density varies.
 std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensity& density,
                                             const LightmapLayout& layout) {
     std::vector<PlacedTriangle> result;
@@ -43,7 +43,7 @@ std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensit
     return result;
 }
 
-/// How triangles lie in places that wanted(place, triangle) names, place by place.
+/// Computes how triangles lie in the places selected by wanted(place, triangle), sorted by place.
 template <class Wanted>
 std::vector<BlockTriangle> partTriangles(const std::vector<PlacedTriangle>& triangles,
                                          std::uint32_t width, const Wanted& wanted) {
@@ -88,7 +88,7 @@ std::vector<LocalTexel> coverBlock(std::span<const BlockTriangle> parts) {
     return coverTriangles(flat, glm::uvec2(kBlock));
 }
 
-/// The texels of an atlas by their place.
+/// Texels of an atlas, indexed by their position.
 struct TexelGrid {
     const Scene& scene;
     const Atlas& atlas;
@@ -102,7 +102,7 @@ struct TexelGrid {
 
     const AtlasTexel& operator[](std::uint32_t place) const { return atlas.texels[at[place]]; }
 
-    /// Whether lookups of the triangle's side and chart begin at a place.
+    /// Whether the lookups at a place belong to the triangle's side and chart.
     bool holds(std::uint32_t place, const PlacedTriangle& t) const {
         if (place >= at.size() || at[place] == kNone)
             return false;
@@ -124,7 +124,8 @@ void grow(LightmapLayout& layout, std::uint32_t rows) {
     layout.snaps.resize(std::size_t(layout.width) * layout.height, 0);
 }
 
-/// The finer texels of one level. `places` ascend. Returns how triangles lie in their lookups.
+/// Adds the finer texels of one level. `places` must be ascending. Returns how triangles lie in
+/// their lookups.
 std::vector<PlacedTriangle> addLevel(const Scene& scene,
                                      const std::vector<PlacedTriangle>& triangles,
                                      const std::vector<std::uint32_t>& places, Atlas& atlas) {
@@ -164,7 +165,7 @@ std::vector<PlacedTriangle> addLevel(const Scene& scene,
     return result;
 }
 
-/// Per place, the greatest of VariedChart::fours among the finest lookups there.
+/// Maximum of VariedChart::fours per place, among the finest lookups there.
 std::vector<std::int32_t> metAt(const Scene& scene, const BakeDensity& density,
                                 const LightmapLayout& layout) {
     constexpr std::int32_t kNothing = -100;
@@ -184,7 +185,7 @@ std::vector<std::int32_t> metAt(const Scene& scene, const BakeDensity& density,
     return result;
 }
 
-/// Looks round from a block's texels: the detail of the quarter that deserves most.
+/// Traces rays from a block's texels to find the detail of the quarter that needs most.
 class BlockProbe {
 public:
     BlockProbe(const TraceScene& trace, const BakeDensity& density)
@@ -259,9 +260,9 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
                 const AtlasTexel& owner = grid[all[i].place];
                 const std::vector<LocalTexel> texels = coverBlock(all[i].parts);
                 all[i].rays = texels.size() * kRaysPerTexel;
-                // Texels of base / 4^k have class k.
+                // Texels of width base / 4^k have class k.
                 const double has = std::log2(double(base / owner.width)) / 2;
-                // One ray overstates how near all else is; it counts a class less.
+                // A single ray overestimates how near everything is; it counts as one class less.
                 const double detail =
                     std::max(probe.detail(owner, texels),
                              std::exp2(4. * (met[all[i].place] - 1)) * density.centre);

@@ -12,26 +12,26 @@
 
 namespace limn {
 
-/// Lookups between four texels of an atlas that read a block of finer texels instead: (kFineCells +
-/// 1)^2 of them, below the atlas, so that the four corners lie in the block's. Their own lookups
-/// may read yet finer ones.
+/// Lookups between four texels of an atlas that read a block of finer texels instead. A block has
+/// (kFineCells + 1)^2 texels, stored below the atlas; its corners coincide with the four texels.
+/// Lookups inside a block may in turn read even finer blocks.
 struct FineLookups {
     std::vector<std::vector<std::uint32_t>> places; ///< per level, ascending; y * width + x
-    std::uint64_t rays = 0;                         ///< traced to find them
+    std::uint64_t rays = 0;                         ///< number of rays traced to find them
 
-    /// Of their blocks, at most.
+    /// Maximum number of texels in their blocks.
     std::uint64_t texels() const;
 };
 
-/// Looks round from all lookups of the charts whose density varies (BakeDensity::varied), and where
-/// one deserves more than its texels, adds finer ones; at most `most` texels, where what is seen is
-/// nearest. So a ground 200 m wide has texels of centimetres in the house that stands on it. Of no
-/// use when cancelled.
+/// Traces rays from all lookups of the charts whose density varies (BakeDensity::varied) and
+/// refines those that need more than their texels, nearest surroundings first, up to `most` texels.
+/// A ground 200 m wide thus gets texels of centimetres inside the house that stands on it. The
+/// result must not be used when cancelled.
 FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const BakeDensity& density,
                             std::uint32_t most, const Progress& progress);
 
-/// Adds the texels: grows the atlas, leads the lookups to their blocks (LightmapLayout::snaps), and
-/// returns how triangles lie in these.
+/// Adds the fine texels: grows the atlas, redirects the lookups to their blocks
+/// (LightmapLayout::snaps) and returns how triangles lie in these blocks.
 std::vector<PlacedTriangle> addFineTexels(const Scene& scene, const BakeDensity& density,
                                           const FineLookups& lookups, Atlas& atlas);
 

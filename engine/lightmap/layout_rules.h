@@ -9,15 +9,15 @@
 #include <cstdint>
 #include <vector>
 
-// What charts, texels and their lookups must hold to be followed safely, for lists of fields: in
-// bake files and in kept stages alike.
+// Conditions that charts, texels and their lookups must satisfy to be used safely, as rules for
+// field lists. They apply both to bake files and to cached stages.
 
 namespace limn {
 
-/// A triangle that the mesh has, and a place on it.
+/// Whether the mesh has the point's triangle and the barycentrics lie on it.
 bool isPointOf(const Mesh& mesh, const MeshPoint& point);
 
-/// The points of an AtlasTexel or an OwnCache.
+/// Whether all points of an AtlasTexel or an OwnCache are valid on the mesh.
 template <class Texel>
 bool arePointsOf(const Mesh& mesh, const Texel& texel) {
     if (texel.count == 0 || texel.count > texel.points.size())
@@ -28,25 +28,27 @@ bool arePointsOf(const Mesh& mesh, const Texel& texel) {
     return true;
 }
 
-/// Texels along the sides of an atlas that `used` of them fill, hardly less than one in thousands.
+/// Whether an atlas of `width` x `height` texels is plausible if `used` texels are occupied: about
+/// one in 4096 must be.
 bool isAtlasSize(std::uint64_t width, std::uint64_t height, std::uint64_t used);
 
-/// LightmapLayout::snaps of an atlas of that size: places lead to rows of snaps that there are, or
-/// to blocks of finer texels within the atlas. nullptr, or what is wrong.
+/// Checks LightmapLayout::snaps of an atlas of that size: every element must refer to an existing
+/// row of snaps or to a block of finer texels inside the atlas. Returns a description of the error,
+/// or nullptr.
 const char* snapDefect(const std::vector<std::uint32_t>& snaps, std::uint32_t width,
                        std::uint32_t height);
 
-/// Every vertex of a chart lies within its extent.
+/// Whether every vertex of a chart lies within the chart's extent.
 bool chartsHoldVertices(const MeshCharts& charts);
 
 namespace rule {
 
-/// Every coordinate lies within the reach of scenes.
+/// Every coordinate is at most kMaxCoordinate in magnitude.
 inline auto inReach() {
     return within(-double(kMaxCoordinate), double(kMaxCoordinate));
 }
 
-/// Unit vectors, as rounding leaves them.
+/// Every vector has unit length up to rounding.
 inline auto unit() {
     return each("not of unit length", [](std::size_t, glm::vec3 v) {
         return std::abs(double(v.x) * v.x + double(v.y) * v.y + double(v.z) * v.z - 1) < 1e-3;
@@ -55,7 +57,7 @@ inline auto unit() {
 
 } // namespace rule
 
-/// `mesh`: what the charts are of; null where that is not known.
+/// Lists the fields of charts. `mesh` is the mesh they were made from, or null if it is unknown.
 template <class A, class C>
 void chartFields(A& a, C& c, const Mesh* mesh) {
     const std::uint64_t vertices = mesh ? mesh->positions.size() : ~std::uint64_t(0);

@@ -16,21 +16,21 @@ double sumOf(std::span<const float> values) {
     return sum;
 }
 
-/// Hits per area of a part of a surface, drawn towards `before`, that of the larger part which it
-/// lies in, as if kHits more had been met at that density.
+/// Hits per area of a part of a surface, blended towards `before`, the density of the larger part
+/// that contains it, as if kHits more had been found at that density.
 double drawn(double weight, double area, double perHit, double before) {
     constexpr double kHits = 8;
     return (weight + kHits * perHit) / (area + kHits * perHit / before);
 }
 
-/// Cells of so many hits each tell of their own density.
+/// Level at which cells have enough hits to estimate a density of their own.
 std::uint8_t levelFor(std::size_t hits) {
     constexpr double kHitsPerCell = 16;
     const double level = std::log2(std::max(double(hits) / kHitsPerCell, 1.0)) / 2;
     return std::uint8_t(std::min(level, double(MeshDensity::kMaxLevel)));
 }
 
-/// Of one mesh, hits per square metre of its instances.
+/// Densities of the cells of one mesh in hits per square metre of its instances.
 MeshDensity cellDensities(const Mesh& mesh, const MeshCharts& charts, const MeshChartShapes& shapes,
                           const MeshHits& hits, double perHit, double all) {
     const std::size_t triangles = mesh.triangleCount();
@@ -71,7 +71,7 @@ MeshDensity cellDensities(const Mesh& mesh, const MeshCharts& charts, const Mesh
     return result;
 }
 
-/// One number where all cells agree.
+/// Stores a single value if all cells agree.
 void simplify(MeshDensity& d) {
     const float first = d.density.front();
     for (std::uint32_t t = 0; t < d.level.size(); ++t) {
@@ -84,14 +84,14 @@ void simplify(MeshDensity& d) {
     d = {{}, {}, {first}};
 }
 
-/// What changes the centre little leaves it as it is.
+/// Rounds the centre, so that small changes leave it unchanged.
 double rounded(double centre) {
     return std::exp2(std::round(2 * std::log2(centre)) / 2);
 }
 
-/// A power of sixteen as densityClass() says, 1 at most; of four where that is below 1/16: a ground
-/// that reaches to the horizon has so much area that the next power of sixteen above what it
-/// deserves would take most surfels from the house on it.
+/// Power of sixteen of densityClass(), at most 1; below 1/16 a power of four, because a ground that
+/// reaches to the horizon has so much area that rounding up to the next power of sixteen would take
+/// most surfels from the house on it.
 float surfelClass(double value, double centre) {
     constexpr int kMinimum = -10;
     const int sixteens = densityClass(value, centre);

@@ -12,11 +12,11 @@ namespace limn {
 
 using Triangle2 = std::array<glm::vec2, 3>;
 
-/// True if the interiors overlap by more than rounding (sharing edges or corners does not count).
-/// Either winding.
+/// Whether the interiors overlap by more than rounding (shared edges and corners do not count).
+/// Accepts either winding.
 bool trianglesOverlap(const Triangle2& a, const Triangle2& b);
 
-/// Triangles in a plane, with a hash grid to ask whether a further one would overlap them.
+/// Triangles in a plane, with a hash grid that finds whether another triangle would overlap them.
 class PlanarSet {
 public:
     /// `cellSize` > 0, about the size of a typical triangle.
@@ -29,7 +29,7 @@ private:
     template <class F>
     void forCells(const Triangle2& t, F visit) const;
 
-    /// Triangles over more cells than this are kept in a list that every query walks.
+    /// Triangles that cover more cells than this are kept in a list that every query searches.
     static constexpr int kMaxCells = 256;
 
     float m_cellSize;

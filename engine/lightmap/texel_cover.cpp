@@ -40,7 +40,7 @@ bool reaches(glm::vec2 c, const Corners& t) {
            glm::all(glm::greaterThanEqual(upper, c - kHalf));
 }
 
-/// Calls visit(x, y) for the texels whose bilinear weight is above 0 somewhere on the triangle.
+/// Calls visit(x, y) for the texels whose bilinear weight is > 0 somewhere on the triangle.
 template <class F>
 void forReached(const Corners& flat, glm::uvec2 size, F visit) {
     constexpr float kReach = 0.9999f;
@@ -49,7 +49,7 @@ void forReached(const Corners& flat, glm::uvec2 size, F visit) {
     const glm::ivec2 last(size - 1U);
     const glm::ivec2 lower = glm::clamp(glm::ivec2(glm::ceil(low - kReach)), glm::ivec2(0), last);
     const glm::ivec2 upper = glm::clamp(glm::ivec2(glm::floor(high + kReach)), glm::ivec2(0), last);
-    // Within one square between texel centres the triangle meets its four corners alike.
+    // A triangle inside a single square between texel centres reads all four of its corners.
     const bool small = glm::all(glm::lessThanEqual(upper - lower, glm::ivec2(1)));
     for (int y = lower.y; y <= upper.y; ++y)
         for (int x = lower.x; x <= upper.x; ++x)
@@ -86,8 +86,8 @@ glm::vec3 closestPoint(glm::vec2 p, const Corners& t) {
     return best;
 }
 
-/// Keeps a sample off the very border, where a wall may stand: up to 0.1 texel towards the
-/// triangle's middle.
+/// Moves a sample away from the border, where a wall may stand, by up to 0.1 texel towards the
+/// triangle's centre.
 glm::vec3 pullInside(glm::vec3 weights, const Corners& t) {
     const glm::vec2 p = weights.x * t[0] + weights.y * t[1] + weights.z * t[2];
     const float distance = glm::length((t[0] + t[1] + t[2]) / 3.f - p);
@@ -95,7 +95,7 @@ glm::vec3 pullInside(glm::vec3 weights, const Corners& t) {
     return glm::mix(weights, glm::vec3(1.f / 3), s);
 }
 
-/// What a texel has found while the triangles pass by.
+/// Samples that a texel has collected while iterating over the triangles.
 struct TexelSearch {
     float distance = 1e30f; ///< to the closest surface point, in texels
     MeshPoint closest{};
@@ -104,7 +104,7 @@ struct TexelSearch {
     std::array<MeshPoint, AtlasTexel::kMaxPoints> points;
 };
 
-/// The texels of a place that lookups meet, and what they have found.
+/// Texels of a place that lookups read, with the samples collected so far.
 struct Cover {
     glm::uvec2 size;
     std::vector<std::uint32_t> indexOf; ///< per texel of the place: into `found`; ~0: not met
@@ -138,15 +138,14 @@ void searchClosest(glm::vec2 centre, std::uint32_t triangle, const Corners& flat
     }
 }
 
-/// The k-th of the places looked for in a texel, relative to its centre: a rank-1 lattice over
-/// [-1/2, 1/2)^2.
+/// Candidate k in a texel, relative to its centre: a rank-1 lattice over [-1/2, 1/2)^2.
 glm::vec2 latticeOffset(std::uint32_t k) {
     constexpr float n = float(AtlasTexel::kMaxPoints);
     return {(float(k) + 0.5f) / n - 0.5f,
             (float(3 * k % AtlasTexel::kMaxPoints) + 0.5f) / n - 0.5f};
 }
 
-/// Points of a lattice where they lie on the triangle.
+/// Adds the lattice points that lie on the triangle.
 void searchLattice(glm::vec2 centre, std::uint32_t triangle, const Corners& flat,
                    TexelSearch& out) {
     const glm::vec2 lower = glm::min(flat[0], glm::min(flat[1], flat[2])),
@@ -166,9 +165,9 @@ void searchLattice(glm::vec2 centre, std::uint32_t triangle, const Corners& flat
     }
 }
 
-/// Points spread evenly over the area of all charts, layers and slopes alike; of those that fall on
-/// a texel any seven remain, all with the same chance (Vitter. Random Sampling with a Reservoir.
-/// 1985).
+/// Adds points distributed evenly over the area of all charts, regardless of layers and slopes. Of
+/// those inside a texel, seven are kept with equal probability (Vitter. Random Sampling with a
+/// Reservoir. 1985).
 void sampleByArea(const AtlasInput& in, const ChartPlace& place, Cover& cover) {
     constexpr double kPerTexel = 24, kPerPlace = 8 * AtlasTexel::kMaxPoints;
     const std::uint32_t meshIndex = in.scene.instances[place.instance].mesh;
@@ -209,7 +208,7 @@ void sampleByArea(const AtlasInput& in, const ChartPlace& place, Cover& cover) {
         }
 }
 
-/// What the texels that a triangle reaches find on it.
+/// Collects the samples on a triangle for all texels that it reaches.
 void searchTriangle(std::uint32_t triangle, const Corners& flat, bool lattice, Cover& cover) {
     forReached(flat, cover.size, [&](std::size_t k) {
         const glm::vec2 centre(float(k % cover.size.x) + 0.5f, float(k / cover.size.x) + 0.5f);

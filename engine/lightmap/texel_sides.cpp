@@ -23,13 +23,13 @@ constexpr std::uint32_t kSlots = AtlasTexel::kMaxPoints;
 constexpr std::uint32_t kMixed = ~0U; ///< texels of several charts
 constexpr int kCells = int(kSnapCells);
 
-/// A point above a surface, from where it looks along it.
+/// A point raised above its surface, from which rays along the surface start.
 struct Lifted {
     glm::vec3 position{0};
     std::uint32_t instance = 0, chart = kMixed;
 };
 
-/// What is known of a texel besides its points.
+/// Properties of a texel besides its points.
 struct Side {
     std::uint32_t chart = kMixed;
     bool open = false;  ///< some point is
@@ -64,7 +64,7 @@ std::uint32_t Sides::chartOf(const AtlasTexel& texel) const {
     return chart;
 }
 
-/// Of kProbesPerPoint directions.
+/// Number of open directions among kProbesPerPoint.
 std::uint32_t Sides::countOpen(const WorldPoint& point, float reach, std::uint32_t seed) const {
     const DirectionSet directions(kProbesPerPoint, false, seed);
     const glm::mat3 toWorld = basisAround(point.normal);
@@ -97,14 +97,15 @@ Lifted Sides::lift(const MeshPoint& point, const AtlasTexel& texel, std::uint32_
     return lift(p, texel.width, texel.instance, chart);
 }
 
-/// Nothing stands between, but for their own chart, which bends by less than a wall.
+/// Whether nothing lies between two points except their own chart, which curves by less than a
+/// wall.
 bool Sides::sees(const Lifted& a, const Lifted& b) const {
     return clearAlong(trace, a.position, b.position, [&](const Hit& hit) {
         return hit.instance == a.instance && chartOf(hit.instance, hit.triangle) == a.chart;
     });
 }
 
-/// Sets the points by the rule of the header.
+/// Selects the texel's points by the rule stated in the header.
 Side Sides::choose(AtlasTexel& texel) const {
     const Scene& scene = trace.scene();
     Side side{.chart = chartOf(texel)};
@@ -120,7 +121,7 @@ Side Sides::choose(AtlasTexel& texel) const {
     }
     side.open = open[first] > 0;
     rays += texel.count * kProbesPerPoint;
-    // Sides as sets of points, named by their first member; most often all are seen from one.
+    // Sides as sets of points, identified by their first member; usually one point sees all others.
     for (std::uint32_t k = 0; k < texel.count; ++k)
         of[k] = k;
     for (std::uint32_t pass = 0; pass < 2 && side.chart != kMixed; ++pass)
@@ -160,7 +161,7 @@ Side Sides::choose(AtlasTexel& texel) const {
     return side;
 }
 
-/// The four texels about a place of the atlas, and where the surface of that place lies.
+/// Four neighbouring texels of the atlas, and the surface between them.
 struct Quad {
     std::array<std::uint32_t, 4> texel; ///< into Atlas::texels; (x, y), (x+1, y), (x, y+1), …
     std::uint32_t at = 0;               ///< the first one's place, y * width + x
@@ -168,10 +169,10 @@ struct Quad {
     std::uint64_t found = 0; ///< bit per point
 };
 
-/// Per cell of a quad: its snap; kSnaps where its middle is on one side with no texel.
+/// Snap per cell of a quad; kSnaps if the cell's centre is on one side with none of the texels.
 using CellSnaps = std::array<std::uint32_t, kCells * kCells>;
 
-/// From a cell to all that lie within a place of it, the nearest first.
+/// Offsets from a cell to all cells within one place of it, nearest first.
 std::vector<glm::ivec2> nearestCells() {
     std::vector<glm::ivec2> result;
     for (int y = -kCells; y <= kCells; ++y)
@@ -222,13 +223,13 @@ private:
     std::vector<glm::ivec2> m_nearest = nearestCells();
 };
 
-/// Whether they are of the same chart and side.
+/// Whether two texels belong to the same chart and side.
 bool Snapper::alike(std::uint32_t a, std::uint32_t b) const {
     const AtlasTexel &s = m_texels[a], &t = m_texels[b];
     return s.instance == t.instance && s.back == t.back && m_side[a].chart == m_side[b].chart;
 }
 
-/// The texel of the same chart and side beside one; kNone where there is none.
+/// Neighbour of a texel in the same chart and side; kNone if there is none.
 std::uint32_t Snapper::neighbour(std::uint32_t texel, std::uint32_t dx, std::uint32_t dy) const {
     const AtlasTexel& t = m_texels[texel];
     const std::uint32_t x = t.texel % m_layout.width + dx, y = t.texel / m_layout.width + dy;
@@ -238,7 +239,7 @@ std::uint32_t Snapper::neighbour(std::uint32_t texel, std::uint32_t dx, std::uin
     return other != kNone && alike(texel, other) ? other : kNone;
 }
 
-/// Whether a place between two texels may be on one side with one of them alone.
+/// Whether a point between two texels may be on one side with only one of them.
 bool Snapper::apart(std::uint32_t a, std::uint32_t b) const {
     const Side &s = m_side[a], &t = m_side[b];
     if (s.split || t.split || !s.open || !t.open)
@@ -278,7 +279,7 @@ void Snapper::findQuads(const Progress& progress) {
     }
 }
 
-/// The middles of the quads' cells on one triangle.
+/// Adds the centres of the quads' cells that lie on one triangle.
 void Snapper::addTriangle(const PlacedTriangle& placed) {
     std::array<glm::vec2, 3> p; // in cells
     for (std::size_t k = 0; k < 3; ++k)
@@ -310,7 +311,7 @@ void Snapper::addTriangle(const PlacedTriangle& placed) {
         }
 }
 
-/// Those of one side of an instance.
+/// Adds the triangles of one side of an instance.
 void Snapper::addTriangles(std::uint32_t instance, std::uint32_t back) {
     const std::uint32_t mesh = m_sides.trace.scene().instances[instance].mesh;
     for (std::uint32_t t = 0; t < m_layout.meshes[mesh].chartOfTriangle.size(); ++t)
@@ -332,9 +333,9 @@ void Snapper::findPoints() {
 /// Corners of a quad, as bits, that each snap reads: all, left, right, upper, lower, one each.
 constexpr std::array<std::uint32_t, kSnaps> kReads = {0xf, 0x5, 0xa, 0x3, 0xc, 1, 2, 4, 8};
 
-/// The snap that keeps most of the bilinear weight at `f`, of four texels' middles, among those
-/// that `from` is on one side with; kSnaps where there is none. `texel`: into `side`, ~0 beyond the
-/// chart.
+/// The snap that keeps most of the bilinear weight at `f`, among snaps that read only those of the
+/// four texels that are on the same side as `from`; kSnaps if there is none. `texel` are indices
+/// into `side`, ~0 outside the chart.
 std::uint32_t chooseSnap(const Sides& sides, const std::vector<Side>& side,
                          const std::array<std::uint32_t, 4>& texel, const Lifted& from,
                          glm::vec2 f) {
@@ -368,7 +369,7 @@ std::uint32_t chooseSnap(const Sides& sides, const std::vector<Side>& side,
     return best;
 }
 
-/// For the middle of a cell.
+/// Snap for the centre of a cell.
 std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     if (!(quad.found >> cell & 1))
         return kSnaps;
@@ -380,7 +381,7 @@ std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     return chooseSnap(m_sides, m_side, quad.texel, from, f);
 }
 
-/// Every other cell of every other row is looked at, and those between cells that differ.
+/// Evaluates every other cell of every other row, and the cells between cells that differ.
 CellSnaps Snapper::snapsOf(const Quad& quad) const {
     CellSnaps snap;
     const auto at = [&](int x, int y) -> std::uint32_t& {
@@ -403,8 +404,8 @@ CellSnaps Snapper::snapsOf(const Quad& quad) const {
     return snap;
 }
 
-/// The snap of `quad` that reads those of its texels that are read at `cell`, which is counted from
-/// its own first one and may lie in a place beside it; kSnaps where there are none.
+/// The snap of `quad` that reads the same texels as `cell`, whose coordinates are relative to this
+/// quad and may lie in a neighbouring place; kSnaps if there is none.
 std::uint32_t Snapper::snapLike(const std::vector<CellSnaps>& known, const Quad& quad,
                                 glm::ivec2 cell) const {
     const glm::ivec2 beside = (cell + kCells) / kCells - 1,
@@ -436,8 +437,8 @@ std::uint32_t Snapper::snapLike(const std::vector<CellSnaps>& known, const Quad&
     return std::uint32_t(std::ranges::find(kReads, shared) - kReads.begin());
 }
 
-/// Cells without a snap of their own, such as those whose middle lies in the wall, take the nearest
-/// one's, which may lie beside the quad: a strip of such a cell may stand out of the wall there.
+/// Cells without a snap of their own, such as those whose centre lies in a wall, copy the nearest
+/// one, possibly of a neighbouring quad: a strip of such a cell may protrude from the wall there.
 std::array<std::uint32_t, kSnapCells> Snapper::rowsOf(const std::vector<CellSnaps>& known,
                                                       const Quad& quad) const {
     std::array<std::uint32_t, kSnapCells> rows{};
@@ -527,7 +528,7 @@ struct SideLookup::State {
     std::array<std::uint32_t, 4> texelsAt(std::uint32_t place) const;
 };
 
-/// The distinct points of a texel, lifted.
+/// Collects the distinct points of a texel, raised above the surface.
 void SideLookup::State::know(std::uint32_t texel) {
     const AtlasTexel& t = atlas.texels[texel];
     Side& s = side[texel];

@@ -12,57 +12,60 @@
 
 namespace limn {
 
-/// Where the surface of each texel lies open, and on which side of walls.
+/// For each texel, where its surface is open and on which side of walls it lies.
 struct TexelSides {
-    /// The atlas' texels; a texel of several points keeps those on one side of all walls, in
-    /// proportion to how open each lies.
+    /// Texels of the atlas. A texel of several points keeps those on one side of all walls, in
+    /// proportion to how open each of them is.
     std::vector<AtlasTexel> texels;
     std::vector<std::uint8_t> open;   ///< Atlas::open
     std::vector<std::uint32_t> snaps; ///< LightmapLayout::snaps
-    std::uint64_t rays = 0;           ///< traced for it
+    std::uint64_t rays = 0;           ///< number of rays traced
 };
 
-/// Where a triangle lies in an atlas. A lookup is named by the texel at its upper left.
+/// Position of a triangle in an atlas. A lookup is identified by its upper left texel.
 struct PlacedTriangle {
     std::uint32_t instance, back; ///< as AtlasTexel
     std::uint32_t triangle;
-    std::array<glm::vec2, 3> corner; ///< in texels from the middle of the atlas' first texel
-    glm::ivec2 lower, upper;         ///< it counts only for the lookups in [lower, upper)
+    std::array<glm::vec2, 3> corner; ///< in texels from the centre of the atlas' first texel
+    glm::ivec2 lower, upper;         ///< it applies to the lookups in [lower, upper) only
 };
 
-/// Where the layout draws a triangle, for all of its lookups.
+/// Position of a triangle in the layout, valid for all of its lookups.
 PlacedTriangle placeTriangle(const LightmapLayout& layout, std::uint32_t mesh,
                              std::uint32_t instance, std::uint32_t back, std::uint32_t triangle);
 
-/// A point is open in the share of a few directions in which nothing lies within a texel's width,
-/// nor the back of a one-sided surface anywhere. So much of a point is seen from further off than
-/// the texel is wide: folds and corners count for little in it, as they do in a picture, and what
-/// lies in a solid for nothing.
+/// Computes which points of texels are open and which texels a lookup may use.
 ///
-/// A wall that stands on a surface parts the points of texels below it. Two points are on one side
-/// if a segment between them, a quarter of a texel above the surface or half way to what lies above
-/// it, meets nothing but their own chart. Of the sides with open points a texel keeps the most open
-/// one, and bilinear lookups snap to the texels whose points the place of the lookup is on one side
-/// with: interpolation across the wall would light each room by the other. Texels of several charts
-/// keep all their open points. A texel without any open point keeps all; lookups avoid it where
-/// they can.
+/// The openness of a point is the share of a few directions in which there is no surface within a
+/// texel's width and no back of a one-sided surface at any distance. It measures how much of the
+/// point can be seen from further away than the texel's width: folds and corners get little weight,
+/// as they do in a picture, and points inside a solid get none.
 ///
-/// `placed`: how triangles lie in the lookups of addFineTexels(). Of no use when cancelled.
+/// A wall that stands on a surface separates the points of texels below it. Two points are on the
+/// same side if a segment between them, raised by a quarter of a texel or half way to the next
+/// surface above, hits nothing but their own chart. Of the sides that have open points a texel
+/// keeps the most open one, and a bilinear lookup snaps to the texels whose points are on the same
+/// side as the lookup itself, because interpolation across the wall would light each room by the
+/// other. Texels of several charts keep all their open points. A texel without any open point keeps
+/// all its points; lookups avoid it where possible.
+///
+/// `placed` states how triangles lie in the lookups of addFineTexels(). The result must not be used
+/// when cancelled.
 TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas,
                           const std::vector<PlacedTriangle>& placed, const Progress& progress);
 
-/// Snapped lookups of single points, by rays of their own instead of those of the cell that they
-/// lie in: for surfels, which stand for more than a pixel.
+/// Snapped lookups of single points. Each traces rays of its own instead of using those of its
+/// cell: for surfels, which represent more than a pixel.
 class SideLookup {
 public:
-    /// `atlas` has sides. Keeps references.
+    /// `atlas` must have sides. Keeps references to both arguments.
     SideLookup(const TraceScene& trace, const Atlas& atlas);
     ~SideLookup();
 
-    /// As lightmapUv(). Thread-safe.
+    /// Same as lightmapUv(), with a snap of its own. Thread-safe.
     glm::vec2 uvOf(std::uint32_t instance, const MeshPoint& point, bool back) const;
 
-    std::uint64_t rays() const; ///< traced so far
+    std::uint64_t rays() const; ///< number of rays traced so far
 
 private:
     struct State;

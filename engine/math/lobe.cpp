@@ -9,14 +9,14 @@
 
 namespace limn {
 
-/// The least t for a lobe without width, of so many bands.
+/// Smallest t for a lobe without width, by number of bands.
 static constexpr std::array<float, kMaxBands + 1> kMirrorBlur = {
     0, 0, 0.20273f, 0.12417f, 0.09887f, 0.02879f, 0.02643f, 0.01244f, 0.00910f};
 
 std::array<float, kMaxBands> windowedFactors(const std::array<float, kMaxBands>& s, int bands) {
     assert(bands >= 2 && bands <= kMaxBands);
-    // To first order a lobe is itself such a blur, of the t that gives its last band: what it has,
-    // the window need not add. Below 0.001 the band is as good as not there: no window.
+    // To first order a lobe is itself such a blur, with the t that yields its last band; the window
+    // only adds the rest. Below 0.001 the last band is negligible and needs no window.
     const float last = std::max(s[std::size_t(bands - 1)], 1e-3f);
     const float own = -std::log(last) / float(bands * (bands - 1));
     const float t = std::max(kMirrorBlur[std::size_t(bands)] - own, 0.f);
@@ -55,8 +55,8 @@ float hemisphereSeen(const std::array<float, kMaxBands>& factors, int bands, flo
 }
 
 std::array<float, kMaxBands + 1> lobeLosses(std::span<const double> s) {
-    // The integral of P_l over a cap, squared, has the mean q_l = (1/(2l-1) + 1/(2l+3)) / (2l+1)^2
-    // over caps of all sizes; the loss squared is the sum of (2l+1) q_l s_l^2.
+    // The squared integral of P_l over a cap has the mean q_l = (1/(2l-1) + 1/(2l+3)) / (2l+1)^2
+    // over caps of all sizes; the squared loss is the sum of (2l+1) q_l s_l^2.
     std::array<float, kMaxBands + 1> loss{};
     double sum = 0;
     for (std::size_t l = s.size() - 1; l > 0; --l) {

@@ -10,10 +10,10 @@
 
 namespace limn {
 
-/// Parts point numbers at the median of their widest axis: afterwards order[size / 2] has its
-/// sorted place and what stands before it is no greater. Ties go by number, so the result depends
-/// on nothing but the points. Returns the axis in [0, kAxes).
-/// `coordinate(point, axis)` gives a float. Precondition: `order` is not empty.
+/// Splits point numbers at the median of their widest axis: afterwards order[size / 2] is in its
+/// sorted position and no element before it is greater. Ties are broken by number, so the result
+/// depends on the points only. Returns the axis in [0, kAxes). `coordinate(point, axis)` returns a
+/// float. Precondition: `order` is not empty.
 template <std::size_t kAxes, class Coordinate>
 std::size_t medianSplit(std::span<std::uint32_t> order, const Coordinate& coordinate) {
     std::array<float, kAxes> lower, upper;

@@ -10,8 +10,8 @@
 namespace limn {
 
 /// Finds, among points with normals, the one nearest to a query in |dx|^2 + 16 spacing^2 (1 - n.m):
-/// points of another orientation count as further off, four spacings at right angles. A kd-tree;
-/// deterministic, ties go to the lower index.
+/// points of another orientation count as further away, by four spacings at right angles. Uses a
+/// kd-tree. Deterministic; ties go to the lower index.
 class NearestPoint {
 public:
     struct Near {
@@ -23,16 +23,17 @@ public:
         }
     };
 
-    /// Spans must outlive the object and be of equal length; not empty for find.
+    /// The spans must have equal length and outlive the object; for find they must not be empty.
     NearestPoint(std::span<const glm::vec3> points, std::span<const glm::vec3> normals,
                  float spacing);
 
     std::uint32_t find(glm::vec3 p, glm::vec3 normal) const;
 
-    /// The nearest to point `index` but itself; ~0 if there is no other.
+    /// Index of the point nearest to point `index` other than itself; ~0 if there is no other.
     std::uint32_t findOther(std::uint32_t index) const;
 
-    /// The nearest points in order, as many as there are and `out` holds. Returns how many.
+    /// Fills `out` with the nearest points in order, as many as exist and fit. Returns their
+    /// number.
     std::size_t findSome(glm::vec3 p, glm::vec3 normal, std::span<Near> out) const;
 
 private:

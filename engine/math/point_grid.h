@@ -11,15 +11,15 @@
 
 namespace limn {
 
-/// Points in the cells of a cubic grid, by hashing.
+/// A spatial hash of points in the cells of a cubic grid.
 class PointGrid {
 public:
     /// `cellSize` > 0. Deterministic.
     void build(std::span<const glm::vec3> points, float cellSize);
 
-    /// Calls visit(index) for the points of the 27 cells round `p`, so for all within a cell's
-    /// size. Of a cell of more than kMaxPerCell it takes so many, evenly: where a surface lies a
-    /// thousandfold on itself, work stays in bounds.
+    /// Calls visit(index) for the points of the 27 cells around `p`, hence for all points within a
+    /// cell's size. Of a cell with more than kMaxPerCell points it visits at most that many, evenly
+    /// spaced, which bounds the work where a surface overlaps itself a thousand times.
     template <class Visit>
     void forNear(glm::vec3 p, const Visit& visit) const {
         const glm::ivec3 middle = cellOf(p);
@@ -38,7 +38,7 @@ private:
     };
 
     glm::ivec3 cellOf(glm::vec3 p) const {
-        constexpr float kMaximum = float(1 << 20) - 2; // keys hold 21 bits a side
+        constexpr float kMaximum = float(1 << 20) - 2; // keys have 21 bits per axis
         return glm::ivec3(glm::clamp(glm::floor((p - m_origin) * m_perSize), -kMaximum, kMaximum));
     }
     static std::uint64_t keyOf(glm::ivec3 cell) {

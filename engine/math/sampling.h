@@ -12,7 +12,7 @@
 
 namespace limn {
 
-/// A good 32-bit mix of 32 bits (Wellons. Prospecting for Hash Functions. 2018).
+/// A high-quality hash of 32 bits (Wellons. Prospecting for Hash Functions. 2018).
 inline std::uint32_t mixBits(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x7feb352dU;
@@ -22,12 +22,12 @@ inline std::uint32_t mixBits(std::uint32_t x) {
     return x;
 }
 
-/// [0, 1) from the upper 24 bits.
+/// Converts the upper 24 bits to a number in [0, 1).
 inline float unitFloat(std::uint32_t bits) {
     return float(bits >> 8) * 0x1p-24f;
 }
 
-/// Radical inverse of i in `base`, in [0, 1): the coordinate of a Halton point.
+/// Radical inverse of i in `base`, in [0, 1): a coordinate of a Halton point.
 inline float radicalInverse(std::uint32_t i, std::uint32_t base) {
     double result = 0, digit = 1.0 / base;
     for (; i > 0; i /= base, digit /= base)
@@ -35,7 +35,7 @@ inline float radicalInverse(std::uint32_t i, std::uint32_t base) {
     return float(result);
 }
 
-/// Columns (tangent, bitangent, n); continuous except at n = -z.
+/// Orthonormal basis with columns (tangent, bitangent, n); continuous except at n = -z.
 /// Duff et al. Building an Orthonormal Basis, Revisited. 2017
 inline glm::mat3 basisAround(glm::vec3 n) {
     const float sign = std::copysign(1.f, n.z);
@@ -43,10 +43,10 @@ inline glm::mat3 basisAround(glm::vec3 n) {
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-/// A set of `count` directions of equal solid angle, well spread: the Fibonacci lattice about z,
-/// turned by a hash of `seed`. Heights are the middles of equal strata, so the mean of z is exact
-/// and the cosine-weighted sum of a constant has no error. sphere: all directions, else the
-/// hemisphere z > 0. Each has solid angle (sphere ? 4 pi : 2 pi) / count.
+/// A set of `count` well-spread directions of equal solid angle: the Fibonacci lattice about z,
+/// rotated by a hash of `seed`. Heights are the middles of equal strata, so the mean of z is exact
+/// and the cosine-weighted sum of a constant has no error. Covers the sphere if `sphere`, else the
+/// hemisphere z > 0. Each direction has solid angle (sphere ? 4 pi : 2 pi) / count.
 struct DirectionSet {
     std::uint32_t count;
     bool sphere;
@@ -72,8 +72,8 @@ struct DirectionSet {
     float solidAngle() const { return (sphere ? 4 : 2) * std::numbers::pi_v<float> / float(count); }
 };
 
-/// Point of a triangle uniform in area from (x, y) in [0, 1)^2: barycentrics (u, v), weights
-/// (1-u-v, u, v). The square is folded along its diagonal, so that low discrepancy survives.
+/// Maps (x, y) in [0, 1)^2 to a point uniform in the area of a triangle: barycentrics (u, v),
+/// weights (1-u-v, u, v). The square is folded along its diagonal, which preserves low discrepancy.
 inline glm::vec2 sampleTriangle(glm::vec2 s) {
     if (s.x + s.y > 1)
         s = glm::vec2(1) - s;

@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// Real, orthonormal spherical harmonics without Condon-Shortley sign: coefficient (l, m) is number
-/// l(l+1)+m. "bands" counts l = 0 … bands-1, so bands^2 coefficients.
+/// Real, orthonormal spherical harmonics without Condon-Shortley sign: coefficient (l, m) has index
+/// l(l+1)+m. "bands" counts l = 0 … bands-1, so there are bands^2 coefficients.
 inline constexpr int kMaxBands = 8;
 inline constexpr int kMaxCoefficients = kMaxBands * kMaxBands;
 
@@ -24,8 +24,8 @@ std::array<float, kMaxBands> lobeFactors(float n);
 /// Ramamoorthi and Hanrahan. An Efficient Representation for Irradiance Environment Maps. 2001
 std::array<float, kMaxBands> irradianceFactors();
 
-/// Wherever irradiance is asked of a cache, its first three bands answer: what a picture samples,
-/// what surfels read, and what links are matched to. More bands are for glossy lobes.
+/// Number of bands from which irradiance is evaluated everywhere: in pictures, for surfels, and
+/// when links are fitted. Further bands are for glossy lobes.
 inline constexpr int kIrradianceBands = 3;
 
 /// E(n) [W m^-2] of radiance coefficients `c` (bands^2 of them). Not clamped: ringing may make it

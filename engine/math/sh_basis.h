@@ -36,12 +36,12 @@ inline constexpr auto kNormalisation = normalisation();
 
 } // namespace sh_detail
 
-/// shBasis for a number of bands known at compile time, for inner loops. `d` need only be unit up
-/// to rounding.
+/// shBasis() for a number of bands known at compile time, for inner loops. `d` needs to be unit up
+/// to rounding only.
 template <int Bands>
 inline void shBasisFixed(glm::vec3 d, float* y) {
-    // With P_l^m = sin^m(theta) Q_l^m(z), and c, s the real and imaginary part of (x + iy)^m, which
-    // brings the sin^m: Q_m^m = (2m-1)!!, Q_{m+1}^m = (2m+1) z Q_m^m, (l-m) Q_l^m = (2l-1) z
+    // P_l^m = sin^m(theta) Q_l^m(z); c and s are the real and imaginary parts of (x + iy)^m, which
+    // contain the sin^m. Q_m^m = (2m-1)!!, Q_{m+1}^m = (2m+1) z Q_m^m, (l-m) Q_l^m = (2l-1) z
     // Q_{l-1}^m - (l+m-1) Q_{l-2}^m.
     float c = 1, s = 0, qmm = 1;
     for (int m = 0; m < Bands; ++m) {

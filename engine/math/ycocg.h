@@ -6,7 +6,7 @@
 namespace limn {
 
 /// A colour as luma and two chrominances: Y = R/4 + G/2 + B/4, Co = (R - B)/2, Cg = -R/4 + G/2 -
-/// B/4. Grey has exactly no chrominance, and its luma is exactly its R.
+/// B/4. Grey has exactly zero chrominance, and its luma equals its R exactly.
 /// Malvar and Sullivan. YCoCg-R: A Color Space with RGB Reversibility and Low Dynamic Range. 2003
 struct YCoCg {
     float y, co, cg;

@@ -37,7 +37,7 @@ double channelMean(glm::dvec3 c) {
     return (c.x + c.y + c.z) / 3;
 }
 
-/// 0 / 0 is no error, x / 0 an infinite one.
+/// Quotient a / b, where 0 / 0 is 0 and x / 0 is infinite.
 double ratio(double a, double b) {
     if (a == 0 && b == 0)
         return 0;
@@ -82,8 +82,8 @@ double meanOfValid(const Plane& plane, const std::vector<bool>& valid, double no
     return count > 0 ? sum / double(count) : none;
 }
 
-/// Sets `nrmse` and `nrmseMost` to what the pixels' squared errors, or estimates of them, say.
-/// Reorders `squares`.
+/// Computes `nrmse` and `nrmseMost` from the pixels' squared errors, or estimates of them. Reorders
+/// `squares`.
 void rootMeanSquares(std::vector<double>& squares, double mean, Comparison& c) {
     if (squares.empty())
         return;
@@ -208,7 +208,7 @@ ImageF meanImage(const ImageF& a, const ImageF& b) {
     return mean;
 }
 
-// Ends of a blue to orange scale that all kinds of colour blindness tell apart, sRGB.
+// Ends of a blue to orange scale that is distinguishable with all kinds of colour blindness, sRGB.
 Image errorHeatmap(const ImageF& test, const ImageF& reference) {
     constexpr glm::vec3 dark(5, 48, 97), white(247), bright(179, 88, 6), invalid(255, 0, 255);
     Image map{"error", reference.width, reference.height, {}};

@@ -39,7 +39,7 @@ glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePo
                              hit.v, p.position, p.normal, !hit.frontFace});
 }
 
-/// What the glossy side reflects of the field.
+/// Specular reflection of the field's light.
 glm::vec3 fieldReflection(const FieldContext& c, const Hit& hit, const GlossyPoint& g) {
     if (!c.hasField())
         return glm::vec3(0);

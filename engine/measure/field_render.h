@@ -17,16 +17,16 @@ struct FieldRenderOptions {
     std::uint32_t width = 1280, height = 720;
     std::uint32_t samplesPerPixel = 16; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
-    // To compare with:
-    bool windowedLobes = true; ///< else cut off after the field's bands, and so ring
-    bool allBands = false;     ///< reflections read all of the field's, whatever they need
+    // For comparisons:
+    bool windowedLobes = true; ///< else lobes are cut off after the field's bands, and ring
+    bool allBands = false;     ///< reflections use all of the field's bands, needed or not
 };
 
-/// The picture that real-time light makes, on the CPU: direct light with ray-traced shadows,
+/// Renders on the CPU what real-time lighting shows: direct light with ray-traced shadows, and
 /// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
-/// the two differ by the field's error only. View::Normals is n / 2 + 1/2.
-/// Without a field (no lightmap, no grid) there is no indirect light. `layout` belongs to the
-/// field. Same bytes at any number of threads; empty when cancelled.
+/// the two differ by the field's error only. View::Normals is n / 2 + 1/2. Without a field (no
+/// lightmap, no grid) there is no indirect light. `layout` belongs to the field. The result is
+/// identical for any number of threads; empty when cancelled.
 ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const LightmapLayout& layout, const FieldRenderOptions& options,
                    const Progress& progress = {});

@@ -16,7 +16,7 @@ namespace limn {
 
 namespace {
 
-// Linear Rec. 709 to XYZ, then divided by the white (1, 1, 1) makes.
+// Converts linear Rec. 709 to XYZ, divided by the white point, which (1, 1, 1) maps to.
 glm::vec3 toXyz(glm::vec3 c) {
     const glm::mat3 m(0.4124564f, 0.2126729f, 0.0193339f, 0.3575761f, 0.7151522f, 0.1191920f,
                       0.1804375f, 0.0721750f, 0.9503041f);

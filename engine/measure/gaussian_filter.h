@@ -12,12 +12,12 @@ struct Plane {
     std::vector<float> values; ///< width * height
 };
 
-/// Convolves with kernelX along rows and kernelY along columns. Both have odd length, weight 0 of
-/// the offset in the middle; beyond the border the outermost pixel repeats.
+/// Convolves with kernelX along rows and kernelY along columns. Both have odd length, with the
+/// weight of offset 0 in the middle. Pixels beyond the border repeat the outermost one.
 Plane convolve(const Plane& plane, const std::vector<float>& kernelX,
                const std::vector<float>& kernelY);
 
-/// exp(-x^2 / (2 sigma^2)) for x = -radius ... radius [pixels], summing to 1.
+/// Normalised kernel exp(-x^2 / (2 sigma^2)) for x = -radius ... radius [pixels], with sum 1.
 std::vector<float> gaussianKernel(float sigma, int radius);
 
 } // namespace limn

@@ -12,7 +12,7 @@ namespace limn {
 static constexpr double kNrmseThatMatters = 0.1, kBiasThatMatters = 0.02;
 static constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseMost
 
-/// Parts of `samples` each, with the seeds of that pass.
+/// Renders four parts of `samples` samples each, with the seeds of that pass.
 static std::optional<std::array<ImageF, 4>> renderParts(const TraceScene& trace,
                                                         ReferenceOptions options,
                                                         std::uint32_t samples, std::uint32_t pass,
@@ -50,7 +50,7 @@ bool refine(ReferenceSet& set, const TraceScene& trace, const ReferenceOptions& 
     return true;
 }
 
-/// Products of a picture's differences from two references, per pixel; NaN where any is NaN.
+/// Product of a picture's differences from two references, per pixel; NaN if any value is NaN.
 static std::vector<double> products(const ImageF& test, const ImageF& a, const ImageF& b) {
     std::vector<double> result(test.rgb.size());
     for (std::size_t i = 0; i < result.size(); ++i) {

@@ -19,7 +19,7 @@ struct SeamSums {
     const IndirectField& field;
     double jump = 0, irradiance = 0, length = 0;
 
-    /// At share `s` of the way along half-edge `e`, counted from its first corner.
+    /// Irradiance at fraction `s` along half-edge `e`, from its first corner.
     glm::vec3 at(std::uint32_t instance, std::uint32_t e, float s, glm::vec3 n) const {
         glm::vec3 weights(0);
         weights[int(e % 3)] = 1 - s;

@@ -13,26 +13,25 @@
 
 namespace limn {
 
-/// A point that a pixel sees. Both light from paths and light from a field can be evaluated there.
+/// A point that a pixel sees, where light from paths and light from a field can be compared.
 struct SeenPoint {
     Hit hit;
     SurfacePoint surface;
 };
 
-/// One random point of each pixel that meets a surface; the backs of one-sided surfaces are left
-/// out.
+/// One random point of each pixel that sees a surface; backs of one-sided surfaces are left out.
 std::vector<SeenPoint> findSeenPoints(const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height,
                                       std::uint32_t seed);
 
-/// Irradiance of each point but for what comes straight from lights [W m^-2], the mean of `paths`
-/// paths. Nothing when cancelled.
+/// Path-traced irradiance of each point, without light straight from lights [W m^-2]: the mean of
+/// `paths` paths. Returns std::nullopt when cancelled.
 std::optional<std::vector<glm::vec3>> traceIrradiance(const PathContext& context,
                                                       const std::vector<SeenPoint>& points,
                                                       std::uint32_t paths, std::uint32_t seed,
                                                       const Progress& progress = {});
 
-/// The same of each point as a field has it. `layout` belongs to the field.
+/// Irradiance of the same points, looked up in a field. `layout` belongs to the field.
 std::vector<glm::vec3> lookUpIrradiance(const IndirectField& field, const LightmapLayout& layout,
                                         const Scene& scene, const std::vector<SeenPoint>& points);
 

@@ -33,8 +33,8 @@ glm::vec3 viridis(float t) {
 }
 
 glm::vec3 distinctColor(std::uint32_t i) {
-    // Hues a golden section apart are spread evenly however many there are; five lightnesses beside
-    // them, so that neighbours differ in grey as well.
+    // Hues a golden section apart are spread evenly for any number of them; five lightnesses make
+    // neighbours differ in grey as well.
     const float turn = float(i % 4096) * 0.618034f;
     const float hue = 6 * (turn - std::floor(turn));
     const glm::vec3 h = glm::clamp(

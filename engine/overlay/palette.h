@@ -7,18 +7,18 @@
 
 namespace limn {
 
-/// sRGB-encoded colour [0, 1] as bytes R, G, B, A from the lowest; A = 255.
+/// Packs an sRGB-encoded colour [0, 1] into bytes R, G, B, A from the lowest; A = 255.
 std::uint32_t packColor(glm::vec3 srgb);
 
-/// Linear Rec. 709 [0, 1] to sRGB-encoded.
+/// Converts linear Rec. 709 [0, 1] to sRGB-encoded.
 glm::vec3 encodeSrgb(glm::vec3 linear);
 
-/// The ramp from dark violet over green to yellow that keeps its order for the colour-blind and in
-/// grey; `t` clamped to [0, 1]; sRGB-encoded. S. van der Walt, N. Smith. viridis. 2015, by nine of
-/// its values.
+/// The viridis colour map, sRGB-encoded: from dark violet through green to yellow, ordered also for
+/// colour-blind viewers and in grey. `t` is clamped to [0, 1]. S. van der Walt, N. Smith. viridis.
+/// 2015, interpolated from nine of its values.
 glm::vec3 viridis(float t);
 
-/// A colour for number `i`, unlike those of the numbers around it; sRGB-encoded.
+/// A colour for number `i` that differs from those of nearby numbers; sRGB-encoded.
 glm::vec3 distinctColor(std::uint32_t i);
 
 } // namespace limn

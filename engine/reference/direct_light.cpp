@@ -48,7 +48,7 @@ bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample&
     return trace.occluded(ray);
 }
 
-// One point of the rectangle, even in solid angle, as if it were all of it.
+// Samples one point of the rectangle, uniform in solid angle.
 DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
                              glm::vec2 uv) {
     const LightRectangle rectangle = lightRectangle(light);

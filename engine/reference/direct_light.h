@@ -7,21 +7,23 @@
 
 namespace limn {
 
-/// Shadow rays of directIrradiance() to a rectangle, the same points on it from everywhere.
+/// Number of shadow rays of directIrradiance() to a rectangle. All receivers use the same points on
+/// it.
 inline constexpr std::uint32_t kRectanglePoints = 64;
 
-/// Irradiance of all directional, point, spot and rectangle lights [W m^-2]. Shadows of the first
-/// three are hard. Adds the shadow rays to `rays`.
+/// Irradiance from all directional, point, spot and rectangle lights [W m^-2]. Shadows of the first
+/// three are hard. Adds the number of shadow rays to `rays`.
 glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::uint64_t& rays);
 
-/// What reaches a point straight from one light.
+/// Direct light at a point from one light.
 struct DirectSample {
     glm::vec3 irradiance{0}; ///< [W m^-2]
-    glm::vec3 toLight{0};    ///< unit, where the irradiance is not 0
+    glm::vec3 toLight{0};    ///< unit, if the irradiance is not 0
 };
 
-/// The same as directIrradiance() from one light, picked by its unshadowed share with `pick` in
-/// [0, 1): unbiased, one ray. `onLight` in [0, 1)^2 is its end on a rectangle, uniform in area.
+/// Unbiased estimate of directIrradiance() with one shadow ray. `pick` in [0, 1) selects a light in
+/// proportion to its unshadowed contribution. `onLight` in [0, 1)^2 is the ray's end on a
+/// rectangle, uniform in area.
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
                                glm::vec2 onLight, std::uint64_t& rays);
 

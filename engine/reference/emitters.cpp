@@ -16,13 +16,13 @@ float strength(glm::vec3 e) {
     return e.x + e.y + e.z;
 }
 
-// Uniform barycentrics: the unit square folded at its diagonal.
+// Maps the unit square to uniform barycentrics by folding it at its diagonal.
 glm::vec2 foldToTriangle(glm::vec2 u) {
     return u.x + u.y > 1 ? glm::vec2(1 - u.x, 1 - u.y) : u;
 }
 
-// A textured emitter's mean from a lattice. Where it misses a bright spot the chance is only less
-// apt: rays that meet the spot by themselves still carry it.
+// Mean emission of a textured emitter on a lattice of points. If it misses a bright spot, only the
+// sampling probability is less suitable: rays that hit the spot by chance still carry its light.
 double meanEmission(const Scene& scene, const Instance& instance, std::uint32_t triangle) {
     const Material& material = scene.materialOf(instance);
     const bool varies = material.emissiveTexture.image >= 0 || isCutout(material);
@@ -93,7 +93,7 @@ static double chance(const Emitters& emitters, std::size_t i) {
     return emitters.cdf[i] - (i > 0 ? emitters.cdf[i - 1] : 0);
 }
 
-// Area density turned into solid angle at `from`; 0 when seen edge-on.
+// Converts area density to solid angle at `from`; 0 if seen edge-on.
 static float solidAnglePdf(const Emitters& emitters, std::size_t i, glm::vec3 point,
                            glm::vec3 from) {
     const EmissiveTriangle& e = emitters.triangles[i];

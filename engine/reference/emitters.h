@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// One triangle that emits, in world space.
+/// An emissive triangle in world space.
 struct EmissiveTriangle {
     std::uint32_t instance = 0, triangle = 0;
     glm::vec3 corner{0}, edge1{0}, edge2{0};
@@ -17,10 +17,10 @@ struct EmissiveTriangle {
     bool bothSides = false;
 };
 
-/// All emissive triangles with a chance proportional to the power each sends out.
+/// All emissive triangles, each with a probability proportional to its emitted power.
 struct Emitters {
     std::vector<EmissiveTriangle> triangles;
-    std::vector<double> cdf;              ///< cdf[i] = chance of triangles 0 ... i; ends at 1
+    std::vector<double> cdf;              ///< cdf[i] = probability of triangles 0 ... i; ends at 1
     std::vector<std::uint32_t> firstOf;   ///< per instance: its first emissive triangle; ~0: none
     std::vector<std::uint32_t> emitterOf; ///< from there, per triangle of the mesh: index; ~0: none
 
@@ -29,17 +29,18 @@ struct Emitters {
 
 Emitters findEmitters(const TraceScene& trace);
 
-/// A point on an emitter as seen from some surface.
+/// A sampled point on an emitter, seen from a surface.
 struct EmitterSample {
     glm::vec3 position{0};
-    glm::vec3 normal{0};   ///< unit, on the side that is seen
-    glm::vec3 radiance{0}; ///< [nits]; 0 behind a one-sided emitter or where a mask cuts it away
+    glm::vec3 normal{0};   ///< unit, on the visible side
+    glm::vec3 radiance{0}; ///< [nits]; 0 behind a one-sided emitter or in a mask's hole
     float pdf = 0;         ///< [sr^-1] as seen from the surface
 };
 EmitterSample sampleEmitter(const Emitters& emitters, const Scene& scene, glm::vec3 from,
                             float pick, glm::vec2 u);
 
-/// Density [sr^-1] with which sampleEmitter, called at `from`, finds the point that `hit` met.
+/// Probability density [sr^-1] with which sampleEmitter(), called with `from`, samples the point of
+/// `hit`.
 float emitterPdf(const Emitters& emitters, const Hit& hit, glm::vec3 from);
 
 } // namespace limn

@@ -24,14 +24,14 @@ float misWeight(float pdf, float other) {
     return 1 / (1 + ratio * ratio);
 }
 
-// Light that was looked for, not met by a bounce.
+// Light found by sampling an emitter or the sky, not by a bounce.
 struct FoundLight {
     glm::vec3 irradiance{0}; ///< over its density; 0: none arrives
     glm::vec3 toLight{0};
     float pdf = 1; ///< [sr^-1]
 };
 
-// From one point on an emitter.
+// Samples one point on an emitter.
 FoundLight emitterLight(const PathContext& c, const SurfacePoint& p, float pick, glm::vec2 u,
                         std::uint64_t& rays) {
     if (c.emitters.empty())
@@ -52,7 +52,7 @@ FoundLight emitterLight(const PathContext& c, const SurfacePoint& p, float pick,
     return {s.radiance * (cosTheta / s.pdf), direction, s.pdf};
 }
 
-// From one direction of the sky's image.
+// Samples one direction of the sky's image.
 FoundLight skyLight(const PathContext& c, const SurfacePoint& p, glm::vec2 u, std::uint64_t& rays) {
     if (c.sky.empty())
         return {};
@@ -66,7 +66,7 @@ FoundLight skyLight(const PathContext& c, const SurfacePoint& p, glm::vec2 u, st
     return {s.radiance * (cosTheta / s.pdf), s.direction, s.pdf};
 }
 
-// Irradiance, weighted against the chance of a bounce to find it.
+// Irradiance, weighted against the probability that a bounce finds the light.
 glm::vec3 diffuseShare(const SurfacePoint& p, const FoundLight& f) {
     if (f.irradiance == glm::vec3(0))
         return glm::vec3(0);
@@ -135,7 +135,7 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     return E;
 }
 
-// What a glossy bounce meets: `pdf` is its density.
+// Radiance that a glossy bounce finds; `pdf` is its density.
 static glm::vec3 radianceAlong(const PathContext& c, const SurfacePoint& p, glm::vec3 direction,
                                float pdf, const Sampler& own, std::uint64_t& rays) {
     ++rays;

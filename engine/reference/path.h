@@ -10,11 +10,12 @@
 
 namespace limn {
 
-/// Paths end by chance, as light is absorbed, so that nothing is lost. Where next to nothing is
-/// absorbed and nothing escapes, this many segments end them all the same: 0.999^10000 = 5e-5.
+/// Maximum number of segments of a path. Paths end by Russian roulette as light is absorbed,
+/// without bias; this limit ends those on which next to nothing is absorbed and nothing escapes:
+/// 0.999^10000 = 5e-5.
 inline constexpr std::uint32_t kMaxBounces = 10000;
 
-/// What all paths of a render share.
+/// Data that all paths of a render share.
 struct PathContext {
     const TraceScene& trace;
     const Emitters& emitters;
@@ -22,21 +23,21 @@ struct PathContext {
     std::uint32_t maxBounces = kMaxBounces;
 };
 
-/// Dimensions of the Sampler that a caller may use itself; paths take those from here on.
+/// First of the Sampler's dimensions that paths use; callers may use those below it.
 inline constexpr std::uint32_t kFirstPathDimension = 2;
 
-/// Dimension of the points on lights that the first surface of a path is lit from; those after it
-/// take the next ones.
+/// Dimension of the points on lights that illuminate the first surface of a path; later surfaces
+/// use the following dimensions.
 inline constexpr std::uint32_t kOnLightDimension = 1u << 16;
 
-/// One unbiased estimate of the irradiance that reaches `first` by any way but straight from
-/// directional, point, spot and rectangle lights [W m^-2]: bounces, emissive surfaces, sky.
+/// One unbiased estimate of the irradiance [W m^-2] at `first` from bounces, emissive surfaces and
+/// sky: everything but light straight from directional, point, spot and rectangle lights.
 glm::vec3 sampleIndirectIrradiance(const PathContext& context, const SurfacePoint& first,
                                    const Sampler& sampler, std::uint64_t& rays);
 
-/// One unbiased estimate of the radiance [W m^-2 sr^-1] that the glossy side of `p` reflects to the
-/// eye, of all light but what comes straight from directional, point, spot and rectangle lights.
-/// From below the triangle's horizon comes none.
+/// One unbiased estimate of the radiance [W m^-2 sr^-1] that `p` reflects specularly to the eye,
+/// from everything but light straight from directional, point, spot and rectangle lights.
+/// Directions below the triangle's horizon contribute nothing.
 glm::vec3 sampleReflectedRadiance(const PathContext& context, const GlossyPoint& p,
                                   const Sampler& sampler, std::uint64_t& rays);
 

@@ -22,7 +22,8 @@ struct PixelRays {
         up = rayDirection(camera, aspect, 0, 1) - centre;
     }
 
-    /// Through point `pixel`: (0, 0) is the picture's upper left corner, `size` its lower right.
+    /// Ray through the point `pixel`: (0, 0) is the picture's upper left corner, `size` its lower
+    /// right.
     Ray through(glm::vec2 pixel) const {
         const glm::vec2 ndc = 2.f * pixel / size - 1.f;
         return {eye, glm::normalize(centre + ndc.x * right - ndc.y * up)};

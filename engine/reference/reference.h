@@ -26,22 +26,22 @@ struct ReferenceResult {
     /// Standard error of the pixel means: rms over pixels and channels / mean of the image, from
     /// two independently scrambled halves of the samples. Infinite below 2 samples.
     double noise = 0;
-    std::uint32_t samplesPerPixel = 0; ///< done; fewer than asked when cancelled
+    std::uint32_t samplesPerPixel = 0; ///< number computed; fewer than requested when cancelled
     std::uint64_t rays = 0;
 };
 
-/// Path-traced ground truth: every surface Lambertian with surfaceMaterial()'s albedo. In Lit the
-/// first one is glossy besides: it reflects all light by specularBrdf(). Cosines
-/// are those of the interpolated vertex normals, without normal maps; the triangle itself bounds
-/// what is seen. The back of a one-sided surface is black, to the camera and to paths, and blocks.
-/// Emission leaves the front only, unless the material is double-sided. Nothing is clamped: no
-/// fireflies are taken out. Box pixel filter. Same bytes at any number of threads. A cancelled call
-/// returns what it has.
+/// Path-traced ground truth. Every surface is Lambertian with surfaceMaterial()'s albedo; in Lit
+/// the first one is also glossy and reflects all light by specularBrdf(). Cosines are those of the
+/// interpolated vertex normals, without normal maps; the triangle itself bounds the visible
+/// hemisphere. The back of a one-sided surface is black, to the camera and to paths, and blocks
+/// light. Emission leaves the front only, unless the material is double-sided. Nothing is clamped
+/// and fireflies are not removed. Box pixel filter. The result is identical for any number of
+/// threads. A cancelled call returns the samples so far.
 ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions& options,
                                 const Progress& progress = {});
 
-/// Irradiance [W m^-2] at one surface point: direct lights excluded (`indirect` of View) unless
-/// `includeDirect`. Thread-safe; samples are spread over threads too.
+/// Irradiance [W m^-2] at one surface point, without direct lights (`indirect` of View) unless
+/// `includeDirect`. Thread-safe; its samples are also distributed over threads.
 glm::vec3 referenceIrradiance(const TraceScene& trace, glm::vec3 position, glm::vec3 normal,
                               std::uint32_t samples, std::uint32_t maxBounces, bool includeDirect,
                               std::uint32_t seed);

@@ -10,7 +10,7 @@
 
 namespace limn {
 
-/// Mixes two numbers into 32 well-spread bits.
+/// Hashes two numbers to 32 well-spread bits.
 inline std::uint32_t mixBits(std::uint32_t a, std::uint32_t b) {
     std::uint64_t x = (std::uint64_t(a) << 32 | b) + 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -18,9 +18,9 @@ inline std::uint32_t mixBits(std::uint32_t a, std::uint32_t b) {
     return std::uint32_t((x ^ (x >> 31)) >> 32);
 }
 
-/// Owen-scrambled Sobol points, two dimensions at a time, each pair shuffled on its own.
+/// Owen-scrambled Sobol points, two dimensions at a time, each pair shuffled on its own. Each value
+/// is a pure function of (seed, index, dimension), so nothing depends on threads or order.
 /// Burley. Practical Hash-based Owen Scrambling. 2020; the hash is Vegdahl's.
-/// A pure function of (seed, index, dimension): nothing depends on threads or order.
 struct Sampler {
     std::uint32_t seed = 0;  ///< of the pixel
     std::uint32_t index = 0; ///< of the sample
@@ -37,7 +37,7 @@ inline std::uint32_t reverseBits(std::uint32_t x) {
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-// Each bit is flipped depending on the bits below it only: Owen's scramble of a reversed number.
+// Flips each bit depending on the bits below it only: Owen's scramble of a bit-reversed number.
 inline std::uint32_t scrambleReversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -65,7 +65,7 @@ inline glm::vec2 Sampler::pair(std::uint32_t dimension) const {
     return {float(x >> 8) * 0x1p-24f, float(y >> 8) * 0x1p-24f};
 }
 
-/// The direction of that angle to unit `n`, `turns` of a whole turn round it.
+/// Direction at the given angle to unit `n`, rotated about it by `turns` of a full turn.
 inline glm::vec3 directionAbout(glm::vec3 n, float sine, float cosine, float turns) {
     // Duff et al. Building an Orthonormal Basis, Revisited. 2017
     const float sign = std::copysign(1.f, n.z);
@@ -76,7 +76,7 @@ inline glm::vec3 directionAbout(glm::vec3 n, float sine, float cosine, float tur
     return sine * std::cos(phi) * t + sine * std::sin(phi) * s + cosine * n;
 }
 
-/// Direction about unit `n` with density cos / pi.
+/// Samples a direction about unit `n` with density cos / pi.
 inline glm::vec3 sampleCosineHemisphere(glm::vec3 n, glm::vec2 u) {
     return directionAbout(n, std::sqrt(u.x), std::sqrt(1 - u.x), u.y);
 }

@@ -41,7 +41,7 @@ SkyLight findSkyLight(const Sky& sky) {
     return light;
 }
 
-/// The step of a cdf that holds `u`, and where in it, in [0, 1).
+/// The step of a cdf that contains `u`, and the position within it in [0, 1).
 template <class Iterator>
 static std::pair<std::size_t, double> invert(Iterator begin, Iterator end, double u) {
     const auto found = std::min(std::upper_bound(begin, end, u), end - 1);
@@ -56,7 +56,7 @@ SkySample sampleSky(const SkyLight& light, const Sky& sky, glm::vec2 u) {
     const auto [row, down] = invert(light.rows.begin(), light.rows.end(), double(u.x));
     const auto first = light.columns.begin() + std::ptrdiff_t(row * image.width);
     const auto [column, right] = invert(first, first + std::ptrdiff_t(image.width), double(u.y));
-    // Even in the height over the pixel, so even in solid angle.
+    // Uniform in height across the pixel, and so in solid angle.
     const double upper = std::cos(kPi * double(row) / image.height),
                  lower = std::cos(kPi * double(row + 1) / image.height);
     const double y = upper + down * (lower - upper), r = std::sqrt(std::max(1 - y * y, 0.0));

@@ -9,8 +9,9 @@
 
 namespace limn {
 
-/// Chances of directions in proportion to the radiance (mean of R, G, B) of the sky's image. Empty
-/// for other kinds, whose radiance varies too little to be looked for, and for black images.
+/// Probabilities of directions in proportion to the radiance (mean of R, G, B) of the sky's image.
+/// Empty for other kinds, whose radiance varies too little for importance sampling, and for black
+/// images.
 struct SkyLight {
     std::vector<double> rows;   ///< cdf over the rows, top first; ends at 1
     std::vector<float> columns; ///< per row: cdf over its pixels
@@ -27,11 +28,11 @@ struct SkySample {
     float pdf = 0;                ///< [sr^-1]
 };
 
-/// `light` is findSkyLight(sky) and not empty; `u` in [0, 1)^2.
+/// Samples a direction. `light` is findSkyLight(sky) and not empty; `u` in [0, 1)^2.
 SkySample sampleSky(const SkyLight& light, const Sky& sky, glm::vec2 u);
 
-/// Density [sr^-1] with which sampleSky finds a direction of this radiance; 0 where `light` is
-/// empty.
+/// Probability density [sr^-1] with which sampleSky() finds a direction of this radiance; 0 if
+/// `light` is empty.
 float skyPdf(const SkyLight& light, glm::vec3 radiance);
 
 } // namespace limn

@@ -8,34 +8,34 @@
 
 namespace limn {
 
-/// A Lambertian surface point as a ray met it. Normals look to the side the ray came from.
+/// A Lambertian surface point at a ray's hit. Its normals face the side that the ray came from.
 struct SurfacePoint {
     glm::vec3 position{0};
     glm::vec3 geometricNormal{0}; ///< unit
-    glm::vec3 normal{0};          ///< unit, interpolated from the vertices; the cosine of shading
+    glm::vec3 normal{0}; ///< unit, interpolated from the vertices; used for shading cosines
     glm::vec3 albedo{0};
     glm::vec3 emission{0}; ///< [nits]
 };
 
-/// Nothing for the back of a one-sided surface: it is black and blocks. A double-sided surface
-/// reflects and emits on both sides.
+/// Surface point at a hit. Returns std::nullopt for the back of a one-sided surface, which is black
+/// and blocks light. A double-sided surface reflects and emits on both sides.
 std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit);
 
-/// A surface point as the eye sees it.
+/// A surface point with its reflection towards the eye.
 struct GlossyPoint {
     SurfacePoint surface;
     Gloss gloss;
     glm::vec3 toEye{0}; ///< unit
 
-    /// Radiance to the eye of what comes straight from a light: diffuse and glossy.
+    /// Radiance towards the eye, diffuse and glossy, of direct light from direction `toLight`.
     glm::vec3 reflect(glm::vec3 irradiance, glm::vec3 toLight) const;
 };
 
-/// `p` as the ray that found it by `hit` sees it.
+/// Surface point `p`, found by `ray` with `hit`, as seen from the ray's origin.
 GlossyPoint glossyPoint(const TraceScene& trace, const Hit& hit, const Ray& ray,
                         const SurfacePoint& p);
 
-/// Just outside the surface, where rays to its front start.
+/// Point just outside the surface where rays on its front side start.
 glm::vec3 rayOrigin(const TraceScene& trace, const SurfacePoint& p);
 
 } // namespace limn

@@ -13,9 +13,9 @@ namespace limn {
 struct GpuField {
     /// RGBA16F, fieldLayers() of them, in SHADER_READ_ONLY_OPTIMAL; 1x1 black without a lightmap.
     gpu::Image lightmap;
-    gpu::Buffer grid; ///< a storage buffer, likewise; one element where there is no grid
-    float scale = 1;  ///< of all values; > 0
-    /// As IndirectField::gridDepth; null: the cells see everything.
+    gpu::Buffer grid; ///< storage buffer, packed likewise; one element if there is no grid
+    float scale = 1;  ///< stored values are multiplied by this; > 0
+    /// Same contents as IndirectField::gridDepth; null if the cells see everything.
     std::shared_ptr<const gpu::Buffer> gridDepth;
 
     std::uint32_t bands = 3, chroma = 3;
@@ -25,7 +25,8 @@ struct GpuField {
     bool hasGrid() const { return gridSize.x > 0; }
 };
 
-/// GpuField::lightmap, its contents undefined, for shaders to sample and for `written`.
+/// Creates an image for GpuField::lightmap with undefined contents. Shaders may sample it;
+/// `written` is added to its usage.
 gpu::Image createFieldLightmap(gpu::Device& device, std::uint32_t width, std::uint32_t height,
                                std::uint32_t layers, VkImageUsageFlags written);
 

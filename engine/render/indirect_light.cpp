@@ -29,7 +29,7 @@ static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
     return image;
 }
 
-// A frame in flight may still sample the old field, so the new one is another.
+// Creates a new field, because a frame in flight may still sample the old one.
 static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const IndirectField& field,
                                                    std::shared_ptr<const gpu::Buffer> depth) {
     gpu::Uploader uploader(device);

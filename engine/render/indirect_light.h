@@ -12,18 +12,19 @@ namespace limn::render {
 /// The indirect field that frames sample.
 struct IndirectLight {
     std::shared_ptr<const GpuField> field;
-    std::shared_ptr<const std::vector<std::uint16_t>> depth; ///< gridDepth of what was uploaded
+    std::shared_ptr<const std::vector<std::uint16_t>>
+        depth; ///< IndirectField::gridDepth of the uploaded field
 };
 
-/// Black where the field is empty. How far cells see is the bake's: it is not uploaded again where
-/// `before` has it.
+/// Uploads `field`; an empty field becomes black. The depths that cells see belong to the bake, so
+/// they are reused from `before` if it holds the same ones.
 IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
                                   const IndirectLight& before = {});
 
-/// limn::reflectionTable() as a sampled array of RGBA32F.
+/// Uploads limn::reflectionTable() as a sampled RGBA32F array image.
 gpu::Image uploadReflectionTable(gpu::Device& device);
 
-/// Fills the grid's rows of `frame`, and the field's unit.
+/// Fills in the members of `frame` that describe the grid, and the field's unit.
 void describeField(const GpuField& field, shared::GpuFrame& frame);
 
 } // namespace limn::render

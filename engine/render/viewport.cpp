@@ -51,7 +51,7 @@ constexpr std::array kFrameTypes = {
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
 
-// How much a picture gives way to what is drawn over it.
+// How much a picture fades beneath an overlay.
 constexpr float kOverlayFade = 0.8f;
 
 enum Timestamp : std::uint32_t {
@@ -70,7 +70,7 @@ double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// What a frame in flight must not lose.
+/// Resources of one frame in flight.
 struct FrameSlot {
     gpu::Buffer frame; ///< mapped
     LightTable lights;
@@ -82,7 +82,7 @@ struct FrameSlot {
     bool timed = false; ///< its timestamps were read
 };
 
-/// nearestInSight() of the last frame that asked for it.
+/// Result of nearestInSight() for the last frame that needed it.
 struct NearestSeen {
     glm::mat4 toClip{0};
     std::uint64_t scene = 0; ///< RenderScene::version
@@ -97,8 +97,8 @@ struct DepthRange {
     float zNear = 0, zFar = 0; ///< [m]
 };
 
-// Round the scene as the camera sees it. Depth runs from 1 to 0 in floating point, so a near plane
-// this close costs no precision.
+// Depth range around the scene as the camera sees it. Depth runs from 1 to 0 in floating point, so
+// a near plane this close costs no precision.
 DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
     const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
                                      glm::abs(bounds.upper - options.camera.eye));
@@ -150,7 +150,7 @@ struct Viewport::Impl {
     std::uint64_t relightScene = 0, relightDrawings = 0, relightVersion = 0;
     gpu::Timestamps relightTimes; ///< of the shadow maps for them
     std::uint64_t relightSubmission = 0;
-    std::uint64_t maskVersion = 0; ///< grows when a material's alpha mask changed
+    std::uint64_t maskVersion = 0; ///< increases when a material's alpha mask changed
     bool warnedLeftOut = false;
     bool coarseShadows = false;
     NearestSeen nearestSeen;
@@ -271,14 +271,14 @@ void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::ui
         shadows.prepare(cmd);
 }
 
-// Whoever `read` the colours of the frame before is done; they are overwritten.
+// Discards the image's contents once the accesses `read` of the previous frame have completed.
 static void discard(VkCommandBuffer cmd, const gpu::Image& image, gpu::Access read) {
     read.access = VK_ACCESS_2_NONE;
     read.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     gpu::imageBarrier(cmd, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, read, gpu::kColorWrite);
 }
 
-// Draws over the whole linear image, after what is in it.
+// Begins a rendering that draws over the linear image and keeps its contents.
 void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options) {
     gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
     const std::array color = {attachment(
@@ -286,7 +286,7 @@ void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& o
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
 }
 
-// All but direct light.
+// Records everything except direct light.
 void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
                                     const ViewportOptions& options, std::uint32_t slotIndex) {
     discard(cmd, targets.linear, gpu::kFragmentRead);
@@ -316,7 +316,7 @@ void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
 
 void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options,
                                    std::uint32_t slot) {
-    discard(cmd, targets.color, gpu::kAllReads); // whoever showed it, by sampling or blitting
+    discard(cmd, targets.color, gpu::kAllReads); // by whoever showed it, sampling or blitting
     const std::array color = {attachment(targets.color.view,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
@@ -330,7 +330,8 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
     vkCmdEndRendering(cmd);
 }
 
-// Over the tone-mapped picture, so that colours are those of the legend; then hands it out.
+// Draws the overlay over the tone-mapped picture, so that its colours match the legend, and makes
+// the picture readable.
 void Viewport::Impl::recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
                                    const ViewportOptions& options, std::uint32_t slot) {
     if (overlay.active()) {
@@ -500,7 +501,7 @@ ShadowedLights Viewport::shadowedLights() {
         s.cascades = 0;
     writeLightTable(v.device, v.relightTable, v.lights, shadows, v.shadows.views());
     v.materials.writeFactors(slotIndex);
-    v.device.wait(v.relightSubmission); // its times are measured anew
+    v.device.wait(v.relightSubmission); // its timestamps will be overwritten
     const VkCommandBuffer cmd = v.device.begin("shadow maps");
     v.relightTimes.begin(cmd);
     v.recordShadows(cmd, slot, slotIndex, true);

@@ -33,53 +33,54 @@ struct ViewportOptions {
 };
 
 struct ViewportStats {
-    /// Of the last frame that is done, the GPU's clock.
+    /// GPU times of the last completed frame.
     double uploadMs = 0, shadowMs = 0, geometryMs = 0, indirectMs = 0, directMs = 0, totalMs = 0;
-    double tonemapMs = 0; ///< with the overlay
-    /// Lights of which any was drawn; 0 when no light, object or camera changed.
+    double tonemapMs = 0; ///< includes the overlay
+    /// Lights with at least one redrawn shadow map; 0 if no light, object or camera changed.
     std::uint32_t shadowMapsDrawn = 0;
-    /// Frames for which triangles were drawn: not where camera, objects and materials are those of
-    /// the frame before, and only its light is new.
+    /// Number of frames that drew triangles. A frame draws none if camera, objects and materials
+    /// are unchanged and only the light differs.
     std::uint64_t geometryDrawn = 0;
-    double relightShadowMs = 0;          ///< shadow maps of the last shadowedLights() that is done
+    double relightShadowMs = 0;          ///< shadow maps of the last completed shadowedLights()
     std::uint32_t relightShadowMaps = 0; ///< drawn by the last shadowedLights()
-    std::uint32_t lightsOff = 0;         ///< off, black or out of reach of the scene
-    std::uint32_t lightsLeftOut = 0;     ///< dark, for lack of room for their shadow maps
+    std::uint32_t lightsOff = 0; ///< lights that are off, black or too far to reach the scene
+    std::uint32_t lightsLeftOut =
+        0; ///< lights left dark because there is no room for their shadow maps
     std::uint64_t gpuBytes = 0;
 };
 
-/// The Vulkan viewport, headless and windowed alike: it renders into its own images.
-/// Uploads only what changed since the last call.
+/// The Vulkan viewport. It renders into its own images, with or without a window, and uploads only
+/// what changed since the last call.
 class Viewport {
 public:
     explicit Viewport(gpu::Device& device);
     ~Viewport();
 
-    /// Geometry, textures, instance transforms. `layout` null: no bake yet, so no lightmap
-    /// (indirect light is 0). Cheap when assets and layout pointers are those of the last call and
-    /// only transforms differ.
+    /// Sets geometry, textures and instance transforms. A null `layout` means that there is no bake
+    /// yet and hence no lightmap (indirect light is 0). Cheap if the assets and layout pointers
+    /// equal those of the last call and only transforms differ.
     void setScene(const Scene& scene, std::shared_ptr<const LightmapLayout> layout);
 
-    /// Lights, materials and sky: cheap, every frame if need be.
+    /// Sets lights, materials and sky. Cheap enough to call every frame.
     void setLighting(const Scene& scene);
 
-    /// Indirect light; uploads it, whatever its version: fields of two bakes may have the same.
+    /// Uploads indirect light. The version is ignored, because fields of two bakes may share one.
     void setIndirect(const IndirectField& field);
-    /// The same from where it was worked out: nothing is uploaded, and what its owner writes later
-    /// shows in the frames after that. On the viewport's device; not null.
+    /// Uses indirect light that was computed on the viewport's device; must not be null. Nothing is
+    /// uploaded; whatever the owner writes later appears in subsequent frames.
     void setIndirect(std::shared_ptr<const GpuField> field);
 
-    /// The lights of the last setLighting() with their shadow maps, drawn where they are out of
-    /// date: what GpuRelighter lights surfels with. Good until the next call of a function that is
-    /// not const; nobody may still read those of the last call.
+    /// Returns the lights of the last setLighting() with their shadow maps, after redrawing maps
+    /// that are out of date. GpuRelighter lights surfels with them. The result is valid until the
+    /// next call of a non-const function; the result of the previous call must no longer be in use.
     ShadowedLights shadowedLights();
 
-    /// Shadow maps that are drawn from now on have half as many texels across, for while things
-    /// move; without it those that have are drawn anew. False at first.
+    /// Sets whether shadow maps drawn from now on have half as many texels across, as suits moving
+    /// scenes. Turning it off causes coarse maps to be redrawn. Initially false.
     void setCoarseShadows(bool coarse);
 
-    /// What is drawn over the pictures from now on, which fade to grey beneath it; uploads only if
-    /// the pointer is new. Null: nothing, at no cost. The layout is that of setScene.
+    /// Sets the overlay of subsequent pictures, which fade to grey beneath it. Uploads only if the
+    /// pointer changed. Null draws no overlay and costs nothing. The layout is that of setScene().
     void setOverlay(std::shared_ptr<const OverlayData> overlay);
 
     /// Records and submits one frame to the viewport's own colour target, tone-mapped 8-bit
@@ -89,17 +90,18 @@ public:
     /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL,
     /// for ImGui::Image.
     VkImageView colorView() const;
-    /// Its image, in the same layout: the picture is its corner (0, 0, width, height) of the last
-    /// ViewportOptions, and the rest is spare, so a size that changes every frame costs nothing
-    /// (half the size while things move, say). View and image stay the same until the size grows
-    /// beyond any before. The window blits from it (created with VK_IMAGE_USAGE_TRANSFER_SRC_BIT).
-    /// ImGui 1.86's backend draws no textures but its font.
+    /// The image of colorView(), in the same layout. The picture fills the corner (0, 0, width,
+    /// height) of the last ViewportOptions; the rest is unused, so changing the size every frame
+    /// costs nothing (for example, half the size while things move). View and image stay the same
+    /// until the size exceeds all previous sizes. The window blits from the image (created with
+    /// VK_IMAGE_USAGE_TRANSFER_SRC_BIT), because ImGui 1.86's backend draws no textures except its
+    /// font.
     VkImage colorImage() const;
 
     /// The linear, scene-referred result of the last render(), without the overlay. Waits for the
     /// GPU.
     ImageF readLinear();
-    /// The tone-mapped result, RGBA8, as on screen. Waits for the GPU.
+    /// The tone-mapped result as on screen, RGBA8. Waits for the GPU.
     Image readTonemapped();
 
     const ViewportStats& stats() const;

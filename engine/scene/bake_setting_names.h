@@ -6,8 +6,8 @@
 
 namespace limn {
 
-// The values of the bake settings' enumerations, in their order: names for files and the command
-// line, labels for people.
+// Names of the values of the bake settings' enumerations, in their order: identifiers for files and
+// the command line, labels for the user interface.
 
 inline constexpr std::array<std::string_view, 3> kPlacementNames = {"relaxed", "halton", "random"};
 inline constexpr std::array<const char*, 3> kPlacementLabels = {"Relaxed", "Halton", "Random"};

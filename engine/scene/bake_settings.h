@@ -10,30 +10,31 @@
 
 namespace limn {
 
-/// Where surfels lie on their triangles: at Halton points, then spread evenly; at Halton points; at
-/// pseudo-random ones (the paper's Figure 3 compares the latter two).
+/// How surfels are placed on their triangles: at Halton points that are then spread evenly, at
+/// Halton points, or at pseudo-random points (the paper's Figure 3 compares the latter two).
 enum class SurfelPlacement : std::uint8_t { Relaxed, Halton, Random };
 
-/// How surfels are joined into clusters: the closest two by the paper's metric, again and again, or
-/// by halving at medians.
+/// How surfels are clustered: by repeatedly joining the closest pair under the paper's metric, or
+/// by splitting at medians.
 enum class Clustering : std::uint8_t { Agglomerative, KdTree };
 
-/// How a cache finds what it sees: by rays that leave it, or, as the paper has it, by a ray towards
-/// every surfel.
+/// How a cache finds what it sees: by tracing rays from the cache, or, as in the paper, by tracing
+/// a ray towards every surfel.
 enum class Linker : std::uint8_t { Gather, FormFactor };
 
-/// Which clusters a cache links: those whose inner differences would change its light most, as
-/// many links as it is worth; or, as the paper has it, n_L of the largest visible solid angle.
+/// Which clusters a cache links. Detail: those whose inner differences would change its light most,
+/// with as many links as the cache is worth. SolidAngle: as in the paper, the n_L with the largest
+/// visible solid angle.
 enum class CutCriterion : std::uint8_t { Detail, SolidAngle };
 
-/// How links are kept. Rtp: as cones whose spherical harmonics are worked out while lighting, 12
-/// bytes each. Sh: as those spherical harmonics, 4 + 2 bands^2 bytes each. They give the same light
+/// How links are stored. Rtp: as cones whose spherical harmonics are computed during lighting, 12
+/// bytes each. Sh: as those spherical harmonics, 4 + 2 bands^2 bytes each. Both give the same light
 /// up to the rounding of halfs.
 enum class LinkStorage : std::uint8_t { Rtp, Sh };
 
-/// What a bake depends on besides the scene. Part of the document. Defaults suit a room or a small
-/// building: what a texel misses weighs more there than what a link or a ray does, so texels come
-/// first, and links and rays share what is left of the time.
+/// What a bake depends on besides the scene. Part of the document. The defaults suit a room or a
+/// small building: there, missing texels cause larger errors than missing links or rays, so texels
+/// get the largest share of the time, and links and rays the rest.
 struct BakeSettings {
     std::uint32_t surfels = 32768; ///< n_S, target over the scene; [64, 1 << 20]
     std::uint32_t links = 64;      ///< n_L per cache, a mean with CutCriterion::Detail; [1, 4096]
@@ -44,15 +45,15 @@ struct BakeSettings {
     float texelsPerMetre = 0;        ///< > 0: fixes the texel density instead
     glm::uvec3 grid{0};              ///< cells of the grid caches; 0: chosen from the bounds
     std::uint32_t maxBounces = 1000; ///< relighting stops earlier once converged
-    bool dimming = true;             ///< dynamic objects keep bounced light off what is behind them
+    bool dimming = true;             ///< dynamic objects occlude bounced light
 
     SurfelPlacement placement = SurfelPlacement::Relaxed;
     Linker linker = Linker::Gather;
     CutCriterion cut = CutCriterion::Detail;
 
     LinkStorage storage = LinkStorage::Rtp;
-    /// Bands of the lit caches' chrominance, [0, 8]; 0, or more than `bands`: as many as `bands`.
-    /// With 1 surfaces show half of the bounced light's colour.
+    /// Number of bands of the lit caches' chrominance, [0, 8]; 0, or more than `bands`: equal to
+    /// `bands`. With 1 band, surfaces show half of the bounced light's colour.
     std::uint32_t chromaBands = 0;
 
     Clustering clustering = Clustering::Agglomerative;
@@ -62,29 +63,30 @@ struct BakeSettings {
     bool operator==(const BakeSettings&) const = default;
 };
 
-/// The number of bands that `chromaBands` stands for, [1, bands].
+/// Number of chrominance bands that `chromaBands` stands for, [1, bands].
 inline std::uint32_t chromaBandsOf(const BakeSettings& s) {
     return s.chromaBands == 0 || s.chromaBands > s.bands ? s.bands : s.chromaBands;
 }
 
-/// So few bounces, or fewer, are taken as they are asked for (BakeSettings::maxBounces): whenever
-/// something changes they begin from no bounced light at all. More go on from the light that was.
+/// Up to this many bounces are computed exactly as requested (BakeSettings::maxBounces): every
+/// change restarts from zero bounced light. With more bounces, lighting continues from the previous
+/// light.
 inline constexpr std::uint32_t kFewBounces = 8;
 
-/// Which of the settings is out of its range, in words; empty: none.
+/// Describes which setting is out of its range; empty if all are valid.
 std::string settingsDefect(const BakeSettings& settings);
 
-/// Sets the setting of that key to what `text` says, and to 0 the one that it replaces. Says what
-/// is wrong with the text and changes nothing; empty: it is set. Precondition: there is such a
-/// setting.
+/// Sets the setting `key` to the value in `text`, and the setting that it replaces to 0. Returns an
+/// empty string on success; otherwise a description of what is wrong with the text, and nothing
+/// changes. Precondition: the setting exists.
 std::string setBakeSetting(BakeSettings& settings, std::string_view key, const std::string& text);
 
-/// Counts that go together.
+/// A named combination of counts.
 struct BakePreset {
     const char* name; ///< as on the command line
     std::uint32_t surfels, links, rays, lightmapCaches;
 
-    /// Its counts are those of the settings.
+    /// Whether the settings have this preset's counts.
     bool describes(const BakeSettings& s) const {
         return s.surfels == surfels && s.links == links && s.rays == rays &&
                s.lightmapCaches == lightmapCaches && s.texelsPerMetre == 0;

@@ -10,8 +10,8 @@ namespace limn {
 /// Setting::group of the lightmap's settings, and the last group of all.
 inline constexpr int kLightmapGroup = 2, kLastSettingGroup = 3;
 
-/// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for the
-/// other settings, once for each, in the order of bake files. `s` is a BakeSettings, const or not.
+/// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
+/// other setting, once for each, in the order of bake files. `s` is a BakeSettings, const or not.
 template <class S, class Visit>
 void visitBakeSettings(S& s, const Visit& visit) {
     visit({.key = "surfels",

@@ -15,7 +15,7 @@ glm::mat4 viewMatrix(const Camera& camera) {
     glm::vec3 up = camera.up;
     if (std::abs(glm::dot(forward, up)) > 0.9999f)
         up = std::abs(forward.y) > 0.9f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
-    // Far from the origin the eye and a point one metre ahead would be the same.
+    // Far from the origin, floats cannot distinguish the eye from a point one metre ahead.
     return glm::translate(glm::lookAtRH(glm::vec3(0), forward, up), -camera.eye);
 }
 

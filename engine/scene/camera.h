@@ -19,14 +19,15 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// From where a picture is seen.
+/// The position and projection from which a picture is seen.
 struct Viewpoint {
     Camera camera;
     float aspect = 1; ///< width over height
     bool operator==(const Viewpoint&) const = default;
 };
 
-/// World to view; the view looks down -Z. Robust when `up` is parallel to the view direction.
+/// World to view transform; the view looks down -Z. Robust if `up` is parallel to the view
+/// direction.
 glm::mat4 viewMatrix(const Camera& camera);
 
 /// Reverse-free projection, depth [0, 1], y up in clip space (Vulkan callers flip the viewport).

@@ -12,9 +12,9 @@ namespace limn {
 
 static constexpr float kFovY = 0.9f;
 
-/// A wall stands in the outer tenth of the bounds, is upright, and covers two fifths of its side:
-/// windows and doors may take the rest. Measured on the rooms and objects at hand, walls cover 0.6
-/// and more, objects at most 0.2.
+/// A wall is upright, lies in the outer tenth of the bounds, and covers two fifths of its side;
+/// windows and doors may take the rest. In the rooms and objects measured, walls cover at least
+/// 0.6, objects at most 0.2.
 static constexpr float kNear = 0.1f;
 static constexpr float kUpright = 0.8f; ///< cosine to the side's normal
 static constexpr float kWall = 0.4f;
@@ -63,19 +63,19 @@ static Camera lookAt(glm::vec3 eye, glm::vec3 target) {
     return camera;
 }
 
-/// Distance from which a ball of radius r fills the view's height.
+/// Distance at which a sphere of radius r fills the view's height.
 static float distanceFor(float r) {
     return r / std::sin(kFovY / 2);
 }
 
-/// From above a corner, all of it in view.
+/// Camera above a corner that sees the whole bounding box.
 static Camera fromCorner(const Bounds& bounds) {
     const float radius = std::max(glm::length(bounds.size()) / 2, 1e-6f);
     const glm::vec3 way = glm::normalize(glm::vec3(1, 0.6f, 1.4f));
     return lookAt(bounds.centre() + way * distanceFor(radius), bounds.centre());
 }
 
-/// Into a box through its one open side (0 -x, 1 +x, 2 -z, 3 +z), as one looks at a stage.
+/// Camera that looks into a box through its one open side (0 -x, 1 +x, 2 -z, 3 +z), like a stage.
 static Camera throughSide(const Bounds& bounds, std::size_t side) {
     const int axis = side < 2 ? 0 : 2;
     const float sign = side % 2 == 0 ? -1.f : 1.f;
@@ -86,8 +86,8 @@ static Camera throughSide(const Bounds& bounds, std::size_t side) {
     return lookAt(eye, bounds.centre());
 }
 
-/// Inside, near one end of the longer way, at a quarter of the height, looking along it and
-/// slightly up.
+/// Camera inside, near one end of the longer horizontal axis, at a quarter of the height, looking
+/// along that axis and slightly up.
 static Camera alongHall(const Bounds& bounds) {
     const glm::vec3 size = bounds.size();
     const int axis = size.x >= size.z ? 0 : 2;
@@ -99,8 +99,9 @@ static Camera alongHall(const Bounds& bounds) {
     return lookAt(eye, target);
 }
 
-/// A room has walls that face inward on at least three of its four sides. With one side open it is
-/// looked into from there; closed, from inside. Anything else is an object, seen from a corner.
+/// A room has inward-facing walls on at least three of its four sides. With one side open the
+/// camera looks in from there; if closed, it is inside. Anything else is an object, seen from a
+/// corner.
 static Camera defaultView(const Scene& scene) {
     const std::array<float, 4> walls = measureWalls(scene);
     const auto open = std::ranges::count_if(walls, [](float w) { return w < kWall; });

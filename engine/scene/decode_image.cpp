@@ -20,7 +20,8 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::array<std::uint8_t, 8> kPng = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
 constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
 
-/// No image has more: deflate packs 1032 bytes into one, each of eight black or white texels.
+/// Upper limit for any image: deflate packs 1032 bytes into one, each with eight black or white
+/// texels.
 constexpr std::uint64_t kMaxTexelsPerByte = 8 * 1032;
 
 bool startsWith(Bytes bytes, Bytes signature) {
@@ -28,8 +29,8 @@ bool startsWith(Bytes bytes, Bytes signature) {
            std::ranges::equal(bytes.first(signature.size()), signature);
 }
 
-/// One PNG in memory. Wrong checksums are let pass, and so are the file's notes on its colours,
-/// which glTF wants ignored.
+/// One PNG in memory. Wrong checksums are accepted, and the file's colour metadata is ignored, as
+/// glTF requires.
 class PngReader {
 public:
     explicit PngReader(Bytes bytes) : m_png(spng_ctx_new(SPNG_CTX_IGNORE_ADLER32)) {
@@ -45,7 +46,7 @@ public:
             return {};
         return ImageSize{header.width, header.height};
     }
-    /// rgba: of the image's size.
+    /// Reads the texels; `rgba` must have the image's size.
     bool read(std::vector<std::uint8_t>& rgba) {
         return spng_decode_image(m_png.get(), rgba.data(), rgba.size(), SPNG_FMT_RGBA8,
                                  SPNG_DECODE_TRNS) == 0;
@@ -70,7 +71,8 @@ public:
             return {};
         return ImageSize{std::uint32_t(width), std::uint32_t(height)};
     }
-    /// rgba: of the image's size. What a file lacks at its end is grey.
+    /// Reads the texels; `rgba` must have the image's size. Parts missing at the end of a truncated
+    /// file are grey.
     bool read(std::vector<std::uint8_t>& rgba) {
         constexpr int kAsInFile = 0; // width, bytes of a row, height
         return tjDecompress2(m_jpeg.get(), m_bytes.data(), m_bytes.size(), rgba.data(), kAsInFile,
@@ -113,7 +115,7 @@ Result<Image> decodeWith(Reader reader, Bytes bytes) {
     return image;
 }
 
-/// Calls use(reader) with the reader of the format that the first bytes say.
+/// Calls use(reader) with the reader for the format identified by the first bytes.
 template <class T, class Use>
 Result<T> readBy(Bytes bytes, const Use& use) {
     if (bytes.empty())

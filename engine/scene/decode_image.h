@@ -9,7 +9,8 @@
 
 namespace limn {
 
-/// 16k x 16k texels, 1 GiB as RGBA: larger images are refused before anything is allocated.
+/// Maximum number of texels: 16k x 16k, 1 GiB as RGBA. Larger images are rejected before anything
+/// is allocated.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t(1) << 28;
 
 struct ImageSize {
@@ -20,7 +21,7 @@ struct ImageSize {
 /// sizes of zero or above kMaxTexels. Messages say what the image is or does: "is too large".
 Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes);
 
-/// The texels of a PNG or JPEG, as RGBA; fails as imageSize() and where they are damaged.
+/// Decodes a PNG or JPEG to RGBA. Fails as imageSize() does, and on damaged texels.
 Result<Image> decodeImage(std::span<const std::uint8_t> bytes);
 
 } // namespace limn

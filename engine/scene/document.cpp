@@ -15,7 +15,7 @@ glm::mat4 matrix(const Transform& t) {
 }
 
 glm::dmat4 preciseMatrix(const Transform& t) {
-    // Of unit length in double too: quarter turns, as from z-up to y-up, are exact then.
+    // Normalised in double, too: quarter turns, such as from z-up to y-up, are then exact.
     glm::dmat4 m = glm::mat4_cast(glm::normalize(glm::dquat(t.rotation)));
     m[0] *= double(t.scale.x);
     m[1] *= double(t.scale.y);

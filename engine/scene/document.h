@@ -32,10 +32,10 @@ struct Transform {
 
 glm::mat4 matrix(const Transform& t);
 
-/// The same in double, with the whole of the translation.
+/// Same as matrix() in double precision, with the full precision of the translation.
 glm::dmat4 preciseMatrix(const Transform& t);
 
-/// A node of the tree; carries meshes when it is an instance.
+/// A node of the tree; an instance carries meshes.
 struct Node {
     std::string name;
     ObjectId parent = 0;               ///< 0: a root. The tree has no cycles.
@@ -47,13 +47,14 @@ struct Node {
     bool operator==(const Node&) const = default;
 };
 
-/// A material object. Mesh::material names Material objects by their order of id.
-/// (Material itself is in material.h.)
+/// Any object of a document. Mesh::material counts the Material objects in the order of their ids.
+/// (Material itself is declared in material.h.)
 
 using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings, TechniqueChoice>;
 
-/// Everything a user can edit. A plain value; heavy, immutable data is in Assets. Node transforms
-/// are the file's. Lights and cameras are in world space, whose origin is `origin`.
+/// Everything a user can edit, as a plain value; heavy, immutable data is in Assets. Node
+/// transforms are in the file's coordinates. Lights and cameras are in world space, whose origin is
+/// `origin`.
 struct Document {
     std::string scenePath; ///< glTF file, as opened; the project file stores it relative to itself
     std::uint64_t sceneHash = 0; ///< of the glTF's content (main file and buffers)
@@ -64,11 +65,11 @@ struct Document {
     bool operator==(const Document&) const = default;
 };
 
-/// Adds `object` under a fresh id.
+/// Adds `object` under a new id and returns the id.
 ObjectId addObject(Document& document, Object object);
 
-/// The single object of type T (Sky, BakeSettings, TechniqueChoice), or T's defaults where the
-/// document has none.
+/// The single object of type T (Sky, BakeSettings, TechniqueChoice), or a default T if the document
+/// has none.
 template <class T>
 T singleton(const Document& document) {
     for (const auto& [id, object] : document.objects)
@@ -77,7 +78,7 @@ T singleton(const Document& document) {
     return {};
 }
 
-/// The display name; "Sky", "Bake settings" and "Technique" for those without one.
+/// Display name of an object; "Sky", "Bake settings" and "Technique" for objects without a name.
 std::string objectName(const Object& object);
 
 } // namespace limn

@@ -8,8 +8,8 @@
 
 namespace limn {
 
-/// `NAME` or `NAME@x,y,z`: makes the nodes of that name dynamic, with all below them, and moves
-/// them by x,y,z [m] in their parent's space. Fails where there is no such node.
+/// Parses `NAME` or `NAME@x,y,z`: makes all nodes of that name and their descendants dynamic, and
+/// moves the nodes by x,y,z [m] in their parent's space. Fails if there is no such node.
 Result<void> makeDynamic(Document& document, std::string_view spec);
 
 } // namespace limn

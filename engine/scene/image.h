@@ -10,9 +10,9 @@
 
 namespace limn {
 
-/// A texture's pixels as the file has them: 8 bits per channel, RGBA, row 0 at the top (glTF's v =
-/// 0). Colour images hold sRGB, data images (normals, roughness) linear numbers; the user of an
-/// image knows.
+/// Pixels of a texture as stored in the file: 8 bits per channel, RGBA, row 0 at the top (glTF's v
+/// = 0). Colour images hold sRGB, data images (normals, roughness) linear numbers; the image itself
+/// does not record which.
 struct Image {
     std::string name; ///< file name or glTF name, for messages
     std::uint32_t width = 0, height = 0;

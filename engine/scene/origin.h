@@ -8,27 +8,29 @@
 
 namespace limn {
 
-/// World space is the file's coordinates about an origin near the scene, because world positions
-/// are floats: in a room of 5 m that lies 1000 km from the file's origin they would be 6 cm apart.
+/// World space is the file's coordinate system with its origin moved near the scene, because world
+/// positions are floats: in a room of 5 m at 1000 km from the file's origin they would be 6 cm
+/// apart.
 
-/// From how many times its diagonal on a scene is far from the file's origin. A float has 24 bits;
-/// nearer than this, it still tells places apart that are 2^-20 of the diagonal from each other,
-/// which is a hundredth of a millimetre in a room.
+/// A scene counts as far from the file's origin from this many times its diagonal on. Floats have
+/// 24 bits: nearer than this, they still distinguish positions 2^-20 of the diagonal apart, which
+/// is a hundredth of a millimetre in a room.
 inline constexpr double kFarInDiagonals = 16;
 
-/// Where to put the origin of a document's world space, in the file's coordinates [m]: at 0, or
-/// where the visible static meshes lie far from there, near the centre of the box around them. It
-/// is a multiple of a power of two not less than the box's diagonal, so that it has few bits,
-/// subtracting it is exact, and small changes of the file leave it where it is. 0 as well where the
-/// centre is beyond kMaxCoordinate. Importing a file sets it once: edits do not move it.
+/// Chooses the origin of a document's world space, in the file's coordinates [m]. It is 0, or, if
+/// the visible static meshes lie far from there, a point near the centre of their bounding box. The
+/// point is a multiple of a power of two not less than the box's diagonal, so that it has few bits,
+/// subtracting it is exact, and small changes of the file do not move it. It is also 0 if the
+/// centre is beyond kMaxCoordinate. The origin is set once when a file is imported; edits do not
+/// move it.
 glm::dvec3 originOf(const Document& document, std::span<const Mesh> meshes);
 
-/// World point `p` in the file's coordinates.
+/// Converts world point `p` to the file's coordinates.
 inline glm::dvec3 toFile(const glm::dvec3& origin, glm::vec3 p) {
     return origin + glm::dvec3(p);
 }
 
-/// And back.
+/// Converts point `p` in the file's coordinates to world space.
 inline glm::vec3 toWorld(const glm::dvec3& origin, const glm::dvec3& p) {
     return glm::vec3(p - origin);
 }

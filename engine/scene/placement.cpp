@@ -17,7 +17,7 @@ const Node* Placements::node(ObjectId id) const {
     return found == m_document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
 }
 
-/// Iterative: a chain of nodes may be very long.
+/// Iterative, because a chain of nodes may be very long.
 Placement Placements::of(ObjectId id) {
     std::vector<ObjectId> chain;
     Placement at;

@@ -7,26 +7,27 @@
 
 namespace limn {
 
-/// What a node inherits from its ancestors, and its own.
+/// Transform and flags of a node, combined with those of its ancestors.
 struct Placement {
     glm::dmat4 toWorld{1};
     bool visible = true;
     bool dynamic = false;
 };
 
-/// Placements of a document's nodes, each computed once. The document must outlive it; what it has
-/// must stay as it is, but objects may be added.
+/// Placements of a document's nodes, each computed once. The document must outlive this object and
+/// its existing objects must not change; new ones may be added.
 class Placements {
 public:
-    /// In world space about the document's own origin. Where that is 0, matrices are multiplied as
-    /// floats, which suffices there, so that bakes of such scenes keep their bits.
+    /// Placements in world space about the document's own origin. If that origin is 0, matrices are
+    /// multiplied as floats, which is sufficient there and keeps bakes of such scenes
+    /// bit-identical.
     explicit Placements(const Document& document);
 
-    /// About `origin` instead, multiplied as doubles.
+    /// Placements about `origin`, with matrices multiplied as doubles.
     Placements(const Document& document, const glm::dvec3& origin);
 
-    /// A missing parent makes a root; a cycle, which documents must not have, is cut. An id that is
-    /// no node's has world space itself as its place.
+    /// Placement of node `id`. A node with a missing parent counts as a root; a cycle, which
+    /// documents must not contain, is cut. An id that is no node's has the identity transform.
     Placement of(ObjectId id);
 
 private:

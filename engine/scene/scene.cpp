@@ -34,7 +34,7 @@ static void addInstances(Scene& scene, const Node& node, ObjectId id, const Plac
     }
 }
 
-/// Of all instances, or of the static ones alone.
+/// Bounding box of all instances, or of the static ones only.
 static Bounds instanceBounds(const Scene& scene, bool dynamic) {
     std::vector<Bounds> each(scene.instances.size(), kNoBounds);
     parallelRanges(scene.instances.size(), 4, [&](std::size_t begin, std::size_t end) {

@@ -16,11 +16,11 @@
 
 namespace limn {
 
-/// What a glTF file brings that nobody edits. Shared and immutable after import.
+/// Immutable data of a glTF file that cannot be edited. Shared after import.
 struct Assets {
     std::vector<Mesh> meshes;
     std::vector<Image> images;
-    MipStore mips; ///< of `images`, made when first needed
+    MipStore mips; ///< of `images`, built on first use
 };
 
 /// One mesh placed in the world.
@@ -40,12 +40,12 @@ struct Instance {
 /// Whether the light is on and sends anything.
 bool shines(const Light& light);
 
-/// Whether anything within `bounds` can lie in the light's range.
+/// Whether the light's range includes any point within `bounds`.
 bool reaches(const Light& light, const Bounds& bounds);
 
-/// The document flattened: what the tracer, baker, reference and viewport read. Everything is in
-/// world space, and nothing of it depends on where `origin` lies: it only tells people where things
-/// are. So the same room at two places has the same scene hash, and may share a bake.
+/// The flattened document, which the tracer, baker, reference and viewport read. Everything is in
+/// world space and independent of `origin`, which is only used to display positions. The same room
+/// at two places therefore has the same scene hash and may share a bake.
 struct Scene {
     std::shared_ptr<const Assets> assets;
     std::vector<Instance> instances; ///< visible ones, ordered by node id, then mesh
@@ -62,46 +62,48 @@ struct Scene {
     const Material& materialOf(const Instance& i) const { return materials[i.material]; }
 };
 
-/// World space, of the static instances: all that a bake may depend on. 0 where there are none.
+/// World-space bounding box of the static instances, which contains all that a bake may depend on.
+/// 0 if there are none.
 Bounds staticBounds(const Scene& scene);
 
-/// As it is `seconds` after the start of its films.
+/// Flattens the document, with its animated textures shown `seconds` after their start.
 Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, double seconds = 0);
 
-/// Brings the films of the document's materials in a scene that was flattened from it to `seconds`.
-/// True if that changed anything.
+/// Advances the animated textures of a scene that was flattened from `document` to `seconds`.
+/// Returns whether anything changed.
 bool showTime(Scene& scene, const Document& document, double seconds);
 
-/// `camera name`d, or the first, or one that shows the whole scene from a corner.
+/// Returns the camera called `name`, else the first camera, else one that shows the whole scene
+/// from a corner.
 Camera chooseCamera(const Scene& scene, const std::optional<std::string>& name);
 
-/// Alpha from which a Blend texel counts as solid: transport knows no partial cover.
+/// Alpha from which a Blend texel counts as solid: light transport supports no partial coverage.
 inline constexpr float kBlendCutoff = 0.5f;
 
-/// Whether the surface may have holes that rays pass: Mask, and Blend treated as Mask at
-/// kBlendCutoff.
+/// Whether the surface may have holes that rays pass through: Mask, and Blend, which is treated as
+/// Mask with kBlendCutoff.
 bool isCutout(const Material& material);
 
-/// Alpha below which the surface is absent, to rays, shadow maps and cameras alike; 0 for Opaque.
+/// Alpha below which the surface is absent for rays, shadow maps and cameras alike; 0 for Opaque.
 float alphaCutoff(const Material& material);
 
-/// Only the alpha of surfaceMaterial, 0 or 1; cheap where the material is opaque.
+/// Alpha of surfaceMaterial(), 0 or 1, without the rest; cheap for opaque materials.
 float surfaceAlpha(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
                    float v);
 
-/// What a surface point is made of.
+/// Material properties at a surface point.
 struct SurfaceMaterial {
     glm::vec3 albedo{0};   ///< diffuse reflectance, <= 0.99
     glm::vec3 emission{0}; ///< [nits]
     float alpha = 1;       ///< after the cutoff of Mask and Blend: 0 or 1
 };
 
-/// At barycentrics (u, v) of `triangle` (weights 1-u-v, u, v).
+/// Material at barycentrics (u, v) of `triangle` (weights 1-u-v, u, v).
 SurfaceMaterial surfaceMaterial(const Scene& scene, const Instance& instance,
                                 std::uint32_t triangle, float u, float v);
 
-/// The mean over a footprint of `area` [m^2, world] there, as textures have it; vertex colours
-/// count at the point. Of a cutout, the mean of what is there besides the holes.
+/// Mean material over a footprint of `area` [m^2, world] at that point. Textures are averaged;
+/// vertex colours are taken at the point. For a cutout, the mean excludes the holes.
 SurfaceMaterial surfaceMaterialOver(const Scene& scene, const Instance& instance,
                                     std::uint32_t triangle, float u, float v, float area);
 

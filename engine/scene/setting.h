@@ -7,13 +7,13 @@
 
 namespace limn {
 
-/// What is out of date once a setting has changed.
+/// What becomes out of date when a setting changes.
 enum class Invalidates : std::uint8_t {
-    Bake, ///< what is precomputed
-    Light ///< light alone: the next frames show the change
+    Bake, ///< the precomputed data
+    Light ///< the light alone: the next frames show the change
 };
 
-/// A setting as everything names and explains it that lists, reads, writes or checks settings:
+/// Description of a setting, shared by everything that lists, reads, writes or checks settings:
 /// project files, the command line, the inspector, the baker.
 struct Setting {
     const char* key;               ///< in project and bake files
@@ -22,18 +22,18 @@ struct Setting {
     const char* help = nullptr;    ///< for --help, one phrase
     const char* tooltip = nullptr; ///< for the inspector, whole sentences
     Invalidates invalidates = Invalidates::Bake;
-    /// Another setting that the command line sets to 0 with this one, because only one of the two
-    /// holds; null: none.
+    /// Key of a setting that the command line sets to 0 together with this one, because only one of
+    /// the two can be in effect; null: none.
     const char* replaces = nullptr;
     /// The inspector lists settings by group, in the order of these numbers.
     int group = 0;
-    bool applies = true; ///< false: the other settings leave it without effect
+    bool applies = true; ///< false: other settings leave it without effect
 };
 
-/// The numbers that a setting may have.
+/// Range of a numeric setting.
 struct SettingRange {
     double lower = 0, upper = 1;
-    /// The lowest number that the command line takes. A `lower` of 0 may mean "not set".
+    /// Lowest number that the command line accepts. A `lower` of 0 may mean "not set".
     double lowest = lower;
 };
 

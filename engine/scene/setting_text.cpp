@@ -10,7 +10,7 @@
 
 namespace limn {
 
-/// The range of numbers that may be written.
+/// Range of numbers that the command line accepts.
 static SettingRange written(const SettingRange& range) {
     return {range.lowest, range.upper};
 }

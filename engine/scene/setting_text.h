@@ -10,8 +10,8 @@
 
 namespace limn {
 
-// What a setting's value may be, and how it is written. Every function says what is wrong, "70000
-// is outside [16, 65536]"; empty: nothing.
+// Checks and parses values of settings. Every function returns a description of the error, such as
+// "70000 is outside [16, 65536]", or an empty string on success.
 
 std::string numberDefect(double value, const SettingRange& range);
 
@@ -34,8 +34,8 @@ inline std::string valueDefect(bool) {
     return {};
 }
 
-/// Reads a number of [range.lowest, range.upper], a name of the choices, three whole numbers
-/// "XxYxZ", or "true" and "false".
+/// Parses a number in [range.lowest, range.upper], a name of the choices, three whole numbers
+/// "XxYxZ", or "true" or "false".
 std::string readValue(const std::string& text, std::uint32_t& value, const SettingRange& range);
 std::string readValue(const std::string& text, float& value, const SettingRange& range);
 std::string readValue(const std::string& text, glm::uvec3& value, const SettingRange& range);

@@ -9,10 +9,10 @@
 
 namespace limn {
 
-/// The sky's cells as a bake counts them: bands of equal height by sectors about +Y.
+/// Division of the sky into cells for a bake: bands of equal height by sectors about +Y.
 inline constexpr std::uint32_t kSkyBands = 16, kSkySectors = 16;
 
-/// A panorama with what lighting by it needs.
+/// A panorama with the precomputed means that lighting needs.
 struct SkyImage {
     ImageF pixels; ///< finite, >= 0, not empty
     SkyBands bands;
@@ -21,7 +21,7 @@ std::shared_ptr<const SkyImage> makeSkyImage(ImageF pixels);
 
 enum class SkyKind : std::uint8_t { Color, Gradient, Image };
 
-/// The light from all round the scene. One per document. Colours are linear [nits].
+/// Light from all directions around the scene. One per document. Colours are linear [nits].
 struct Sky {
     SkyKind kind = SkyKind::Color;
     glm::vec3 radiance{0}; ///< of all directions; of a gradient: straight up
@@ -30,8 +30,8 @@ struct Sky {
     std::string image;     ///< panorama's file, as opened; empty: none
     float strength = 1;    ///< times the image's radiance, >= 0
     float rotation = 0;    ///< of the image about +Y, from +Z towards +X [rad]
-    /// Pixels of `image`. Without them an image is one colour. Compared by being there: the file's
-    /// name says the rest.
+    /// Pixels of `image`. Without them an image counts as a single colour. Comparisons only check
+    /// whether they are present: the file's name identifies them.
     std::shared_ptr<const SkyImage> panorama = nullptr;
 
     bool operator==(const Sky& other) const;
@@ -41,7 +41,7 @@ struct Sky {
 /// Radiance [nits] from direction `d` (unit).
 glm::vec3 skyRadiance(const Sky& sky, glm::vec3 d);
 
-/// Mean radiance of each cell, by skyCellOf(): exact for every kind.
+/// Mean radiance of each cell, indexed by skyCellOf(); exact for every kind.
 std::vector<glm::vec3> skyCellRadiance(const Sky& sky);
 
 } // namespace limn

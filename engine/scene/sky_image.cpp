@@ -9,7 +9,7 @@ namespace limn {
 
 static constexpr double kPi = std::numbers::pi;
 
-/// Where azimuth `turns` (atan2(z, x) over 2 pi) meets the panorama, in [0, 1).
+/// Horizontal position in [0, 1) of azimuth `turns` (atan2(z, x) over 2 pi) in the panorama.
 static double across(double turns, float rotation) {
     const double u = turns + double(rotation) / (2 * kPi) + 0.75;
     return u - std::floor(u);
@@ -30,7 +30,7 @@ SkyBands skyBands(const ImageF& panorama, std::uint32_t bands) {
     SkyBands out{bands, panorama.width, {}};
     out.mean.assign(std::size_t(bands) * panorama.width, glm::dvec3(0));
     for (std::uint32_t row = 0; row < panorama.height; ++row) {
-        // The row reaches over these heights, in bands from below.
+        // Heights that the row covers, in bands from below.
         const auto height = [&](std::uint32_t edge) {
             return (std::cos(kPi * edge / panorama.height) + 1) / 2 * bands;
         };

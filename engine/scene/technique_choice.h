@@ -6,10 +6,10 @@
 
 namespace limn {
 
-/// Which technique of bounced light the document is lit by. One per document.
+/// The technique of bounced light that lights the document. One per document.
 struct TechniqueChoice {
     std::string technique = "illuminance"; ///< its name in the table of techniques
-    /// Values of the techniques' own settings, by key; those that are missing have their defaults.
+    /// Values of the technique's settings, by key; missing ones have their defaults.
     std::map<std::string, double> settings;
 
     bool operator==(const TechniqueChoice&) const = default;

@@ -6,14 +6,14 @@
 
 namespace limn {
 
-/// Scene-referred linear Rec. 709 >= 0 to display-referred linear in [0, 1]; the same curves as
-/// shaders/viewport/tonemap.frag.
+/// Maps scene-referred linear Rec. 709 >= 0 to display-referred linear in [0, 1], with the same
+/// curves as shaders/viewport/tonemap.frag.
 glm::vec3 toneMapped(glm::vec3 color, Tonemap curve);
 
 /// The sRGB transfer function, linear [0, 1] to encoded.
 float encodeSrgb(float linear);
 
-/// 8-bit picture of `image` times 2^exposureEv. NaN becomes black.
+/// Converts `image` times 2^exposureEv to 8 bits per channel. NaN becomes black.
 Image toneMappedImage(const ImageF& image, Tonemap curve, float exposureEv);
 
 } // namespace limn

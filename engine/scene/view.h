@@ -9,12 +9,11 @@
 
 namespace limn {
 
-/// What a picture shows; the same for `render` and `reference`.
-/// Direct: first hit of directional, point and spot lights. Indirect: everything else that reaches
-/// a diffuse surface (bounces, light of emissive materials, sky). Irradiance: Indirect with the
-/// first surface's albedo replaced by 1, not divided by pi [W m^-2]. Lit: direct + indirect + the
-/// surface's own emission + specular; background is the sky. In every other view the background is
-/// 0.
+/// What a picture shows; the same for `render` and `reference`. Direct: the first hit of
+/// directional, point and spot lights. Indirect: everything else that reaches a diffuse surface
+/// (bounces, light of emissive materials, sky). Irradiance: Indirect with the first surface's
+/// albedo replaced by 1, not divided by pi [W m^-2]. Lit: direct + indirect + the surface's own
+/// emission + specular; the background is the sky. In every other view the background is 0.
 enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Normals };
 
 enum class Tonemap : std::uint32_t { None, Aces, Agx, PbrNeutral };

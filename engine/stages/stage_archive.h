@@ -11,8 +11,9 @@
 
 namespace limn {
 
-/// What is kept under `key`, or nothing where it breaks a rule: whoever can write to the folder
-/// must not be able to lead a bake astray. `fields(archive, T)` lists T's fields and their rules.
+/// Reads the content kept under `key`. Returns std::nullopt if there is none or it breaks a rule,
+/// so that nobody with write access to the folder can corrupt a bake. `fields(archive, T)` lists
+/// T's fields and their rules.
 template <class T, class Fields>
 std::optional<T> kept(StageStore& store, std::uint64_t key, Fields fields) {
     if (const auto bytes = store.find(key)) {
@@ -23,8 +24,8 @@ std::optional<T> kept(StageStore& store, std::uint64_t key, Fields fields) {
     return {};
 }
 
-/// What is kept under `key`; else what make() returns, kept from now on unless the bake was
-/// cancelled meanwhile. `store` may be null.
+/// Returns the content kept under `key`, or else the result of make(), which is then stored unless
+/// the bake was cancelled meanwhile. `store` may be null.
 template <class T, class Fields, class Make>
 T keptOrMade(StageStore* store, std::uint64_t key, const Progress& progress, Fields fields,
              Make make) {

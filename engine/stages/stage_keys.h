@@ -7,8 +7,7 @@
 
 namespace limn {
 
-/// Every kind of content that a StageStore keeps. Each has keys of its own, whatever it is made
-/// from.
+/// Every kind of content in a StageStore. Each kind has its own keys, whatever its inputs.
 enum class Stage : std::uint32_t {
     Charts,
     Density,
@@ -27,7 +26,7 @@ enum class Stage : std::uint32_t {
     Training
 };
 
-/// `inputs`: hash of all that the content is made from.
+/// Key of a content; `inputs` is the hash of everything that it is computed from.
 inline std::uint64_t stageKey(Stage stage, std::uint64_t inputs) {
     return hashValue(inputs, hashValue(stage, 0));
 }

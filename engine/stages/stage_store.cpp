@@ -51,14 +51,15 @@ int hashBuildNote(dl_phdr_info* info, std::size_t, void* hash) {
     return 1; // the first entry is the program itself
 }
 
-/// Of the notes of the running program, among them the linker's hash of all its code.
+/// Hash of the running program's notes, which include the linker's hash of all its code.
 std::uint64_t programHash() {
     std::uint64_t hash = kVersion;
     dl_iterate_phdr(hashBuildNote, &hash);
     return hash;
 }
 
-/// Piece by piece: room for all that zstd may need would be as much again as `bytes`.
+/// Compresses piece by piece, because a buffer for zstd's worst case would be as large as `bytes`
+/// again.
 std::string pack(std::uint64_t key, const std::string& bytes) {
     std::string file(kHeader, '\0'), piece(ZSTD_CStreamOutSize(), '\0');
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd(ZSTD_createCCtx(),
@@ -99,7 +100,7 @@ std::optional<std::string> unpack(std::uint64_t key, const std::string& file) {
     return bytes;
 }
 
-/// Whether a file is one of ours by its name and by its first bytes.
+/// Whether a file is a stage file, by its name and its first bytes.
 bool isStage(const fs::path& path) {
     const std::string name = path.filename().string();
     const std::size_t digits = 16;
@@ -112,8 +113,8 @@ bool isStage(const fs::path& path) {
            std::memcmp(magic, kMagic, sizeof magic) == 0;
 }
 
-/// Removes what was used longest ago until at most `most` bytes are left. Returns the bytes left.
-/// Other processes may remove files meanwhile. Whatever else lies in the folder is not ours.
+/// Removes the least recently used files until at most `most` bytes are left. Returns the bytes
+/// left. Other processes may remove files meanwhile; other files in the folder are not touched.
 std::uint64_t trim(const fs::path& folder, std::uint64_t most) {
     struct File {
         fs::file_time_type used;
@@ -210,7 +211,7 @@ void StageStore::Impl::writeFile(std::uint64_t key, const std::string& file) {
     }
     diskBytes += file.size();
     writtenSinceTrim += file.size();
-    // Other processes write too: look again now and then.
+    // Other processes write as well, so the folder is checked from time to time.
     if (diskBytes > options.maxDiskBytes || writtenSinceTrim > options.maxDiskBytes / 8) {
         diskBytes = trim(options.folder, options.maxDiskBytes / 10 * 9);
         writtenSinceTrim = 0;
@@ -280,7 +281,7 @@ void StageStore::put(std::uint64_t key, const std::string& bytes) {
     m_impl->remember(key, file);
     if (m_impl->options.folder.empty())
         return;
-    // A disk slower than the baker holds it back, not the memory full.
+    // If the disk is slower than the baker, the baker waits, so that memory does not fill up.
     constexpr std::size_t kMaxWaiting = 64;
     m_impl->changed.wait(lock, [&] { return m_impl->queue.size() < kMaxWaiting; });
     m_impl->queue.emplace_back(key, std::move(file));

@@ -9,34 +9,35 @@
 namespace limn {
 
 struct StageStoreOptions {
-    std::string folder; ///< made where it is missing; empty: nothing is kept on disk
+    std::string folder; ///< created if missing; empty: nothing is stored on disk
     std::uint64_t maxDiskBytes = std::uint64_t(4) << 30;
     std::uint64_t maxMemoryBytes = std::uint64_t(1) << 30;
 };
 
-/// Finished results of bake stages by the hash of what they were made from, in memory and in a
-/// folder: one file each. What has lain unused longest goes first where there is too much. Files
-/// are written beside the caller, each to a temporary one that is synced and renamed; a damaged,
-/// truncated or foreign file counts as absent. Any thread may call, and several processes may share
-/// a folder. Results of another build of the program are not used: it may compute them otherwise.
+/// Cache of finished results of bake stages, keyed by the hash of their inputs, in memory and in a
+/// folder with one file each. The least recently used results are evicted first. Files are written
+/// in the background, each to a temporary file that is synced and renamed; a damaged, truncated or
+/// foreign file counts as absent. Thread-safe, and several processes may share a folder. Results of
+/// another build of the program are not used, because it may compute them differently.
 class StageStore {
 public:
     explicit StageStore(StageStoreOptions options = {});
-    /// Waits until everything is on disk.
+    /// Waits until everything has been written to disk.
     ~StageStore();
     StageStore(const StageStore&) = delete;
     StageStore& operator=(const StageStore&) = delete;
 
-    /// The bytes last put under `key`, or nothing.
+    /// The bytes last put under `key`; std::nullopt if there are none.
     std::optional<std::string> find(std::uint64_t key);
 
-    /// Keeps a copy of `bytes`, packed by zstd; replaces what was there.
+    /// Stores a copy of `bytes`, compressed by zstd, replacing previous content.
     void put(std::uint64_t key, const std::string& bytes);
 
-    /// Waits until everything put so far is on disk.
+    /// Waits until everything put so far has been written to disk.
     void flush();
 
-    /// Why the folder cannot be written; empty: it can, or there is none. Memory serves meanwhile.
+    /// Why the folder cannot be written; empty if it can or if there is no folder. Results are then
+    /// kept in memory only.
     std::string defect() const;
 
 private:

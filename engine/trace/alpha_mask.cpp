@@ -67,8 +67,8 @@ static float sampleAlpha(const AlphaImage& image, const TextureRef& texture, glm
         uv = {c * uv.x + s * uv.y, c * uv.y - s * uv.x};
     }
     uv += texture.offset;
-    // Coordinates beyond a thousand repeats have little fraction left; they must still not overflow
-    // int, nor may NaN.
+    // Coordinates beyond a thousand repeats have hardly any fraction left, but they and NaN must
+    // not overflow int.
     uv.x = std::abs(uv.x) < 1e4f ? uv.x : 0;
     uv.y = std::abs(uv.y) < 1e4f ? uv.y : 0;
     if (texture.wrapU == Wrap::Repeat)

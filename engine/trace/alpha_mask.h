@@ -16,8 +16,8 @@ struct AlphaImage {
     std::vector<std::uint8_t> alpha; ///< width * height
 };
 
-/// The alpha test of one mesh with one cut-out material, cheap enough for every ray.
-/// Agrees with surfaceAlpha(). Points into the mesh, which must outlive it.
+/// Alpha test of one mesh with one cutout material, cheap enough for every ray. Agrees with
+/// surfaceAlpha(). Points into the mesh, which must outlive it.
 struct AlphaMask {
     const Mesh* mesh = nullptr;
     const std::vector<glm::vec2>* uv = nullptr; ///< null: no texture or no coordinates
@@ -27,14 +27,14 @@ struct AlphaMask {
     std::shared_ptr<const AlphaImage> image; ///< null: 1 everywhere
 };
 
-/// Alpha channels taken out of Assets::images so far, by image index.
+/// Alpha channels extracted from Assets::images so far, by image index.
 using AlphaImages = std::map<std::int32_t, std::shared_ptr<const AlphaImage>>;
 
-/// `material` must satisfy isCutout().
+/// Creates the mask of a mesh. `material` must satisfy isCutout().
 AlphaMask makeAlphaMask(const Assets& assets, const Mesh& mesh, const Material& material,
                         AlphaImages& images);
 
-/// True where the surface is there: alpha >= cutoff at barycentrics (u, v) of `triangle`.
+/// Whether the surface exists, alpha >= cutoff, at barycentrics (u, v) of `triangle`.
 bool opaqueAt(const AlphaMask& mask, std::uint32_t triangle, float u, float v);
 
 } // namespace limn

@@ -7,11 +7,11 @@
 
 namespace limn {
 
-/// Whether nothing static stands between two points above a surface but the surface itself, which
-/// may bend between them: hits for which own(hit) is true do not count.
+/// Whether nothing static blocks the segment between two points above a surface, except the surface
+/// itself, which may curve between them: hits for which own(hit) is true are ignored.
 template <class Own>
 bool clearAlong(const TraceScene& trace, glm::vec3 from, glm::vec3 to, Own own) {
-    constexpr int kMaxOwn = 4; ///< times that a segment passes the surface
+    constexpr int kMaxOwn = 4; ///< maximum number of times that a segment crosses the surface
     const glm::vec3 way = to - from;
     const float distance = glm::length(way);
     if (!(distance > 0))

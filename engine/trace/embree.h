@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The few places where Embree 3 and 4 differ.
+// Adapts the few interfaces that differ between Embree 3 and 4.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -21,16 +21,16 @@ using EmbreeContext = RTCIntersectContext;
 inline constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
 
-/// What every scene needs that is asked for hits.
+/// Sets the flags that every scene needs to be queried.
 inline void setEmbreeFlags(RTCScene scene) {
     rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilterFlag));
 }
 
-/// The first hit of a ray so far: of equally distant ones that of the lowest instance, then
-/// triangle. Which of coplanar triangles Embree itself settles on depends on its tree, and so on
-/// objects far away.
+/// State of a query for the closest hit. Ties in distance go to the lowest instance, then the
+/// lowest triangle, because Embree's own choice among coplanar triangles depends on its tree, and
+/// so on objects far away.
 struct FirstHit {
-    EmbreeContext context; ///< first: the filter gets its address
+    EmbreeContext context; ///< must be first: the filter gets its address
     float t = std::numeric_limits<float>::infinity();
     std::uint64_t id = ~std::uint64_t(0);
 };
@@ -48,7 +48,7 @@ inline void keepFirst(const RTCFilterFunctionNArguments* args) {
     }
     first.t = t;
     first.id = id;
-    t *= 1 + 0x1p-20f; // lets others come this far: Embree compares with roundings of its own
+    t *= 1 + 0x1p-20f; // accepts nearby hits, too: Embree's comparisons round differently
 }
 
 inline void embreeIntersect(RTCScene scene, RTCRayHit& rayHit) {

@@ -18,7 +18,7 @@ float shadowedIrradiance(const TraceScene& trace, const LightRectangle& rectangl
     double sum = 0, seen = 0;
     for (std::uint32_t i = 0; i < points; ++i) {
         const glm::vec2 hammersley((float(i) + 0.5f) / float(points), radicalInverse(i, 2));
-        // Not on the edge: walls that the light ends at would hide it.
+        // Not on the edge, where walls that bound the light would hide it.
         const glm::vec2 uv =
             glm::mix(glm::vec2(kInset), glm::vec2(1 - kInset), glm::fract(hammersley + shift));
         const glm::vec3 onLight = sphere.at(uv);

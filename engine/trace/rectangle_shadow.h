@@ -8,10 +8,11 @@
 
 namespace limn {
 
-/// Irradiance per unit of radiance that arrives from a rectangle at surface point `p` with unit
-/// normal `n`: rectangleIrradiance() times the share of `points` on it that `p` sees, even in solid
-/// angle, each weighted by its cosine. Exact where all or nothing is seen. The points are
-/// Hammersley's, shifted by `shift` in [0, 1)^2. Adds the shadow rays to `rays`.
+/// Irradiance per unit of radiance from a rectangle at surface point `p` with unit normal `n`, with
+/// shadow: rectangleIrradiance() times the visible share of `points` points on it, which are
+/// uniform in solid angle and weighted by their cosines. Exact if all or nothing is visible. The
+/// points are Hammersley's, shifted by `shift` in [0, 1)^2. Adds the number of shadow rays to
+/// `rays`.
 float shadowedIrradiance(const TraceScene& trace, const LightRectangle& rectangle, glm::vec3 p,
                          glm::vec3 n, std::uint32_t points, glm::vec2 shift, std::uint64_t& rays);
 

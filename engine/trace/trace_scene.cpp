@@ -25,7 +25,7 @@ namespace limn {
 
 namespace {
 
-/// Triangles with the same holes everywhere: a mesh and, where it has holes, its material.
+/// Key of triangles with identical holes: a mesh and, if it has holes, its material.
 struct MeshKey {
     std::uint32_t mesh = 0;
     std::uint32_t cutout = ~0u; ///< material with holes; ~0: none
@@ -33,13 +33,13 @@ struct MeshKey {
     auto operator<=>(const MeshKey&) const = default;
 };
 
-/// What instances of equal keys share.
+/// Data shared by instances with equal keys.
 struct SharedMesh {
     AlphaMask mask;
     RTCScene scene = nullptr; ///< in object space; null while no instance needs it
 };
 
-/// Per instance, what a hit needs.
+/// Data per instance that a hit needs.
 struct HitFrame {
     glm::mat4 toWorld{1};
     float winding = 1;   ///< -1: the matrix mirrors, glTF flips the front
@@ -47,7 +47,7 @@ struct HitFrame {
     bool inWorld = true; ///< its triangles lie in the top structure, in world space
 };
 
-/// Static scenes of up to this many triangles are copied to world space whole.
+/// Static scenes of up to this many triangles are copied entirely to world space.
 constexpr std::size_t kMaxCopiedTriangles = 2'000'000;
 
 void passThroughMask(const RTCFilterFunctionNArguments* args) {
@@ -71,8 +71,9 @@ double determinant3(const glm::mat4& m) {
     return glm::determinant(glm::dmat3(glm::mat3(m)));
 }
 
-// Embree inverts instance matrices in floats. A flattened object has no inverse, a nearly flat one
-// no accurate one: its vertices are taken to world space instead.
+// Embree inverts instance matrices in floats. The matrix of a flattened object has no inverse and
+// that of a nearly flat one no accurate inverse: their vertices are transformed to world space
+// instead.
 bool invertsWell(const glm::mat4& m) {
     const glm::dmat3 a(glm::mat3{m});
     const double size = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
@@ -144,8 +145,8 @@ static float magnitudeOf(const Scene& scene) {
     const Bounds b = anyStatic ? staticBounds(scene) : scene.bounds;
     const glm::vec3 most = glm::max(glm::abs(b.lower), glm::abs(b.upper));
     const float largest = std::max({most.x, most.y, most.z});
-    // In powers of two, so that rays of the rest of the scene seldom depend on an object that
-    // moves, and of the static scene, so that a bake never depends on a dynamic one.
+    // In powers of two, so that an object that moves rarely affects the rays of the rest of the
+    // scene; of the static scene only, so that a bake never depends on a dynamic object.
     return std::isfinite(largest) && largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
 }
 
@@ -163,9 +164,9 @@ MeshKey TraceScene::Impl::keyOf(const Instance& instance) const {
     return {instance.mesh, isCutout(scene.materialOf(instance)) ? instance.material : ~0u};
 }
 
-// One tree over the world's triangles beats one per instance by far where instances overlap: a ray
-// through Sponza's 103 meshes enters most of them. Its price is a copy of the vertices, so meshes
-// repeated until they are many stay instances, and so do objects that move.
+// One tree over all triangles in world space is far faster than one per instance where instances
+// overlap: a ray through Sponza's 103 meshes enters most of them. It costs a copy of the vertices,
+// so meshes with many repetitions remain instances, as do moving objects.
 void TraceScene::Impl::placeInstances(const std::vector<bool>* only) {
     std::vector<std::uint32_t> uses(scene.assets->meshes.size(), 0);
     std::size_t staticTriangles = 0;
@@ -213,7 +214,7 @@ void TraceScene::Impl::setPositions(RTCGeometry geometry, const Instance& instan
                                     bool inWorld) const {
     const std::vector<glm::vec3>& positions = scene.meshOf(instance).positions;
     const bool asTheyAre = !inWorld || instance.toWorld == glm::mat4(1);
-    // Embree loads 16 bytes at each vertex: the last one may be shared only where memory follows.
+    // Embree loads 16 bytes per vertex: the last one may be shared only if memory follows it.
     if (asTheyAre && positions.capacity() > positions.size()) {
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                    positions.data(), 0, sizeof(glm::vec3), positions.size());
@@ -245,8 +246,8 @@ RTCGeometry TraceScene::Impl::triangles(RTCDevice device, const Instance& instan
     return geometry;
 }
 
-// One thread per structure, several structures at once: the tree, and with it which of two coplanar
-// triangles is met first, does not depend on the number of threads.
+// One thread per structure, several structures at once: the tree, and thus which of two coplanar
+// triangles is hit first, does not depend on the number of threads.
 static void commitAlone(RTCScene scene) {
     tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
 }
@@ -364,8 +365,8 @@ std::uint64_t TraceScene::badRays() const {
     return m_impl->badRays;
 }
 
-// Position and normal come from the triangle itself: the position is exact to a few roundings of
-// the vertices however far the ray came from.
+// Position and normal are computed from the triangle itself: the position is exact to a few
+// roundings of the vertices, however long the ray.
 Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
     if (!m_impl->traceable(ray))
         return {};
@@ -376,7 +377,7 @@ Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
         RTCRayHit other = unhit(ray);
         other.ray.tfar = rh.ray.tfar * (1 + 0x1p-20f); // as far as that and a little
         embreeIntersect(m_impl->moving->top, other);
-        // Of equally distant ones that of the lowest instance, as within a tree.
+        // Of equally distant hits, that of the lowest instance, as within a tree.
         if (met(other) && (!met(rh) || other.ray.tfar < rh.ray.tfar ||
                            (other.ray.tfar == rh.ray.tfar && instanceOf(other) < instanceOf(rh))))
             rh = other;
@@ -422,8 +423,8 @@ bool TraceScene::blocked(glm::vec3 from, glm::vec3 to, TraceMask mask) const {
     return distance > 0 && occluded({from, way / distance, 0, distance}, mask);
 }
 
-// A hit's position is off by a few 2^-24 of its coordinates; the matrix of an instance and the test
-// of a large triangle add a few 2^-24 of the scene's.
+// The error of a hit's position is a few 2^-24 of its coordinates; the matrix of an instance and
+// the test of a large triangle add a few 2^-24 of the scene's size.
 float TraceScene::epsilonAt(glm::vec3 p) const {
     const float coordinate = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     return 0x1p-19f * coordinate + 0x1p-20f * m_impl->magnitude;

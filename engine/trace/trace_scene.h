@@ -17,7 +17,7 @@ struct Ray {
     float tFar = std::numeric_limits<float>::infinity();
 };
 
-/// Closest surface along a ray. Alpha-masked texels are passed through.
+/// Closest surface along a ray. Rays pass through alpha-masked texels.
 struct Hit {
     std::uint32_t instance = ~0u; ///< index into Scene::instances; ~0: nothing was hit
     std::uint32_t triangle = 0;
@@ -31,47 +31,51 @@ struct Hit {
     explicit operator bool() const { return instance != ~0u; }
 };
 
-/// Which surfaces a query may meet.
+/// Which surfaces a query considers.
 enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3 };
 
-/// Embree's acceleration structure over a Scene: static triangles in one tree, often repeated
-/// meshes as instances of their own; what moves in another tree. Immutable, thread-safe to
-/// query. Holds a copy of the instance table and shares the assets; the Scene may die or change
-/// meanwhile.
+/// Embree's acceleration structure over a Scene: one tree of static triangles, in which frequently
+/// repeated meshes are instanced, and another tree of dynamic objects. Immutable; queries are
+/// thread-safe. Holds a copy of the instance table and shares the assets; the Scene may change or
+/// be destroyed meanwhile.
 class TraceScene {
 public:
-    /// Builds it. O(triangles); uses oneTBB.
+    /// Builds the structure. O(triangles); uses oneTBB.
     explicit TraceScene(const Scene& scene);
 
-    /// The same with only those `present` of its instances, each met exactly as in the whole scene.
+    /// Same with only those instances that are `present`; each is hit exactly as in the whole
+    /// scene.
     TraceScene(const Scene& scene, const std::vector<bool>& present);
 
-    /// Of `before` with its dynamic instances elsewhere: static ones are as they were there, with
-    /// the same numbers, assets and holes, and their structure is shared. O(dynamic instances).
+    /// Reuses the static structure of `before` for a scene that differs in its dynamic instances
+    /// only: static instances must have the same positions, numbers, assets and holes. O(dynamic
+    /// instances).
     TraceScene(const Scene& scene, const TraceScene& before);
 
     ~TraceScene();
     TraceScene(const TraceScene&) = delete;
     TraceScene& operator=(const TraceScene&) = delete;
 
-    /// Nothing, and one more of badRays(), for a ray with a number that is none or too large.
+    /// Closest hit. For a ray with a NaN or too large number, returns no hit and counts it in
+    /// badRays().
     Hit closestHit(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// True if anything opaque lies in (tNear, tFar); of bad rays as closestHit().
+    /// Whether anything opaque lies in (tNear, tFar). Bad rays are handled as by closestHit().
     bool occluded(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// True if anything opaque lies between two points, both clear of their own surfaces.
+    /// Whether anything opaque lies between two points, both clear of their own surfaces.
     bool blocked(glm::vec3 from, glm::vec3 to, TraceMask mask = TraceMask::All) const;
 
-    /// A point of a surface moved off it along `normal` (unit, or 0 in the air), so that rays from
+    /// Moves a point of a surface off it along `normal` (unit, or 0 in the air), so that rays from
     /// or to it miss the surface itself.
     glm::vec3 clearOf(glm::vec3 p, glm::vec3 normal) const { return p + normal * epsilonAt(p); }
 
-    /// Offset that clears a surface at `p` of float rounding [m]; grows with |p| and in powers of
-    /// two with the static scene.
+    /// Offset at `p` that exceeds float rounding errors of surface positions [m]. It grows with |p|
+    /// and, in powers of two, with the size of the static scene.
     float epsilonAt(glm::vec3 p) const;
 
-    /// Rays so far that were not traced, because Embree's assertions would end the process.
+    /// Number of rays that were not traced because they would trip Embree's assertions and end the
+    /// process.
     std::uint64_t badRays() const;
 
     const Scene& scene() const;

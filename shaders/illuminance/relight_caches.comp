@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SH of incident radiance of the caches order[range.begin, range.end), one group each: its links lie across the lanes.
-// From kChromaBands on the light is grey, and only its luma is summed.
+// Computes the SH of incident radiance of the caches order[range.begin, range.end), one workgroup per cache, whose
+// links are distributed over the lanes. From band kChromaBands on the light is grey, and only its luma is summed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -21,7 +21,7 @@ const int kColoured = kChromaBands * kChromaBands;
 // Red or luma of all coefficients, then green or Co, then blue or Cg of the coloured ones.
 const int kSums = kCoefficients + 2 * kColoured;
 
-// So many sums are added up over the lanes at once: shared memory is short.
+// Number of sums that are added up over the lanes at once; shared memory is limited.
 const int kSlice = kSums < 63 ? kSums : 63;
 
 shared float slice[kLanes * (kSlice | 1)]; // a row per lane; odd, so that columns fall into different banks
@@ -46,7 +46,8 @@ vec3 unpackOct(uint packed) {
     return normalize(vec3(x - (x < 0.0 ? -fold : fold), y - (y < 0.0 ? -fold : fold), z));
 }
 
-/// What radiosity 1 of the link adds, times the cache's scale. Returns its node.
+/// Computes the contribution of the link's node at radiosity 1, to be multiplied by the cache's scale. Returns the
+/// node.
 uint expandCone(uint link, out float basis[kCoefficients]) {
     const uint at = link * RELIGHT_CONE_WORDS;
     const vec2 uTransport = unpackHalf2x16(links[at + 2]);
@@ -95,7 +96,7 @@ void sumLinks(GpuCache cache, out float sums[kSums]) {
     }
 }
 
-/// Adds the lanes' sums up into `total`, lane after lane: the same light gives the same bits.
+/// Adds the lanes' sums up into `total`, lane after lane, so that the same light gives the same bits.
 void addLanes(float sums[kSums]) {
     const uint lane = gl_LocalInvocationIndex, row = kSlice | 1;
     [[unroll]] for (int begin = 0; begin < kSums; begin += kSlice) {

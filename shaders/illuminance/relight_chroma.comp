@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the bands of the caches order[range.begin, range.end) from kChromaBands on grey, one coefficient per invocation.
+// Makes the bands from kChromaBands on grey for the caches order[range.begin, range.end), one coefficient per
+// invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Irradiance of every surfel from all lights, with the shadow maps that the viewport draws. What a light brings for each
-// unit of its colour and strength is kept where there is a place for it, and worked out for fresh lights only.
+// Computes the irradiance of every surfel from all lights, with the shadow maps that the viewport draws. The irradiance
+// per unit of a light's colour and strength is kept if there is a place for it, and computed for fresh lights only.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_light.h"
@@ -21,14 +21,14 @@ layout(set = 1, binding = 4, std430) readonly buffer Places { uint places[]; }; 
 #include "shaders/shared/shadowed_light.glsl"
 #include "shaders/shared/rectangle_shadow.glsl"
 
-// Surfel `i` is on a surface without detail.
+// Irradiance of a rectangle at surfel `i`, whose surface has no normal map.
 float rectangleIrradianceOf(GpuLight light, GpuSurfel s, uint i) {
     PackedSurface at;
     at.position = s.position;
     at.geometricNormal = at.detailNormal = s.normal;
     const Rectangle r = rectangleOf(light);
     const float E = rectangleIrradiance(r, s.position, s.normal);
-    const float noise = fract(float(i & 0xffffu) * 0.61803399); // even among neighbours
+    const float noise = fract(float(i & 0xffffu) * 0.61803399); // evenly distributed among neighbours
     return E > 0.0 ? E * rectangleVisibility(light, r, at, noise, true) : 0.0;
 }
 
@@ -51,7 +51,7 @@ void main() {
     if (i >= range.end)
         return;
     const GpuSurfel s = surfels[i];
-    // Of lights without place first: the sum depends on no light's past.
+    // Lights without a place come first, so that the sum does not depend on when a light changed.
     vec3 E = range.workBegin > 0 ? direct[i].rgb : vec3(0);
     const uint fresh = range.freshLights, work = fresh + range.lights - range.keptLights;
     for (uint n = range.workBegin; n < range.workEnd; ++n) {

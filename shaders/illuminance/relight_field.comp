@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bands of the caches order[range.begin, range.end) into the lightmap and the grid that the viewport samples, one layer per invocation.
+// Writes the bands of the caches order[range.begin, range.end) into the lightmap and the grid that the viewport
+// samples, one layer per invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -18,7 +19,7 @@ const int kColoured = kChromaBands * kChromaBands;
 const int kValues = kCoefficients + 2 * kColoured;
 const int kLayers = (kValues + 3) / 4;
 
-/// To the nearest half that is not denormal, as packField() does: what stores it may cut bits off.
+/// Rounds to the nearest normal half float, as packField() does, because the store may truncate bits.
 float roundedToHalf(float value) {
     const uint bits = floatBitsToUint(value);
     return uintBitsToFloat((bits + 0xfffu + ((bits >> 13) & 1u)) & ~0x1fffu);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The invalid caches [range.begin, range.end) of the list from the valid ones that stand in for them, one coefficient
+// Fills the invalid caches [range.begin, range.end) of the list from the valid ones that replace them, one coefficient
 // per invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bounced irradiance of every surfel from the four caches round it.
+// Computes the bounced irradiance of every surfel from the four caches around it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"

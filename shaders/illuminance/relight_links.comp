@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Replaces the last kWords words of some links: of each its number, then the words.
+// Replaces the last kWords words of some links. `changed` holds the number of each link, followed by its new words.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radiosity of inner nodes from their children's, on the levels [range.begin, range.end) of the tree: one level by many
-// groups, or many levels by one group.
+// Computes the radiosity of inner nodes from that of their children, on the levels [range.begin, range.end) of the
+// tree: one level by many workgroups, or many levels by one workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -16,7 +16,7 @@ void main() {
         for (uint k = levelBegin[level] + first; k < levelBegin[level + 1]; k += step) {
             const GpuInnerNode n = nodes[k];
             const vec3 l = radiosity[n.left].rgb, r = radiosity[n.right].rgb;
-            // Not r + (l - r) w: a lamp in r, of no weight, would leave its rounding in a dark l.
+            // Not r + (l - r) w: a lamp in r of weight 0 would leave its rounding error in a dark l.
             radiosity[n.node] = vec4(l * n.leftWeight + r * (1.0 - n.leftWeight), 0);
         }
         memoryBarrierBuffer();

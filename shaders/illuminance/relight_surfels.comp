@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// B = albedo (E_direct + E_indirect) + pi L_e of every surfel, by how much that changed, and how bright the brightest is.
+// Computes B = albedo (E_direct + E_indirect) + pi L_e of every surfel, its change, and the brightest value.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/relight.glsl"
@@ -28,7 +28,7 @@ void main() {
         radiosity[i] = vec4(B, 0);
     }
     barrier();
-    if (lane == 0 && i < range.end) { // in one order, so that the same light gives the same bits
+    if (lane == 0 && i < range.end) { // in a fixed order, so that the same light gives the same bits
         vec3 sum = vec3(0);
         float brightest = 0.0;
         for (uint k = 0; k < kLanes; ++k) {

@@ -19,7 +19,7 @@ using uint = std::uint32_t;
 #endif
 
 // clang-format off
-/// What is the same for every draw of a frame.
+/// Data that all draws of a frame share.
 struct GpuFrame {
     vec3 eye;       uint lightCount;  // m; lights that shine
     vec3 gridLower; uint gridCells;   // m; 0: no grid
@@ -37,7 +37,7 @@ struct GpuDraw {
     mat4 toClip;     // object to clip
     vec4 toWorld[3]; // rows of object to world
     uint flags;      // DRAW_*
-    float backOffset; // v of the lightmap from a front's place down to its back's
+    float backOffset; // offset in v of the lightmap from the place of a front down to that of its back
     uint pad0, pad1;
 };
 // clang-format on

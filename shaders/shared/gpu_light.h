@@ -20,24 +20,24 @@ using uint = std::uint32_t;
 #define LIGHT_SPOT 2u
 #define LIGHT_RECTANGLE 3u
 
-#define LIGHT_MOST_IRRADIANCE 1e28f // in each colour
+#define LIGHT_MOST_IRRADIANCE 1e28f // maximum per colour channel
 
 #define SHADOW_SINGLE 1u // views of a light's shadow
 #define SHADOW_CUBE 6u
 #define SHADOW_RECTANGLE 24u // a cube for each quarter of a rectangle
 
-#define SHADOW_MARGIN 4 // texels at the rim of a cascade that serve the filter alone
+#define SHADOW_MARGIN 4 // texels at the rim of a cascade that only the filter reads
 
-#define SHADOW_NEAR 1e-4 // near plane of perspective views, in parts of the far plane
+#define SHADOW_NEAR 1e-4 // near plane of perspective views as a fraction of the far plane
 
 // clang-format off
-/// sampleLight() of engine/scene/light/light.cpp reads the same numbers.
+/// A light as shaders read it. sampleLight() of engine/scene/light/light.cpp computes the same.
 struct GpuLight {
     vec3 position;  float inverseRange; // m; 1/m, 0: unlimited
     vec3 direction; uint kind;          // unit, the way light travels; LIGHT_*
     vec3 strength;  float spotScale;    // colour times lux, cd or nits; 1 / (cos inner - cos outer)
     float cosOuter; uint shadowViews; uint firstView; float halfHeight; // m
-    vec3 halfWidth; uint cascades; // m; of a rectangle, to the middle of an edge; views behind the others
+    vec3 halfWidth; uint cascades; // m; of a rectangle, to the middle of an edge; cascade views, which follow the others
 };
 
 /// A shadow map: a tile of one layer of the atlas.
@@ -47,7 +47,7 @@ struct GpuShadowView {
     float texelSize;   // m: a texel's width; perspective views: at distance 1 m along the axis
     float perspective; // 1, or 0 for orthographic
     uint layer; float zFar; // m; perspective views
-    vec4 inside; // least and largest atlas coordinates that a cascade serves
+    vec4 inside; // minimum and maximum atlas coordinates that a cascade serves
 };
 // clang-format on
 

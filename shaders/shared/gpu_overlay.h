@@ -32,7 +32,7 @@ struct GpuOverlaySurface {
     mat4 toClip;         // object to clip
     vec4 toWorld[3];     // rows of object to world
     vec3 eye;            // m
-    float sideOffset;    // v of the lightmap from a front's place down to its back's; negative: the transform mirrors
+    float sideOffset;    // offset in v of the lightmap from the place of a front down to that of its back; negative: the transform mirrors
 };
 // clang-format on
 

@@ -26,7 +26,7 @@ using uint = std::uint32_t;
 #define RELIGHT_INNER_NODES 7u   // GpuInnerNode, level after level
 #define RELIGHT_LEVELS 8u        // where each level begins among the inner nodes
 #define RELIGHT_CACHES 9u        // GpuCache per cache
-#define RELIGHT_LINKS 10u        // words, so many per link: its node; a cone, or halfs of its SH
+#define RELIGHT_LINKS 10u        // words per link: its node, then a cone or half floats of its SH
 #define RELIGHT_SH 11u           // bands^2 per cache [W m^-2 sr^-1]
 #define RELIGHT_FILLS 12u        // GpuFill per invalid cache
 #define RELIGHT_FILL_SOURCES 13u // uvec2: cache, bits of its weight
@@ -40,7 +40,7 @@ using uint = std::uint32_t;
 #define RELIGHT_CONE_WORDS 3u // of limn::Link: node; octX, octY; u, transport
 
 // clang-format off
-/// What a surfel keeps of its bake.
+/// Baked data of a surfel.
 struct GpuSurfel {
     vec3 position; float seenShare; // m; seenShares() of engine/techniques/illuminance/relight/bouncing.h
     vec3 normal; float area; // unit; m^2
@@ -51,20 +51,20 @@ struct GpuSurfel {
 /// An inner node of the tree of senders.
 struct GpuInnerNode { uint node, left, right; float leftWeight; };
 
-/// A cache's links are [linkBegin, linkEnd); they hold what it sees over `scale`.
+/// A cache's links are [linkBegin, linkEnd); their values are divided by `scale`.
 struct GpuCache { uint linkBegin, linkEnd; float scale; uint texel; };
 
 /// An invalid cache and its sources [begin, end).
 struct GpuFill { uint cache, begin, end, pad; };
 
-/// Push constants of every step: which things it works on.
+/// Push constants of every step: the range of items that it processes.
 struct GpuRelightRange {
     uint begin, end;
     uint lightmapCaches; // field: caches below this are texels, the others cells
     uint gridCells;
     uint lights; float normalBias, lightBias; // direct: as ShadowedLights
     uint keptLights, freshLights;             // direct: as KeptLights
-    uint workBegin, workEnd; float fieldScale; // field: of its halfs; direct: of fresh lights and then those without place, these; 0 begins, all ends
+    uint workBegin, workEnd; float fieldScale; // field: scale of its half floats; direct: range of the fresh lights and then those without a place; 0 starts the sums, the end completes them
 };
 // clang-format on
 

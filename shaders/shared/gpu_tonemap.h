@@ -19,7 +19,7 @@ using uint = std::uint32_t;
 struct GpuTonemap {
     float exposure; // factor
     uint curve;     // TONEMAP_*
-    float fade;     // 0: as it is; towards 1: greyer and darker, to be drawn over
+    float fade;     // 0: unchanged; towards 1: greyer and darker, beneath an overlay
 };
 
 #ifdef __cplusplus

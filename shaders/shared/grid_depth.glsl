@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the cells of the grid see of a point; as engine/field/grid_depth.h. Needs gridDepth[], two numbers a word.
+// Visibility of a point from the cells of the grid, as in engine/field/grid_depth.h. Needs gridDepth[] with two values
+// per word.
 #define GRID_DEPTH_SIDE 16
 #define GRID_DEPTH_SCALE 64.0
 
@@ -7,7 +8,7 @@ float unfolded(float v, float signOf) {
     return signOf < 0.0 ? -v : v;
 }
 
-// A texel beyond the map's border is one within it: the square's sides are folded at their middle.
+// Maps a texel beyond the map's border to one within it: the square's sides are folded at their middle.
 uint gridDepthTexel(int x, int y) {
     if (x < 0 || x >= GRID_DEPTH_SIDE) {
         x = x < 0 ? -1 - x : 2 * GRID_DEPTH_SIDE - 1 - x;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rectangles that shine: irradiance and where their highlight lies. engine/scene/light/rectangle_light.h has the same in
-// double precision.
+// Rectangle lights: their irradiance and the position of their highlight. engine/scene/light/rectangle_light.h has the
+// same in double precision.
 
 struct Rectangle {
     vec3 centre, halfWidth, halfHeight, normal; // half edges [m]; it shines to the side of the unit normal
@@ -29,13 +29,13 @@ float edgeIntegral(vec3 a, vec3 b, vec3 n) {
     return size > 0.0 ? atan(size, dot(a, b)) * dot(across, n) / size : 0.0;
 }
 
-// What an element of the rectangle's area adds to the irradiance, per unit of radiance.
+// Irradiance per unit of the rectangle's area and unit of radiance.
 float pointIrradiance(Rectangle r, vec3 way, vec3 n) {
     const float d2 = dot(way, way);
     return max(dot(way, n), 0.0) * max(-dot(way, r.normal), 0.0) / (d2 * d2);
 }
 
-// From so many times its size on, a rectangle is a point: there the error of either formula is 1e-4.
+// At this many times its size and beyond, a rectangle counts as a point: there the error of either formula is 1e-4.
 const float kFarRectangle = 100.0;
 
 // Irradiance per unit of radiance, without shadow. Lambert. Photometria. 1760; Baum, Rushmeier, Winget. Improving

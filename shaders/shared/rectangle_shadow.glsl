@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Soft shadow of a rectangle from cubes of depths that the middles of its quarters see: in each quarter after
-// percentage-closer soft shadows (Fernando. Percentage-Closer Soft Shadows. 2005). A texel counts as blocker only where
-// the line from the receiver through the surface point that it holds meets the quarter, as in backprojection
-// (Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. 2006): walls beside a receiver shadow
-// nothing. Whoever includes this has declared shadowViews[] and shadowAtlas.
+// Soft shadow of a rectangle from depth cubes seen from the centres of its quarters. Each quarter uses
+// percentage-closer soft shadows (Fernando. Percentage-Closer Soft Shadows. 2005). A texel counts as a blocker only if
+// the line from the receiver through the surface point that it stores meets the quarter, as in backprojection
+// (Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. 2006), so that walls beside a receiver
+// do not shadow it. The including shader must declare shadowViews[] and shadowAtlas.
 
-// Points of a quarter in the search for blockers and in the sum.
+// Number of points per quarter for the blocker search and for the filter.
 const int kSearchPoints = 8;
 const int kFilterPoints = 8;
 
-// Points are looked at from the nearest blocker's distance, and from this share of it: a wall that is slanted to the
-// light is nearer yet for some points, and from behind it they look lit.
+// Points are tested at the nearest blocker's distance and at this fraction of it. A wall that is slanted to the light
+// is even nearer for some points, and behind it they would look lit.
 const float kNearer = 0.65;
 
-// Blockers nearer to the receiver than so many texels are its own surface.
+// Blockers nearer to the receiver than this many texels belong to its own surface.
 const float kBlockerBias = 1.5;
 
 Rectangle quarter(Rectangle r, int k) {
@@ -22,8 +22,9 @@ Rectangle quarter(Rectangle r, int k) {
                      0.5 * r.halfHeight, r.normal);
 }
 
-// Share of the way from the surface to the plane of rectangle `r` at which the map seen from its middle, from
-// `firstView` on, has something towards `q` that hides a part of `r` from the surface; 0: nothing.
+// Fraction of the way from the surface to the plane of rectangle `r` at which something hides a part of `r` from the
+// surface, according to the map seen from the centre of `r` (views from `firstView` on) in the direction of `q`; 0 if
+// nothing does.
 float blockerAt(uint firstView, Rectangle r, PackedSurface s, float height, vec3 q) {
     const vec3 way = q - r.centre;
     const GpuShadowView view = shadowViews[firstView + cubeFace(way)];
@@ -41,17 +42,18 @@ float blockerAt(uint firstView, Rectangle r, PackedSurface s, float height, vec3
     return max(abs(uv.x), abs(uv.y)) <= 1.0 ? nearer / height : 0.0;
 }
 
-// Point i of a sequence that is even however long. Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018
+// Point i on `r` of a sequence that is evenly distributed at any length. Roberts. The Unreasonable Effectiveness of
+// Quasirandom Sequences. 2018
 vec3 spreadPoint(Rectangle r, float i) {
     return pointOn(r, 2.0 * fract(i * vec2(0.75487767, 0.56984029)) - 1.0);
 }
 
-// Least share of the way at which something blocks; 1: nothing does. Blockers may be anywhere between surface and
-// rectangle: each point is looked at from another distance, with small steps near the surface.
+// Smallest fraction of the way at which something blocks; 1 if nothing does. Blockers may be anywhere between surface
+// and rectangle, so each point is tested at a different distance, with small steps near the surface.
 float nearestBlocker(uint firstView, Rectangle r, PackedSurface s, float height, float noise) {
     float least = 1.0;
     for (int i = -1; i < kSearchPoints; ++i) {
-        vec3 q = s.position; // the middle sees it or not
+        vec3 q = s.position; // whether the centre sees the surface
         if (i >= 0) {
             const float step = (float((i * 3 + 1) % kSearchPoints) + noise) / float(kSearchPoints);
             const float ratio = exp2(mix(-5.0, 2.0, step)); // distance to the surface : to the light
@@ -63,7 +65,8 @@ float nearestBlocker(uint firstView, Rectangle r, PackedSurface s, float height,
     return least;
 }
 
-// Share of the points of `r` that arrives, weighted by what each sends, and the sum of the weights.
+// Sum of the weights of the visible points of `r`, each weighted by the irradiance it sends, and the sum of all
+// weights.
 vec2 quarterVisibility(uint firstView, Rectangle r, PackedSurface s, float height, float noise) {
     const float share = nearestBlocker(firstView, r, s, height, noise);
     float sum = 0.0, hidden = 0.0;
@@ -79,7 +82,8 @@ vec2 quarterVisibility(uint firstView, Rectangle r, PackedSurface s, float heigh
     return vec2(sum - hidden, sum);
 }
 
-// Share of the rectangle's light that arrives. `noise` in [0, 1) is another at each receiver. Loops, because software rasterisers skip nothing else.
+// Fraction of the rectangle's light that arrives. `noise` in [0, 1) differs between receivers. Loops replace branches,
+// because software rasterisers skip nothing else.
 float rectangleVisibility(GpuLight light, Rectangle whole, PackedSurface s, float noise, bool lit) {
     const float height = dot(s.position - whole.centre, whole.normal);
     const int quarters = lit ? 4 : 0;

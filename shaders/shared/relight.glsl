@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the steps of relighting share: which of many things an invocation works on.
+// Shared by the steps of relighting: which item an invocation processes.
 #include "shaders/shared/gpu_relight.h"
 
 layout(constant_id = 0) const uint kLanes = 32;
@@ -9,12 +9,13 @@ layout(push_constant) uniform Push {
     GpuRelightRange range;
 };
 
-/// Groups lie in rows: a dispatch may be no wider than 65535. The last row may hold groups too many.
+/// Index of the workgroup. Workgroups are arranged in rows, because a dispatch may be at most 65535 wide; the last row
+/// may contain surplus ones.
 uint groupIndex() {
     return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }
 
-/// One thing per invocation; past range.end there is nothing.
+/// Index of the invocation's item; there are no items from range.end on.
 uint itemIndex() {
     return range.begin + groupIndex() * kLanes + gl_LocalInvocationIndex;
 }

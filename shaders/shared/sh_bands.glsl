@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Spherical harmonics of a number of bands known when the pipeline is made; real, orthonormal, no Condon-Shortley sign;
-// index l(l+1)+m. The same steps as engine/math/sh_basis.h and engine/math/cone.h, in the same order.
+// Spherical harmonics with a number of bands that is fixed when the pipeline is created; real, orthonormal, no
+// Condon-Shortley sign; index l(l+1)+m. The same steps as engine/math/sh_basis.h and engine/math/cone.h, in the same
+// order.
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/sh_normalisation.h"
 
@@ -16,7 +17,7 @@ void shBasis(vec3 d, out float Y[kCoefficients]) {
     float c = 1.0, s = 0.0, qmm = 1.0;
     [[unroll]] for (int m = 0; m < kBands; ++m) {
         float q2 = 0.0, q1 = 0.0;
-        // From 0 and not from m: loops of a fixed length can be unrolled.
+        // Starts at 0 and not at m, because loops of a fixed length can be unrolled.
         [[unroll]] for (int l = 0; l < kBands; ++l) {
             if (l < m)
                 continue;

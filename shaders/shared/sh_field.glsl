@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What surfaces make of spherical harmonics of radiance, kBands of them: sums of coefficients by the weights that are
-// worked out here. Needs kPi of specular.glsl, and sh_bands.glsl.
+// Light that surfaces receive from spherical harmonics of radiance with kBands bands: sums of the coefficients times
+// the weights computed here. Needs kPi of specular.glsl, and sh_bands.glsl.
 
-/// Of irradiance [W m^-2] on a plane facing n: of the first three bands, the others 0.
+/// Weights of irradiance [W m^-2] on a plane facing n. Only the first three bands have weights other than 0.
 void irradianceWeights(vec3 n, out float w[kCoefficients]) {
     const float A[3] = float[](kPi, 2.0 / 3.0 * kPi, kPi / 4.0);
     shBasis(n, w);
@@ -26,7 +26,7 @@ void windowFactors(inout float s[8]) {
     }
 }
 
-/// Of mean radiance in a round lobe of factors s about d.
+/// Weights of the mean radiance in a rotationally symmetric lobe with factors s about d.
 void lobeWeights(vec3 d, float s[8], out float w[kCoefficients]) {
     shBasis(d, w);
     [[unroll]] for (int l = 1; l < kBands; ++l)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Read by C++ and GLSL: the 36 factors of spherical harmonics of 8 bands, as engine/math/sh_basis.h
-// works them out. K_lm = sqrt((2l+1)/4pi (l-m)!/(l+m)!), times sqrt(2) for m > 0, at l(l+1)/2 + m.
+// computes them. K_lm = sqrt((2l+1)/4pi (l-m)!/(l+m)!), times sqrt(2) for m > 0, at l(l+1)/2 + m.
 #ifndef SHADERS_SHARED_SH_NORMALISATION_H
 #define SHADERS_SHARED_SH_NORMALISATION_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light that arrives from a GpuLight. Whoever includes this has declared shadowViews[] and shadowAtlas.
+// Light that arrives from a GpuLight. The including shader must declare shadowViews[] and shadowAtlas.
 
-// Of the light's six views the one that looks from it to the point.
+// Index of that one of the light's six views that looks from the light to the point.
 uint cubeFace(vec3 fromLight) {
     const vec3 a = abs(fromLight);
     if (a.x >= a.y && a.x >= a.z)
@@ -11,12 +11,13 @@ uint cubeFace(vec3 fromLight) {
     return fromLight.z > 0.0 ? 4u : 5u;
 }
 
-// Share of texel `offset` (from the 2 x 2 texels round the point) in a tent 3 texels wide, `f` within them.
+// Weight of texel `offset` (from the 2 x 2 texels around the point) in a tent 3 texels wide; `f` is the point's
+// position within them.
 vec4 tentWeight(vec4 offset, float f) {
     return 0.5 * (max(1.0 - abs(f - 0.5 - offset), 0.0) + max(1.0 - abs(f + 0.5 - offset), 0.0));
 }
 
-// How atlas depth changes with atlas u and v on the surface's plane. `width`: a texel there.
+// Gradient of atlas depth with respect to atlas u and v on the surface's plane. `width` is a texel's width there.
 vec2 planeGradient(GpuShadowView view, vec3 n, vec4 q, float width) {
     const vec3 t = width * normalize(cross(n, abs(n.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
     const vec4 qt = q + view.toAtlas * vec4(t, 0), qb = q + view.toAtlas * vec4(cross(n, t), 0);
@@ -27,8 +28,8 @@ vec2 planeGradient(GpuShadowView view, vec3 n, vec4 q, float width) {
     return vec2(dt.z * db.y - db.z * dt.y, dt.x * db.z - db.x * dt.z) / det;
 }
 
-// The view that resolves `position` best: of a directional light the finest cascade that holds it, else its map of the
-// whole scene.
+// The view that resolves `position` best. For a directional light this is the finest cascade that contains it, else the
+// map of the whole scene.
 GpuShadowView bestView(GpuLight light, vec3 position, vec3 toLight) {
     uint best = light.firstView + (light.shadowViews == SHADOW_CUBE ? cubeFace(-toLight) : 0u);
     for (uint k = 1u; k <= light.cascades; ++k) {
@@ -41,15 +42,16 @@ GpuShadowView bestView(GpuLight light, vec3 position, vec3 toLight) {
     return shadowViews[best];
 }
 
-// A texel that shows something so many texels behind the receiver's plane does not show the receiver: it ends before.
+// A texel that shows something this many texels behind the receiver's plane does not show the receiver, which ends
+// before it.
 const float kBehindTexels = 4.0;
 
-// 1: the light arrives at `position` on a surface of unit normal n; 0: it does not. The point is moved by `bias`
-// texels along the normal and towards the light. Each texel is compared with the depth of the surface's plane at its own
-// middle, so that flat surfaces need no bias, however steep. Texels that show only what lies far behind the plane say
-// nothing about the receiver, which has no part in them: else light would come in where closed geometry ends, below the
-// edge of a roof say. Where all are such, the surface is too small for the map, and lit. A loop, because software
-// rasterisers skip nothing else.
+// Visibility of the light from `position` on a surface of unit normal n: 1 if the light arrives, 0 if it does not. The
+// point is moved by `bias` texels along the normal and towards the light. Each texel is compared with the depth of the
+// surface's plane at the texel's centre, so that flat surfaces need no bias, however steep. Texels that show only what
+// lies far behind the plane are ignored, because the receiver has no part in them; otherwise light would leak in where
+// closed geometry ends, for example below the edge of a roof. If all texels are such, the surface is too small for the
+// map and counts as lit. A loop replaces a branch, because software rasterisers skip nothing else.
 float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias, bool lit) {
     float visible = 1.0;
     const int count = lit ? 1 : 0;
@@ -66,7 +68,7 @@ float visibility(GpuLight light, vec3 position, vec3 n, vec3 toLight, vec2 bias,
         const vec2 gradient = planeGradient(view, n, q, width);
         const vec2 size = vec2(textureSize(shadowAtlas, 0).xy);
         const vec2 x = centre.xy * size - 0.5, base = floor(x), f = x - base;
-        float sum = 0.0, shown = 0.0; // weights of the texels that see the receiver, and of those that tell
+        float sum = 0.0, shown = 0.0; // weights of the texels that see the receiver, and of those that are not ignored
         for (int k = 0; k < 4; ++k) {
             const vec2 corner = vec2((k & 1) * 2 - 1, (k >> 1) * 2 - 1);
             const vec4 stored = textureGather(

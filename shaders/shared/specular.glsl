@@ -3,7 +3,7 @@
 
 const float kPi = 3.14159265358979;
 
-/// ReflectionLobe of engine/scene/surface/reflection_lobe.h; of the factors only those of so many bands are read.
+/// ReflectionLobe of engine/scene/surface/reflection_lobe.h; only the factors of the bands in use are read.
 struct ReflectionLobe {
     vec2 share, towards;
     float factors[8];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rasterised fragment is made of: inputs, material, normals. For fragment shaders of surface.vert.
+// Surface data of a rasterised fragment: inputs, material, normals. For fragment shaders used with surface.vert.
 #include "shaders/shared/gpu_frame.h"
 #include "shaders/shared/gpu_material.h"
 
@@ -49,7 +49,7 @@ vec3 mappedNormal(vec3 n, float side) {
     if (t2 < 1e-20)
         return n;
     t *= inversesqrt(t2);
-    // The map is given in the front's frame: of the vertex normal before it was turned to the viewer.
+    // The map is given in the frame of the front face: that of the vertex normal before it was turned to the viewer.
     const vec3 front = side * n;
     const vec3 b = cross(front, t) * fragTangent.w;
     vec3 m = texture(textures2, textureUv(TEXTURE_NORMAL)).xyz * 2.0 - 1.0;
@@ -94,8 +94,8 @@ vec3 emission() {
     return e;
 }
 
-// Discards what the alpha mask cuts away. Alpha is that of the finest level, as rays read it: in coarser ones it tends to
-// its mean, and what covers less than the cutoff would vanish.
+// Discards what the alpha mask removes. Alpha is that of the finest level, as rays read it: in coarser levels it tends
+// to its mean, and surfaces whose coverage is below the cutoff would vanish.
 vec4 baseColor() {
     const vec4 factor = material.baseColor * fragColor;
     vec4 base = factor;

@@ -27,7 +27,7 @@ vec3 octDecode(vec2 p) {
     return normalize(n);
 }
 
-// Square roots: their 16 bits keep dark colours to 1e-3 of themselves down to 2e-4.
+// Stores square roots of the base colour: their 16 bits keep dark colours down to 2e-4 within 1e-3 of themselves.
 uvec4 packSurface(vec3 baseColor, vec3 normal, vec3 geometricNormal) {
     const vec3 root = sqrt(clamp(baseColor, 0.0, 1.0));
     return uvec4(packUnorm2x16(root.rg), packUnorm2x16(vec2(root.b, 0)), packSnorm2x16(octEncode(normal)),

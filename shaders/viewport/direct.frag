@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adds what all lights send to the surface seen in each pixel: once per pixel, however small the triangles are.
+// Adds the direct light of all lights to the surface seen in each pixel: once per pixel, however small the triangles
+// are.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_frame.h"
@@ -47,8 +48,8 @@ vec3 rectangleSpecularBrdf(Rectangle r, PackedSurface s, vec3 F0) {
     return specularBrdf(s, s.detailNormal, normalize(way), F0) * min(widened * widened, 1.0);
 }
 
-// In [0, 1), even among neighbouring pixels.
-// Jimenez. Next Generation Post Processing in Call of Duty: Advanced Warfare. 2014
+// Noise in [0, 1) that is evenly distributed among neighbouring pixels. Jimenez. Next Generation Post Processing in
+// Call of Duty: Advanced Warfare. 2014
 float pixelNoise() {
     return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
 }
@@ -63,7 +64,7 @@ void addRectangle(GpuLight light, PackedSurface s, vec3 F0, inout vec3 E, inout 
         specular += irradiance * rectangleSpecularBrdf(r, s, F0);
 }
 
-// Adds what all lights send: irradiance, and in VIEW_LIT specular radiance.
+// Adds the direct light of all lights: irradiance, and in VIEW_LIT specular radiance.
 void addDirect(PackedSurface s, vec3 F0, bool any, inout vec3 E, inout vec3 specular) {
     const uint count = any ? frame.lightCount : 0;
     const vec2 bias = vec2(frame.normalBias, frame.lightBias);

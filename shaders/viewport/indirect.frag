@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What surfaces emit and what bounced light makes of them, in one of the limn::View: one pass for each number of bands
-// that surfaces in the picture read.
+// Writes what surfaces emit and the bounced light that they reflect, for one limn::View. There is one pass for each
+// number of bands that surfaces in the picture read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_frame.h"
@@ -14,7 +14,7 @@
 layout(constant_id = 0) const uint kView = VIEW_LIT;
 layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID: what any surface reads
 layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
-layout(constant_id = 3) const bool kFirst = true; // of the passes: it writes pixels of other bands and the background too
+layout(constant_id = 3) const bool kFirst = true; // first of the passes: it also writes pixels of other bands and the background
 
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
@@ -28,8 +28,8 @@ layout(location = 0) out vec4 outColor;
 #include "shaders/shared/grid_depth.glsl"
 #include "shaders/shared/seen_surface.glsl"
 
-/// Two sums over the harmonics of the light that reaches the surface by bounces. Unrolled: on a software rasteriser a
-/// loop over 64 lookups takes half as long again.
+/// Two sums over the harmonics of the bounced light that reaches the surface. They are unrolled, because on a software
+/// rasteriser a loop over 64 lookups takes half as long again.
 struct FieldSums {
     vec3 irradiance, lobe;
 };
@@ -66,7 +66,7 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
     const vec3 x = clamp((position - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
     const ivec3 lower = min(ivec3(x), last);
     const vec3 f = x - vec3(lower);
-    const vec3 cellSize = 1.0 / frame.gridScale; // the rest as sampleIrradiance of the CPU
+    const vec3 cellSize = 1.0 / frame.gridScale; // from here on as sampleIrradiance() on the CPU
     const vec3 clear = position + normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
     float sum = 0.0;
     for (int k = 0; k < 8; ++k) {
@@ -94,10 +94,10 @@ FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid)
     FieldSums sums = FieldSums(vec3(0), vec3(0));
     float irradiance[kCoefficients], lobe[kCoefficients];
     irradianceWeights(s.detailNormal, irradiance);
-    lobeWeights(axis, factors, lobe); // in VIEW_LIT alone
+    lobeWeights(axis, factors, lobe); // read in VIEW_LIT only
     const bool lightmapRead = (kFeatures & FEATURE_LIGHTMAP) != 0 && !fromGrid,
                gridRead = (kFeatures & FEATURE_GRID) != 0 && fromGrid;
-    // Loops, because software rasterisers work branches out that no pixel of a block takes.
+    // Loops instead of branches, because software rasterisers evaluate branches that no pixel of a block takes.
     for (int once = 0; once < int(lightmapRead); ++once)
         sums = readLightmap(s.lightmapUv, irradiance, lobe);
     for (int once = 0; once < int(gridRead); ++once)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grey, lighter where a surface faces the viewer, added to the faded picture: shapes show in the dark too.
+// Adds grey to the faded picture, lighter where a surface faces the viewer, so that shapes are visible in the dark too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_overlay.h"

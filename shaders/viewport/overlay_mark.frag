@@ -14,7 +14,7 @@ void main() {
     const float pixel = fwidth(r);
     if (r > 1.0)
         discard;
-    // A darker rim tells neighbours of one colour apart; too small for it, they have none.
+    // A darker rim distinguishes neighbours of the same colour. Marks that are too small for it have none.
     const float rim = smoothstep(0.8 - pixel, 0.8, r) * clamp(1.5 - 6.0 * pixel, 0.0, 1.0);
     vec3 c = markColor.rgb * (1.0 - 0.4 * rim);
     if (markShape == MARK_RING)

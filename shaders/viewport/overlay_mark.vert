@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A square for each limn::OverlayMark, on the plane it stands for; overlay_mark.frag cuts the shape out of it.
+// Draws a square for each limn::OverlayMark in the mark's plane; overlay_mark.frag cuts the shape out of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_overlay.h"
@@ -16,7 +16,8 @@ layout(location = 0) out vec2 local; // [-1, 1]^2
 layout(location = 1) flat out vec4 markColor;
 layout(location = 2) flat out uint markShape;
 
-// How far a mark lies before its surface: a part of its radius, for curved surfaces, and of its depth, for rounding.
+// How far a mark lies in front of its surface: a fraction of its radius, for curved surfaces, and of its depth, for
+// rounding.
 const float kLift = 0.03, kNearer = 1.002;
 
 float minPixels() {
@@ -38,5 +39,5 @@ void main() {
     gl_Position = push.toClip * vec4(p, 1);
     gl_Position.z *= kNearer; // depth is near / distance
     if (facing <= 0.0)
-        gl_Position = vec4(2, 2, 2, 1); // outside, all four
+        gl_Position = vec4(2, 2, 2, 1); // all four corners outside the clip volume
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The colour of the lightmap texel a surface point lies in, with a checker of texels, lit from the viewer.
+// Draws the colour of the lightmap texel in which a surface point lies, with a checker of texels, lit from the viewer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_overlay.h"
@@ -8,7 +8,7 @@ layout(push_constant) uniform Draw { GpuOverlaySurface draw; };
 
 layout(set = 0, binding = 0, std430) readonly buffer Texels {
     uint width, height;
-    uint texel[]; // bytes R, G, B, A, sRGB-encoded; A = 0: not painted; then OverlayData::finer, if there are any
+    uint texel[]; // bytes R, G, B, A, sRGB-encoded; A = 0: not painted; followed by OverlayData::finer, if any
 };
 // Of engine/lightmap/lightmap_layout.h.
 const float kFineCells = 4.0;
@@ -22,7 +22,7 @@ layout(location = 0) out vec4 outColor;
 void main() {
     const bool back = gl_FrontFacing == (draw.sideOffset < 0.0);
     vec2 x = (fragLightmapUv + vec2(0, back ? abs(draw.sideOffset) : 0.0)) * vec2(width, height);
-    // Not of x: helper invocations need not read buffers.
+    // Not derived from x, because helper invocations need not read buffers.
     vec2 texelsPerPixel = fwidth(fragLightmapUv) * vec2(width, height);
     const vec3 g = cross(dFdx(fragPosition), dFdy(fragPosition));
     const uvec2 last = uvec2(width, height) - 1u;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The same places on screen as surface.vert's, bit for bit: what it drew is drawn over where depths are equal.
+// Computes the same screen positions as surface.vert, bit for bit, so that surfaces are drawn over where depths are
+// equal.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_overlay.h"

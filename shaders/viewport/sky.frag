@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sky where no surface is: limn::skyRadiance() of the pixel's direction.
+// Draws the sky where there is no surface: limn::skyRadiance() of the pixel's direction.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_frame.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that shading needs of a surface besides the light: indirect.frag and direct.frag add it, once per pixel and each
-// time that it changes.
+// Writes all that shading needs of a surface besides the light. indirect.frag and direct.frag add the light, once per
+// pixel and each time that it changes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/surface.glsl"
@@ -58,7 +58,7 @@ void main() {
     const Surface s = readSurface(baseColor());
     outReceiver = vec4(snapLookup(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset)),
                        s.metallic, s.roughness);
-    if (isBlackBack()) { // two normals that no light meets both
+    if (isBlackBack()) { // opposite normals, so that no light reaches both sides
         outEmitted = vec4(0);
         outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal);
         return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene-referred linear Rec. 709 to sRGB-encoded display values.
+// Converts scene-referred linear Rec. 709 to sRGB-encoded display values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_tonemap.h"

@@ -8,14 +8,14 @@
 
 namespace limn::render {
 
-/// Adds direct light to the linear image, once per pixel. Triangles far smaller than the pixel
-/// blocks that hardware and software rasterisers shade would otherwise pay for every light many
-/// times.
+/// Adds direct light to the linear image, once per pixel. Otherwise every light would be evaluated
+/// many times for triangles far smaller than the pixel blocks that hardware and software
+/// rasterisers shade.
 class DirectPass {
 public:
     DirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
 
-    /// Into the bound linear image; `frameSet` holds the surface and depth images.
+    /// Records the pass into the bound linear image. `frameSet` holds the surface and depth images.
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view);
 
 private:

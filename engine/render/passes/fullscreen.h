@@ -5,11 +5,12 @@
 
 namespace limn::render {
 
-/// Of a pass that runs `fragment` once in every pixel; specialisation constants may be added.
+/// Pipeline description of a pass that runs `fragment` once per pixel. The caller may add
+/// specialisation constants.
 gpu::GraphicsPipelineDesc fullscreenDesc(gpu::Spirv fragment, VkPipelineLayout layout,
                                          VkFormat format, const char* name);
 
-/// With the pipeline of such a pass; sets and constants are bound.
+/// Draws with the pipeline of such a pass. Descriptor sets and push constants must be bound.
 void drawFullscreen(VkCommandBuffer cmd, VkPipeline pipeline);
 
 } // namespace limn::render

@@ -34,7 +34,7 @@ const std::vector<VkVertexInputAttributeDescription> kAttributes = {
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, color)},
     {6, 2, VK_FORMAT_R32G32_SFLOAT, 0}};
 
-// Binds what the variant reads to draw one instance.
+// Binds what the variant reads of one instance.
 void bindInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& mesh,
                   const GpuInstance& instance, const glm::mat4& toClip, std::uint32_t flags,
                   std::uint32_t bindings) {
@@ -58,7 +58,7 @@ bool isNear(const Bounds& bounds, const DepthView& view) {
     return distanceTo(bounds, view.eye) <= view.reach;
 }
 
-// Of what is bound, the triangles in chunks that `view` may show, neighbours together.
+// Draws the chunks of the bound mesh that `view` may show, merging neighbouring chunks.
 void drawChunks(VkCommandBuffer cmd, const GpuMesh& mesh, const glm::mat4& toWorld,
                 const DepthView& view) {
     const glm::mat4 toClip = view.toClip * toWorld;
@@ -154,7 +154,8 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
     }
 }
 
-// Nearest first, so that later instances fail the depth test before they are shaded.
+// Sorts instances nearest first, so that later instances fail the depth test before they are
+// shaded.
 static void orderByDistance(const RenderScene& scene, const GeometryView& view,
                             std::vector<std::pair<float, std::uint32_t>>& order) {
     order.clear();
@@ -167,8 +168,8 @@ static void orderByDistance(const RenderScene& scene, const GeometryView& view,
     std::sort(order.begin(), order.end());
 }
 
-// Depths of a triangle round by 2^-23 of the nearest of them: at 1 cm and 30 m on one, 4e-4 of the
-// far one.
+// Depths of a triangle are rounded to 2^-23 of the nearest of them: for a triangle that spans 1 cm
+// to 30 m, this is 4e-4 of the far depth.
 constexpr float kBehind = 0.998f;
 
 void GeometryPasses::drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scene,
@@ -191,7 +192,8 @@ void GeometryPasses::drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scen
     }
 }
 
-// Only what the view shows: fewer variants, and none that reads a texture for nothing.
+// Keeps only the features that the view shows, so that there are fewer variants and none reads a
+// texture for nothing.
 static std::uint32_t variantFeatures(std::uint32_t material, const GpuMesh& mesh,
                                      const GpuInstance& instance, const GeometryView& view) {
     const bool lit = view.view == View::Lit;
@@ -212,7 +214,7 @@ static std::uint32_t variantFeatures(std::uint32_t material, const GpuMesh& mesh
     return f;
 }
 
-// Reflections read what their material needs, irradiance the first three.
+// Reflections read as many bands as their material needs; irradiance reads the first three.
 static std::uint32_t bandsRead(std::uint32_t needed, std::uint32_t features,
                                const GeometryView& view) {
     const bool indirect = features & (FEATURE_LIGHTMAP | FEATURE_GRID);

@@ -8,14 +8,13 @@
 
 namespace limn::render {
 
-/// Writes the linear image: what surfaces emit and the bounced light that they reflect, or the
-/// background.
+/// Writes the linear image: emission and reflected bounced light of surfaces, or the background.
 class IndirectPass {
 public:
     IndirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
 
-    /// Into all of the bound linear image; `frameSet` holds the surface's images and the
-    /// field, which has so many bands in colour.
+    /// Records the pass over the whole bound linear image. `frameSet` holds the surface images and
+    /// the field, whose first `chroma` bands are in colour.
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view,
                 const SurfacesDrawn& surfaces, std::uint32_t chroma);
 

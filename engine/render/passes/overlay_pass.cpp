@@ -62,7 +62,7 @@ static gpu::GraphicsPipelineDesc surfaceDesc(VkPipelineLayout layout, gpu::Spirv
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}, {1, 1, VK_FORMAT_R32G32_SFLOAT, 0}};
     desc.colorFormats = {kColorFormat};
     desc.depthFormat = kDepthFormat;
-    // What an alpha mask took away has another depth than what is seen.
+    // Fragments that an alpha mask removed differ in depth from what is seen.
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
     desc.depthWrite = false;
     desc.name = "overlay on surfaces";
@@ -107,7 +107,7 @@ void OverlayPass::makePipelines() {
     m_mark = gpu::createGraphicsPipeline(m_device, markDesc(m_markLayout.handle));
 }
 
-// Everything in grey, or what has a lightmap in the colours of its texels.
+// Draws all surfaces in grey, or those with a lightmap in the colours of their texels.
 void OverlayPass::drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
                                const GeometryView& view, bool texels) {
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,

@@ -10,21 +10,21 @@
 
 namespace limn::render {
 
-/// Draws a bake's marks and texel colours over a finished picture. Makes its buffers when there is
-/// something to draw, its pipelines when it first draws.
+/// Draws a bake's marks and texel colours over a finished picture. Creates its buffers when there
+/// is something to draw and its pipelines when it first draws.
 class OverlayPass {
 public:
     explicit OverlayPass(gpu::Device& device) : m_device(device) {}
 
-    /// Uploads where the pointer is new. Null, or nothing in it: nothing is drawn and no buffer is
-    /// kept.
+    /// Uploads `data` if the pointer changed. If it is null or empty, nothing is drawn and no
+    /// buffer is kept.
     void set(std::shared_ptr<const OverlayData> data);
 
     bool active() const { return m_markCount > 0 || bool(m_texels); }
 
-    /// Into the bound colour attachment (kColorFormat) and depth attachment; the depth is that of
-    /// SurfaceImages with the same view. `pixelSize`: a pixel's height at distance 1; `slot` as in
-    /// MaterialSet.
+    /// Records the overlay into the bound colour attachment (kColorFormat). The bound depth
+    /// attachment is that of SurfaceImages for the same view. `pixelSize` is a pixel's height at
+    /// distance 1; `slot` is that of MaterialSet.
     void record(VkCommandBuffer cmd, const RenderScene& scene, const GeometryView& view,
                 float pixelSize, std::uint32_t slot);
 

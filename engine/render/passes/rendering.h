@@ -8,17 +8,17 @@
 
 namespace limn::render {
 
-/// A picture's size [pixels]: the corner of its images that is drawn.
+/// Size of a picture [pixels], which fills this corner of its images.
 struct Extent {
     std::uint32_t width = 0, height = 0;
     bool operator==(const Extent&) const = default;
 };
 
-/// Where a rendering draws, and what becomes of what is there.
+/// Describes an attachment of a rendering and what happens to its previous contents.
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout,
                                      VkAttachmentLoadOp load, VkClearValue clear = {});
 
-/// Begins dynamic rendering; `depth` may be null. Clip space is y down, or up where `up`.
+/// Begins dynamic rendering; `depth` may be null. In clip space y points down, or up if `up`.
 void beginRendering(VkCommandBuffer cmd, Extent size,
                     std::span<const VkRenderingAttachmentInfo> colors,
                     const VkRenderingAttachmentInfo* depth, bool up);

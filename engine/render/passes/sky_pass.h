@@ -8,20 +8,21 @@
 
 namespace limn::render {
 
-/// The sky where no surface is seen. An image is kept as RGB9E5: within 1/512 of its brightest
-/// component, at most 65408 nits.
+/// Draws the sky where no surface is seen. A sky image is stored as RGB9E5, accurate to 1/512 of
+/// its brightest component and at most 65408 nits.
 class SkyPass {
 public:
     SkyPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
 
-    /// Uploads the image if it is another than before.
+    /// Sets the sky and uploads its image if it changed.
     void set(const Sky& sky);
 
-    /// False while clearing to colour() shows all of the sky.
+    /// False if clearing to colour() is enough to show the sky.
     bool active() const;
     glm::vec3 colour() const { return m_sky.radiance; } ///< [nits]
 
-    /// Into the bound linear image; `frameSet` holds the depth image; `slot` as in MaterialSet.
+    /// Records the pass into the bound linear image. `frameSet` holds the depth image; `slot` is
+    /// that of MaterialSet.
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, std::uint32_t slot);
 
 private:

@@ -10,13 +10,13 @@ namespace limn::render {
 
 constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< holds sRGB-encoded values
 
-/// Linear image to sRGB-encoded RGBA8.
+/// Converts the linear image to sRGB-encoded RGBA8.
 class TonemapPass {
 public:
     explicit TonemapPass(gpu::Device& device);
 
-    /// Draws into the bound colour attachment. `linear` is in SHADER_READ_ONLY_OPTIMAL; `slot` as
-    /// in MaterialSet.
+    /// Draws into the bound colour attachment. `linear` is in SHADER_READ_ONLY_OPTIMAL; `slot` is
+    /// that of MaterialSet.
     void record(VkCommandBuffer cmd, VkImageView linear, const shared::GpuTonemap& push,
                 std::uint32_t slot);
 

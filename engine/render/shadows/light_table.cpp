@@ -35,7 +35,7 @@ static GpuLight gpuLight(const Light& light, const ShadowSlot& shadow) {
     return g;
 }
 
-/// Wherever its views are in the table.
+/// Entry of ShadowedLights::shapes; independent of where the light's views are in the table.
 static std::uint64_t shapeOf(GpuLight light, const shared::GpuShadowView* views) {
     const std::uint64_t shadow =
         hashBytes(views, (light.shadowViews + light.cascades) * sizeof(shared::GpuShadowView));

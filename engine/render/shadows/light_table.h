@@ -11,14 +11,15 @@ namespace limn::render {
 /// The lights that shine and their shadow views, as shaders read them. Mapped buffers that only
 /// grow; a replaced one is retired.
 struct LightTable {
-    gpu::Buffer lights;                ///< shared::GpuLight each
-    gpu::Buffer shadowViews;           ///< shared::GpuShadowView each
+    gpu::Buffer lights;                ///< array of shared::GpuLight
+    gpu::Buffer shadowViews;           ///< array of shared::GpuShadowView
     std::uint32_t count = 0;           ///< lights
     std::vector<std::uint64_t> shapes; ///< as ShadowedLights::shapes
 };
 
-/// `slots`: one per light, as ShadowMaps::assign() gave them out, without which a light is left
-/// out; `views`: ShadowMaps::views(). Nothing that reads the table may be in flight.
+/// Writes `lights` into the table. `slots` has one entry per light as returned by
+/// ShadowMaps::assign(); lights with an empty slot are left out. `views` is ShadowMaps::views(). No
+/// GPU work that reads the table may be in flight.
 void writeLightTable(gpu::Device& device, LightTable& table, const std::vector<Light>& lights,
                      const std::vector<ShadowSlot>& slots,
                      const std::vector<shared::GpuShadowView>& views);

@@ -12,13 +12,14 @@ namespace limn::render {
 
 namespace {
 
-// A map's centre keeps to a lattice of so many points in its width, which leaves it alone while the
-// camera moves less than that. What a cascade is for lies within kCovered of its half width: the
-// centre is up to half a step off, and the filter reads a few texels more.
+// A map's centre is snapped to a lattice of kSteps points across the map's width, so that it stays
+// put while the camera moves less than one step. The region that a cascade serves lies within
+// kCovered of its half width, because the centre is up to half a step off and the filter reads a
+// few texels more.
 constexpr float kSteps = 16;
 constexpr float kCovered = 1 / 1.2f;
 
-/// A sphere round the pyramid from the eye to a depth of 1.
+/// A sphere around the view pyramid from the eye to a depth of 1.
 struct PyramidSphere {
     float distance; ///< of its centre from the eye
     float radius;
@@ -39,14 +40,15 @@ std::vector<glm::mat4> cascadeProjections(glm::vec3 direction, const Bounds& bou
     const PyramidSphere sphere = sphereOf(camera.tanCorner);
     std::vector<glm::mat4> out;
     const glm::vec3 size = inLight.size();
-    // Of a map that is half as many texels wide as the whole scene's and as fine.
+    // Half width of a map with half as many texels across as the map of the whole scene, and texels
+    // of the same size.
     float half = std::max(size.x, size.y) / 4;
     for (std::uint32_t k = 0; k < kMaxCascades; ++k) {
         const float texelBefore = 2 * half / float(ShadowTiles::smallSize(0));
         if (texelBefore <= kTexelPixels * camera.pixel * camera.nearest)
             break;
         half /= kCascadeRatio;
-        const float depth = half * kCovered / sphere.radius; // seen in full so far from the eye
+        const float depth = half * kCovered / sphere.radius; // covered in full up to this depth
         if (!(depth * std::sqrt(1 + camera.tanCorner * camera.tanCorner) > camera.nearest))
             break;
         const glm::vec3 centre = camera.eye + camera.forward * (depth * sphere.distance);

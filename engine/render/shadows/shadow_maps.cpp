@@ -60,7 +60,7 @@ static float reachOf(const Light& light) {
     return windowed && light.range > 0 ? light.range : std::numeric_limits<float>::infinity();
 }
 
-// Lights that are the same but for what they send share their maps.
+// Lights with equal shadow keys share their maps.
 ShadowMaps::Groups ShadowMaps::wantedGroups(const std::vector<Light>& lights) {
     Groups wanted;
     std::uint64_t tiles = 0;
@@ -99,8 +99,8 @@ bool ShadowMaps::place(const ShadowKey& key, Group& group) {
     return true;
 }
 
-// Groups without a place get one; if that fails, because small tiles lie where a large one must or
-// cascades take the room, all are placed anew, large ones first and no cascade.
+// Places groups that have no place yet. If that fails because small tiles or cascades occupy the
+// room, all groups are placed again, large ones first and without cascades.
 void ShadowMaps::placeAll() {
     static_assert(LightKind::Directional == LightKind(0), "first in the order of keys");
     for (auto& [key, group] : m_groups) {
@@ -115,7 +115,7 @@ void ShadowMaps::placeAll() {
     }
 }
 
-// Views of fewer texels than their tile has are drawn into its corner.
+// A view with fewer texels than its tile is drawn into the tile's corner.
 static void placeInAtlas(ShadowView& v, ShadowTile tile, std::uint32_t size) {
     v.tile = tile;
     v.tile.size = size;
@@ -136,7 +136,7 @@ void ShadowMaps::makeViews(const ShadowKey& key, Group& group, const Bounds& bou
         placeInAtlas(group.views[i], m_tiles.tile(group.places[i], isLarge(key)), size);
 }
 
-// Those whose projection is as before stay; the others are to be drawn.
+// Keeps cascades whose projection is unchanged; the others must be redrawn.
 void ShadowMaps::updateCascades(const ShadowKey& key, Group& group, const Bounds& bounds,
                                 bool coarse, const ShadowCamera& camera) {
     const std::vector<glm::mat4> wanted = cascadeProjections(key.direction, bounds, camera);
@@ -229,7 +229,7 @@ static VkRect2D areaOf(const ShadowTile& tile) {
     return {{std::int32_t(tile.x), std::int32_t(tile.y)}, {tile.size, tile.size}};
 }
 
-// Clears the tiles of `stale`, all of them in `layer`, and what is in nobody's use.
+// Clears the tiles of `stale`, all of which lie in `layer`, and everything unused.
 void ShadowMaps::beginLayer(VkCommandBuffer cmd, std::uint32_t layer,
                             const std::vector<const ShadowView*>& stale) {
     std::size_t used = 0;
@@ -276,7 +276,7 @@ void ShadowMaps::prepare(VkCommandBuffer cmd) {
 
 std::uint32_t ShadowMaps::record(VkCommandBuffer cmd, const DrawCasters& draw) {
     std::uint32_t drawn = 0;
-    bool lasting = false; // any but cascades
+    bool lasting = false; // any map except cascades
     struct Stale {
         std::vector<const ShadowView*> views;
         std::vector<const Groups::value_type*> owners;

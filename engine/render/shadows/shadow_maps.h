@@ -15,7 +15,7 @@
 
 namespace limn::render {
 
-/// What a light's shadow depends on besides the scene; colour, strength and range are not among it.
+/// What a light's shadow depends on besides the scene. Excludes colour, strength and range.
 struct ShadowKey {
     LightKind kind = LightKind::Point;
     glm::vec3 position{0}, direction{0};
@@ -26,17 +26,18 @@ struct ShadowKey {
 };
 ShadowKey shadowKey(const Light& light);
 
-/// Any strict order.
+/// Strict weak ordering of shadow keys.
 struct ShadowKeyOrder {
     bool operator()(const ShadowKey& a, const ShadowKey& b) const;
 };
 
-/// Where a light's shadow views are in the table that ShadowMaps::views() gives out.
+/// Location of a light's shadow views in the table returned by ShadowMaps::views().
 struct ShadowSlot {
     std::uint32_t count =
-        0; ///< SHADOW_SINGLE, SHADOW_CUBE or SHADOW_RECTANGLE; 0: none, the light is left out
+        0; ///< SHADOW_SINGLE, SHADOW_CUBE or SHADOW_RECTANGLE; 0: the light is left out
     std::uint32_t first = 0;
-    std::uint32_t cascades = 0; ///< of a directional light; behind the others, coarse ones first
+    std::uint32_t cascades =
+        0; ///< of a directional light; they follow the other views, coarse ones first
 };
 
 /// One view: its projection and its place in the atlas.
@@ -46,30 +47,31 @@ struct ShadowView {
     ShadowTile tile{};
 };
 
-/// Draws everything that casts shadows inside `view` into the bound depth attachment, no further
-/// than `reach` from the light [m].
+/// Draws all shadow casters inside `view` and no further than `reach` from the light [m] into the
+/// bound depth attachment.
 using DrawCasters =
     std::function<void(VkCommandBuffer, const ShadowView& view, glm::vec3 light, float reach)>;
 
 /// Shadow maps of all lights in one layered depth atlas. A directional light fills a layer, a spot
-/// a quarter, a point light six quarters, a rectangle 24. Where that is more than all layers, maps
-/// are half as wide and high, or a quarter, … What room is left, cascades of directional lights
-/// take, a quarter each. A map is drawn when its light moved, reaches further or the scene changed,
-/// not when only its colour did; a cascade, when the camera has left its step, too.
+/// a quarter, a point light six quarters, a rectangle 24. If the layers do not suffice, all maps
+/// are half as wide and high, or a quarter, … Cascades of directional lights use the remaining
+/// room, a quarter each. A map is redrawn when its light moved or reaches further or the scene
+/// changed, but not when only its colour changed. A cascade is also redrawn when the camera has
+/// moved by a step.
 class ShadowMaps {
 public:
-    /// Receivers are moved off their surface by so many shadow texels, along the normal and towards
-    /// the light: for rounding, and for the facets next to the one that is lit.
-    /// More of the latter keeps the corners of lit rooms lit to the edge, less lets a finer line of
-    /// light in below the edge of a roof. Surfels, which stand for a patch, take more.
+    /// Offsets of receivers along the normal and towards the light [shadow texels], for rounding
+    /// and for the facets next to the lit one. A larger light bias keeps the corners of lit rooms
+    /// lit to the edge; a smaller one narrows the line of light below the edge of a roof. Surfels,
+    /// which stand for a patch, use more.
     static constexpr float kNormalBias = 0.2f, kLightBias = 0.25f, kSurfelLightBias = 0.5f;
 
     explicit ShadowMaps(gpu::Device& device);
 
-    /// Finds or makes a place for each of `lights`; all of them shine. `bounds` holds every caster.
-    /// Slots of lights that found no room, the last, have count 0. `coarse`: maps that are out of
-    /// date get half as many texels across; maps are out of date too that have so few, unless
-    /// `coarse`. Cascades are those for `camera`; without one they stay as they are.
+    /// Assigns atlas space to each of `lights`, all of which must shine. `bounds` contains every
+    /// caster. If there is no room for the last lights, their slots have count 0. With `coarse`,
+    /// outdated maps get half as many texels across; without it, such maps are outdated too.
+    /// Cascades are updated for `camera`; if it is null, they stay as they are.
     std::vector<ShadowSlot> assign(const std::vector<Light>& lights, const Bounds& bounds,
                                    std::uint64_t sceneVersion, bool coarse = false,
                                    const ShadowCamera* camera = nullptr);
@@ -77,17 +79,18 @@ public:
     /// Draws the maps that are out of date. Returns how many lights were drawn.
     std::uint32_t record(VkCommandBuffer cmd, const DrawCasters& draw);
 
-    /// Makes the atlas readable where nothing is to be drawn.
+    /// Makes the atlas readable if there is nothing to draw.
     void prepare(VkCommandBuffer cmd);
 
     std::vector<shared::GpuShadowView> views() const; ///< of the last assign()
     VkImageView atlasView() const { return m_atlas.view; }
     VkSampler sampler() const { return m_sampler.handle; }
-    std::uint32_t leftOut = 0;  ///< lights of the last assign() without room
-    std::uint64_t drawings = 0; ///< calls of record() so far that drew any map but cascades
+    std::uint32_t leftOut = 0; ///< lights of the last assign() without room
+    std::uint64_t drawings =
+        0; ///< number of record() calls so far that drew any map except cascades
 
 private:
-    /// A small tile.
+    /// A cascade's view, drawn into a small tile.
     struct Cascade {
         ShadowView view;
         std::uint32_t place = 0;
@@ -102,7 +105,7 @@ private:
     };
     using Groups = std::map<ShadowKey, Group, ShadowKeyOrder>;
 
-    /// In the order of views().
+    /// Calls `f` for each view, in the order of views().
     template <class Function>
     static void forEachView(const Group& group, const Function& f) {
         for (const ShadowView& v : group.views)
@@ -130,13 +133,13 @@ private:
     bool m_atlasFresh = true; ///< its contents and layout are undefined
 };
 
-/// World to a frame that looks along a directional light.
+/// Transform from world space to a frame that looks along a directional light.
 glm::mat4 directionalFrame(glm::vec3 direction);
 
-/// Round the corners of `bounds` in such a frame.
+/// Bounding box of the corners of `bounds` in such a frame.
 Bounds boundsInFrame(const Bounds& bounds, const glm::mat4& frame);
 
-/// How many views shadowViews() gives.
+/// Number of views that shadowViews() returns.
 std::uint32_t shadowViewCount(const ShadowKey& key);
 
 /// The views a light needs: one; six for point lights and for spots too wide for one projection;

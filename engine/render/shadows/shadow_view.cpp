@@ -16,7 +16,8 @@ namespace {
 // A spot wider than this would waste most of one map on its rim.
 constexpr float kWidestSpot = 1.2f; // [rad], half-angle
 
-// Texels beyond a face's edge that filtering near the edge may read: two, and what the bias moves.
+// Texels beyond a face's edge that filtering near the edge may read: two, plus the offset by the
+// bias.
 constexpr float kMarginTexels = 4;
 
 glm::vec3 upFor(glm::vec3 axis) {
@@ -31,7 +32,7 @@ std::array<glm::vec3, 8> corners(const Bounds& b) {
     return out;
 }
 
-// Orthographic, as tight round the scene as an axis-aligned box in light space can be.
+// Orthographic view fitted to the scene's axis-aligned bounding box in light space.
 ShadowView directionalView(const ShadowKey& key, const Bounds& bounds, std::uint32_t mapSize) {
     const glm::mat4 toLight = directionalFrame(key.direction);
     auto [lower, upper] = boundsInFrame(bounds, toLight);

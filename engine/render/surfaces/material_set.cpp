@@ -26,7 +26,7 @@ struct TextureUse {
     std::uint32_t feature;
 };
 
-/// In the order of TEXTURE_*.
+/// Textures of a material in the order of TEXTURE_*.
 std::array<TextureUse, TEXTURE_COUNT> texturesOf(const Material& m) {
     return {{{m.baseColorTexture, true, FEATURE_BASE_COLOR_TEXTURE},
              {m.metallicRoughnessTexture, false, FEATURE_METALLIC_ROUGHNESS_TEXTURE},
@@ -150,12 +150,12 @@ void MaterialSet::writeSet(std::uint32_t material, const Material& m) {
     }
 }
 
-// The same image and sampler; where it is looked up is among the factors.
+// Whether image and sampler are the same. The texture transform is part of the factors.
 static bool sameImage(const TextureRef& a, const TextureRef& b) {
     return a.image == b.image && a.wrapU == b.wrapU && a.wrapV == b.wrapV && a.nearest == b.nearest;
 }
 
-// Whether sets, features and masks stay as they are: only factors differ.
+// Whether descriptor sets, features and masks stay valid, because only factors differ.
 static bool sameTextures(const Material& a, const Material& b) {
     return sameImage(a.baseColorTexture, b.baseColorTexture) &&
            sameImage(a.normalTexture, b.normalTexture) &&

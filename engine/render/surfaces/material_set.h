@@ -23,8 +23,8 @@ class MaterialSet {
 public:
     explicit MaterialSet(gpu::Device& device);
 
-    /// Textures: uploads images not seen before, drops those no longer used. True if an alpha mask
-    /// changed.
+    /// Updates textures: uploads new images and drops those no longer used. Returns true if an
+    /// alpha mask changed.
     bool update(const Scene& scene);
 
     /// Writes the factors for the frame that uses `slot`.
@@ -34,12 +34,12 @@ public:
     void bind(VkCommandBuffer cmd, VkPipelineLayout pipelineLayout, std::uint32_t material,
               std::uint32_t slot) const;
 
-    std::uint64_t version = 0; ///< grows when any material changed
+    std::uint64_t version = 0; ///< increases when any material changed
 
     /// FEATURE_* of each material.
     std::vector<std::uint32_t> features;
     std::vector<bool> doubleSided;
-    std::vector<std::uint8_t> bands; ///< of indirect light that each material reflects
+    std::vector<std::uint8_t> bands; ///< bands of indirect light that each material reflects
 
 private:
     using TextureKey = std::pair<std::int32_t, bool>; ///< image, sRGB

@@ -16,7 +16,7 @@ namespace limn::render {
 
 namespace {
 
-/// Vertices and triangles of a mesh after the cuts of its charts.
+/// Vertices and triangles of a mesh after splitting it along its charts.
 struct MeshSource {
     const Mesh& mesh;
     const MeshCharts* charts; ///< null: the mesh as it is
@@ -123,7 +123,7 @@ static void uploadSnaps(gpu::Uploader& uploader, RenderScene& target) {
     target.lookupSize = glm::vec2(float(layout->width), float(layout->height));
 }
 
-// Whether the instances are those of last time but for transforms and materials.
+// Whether the instances equal those of the last update except for transforms and materials.
 static bool sameInstances(const RenderScene& target, const Scene& scene) {
     if (target.instances.size() != scene.instances.size())
         return false;
@@ -189,7 +189,7 @@ float distanceTo(const Bounds& bounds, glm::vec3 p) {
     return glm::length(glm::clamp(p, bounds.lower, bounds.upper) - p);
 }
 
-// Of triangles [first, end) of an instance; no more than `nearest`.
+// Distance to the nearest visible one of triangles [first, end) of an instance; at most `nearest`.
 static float nearestTriangle(const Mesh& mesh, const glm::mat4& toWorld, std::size_t first,
                              std::size_t end, const glm::mat4& toClip, glm::vec3 eye,
                              float nearest) {

@@ -11,7 +11,7 @@
 
 namespace limn::render {
 
-/// What shading reads of a vertex besides its position; locations 1 to 5 of surface.vert.
+/// Vertex attributes besides the position; locations 1 to 5 of surface.vert.
 struct VertexAttributes {
     glm::vec3 normal{0, 0, 1};
     glm::vec4 tangent{1, 0, 0, 1};
@@ -20,10 +20,10 @@ struct VertexAttributes {
 };
 static_assert(sizeof(VertexAttributes) == 60);
 
-/// Triangles of a mesh that are culled together where shadow maps look another way.
+/// Number of consecutive triangles of a mesh that shadow maps cull together.
 constexpr std::uint32_t kChunkTriangles = 256;
 
-/// A mesh on the GPU, its vertices cut along charts where the layout says so.
+/// A mesh on the GPU, with vertices split along chart borders if the layout has charts for it.
 struct GpuMesh {
     gpu::Buffer positions;  ///< vec3
     gpu::Buffer attributes; ///< VertexAttributes
@@ -32,7 +32,7 @@ struct GpuMesh {
     std::uint32_t vertexCount = 0;
     bool tangents = false;
     Bounds bounds;              ///< object space
-    std::vector<Bounds> chunks; ///< of each kChunkTriangles triangles; object space
+    std::vector<Bounds> chunks; ///< bounds of each kChunkTriangles triangles; object space
 };
 
 struct GpuInstance {
@@ -41,7 +41,7 @@ struct GpuInstance {
     bool mirrored = false;
     bool hasLightmap = false;
     gpu::Buffer lightmapUv; ///< vec2 per vertex; empty without lightmap
-    float backOffset = 0;   ///< of limn::backOffset
+    float backOffset = 0;   ///< see limn::backOffset()
     Bounds bounds;          ///< world space
 };
 
@@ -54,26 +54,26 @@ struct RenderScene {
     gpu::Buffer lookupSnaps; ///< LightmapLayout::snaps; empty: none
     glm::vec2 lookupSize{0}; ///< the lightmap's size in texels; 0: no snaps
     Bounds bounds;
-    /// Grows when anything that casts a shadow changed: meshes, instances, transforms, masks.
+    /// Increases when any shadow caster changed: meshes, instances, transforms, masks.
     std::uint64_t version = 0;
 };
 
-/// Brings `target` up to date; uploads meshes only when assets or layout are others than last time.
-/// A layout that does not fit the scene's instances is left out, instance by instance.
+/// Brings `target` up to date. Uploads meshes only if assets or layout changed. The layout is
+/// ignored for each instance of the scene that it does not fit.
 void updateRenderScene(gpu::Device& device, RenderScene& target, const Scene& scene,
                        std::shared_ptr<const LightmapLayout> layout);
 
-/// World-space bounds of transformed bounds.
+/// Axis-aligned bounding box of `bounds` transformed by `m`.
 Bounds transformBounds(const Bounds& bounds, const glm::mat4& m);
 
-/// False when no point of `bounds` can be inside the clip volume of `toClip` (depth [0, 1]).
+/// Returns false if no point of `bounds` can be inside the clip volume of `toClip` (depth [0, 1]).
 bool mayBeVisible(const Bounds& bounds, const glm::mat4& toClip);
 
-/// From `p` to the nearest point of `bounds` [m].
+/// Distance from `p` to the nearest point of `bounds` [m].
 float distanceTo(const Bounds& bounds, glm::vec3 p);
 
-/// No more than the distance from `eye` to the nearest surface inside `toClip` [m], by the bounds
-/// of its triangles; infinity where there is none.
+/// Lower bound of the distance from `eye` to the nearest surface inside `toClip` [m], computed from
+/// the bounds of triangles; infinity if there is none.
 float nearestInSight(const RenderScene& scene, const glm::mat4& toClip, glm::vec3 eye);
 
 } // namespace limn::render

@@ -8,7 +8,7 @@
 
 namespace limn::render {
 
-/// A descriptor set per frame slot with one texture, texel by texel: of passes that read one image.
+/// One descriptor set per frame slot with one unfiltered texture, for passes that read one image.
 class SlotTexture {
 public:
     explicit SlotTexture(gpu::Device& device) : m_device(device) {
@@ -23,7 +23,8 @@ public:
 
     VkDescriptorSetLayout layout() const { return m_layout.handle; }
 
-    /// The slot's set with `view`, in SHADER_READ_ONLY_OPTIMAL; no frame in flight uses the slot.
+    /// Binds `view`, an image in SHADER_READ_ONLY_OPTIMAL, to the slot's set and returns the set.
+    /// No frame in flight may use the slot.
     VkDescriptorSet with(VkImageView view, std::uint32_t slot) {
         gpu::writeTexture(m_device, m_sets[slot], 0, view, m_sampler.handle);
         return m_sets[slot];

@@ -29,7 +29,7 @@ bool SurfaceImages::record(VkCommandBuffer cmd, GeometryPasses& geometry, const 
         return false;
     m_holds = wanted;
     const std::array images = {&emitted, &surface, &receiver};
-    gpu::Access before = gpu::kFragmentRead; // of the frame before; its contents are cleared
+    gpu::Access before = gpu::kFragmentRead; // by the previous frame; contents are cleared
     before.access = VK_ACCESS_2_NONE;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     std::array<VkRenderingAttachmentInfo, images.size()> colors;
@@ -42,7 +42,7 @@ bool SurfaceImages::record(VkCommandBuffer cmd, GeometryPasses& geometry, const 
     gpu::imageBarrier(cmd, depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, before, gpu::kDepthWrite);
     auto depths = attachment(depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                              VK_ATTACHMENT_LOAD_OP_CLEAR);
-    if (m_device.softwareRasteriser) { // shading is most of its time
+    if (m_device.softwareRasteriser) { // it spends most of its time on shading
         beginRendering(cmd, size, {}, &depths, true);
         geometry.drawDepthAhead(cmd, scene, materials, view);
         vkCmdEndRendering(cmd);

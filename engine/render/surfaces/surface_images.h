@@ -9,25 +9,26 @@
 
 namespace limn::render {
 
-/// What the camera sees, one surface a pixel: all that shading reads besides the light. Drawn only
-/// when it changed, so that moving light pays for no triangle.
+/// The surface seen in each pixel: all that shading reads besides the light. Redrawn only when it
+/// changed, so that moving lights cause no triangles to be drawn.
 class SurfaceImages {
 public:
     explicit SurfaceImages(gpu::Device& device) : m_device(device) {}
 
-    /// Sizes only grow.
+    /// Makes the images at least this large. They never shrink.
     void ensure(Extent size);
 
-    /// Draws what `view` sees unless the images hold just that; `scene` and `materials` are known
-    /// by their versions. Afterwards fragment shaders may read the images. True if it drew.
+    /// Draws what `view` sees unless the images already hold it; `scene` and `materials` are
+    /// compared by version. Afterwards fragment shaders may read the images. Returns true if it
+    /// drew.
     bool record(VkCommandBuffer cmd, GeometryPasses& geometry, const RenderScene& scene,
                 const MaterialSet& materials, const GeometryView& view, Extent size,
                 std::uint32_t slot, VkDescriptorSet frameSet);
 
-    /// Others have drawn into the depths, so they are to be drawn anew.
+    /// Invalidates the images. Call after other passes have drawn into the depth image.
     void forget() { m_holds = {}; }
 
-    /// How the surfaces in them read bounced light.
+    /// How the surfaces in the images read bounced light.
     const SurfacesDrawn& drawn() const { return m_drawn; }
 
     gpu::Image depth;    ///< kDepthFormat, 0 where there is no surface

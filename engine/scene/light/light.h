@@ -11,18 +11,19 @@ namespace limn {
 
 enum class LightKind : std::uint8_t { Directional, Point, Spot, Rectangle };
 
-/// The most that colour, strength, emission and the sky's radiance may be, so that sums of light
-/// stay within float. The sun's disc has 1.6e9 nits.
+/// Upper limit of colour, strength, emission and the sky's radiance, so that sums of light stay
+/// within float. The sun's disc has 1.6e9 nits.
 inline constexpr float kMaxLight = 1e10f;
 
-/// The most irradiance that a point or spot light brings in each colour, so that sums over lights
-/// and surfaces stay within float.
+/// Maximum irradiance per colour channel from a point or spot light, so that sums over lights and
+/// surfaces stay within float.
 inline constexpr float kMaxIrradiance = 1e28f;
 
-/// What the edges of a Rectangle may measure [m].
+/// Limits of a Rectangle's edge lengths [m].
 inline constexpr float kMinLightSize = 1e-6f, kMaxLightSize = 1e6f;
 
-/// A light in world space. Photometric numbers are used as radiometric ones, without a 683 factor.
+/// A light in world space. Photometric values are used as radiometric ones, without a factor of
+/// 683.
 struct Light {
     std::string name = "Light";
     LightKind kind = LightKind::Point;
@@ -42,16 +43,16 @@ struct Light {
     bool operator==(const Light&) const = default;
 };
 
-/// What a directional, point or spot light sends to a point, without shadow.
+/// Unshadowed light from a directional, point or spot light at a point.
 struct LightSample {
     glm::vec3 irradiance{0}; ///< on a plane facing the light [W m^-2]; multiply by cos
     glm::vec3 toLight{0};    ///< unit
     float distance = 0;      ///< [m]; infinity for Directional
 };
 
-/// Strength of `light` at world point `p`. Irradiance grows no further within 10 nm of the light
-/// and stays below kMaxIrradiance. It is zero when out of range, off, outside the cone, or at
-/// d = 0; and from a Rectangle, see rectangle_light.h.
+/// Light from `light` at world point `p`. The irradiance stops growing within 10 nm of the light
+/// and stays below kMaxIrradiance. It is zero out of range, outside the cone, at d = 0, for lights
+/// that are off, and for a Rectangle, which rectangle_light.h handles.
 LightSample sampleLight(const Light& light, glm::vec3 p);
 
 } // namespace limn

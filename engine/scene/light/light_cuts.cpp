@@ -12,8 +12,7 @@ namespace limn {
 
 namespace {
 
-/// The part of a segment within [-1, 1]^2. Liang, Barsky. A New Concept and Method for Line
-/// Clipping. 1984
+/// Clips a segment to [-1, 1]^2. Liang, Barsky. A New Concept and Method for Line Clipping. 1984
 bool clipToSquare(glm::vec2& a, glm::vec2& b) {
     float enter = 0, leave = 1;
     const glm::vec2 way = b - a;
@@ -35,8 +34,8 @@ bool clipToSquare(glm::vec2& a, glm::vec2& b) {
     return true;
 }
 
-/// The plane lies slightly in front of the light, so that a surface flush with the light does not
-/// cut it.
+/// Intersects triangles with a plane slightly in front of the light, so that a surface flush with
+/// the light does not cut it.
 class Cutter {
 public:
     explicit Cutter(const LightRectangle& r)

@@ -10,16 +10,16 @@
 
 namespace limn {
 
-/// Where a triangle cuts the plane of a rectangle light, in the light's coordinates: a segment
-/// within
-/// [-1, 1]^2.
+/// Intersection of a triangle with the plane of a rectangle light: a segment within [-1, 1]^2 in
+/// the light's coordinates.
 struct LightCut {
     glm::vec2 a, b;
-    glm::vec2 front; ///< times an offset in these coordinates: > 0 before the triangle
+    /// Its dot product with an offset in these coordinates is > 0 in front of the triangle.
+    glm::vec2 front;
     bool twoSided;
 };
 
-/// The cuts of all triangles of instances that are not cutouts. O(triangles).
+/// Intersections with all triangles of instances that are not cutouts. O(triangles).
 std::vector<LightCut> lightCuts(const LightRectangle& light, const Scene& scene);
 
 } // namespace limn

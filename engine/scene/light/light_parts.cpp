@@ -17,7 +17,7 @@ namespace limn {
 
 namespace {
 
-/// The coordinates along one axis at which something may change, -1 and 1 among them.
+/// Coordinates along one axis at which the partition may change, including -1 and 1.
 std::vector<float> linesOf(const std::vector<LightCut>& cuts, int axis) {
     constexpr std::size_t kMaxLines = 128;
     std::vector<float> all = {-1, 1};
@@ -37,7 +37,8 @@ std::vector<float> linesOf(const std::vector<LightCut>& cuts, int axis) {
             lines.push_back(all[i * (all.size() - 1) / (kMaxLines - 1)]);
         return lines;
     }
-    // For walls that lie askew; of other numbers, so that these do not pass through cells' middles.
+    // Extra lines for walls at an angle, in different numbers per axis so that such walls do not
+    // pass through the centres of cells.
     const std::size_t steps = kMaxLines / all.size() + std::size_t(axis);
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
         for (std::size_t k = 0; k < steps; ++k)
@@ -53,7 +54,7 @@ std::vector<float> middlesOf(const std::vector<float>& lines) {
     return result;
 }
 
-/// The light in cells, of which those are joined whose middles see each other along the plane.
+/// Grid of cells over the light. Cells are joined if their centres see each other along the plane.
 class PartGrid {
 public:
     explicit PartGrid(const std::vector<LightCut>& cuts)
@@ -75,15 +76,15 @@ public:
             }
     }
 
-    /// What no wall parts.
+    /// A region that no wall divides.
     struct Part {
         glm::vec2 lower{2}, upper{-2};
         double area = 0;
         bool centre = false; ///< the light's own lies in it
         bool onlyBacks = true, atBorder = false;
     };
-    /// Enclosed ones with the rectangles round them; those that reach the light's border in
-    /// rectangles beside these.
+    /// Bounding rectangles of the enclosed parts; parts that reach the light's border are divided
+    /// into rectangles beside these.
     std::vector<Part> rectangles();
 
 private:
@@ -167,8 +168,8 @@ std::vector<PartGrid::Part> PartGrid::findParts() {
     return result;
 }
 
-/// The cells of a part beside the rectangles of `enclosed`, in runs along rows; like runs of rows
-/// after one another together.
+/// Cells of a part outside the rectangles of `enclosed`, in runs along rows; equal runs of
+/// consecutive rows are merged.
 std::vector<PartGrid::Part> PartGrid::runsOf(std::uint32_t part,
                                              const std::vector<Part>& enclosed) const {
     const auto belongs = [&](std::uint32_t x, std::uint32_t y) {

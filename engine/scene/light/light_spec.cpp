@@ -92,7 +92,7 @@ static Result<glm::vec2> parseSize(std::string_view word, std::string_view text)
     return size;
 }
 
-/// The kinds that know a key, and the field it sets.
+/// Sets the field named by a word's key, for the kinds of light that support it.
 static Result<void> applyWord(Light& light, std::string_view word, const glm::dvec3& origin) {
     const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos)

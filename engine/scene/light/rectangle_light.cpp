@@ -12,8 +12,8 @@ namespace limn {
 
 namespace {
 
-// From so many times its size on, a rectangle is a point: the angles of Lambert's formula nearly
-// cancel there, and the error of taking it for a point is the square of the inverse.
+// From this many times its size on, a rectangle is treated as a point: the angles of Lambert's
+// formula nearly cancel there, and the error of the approximation is the inverse squared.
 constexpr double kFar = 1e5;
 
 /// A convex polygon as seen from the origin.
@@ -22,7 +22,8 @@ struct Polygon {
     int count = 0;
 };
 
-// Sutherland, Hodgman. Reentrant Polygon Clipping. 1974, for one plane through the origin.
+// Clips a polygon by one plane through the origin. Sutherland, Hodgman. Reentrant Polygon Clipping.
+// 1974
 Polygon aboveHorizon(const std::array<glm::dvec3, 4>& quad, glm::dvec3 n) {
     Polygon out;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -36,8 +37,8 @@ Polygon aboveHorizon(const std::array<glm::dvec3, 4>& quad, glm::dvec3 n) {
     return out;
 }
 
-// The angle of an edge as seen from the origin, times the cosine of n and the normal of the plane
-// that holds both.
+// Angle of an edge as seen from the origin, times the cosine between n and the normal of the plane
+// through the origin and the edge.
 double edgeIntegral(glm::dvec3 a, glm::dvec3 b, glm::dvec3 n) {
     const glm::dvec3 across = glm::cross(a, b);
     const double length = glm::length(across);
@@ -75,7 +76,7 @@ float rectangleIrradiance(const LightRectangle& r, glm::vec3 p, glm::vec3 n) {
     for (int i = 0; i < seen.count; ++i)
         sum += edgeIntegral(seen.corner[std::size_t(i)],
                             seen.corner[std::size_t((i + 1) % seen.count)], normal);
-    // Either way round.
+    // Accepts either winding.
     return float(std::clamp(std::abs(sum) / 2, 0.0, std::numbers::pi));
 }
 

@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// A box along the axes.
+/// An axis-aligned bounding box.
 struct Bounds {
     glm::vec3 lower{0}, upper{0};
 
@@ -18,7 +18,7 @@ struct Bounds {
     bool operator==(const Bounds&) const = default;
 };
 
-/// Round nothing: grown by anything, it is round that alone.
+/// Empty box; extending it by a point yields the box of that point alone.
 inline constexpr Bounds kNoBounds{glm::vec3(std::numeric_limits<float>::infinity()),
                                   glm::vec3(-std::numeric_limits<float>::infinity())};
 
@@ -36,7 +36,7 @@ inline void extend(Bounds& bounds, const Bounds& other) {
     bounds.upper = glm::max(bounds.upper, other.upper);
 }
 
-/// Round all points; of none kNoBounds.
+/// Bounding box of all points; kNoBounds if there are none.
 template <std::ranges::input_range Points>
 Bounds boundsOf(Points&& points) {
     Bounds bounds = kNoBounds;

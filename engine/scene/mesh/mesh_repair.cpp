@@ -12,14 +12,15 @@
 
 namespace limn {
 
-/// Twice the triangle's area along its normal, in double: float loses needles far from the origin.
+/// Twice the triangle's area along its normal, in double: floats lose needles far from the origin.
 static glm::dvec3 areaVector(const Mesh& mesh, std::size_t t) {
     const auto [a, b, c] = mesh.triangle(t);
     const glm::dvec3 p(mesh.positions[a]);
     return glm::cross(glm::dvec3(mesh.positions[b]) - p, glm::dvec3(mesh.positions[c]) - p);
 }
 
-/// Corners on a line up to the rounding of their coordinates, or too small for a float's area.
+/// Whether the corners are collinear up to rounding of their coordinates, or the area is too small
+/// for a float.
 static bool hasNoArea(const Mesh& mesh, std::size_t t) {
     const auto [a, b, c] = mesh.triangle(t);
     if (a == b || b == c || c == a)
@@ -137,7 +138,7 @@ std::size_t mendNormals(Mesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
         for (const std::uint32_t corner : mesh.triangle(t))
             if (missing[corner]) {
-                // Opposite triangles may cancel: then any of their normals will do.
+                // Opposite triangles may cancel; any of their normals is used then.
                 const double length = glm::length(sum[corner]);
                 const glm::dvec3 n = length > 0 ? sum[corner] : areaVector(mesh, t);
                 mesh.normals[corner] = glm::vec3(glm::normalize(n));
@@ -159,7 +160,7 @@ void generateTangents(Mesh& mesh, bool fromUv1) {
         const glm::vec3 e1 = mesh.positions[b] - mesh.positions[a];
         const glm::vec3 e2 = mesh.positions[c] - mesh.positions[a];
         const glm::vec2 d1 = uv[b] - uv[a], d2 = uv[c] - uv[a];
-        // The gradient times the UV area: corners weigh by how much texture they carry.
+        // Gradient times the UV area: corners are weighted by the amount of texture they carry.
         const float sign = d1.x * d2.y - d1.y * d2.x < 0 ? -1.f : 1.f;
         for (const std::uint32_t i : {a, b, c}) {
             alongU[i] += sign * (e1 * d2.y - e2 * d1.y);

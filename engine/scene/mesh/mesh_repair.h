@@ -7,26 +7,26 @@
 
 namespace limn {
 
-/// What removeBadTriangles took away.
+/// Numbers of triangles that removeBadTriangles() removed.
 struct RemovedTriangles {
     std::size_t zeroArea = 0;
     std::size_t notFinite = 0; ///< a corner is NaN, infinite or beyond 1e12 m
 };
 
-/// Drops triangles that have no usable plane, then vertices that no triangle names. Needs indices
-/// in range.
+/// Removes triangles that have no usable plane, then vertices that no triangle uses. Precondition:
+/// all indices are in range.
 RemovedTriangles removeBadTriangles(Mesh& mesh);
 
-/// Gives every triangle its own plane's normal, as glTF asks where a file has none. Splits vertices
-/// whose triangles are not coplanar.
+/// Gives every triangle the normal of its plane, as glTF requires for files without normals. Splits
+/// vertices whose triangles are not coplanar.
 void generateFlatNormals(Mesh& mesh);
 
-/// Normalises; replaces normals without direction by the area-weighted mean of their triangles'.
-/// Returns how many were replaced.
+/// Normalises the normals and replaces those without a direction by the area-weighted mean of the
+/// adjacent triangles' normals. Returns the number of normals replaced.
 std::size_t mendNormals(Mesh& mesh);
 
-/// Per vertex, from the gradient of uv0 (uv1 where that is missing), orthogonal to the normal. Any
-/// perpendicular direction where there is no gradient.
+/// Generates a tangent per vertex from the gradient of uv0 (of uv1 if `fromUv1`), orthogonal to the
+/// normal. Uses an arbitrary perpendicular direction where there is no gradient.
 void generateTangents(Mesh& mesh, bool fromUv1);
 
 } // namespace limn

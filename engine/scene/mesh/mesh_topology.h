@@ -9,17 +9,17 @@
 
 namespace limn {
 
-/// Number of each vertex after joining those at equal position (and equal uv1 when asked), from 0
-/// in the order of first use. Incomplete when cancelled.
+/// Joins vertices of equal position (and of equal uv1 if `byUv1`). Returns the new number of each
+/// vertex, counted from 0 in the order of first use. Incomplete when cancelled.
 std::vector<std::uint32_t> weldVertices(const Mesh& mesh, bool byUv1,
                                         const Progress& progress = {});
 
 inline constexpr std::uint32_t kNoEdge = ~0U;
 
-/// Half-edge 3 t + k runs from corner k of triangle t to the next. Its partner is the half-edge
-/// that runs the other way between vertices of the same positions. kNoEdge: a border, an edge of
-/// more than two triangles, or one of two triangles wound against each other. Incomplete when
-/// cancelled.
+/// Partner of every half-edge. Half-edge 3 t + k runs from corner k of triangle t to the next
+/// corner; its partner runs the other way between vertices of the same positions. kNoEdge marks a
+/// border, an edge of more than two triangles, or an edge of two triangles with opposite winding.
+/// Incomplete when cancelled.
 std::vector<std::uint32_t> edgePartners(const Mesh& mesh, const Progress& progress = {});
 
 } // namespace limn

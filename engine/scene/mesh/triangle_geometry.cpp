@@ -6,8 +6,8 @@
 
 namespace limn {
 
-/// Twice the area, along the normal. In doubles: the squares of a needle of 0.1 um are below what
-/// floats hold, and it would have no area.
+/// Twice the area, along the normal. Computed in doubles, because the squares of a needle of 0.1 um
+/// underflow floats and it would have no area.
 static glm::dvec3 edgeCross(const Mesh& mesh, std::size_t triangle) {
     const auto [a, b, c] = mesh.triangle(triangle);
     const glm::dvec3 o(mesh.positions[a]);

@@ -14,7 +14,7 @@ namespace limn {
 enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
-/// A texture as a material uses it. uv' = offset + R(rotation) * (scale * uv), as
+/// A texture as used by a material. uv' = offset + R(rotation) * (scale * uv), as in
 /// KHR_texture_transform.
 struct TextureRef {
     std::int32_t image = -1;    ///< index into Assets::images; -1: none
@@ -27,16 +27,16 @@ struct TextureRef {
     bool operator==(const TextureRef&) const = default;
 };
 
-/// A film in one image: frames of equal size, row after row from the upper left, shown in turn for
-/// ever.
+/// An animated texture in one image: frames of equal size, row after row from the upper left, shown
+/// in turn in an endless loop.
 struct Flipbook {
     std::uint32_t columns = 1, rows = 1; ///< [1, 256]
-    float framesPerSecond = 0;           ///< [0, 1000]; 0: the first stands still
+    float framesPerSecond = 0;           ///< [0, 1000]; 0: shows the first frame only
 
     bool operator==(const Flipbook&) const = default;
 };
 
-/// Which frame is shown `seconds` after the start; before it, the film runs backwards.
+/// Index of the frame shown `seconds` after the start; negative times run backwards.
 std::uint32_t frameAt(const Flipbook& film, double seconds);
 
 /// glTF metallic-roughness. Factors multiply textures. Transport treats it as Lambertian with
@@ -55,20 +55,20 @@ struct Material {
     TextureRef metallicRoughnessTexture; ///< linear: roughness in G, metallic in B
     TextureRef normalTexture;            ///< linear, tangent space
     TextureRef emissiveTexture;          ///< sRGB
-    /// Of the emissive texture, whose transform then leads into a frame: it must not turn frames
-    /// unless columns == rows, as no TextureRef says that.
+    /// Frames of the emissive texture. The texture's transform is then applied within a frame: it
+    /// must not rotate unless columns == rows, because a TextureRef cannot express that.
     Flipbook emissiveFilm;
 
     bool operator==(const Material&) const = default;
 };
 
-/// The emissive texture as it is `seconds` after the start.
+/// The emissive texture with the frame shown `seconds` after the start.
 TextureRef emissiveTextureAt(const Material& material, double seconds);
 
 /// Whether emissiveTextureAt() changes with time.
 bool isAnimated(const Material& material);
 
-/// Light leaves both sides of such a surface.
+/// Whether light leaves both sides of a surface of this material.
 bool isTwoSided(const Material& material);
 
 } // namespace limn

@@ -11,7 +11,7 @@ namespace limn {
 
 namespace {
 
-/// Texels of a metallic-roughness texture by their values, of which each axis has so many steps.
+/// Number of bins per axis for the values of a metallic-roughness texture.
 constexpr int kSteps = 16;
 struct TexelCounts {
     std::array<std::uint32_t, kSteps * kSteps> count{}; ///< roughness * kSteps + metallic
@@ -26,7 +26,7 @@ struct TexelCounts {
     }
 };
 
-/// Of 64 x 64 texels spread over the image, or all where there are fewer.
+/// Counts 64 x 64 texels spread over the image, or all of them if there are fewer.
 TexelCounts countTexels(const Image& image) {
     TexelCounts counts;
     const std::uint32_t stepX = std::max(image.width / 64, 1U),
@@ -47,7 +47,7 @@ float viewCosine(int k) {
     return std::sqrt((float(k) + 0.5f) / float(kViews));
 }
 
-/// lobeLosses() of the reflection under the angles of viewCosine(), by roughness.
+/// lobeLosses() of the reflection at the angles of viewCosine(), by roughness.
 using Losses =
     std::array<std::array<std::array<float, kMaxBands + 1>, kViews>, kRoughnessSteps + 1>;
 
@@ -62,8 +62,8 @@ Losses findLosses() {
     return losses;
 }
 
-/// rms over all directions of light and angles of view of what is missing in the brightest channel,
-/// over the light that arrives.
+/// Rms over all directions of light and viewing angles of the missing light in the brightest
+/// channel, relative to the incoming light.
 float reflectionLoss(const Gloss& gloss, int bands) {
     static const Losses losses = findLosses();
     const float at = std::clamp(gloss.roughness, 0.f, 1.f) * float(kRoughnessSteps);

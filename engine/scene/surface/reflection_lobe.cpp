@@ -11,7 +11,7 @@ namespace limn {
 
 namespace {
 
-// Visible normals per node, twice as many as half of them: enough for errors of 0.005.
+// Argument `samples` of integrateReflection() for each node: enough for errors of 0.005.
 constexpr int kSamples = 40;
 constexpr glm::vec3 kNormal(0, 0, 1);
 
@@ -51,8 +51,8 @@ std::vector<glm::vec4> makeTable() {
 } // namespace
 
 LobeIntegral integrateReflection(float roughness, float NoV, int samples, std::size_t bands) {
-    // The eye in the plane x = 0; the lobe is the same on either side of it, so that half the
-    // circle of visible normals is enough, and the other half mirrors x.
+    // The eye lies in the plane x = 0. The lobe is symmetric about that plane, so half the circle
+    // of visible normals is sufficient; the other half mirrors x.
     NoV = std::clamp(NoV, 1e-4f, 1 - 1e-4f);
     const glm::vec3 toEye(0, std::sqrt(1 - NoV * NoV), NoV);
     const Gloss gloss{{1, 0, 0}, roughness}; // all of F0 in x, nothing of it in y
@@ -60,8 +60,8 @@ LobeIntegral integrateReflection(float roughness, float NoV, int samples, std::s
     glm::dvec3 mean(0);
     glm::dvec2 sum(0);
     for (int i = 0; i < samples; ++i) {
-        // u.x = 1 - rest^k: where it is near 1 facets lie in the tail of GGX, which counts where
-        // the lobe is narrow; of a wide lobe it is below the horizon.
+        // u.x = 1 - rest^k. Where it is near 1, facets lie in the tail of GGX, which matters if the
+        // lobe is narrow; for a wide lobe it is below the horizon.
         const float k = 2 - roughness, rest = 1 - (float(i) + 0.5f) / float(samples);
         for (int j = 0; j < samples / 2; ++j) {
             const glm::vec2 u(1 - std::pow(rest, k), (float(j) + 0.5f) / float(samples) - 0.25f);

@@ -41,15 +41,15 @@ float twiceUnmasked(float a2, float NoV) {
     return NoV + std::sqrt(a2 + (1 - a2) * NoV * NoV);
 }
 
-/// The eye's direction about z; one below the horizon counts as just above it.
+/// Direction of the eye in the frame of z; an eye below the horizon is treated as just above it.
 glm::vec3 localEye(const glm::mat3& basis, glm::vec3 toEye) {
     glm::vec3 v = toEye * basis;
     v.z = std::max(v.z, kMinNoV);
     return glm::normalize(v);
 }
 
-/// A normal about z that `v` sees: the disc's half that faces `v` is sampled in the space where the
-/// microfacets are a hemisphere.
+/// Samples a normal about z that is visible from `v`: the half of the disc that faces `v`, in the
+/// space where the microfacets form a hemisphere.
 glm::vec3 visibleNormal(glm::vec3 v, float alpha, glm::vec2 u) {
     const glm::vec3 stretched = glm::normalize(glm::vec3(alpha * v.x, alpha * v.y, v.z));
     const float across =
@@ -87,7 +87,7 @@ SpecularSample sampleSpecular(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, 
     if (!(l.z > 0))
         return sample;
     sample.toLight = basis * glm::normalize(l);
-    // f NoL / pdf with pdf = G_1 D VoH / NoV / (4 VoH): D, which is all but singular, cancels.
+    // f NoL / pdf with pdf = G_1 D VoH / NoV / (4 VoH); the nearly singular D cancels.
     sample.weight = fresnel(gloss.F0, VoH) *
                     (2 * l.z * visibility(alpha, l.z, v.z) * twiceUnmasked(alpha * alpha, v.z));
     return sample;

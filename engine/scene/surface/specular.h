@@ -10,35 +10,37 @@
 
 namespace limn {
 
-/// The glossy side of a surface point: reflectance at normal incidence and roughness [0, 1].
+/// Glossy reflection at a surface point: reflectance at normal incidence and roughness [0, 1].
 struct Gloss {
     glm::vec3 F0{0.04f};
     float roughness = 1;
 };
 
-/// At barycentrics (u, v) of `triangle`: F0 = 0.04 of dielectrics, base colour of metals.
+/// Gloss at barycentrics (u, v) of `triangle`: F0 is 0.04 for dielectrics and the base colour for
+/// metals.
 Gloss surfaceGloss(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
                    float v);
 
-/// Cook-Torrance with GGX, without the cosine of the light [sr^-1]. All directions unit, away from
-/// the surface. Walter et al. Microfacet Models for Refraction through Rough Surfaces. 2007; the
-/// visibility term is Hammon's approximation of the height-correlated Smith term. alpha >= 0.002;
-/// NoV >= 1e-4.
+/// Cook-Torrance BRDF with GGX, without the cosine of the light [sr^-1]. All directions are unit
+/// and point away from the surface. Walter et al. Microfacet Models for Refraction through Rough
+/// Surfaces. 2007; the visibility term is Hammon's approximation of the height-correlated Smith
+/// term. alpha >= 0.002; NoV >= 1e-4.
 glm::vec3 specularBrdf(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::vec3 toLight);
 
-/// A direction that light may come from.
+/// A sampled direction towards the light.
 struct SpecularSample {
-    glm::vec3 toLight{0}; ///< unit, above the horizon of `n`; 0 where the facet sends it below
+    glm::vec3 toLight{0}; ///< unit, above the horizon of `n`; 0 where the facet reflects below it
     glm::vec3 weight{0};  ///< specularBrdf() times the cosine over specularPdf()
 };
 
-/// By the normals of microfacets that the eye sees, from `u` in [0, 1)^2: the mean of weight times
-/// radiance is what the surface reflects. An eye below the horizon of `n` counts as just above it.
+/// Samples the microfacet normals visible to the eye, from `u` in [0, 1)^2. The mean of weight
+/// times radiance is the reflected radiance. An eye below the horizon of `n` is treated as just
+/// above it.
 /// Heitz. Sampling the GGX Distribution of Visible Normals. 2018
 SpecularSample sampleSpecular(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::vec2 u);
 
-/// Density of sampleSpecular() [sr^-1]: below 1 in sum, by those facets that send light below the
-/// horizon.
+/// Probability density of sampleSpecular() [sr^-1]. It integrates to less than 1, because some
+/// facets reflect below the horizon.
 float specularPdf(float roughness, glm::vec3 n, glm::vec3 toEye, glm::vec3 toLight);
 
 } // namespace limn

@@ -31,7 +31,7 @@ struct TrianglePoint {
     const std::vector<glm::vec2>& uvOf(const TextureRef& t) const {
         return t.texCoord == 1 ? mesh.uv1 : mesh.uv0;
     }
-    /// Over `share` of the triangle's area; 0: at the point.
+    /// Mean of a texture over `share` of the triangle's area; 0: at the point.
     glm::vec4 texture(const Assets& assets, const TextureRef& t, TexelKind kind,
                       float share) const {
         if (t.image < 0)
@@ -57,7 +57,7 @@ bool isCutout(const Material& material) {
 }
 
 float alphaCutoff(const Material& material) {
-    // An alpha equal to the cutoff must not fall below it where interpolation rounds.
+    // An alpha equal to the cutoff must not fall below it by rounding of the interpolation.
     constexpr float kRounding = 1 - 1e-5f;
     switch (material.alphaMode) {
     case AlphaMode::Opaque:

@@ -25,7 +25,7 @@ static const std::array<float, 256>& srgbToLinear() {
     return table;
 }
 
-/// Texel index in [0, size) of the possibly outside texel `i`.
+/// Texel index in [0, size) of texel `i`, which may lie outside.
 static std::uint32_t wrapTexel(std::int64_t i, std::uint32_t size, Wrap wrap) {
     const std::int64_t n = size;
     switch (wrap) {
@@ -60,12 +60,12 @@ static glm::vec2 transformUv(const TextureRef& texture, glm::vec2 uv) {
     return uv + texture.offset;
 }
 
-/// Texels of one size, as bilinear() asks for them.
+/// Bilinear lookup in texels of one size, read by `fetch`.
 template <class Fetch>
 static glm::vec4 bilinear(glm::uvec2 size, const TextureRef& texture, glm::vec2 uv,
                           const Fetch& fetchTexel) {
-    // Far outside [0, 1] floats cannot tell texels apart anyway; the clamp keeps the conversion to
-    // integers defined.
+    // Far outside [0, 1], floats cannot distinguish texels anyway; the clamp keeps the conversion
+    // to integers defined.
     const glm::vec2 at = glm::clamp(uv * glm::vec2(size), -1e12f, 1e12f);
     const glm::vec2 corner = glm::floor(at - 0.5f), f = at - 0.5f - corner;
     const auto i = std::int64_t(corner.x), j = std::int64_t(corner.y);
@@ -100,14 +100,14 @@ glm::vec4 sampleTexture(const Assets& assets, const TextureRef& texture, glm::ve
                     [&](std::uint32_t x, std::uint32_t y) { return fetch(*image, x, y, srgb); });
 }
 
-/// A texel as mips average it.
+/// A texel with the weighting that mips use for averaging.
 static glm::vec4 weighed(const Image& image, std::uint32_t x, std::uint32_t y, TexelKind kind) {
     const glm::vec4 texel = fetch(image, x, y, kind != TexelKind::Data);
     return kind == TexelKind::CutoutColor ? glm::vec4(glm::vec3(texel) * texel.w, texel.w) : texel;
 }
 
-/// Box filter to half the size, rounded down. Sides of odd length weigh the texels on a border by
-/// the parts on either side.
+/// Box filter to half the size, rounded down. On sides of odd length, texels on a border are
+/// weighted by their parts on either side.
 template <class Fetch>
 static std::vector<glm::vec4> halved(glm::uvec2 from, glm::uvec2 to, const Fetch& fetchTexel) {
     const auto overlap = [](std::uint32_t i, std::uint32_t j, float ratio) {
@@ -177,7 +177,7 @@ std::uint64_t MipStore::bytes() const {
     return sum;
 }
 
-/// Level 0 is the image, n the (n - 1)st of its mips.
+/// Lookup in one level: level 0 is the image, level n the (n - 1)st of its mips.
 static glm::vec4 sampleLevel(const Image& image, const MipChain& mips, std::size_t level,
                              const TextureRef& texture, glm::vec2 uv, TexelKind kind) {
     if (level == 0)
