@@ -25,13 +25,13 @@ class StageStore;
 /// world space.
 struct Surfels {
     std::vector<glm::vec3> position;
-    std::vector<glm::vec3> normal; ///< unit, of the side it stands for: of the triangle while
-                                   ///< baking, in a bake of the vertices, for the light it gets
-    std::vector<float> area;       ///< [m^2], > 0; they sum to the area of the lit sides
+    std::vector<glm::vec3> normal;       ///< unit, on the side it stands for: the triangle's while
+                                         ///< baking, then the interpolated vertex normal
+    std::vector<float> area;             ///< [m^2], > 0; they sum to the area of the lit sides
     std::vector<std::uint32_t> instance; ///< index into Scene::instances
-    std::vector<std::uint32_t> triangle; ///< of the instance's mesh
+    std::vector<std::uint32_t> triangle; ///< index into the triangles of the instance's mesh
     std::vector<glm::vec2> barycentric;  ///< (u, v), weights (1-u-v, u, v)
-    /// Where it reads bounced light: four caches with bilinear weights; ~0: none.
+    /// Caches from which the surfel reads bounced light: four with bilinear weights; ~0: none.
     std::vector<glm::uvec4> cache;
     std::vector<glm::vec4> cacheWeight;
 
@@ -55,8 +55,8 @@ struct ClusterTree {
     bool operator==(const ClusterTree&) const = default;
 };
 
-/// One link, runtime projection: `node` sends its radiosity B to the cache through a cone.
-/// The cache's SH grow by B * transport * cone(u, direction) / (cone's solid angle).
+/// One link in runtime projection: `node` sends its radiosity B to the cache through a cone, which
+/// adds B * transport * cone(u, direction) / (cone's solid angle) to the cache's SH.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016
 struct Link {
@@ -69,30 +69,31 @@ struct Link {
 };
 static_assert(sizeof(Link) == 12);
 
-/// What a cache sees. Hemisphere: all before one side of a surface. Grid: all around a point in the
-/// air.
+/// Directions from which a cache gathers. Hemisphere: those above one side of a surface. Grid: all
+/// directions around a point in the air.
 enum class CacheKind : std::uint8_t { Hemisphere, Grid };
 
-/// Where radiance is gathered: texels of the lightmap first, then caches of surfels' own, in texels
-/// that no lookup needs, then cells of the grid.
+/// Points at which radiance is gathered: first lightmap texels, then own caches, which only surfels
+/// read and which lie in texels that no lookup needs, then grid cells.
 struct Caches {
-    std::uint32_t lightmapCount = 0; ///< surfels' own included
+    std::uint32_t lightmapCount = 0; ///< own caches included
     std::vector<CacheKind> kind;
     std::vector<glm::vec3> position;  ///< world
     std::vector<glm::vec3> normal;    ///< unit geometric normal of its side; 0 for Grid
     std::vector<std::uint32_t> texel; ///< lightmap: y * width + x; grid: cell index
-    /// size()+1 offsets into its links; those to nothing but sky come last.
+    /// size()+1 offsets into the links. Links of a cache to nodes with nothing but sky come last.
     std::vector<std::uint32_t> linkBegin;
-    /// The scale of a cache's halfs is 2^linkExponent: its largest one lies in [2^14, 2^15), so
-    /// that not even a link 2^-28 of that is denormal. 0 for caches without links.
+    /// A cache's halfs are scaled by 2^linkExponent, which brings the largest into [2^14, 2^15), so
+    /// that even a link of 2^-28 of that is not denormal. 0 for caches without links.
     std::vector<std::int8_t> linkExponent;
     std::vector<Link> links; ///< LinkStorage::Rtp; else empty
-    /// LinkStorage::Sh, else empty: the node of each link, and what its radiosity of 1 adds to the
-    /// cache's SH, bands^2 halfs per link, times the cache's scale.
+    /// LinkStorage::Sh, else empty: the node of each link, and the SH that a radiosity of 1 at that
+    /// node adds to the cache: bands^2 halfs per link, times the cache's scale.
     std::vector<std::uint32_t> shNode;
     std::vector<std::uint16_t> shCoefficients;
-    /// An invalid cache has no links and copies these valid ones, weights summing to 1 (none where
-    /// no cache is valid); fillBegin has size()+1 offsets. Valid caches have none.
+    /// An invalid cache has no links and takes the mean of these valid caches, with weights that
+    /// sum to 1 (no sources where no cache is valid). Valid caches have no sources. fillBegin has
+    /// size()+1 offsets.
     std::vector<std::uint32_t> fillBegin;
     std::vector<std::uint32_t> fillSource;
     std::vector<float> fillWeight;
@@ -108,37 +109,38 @@ struct BakeCounts {
     bool operator==(const BakeCounts&) const = default;
 };
 
-/// Everything relighting needs. Same document, same bytes, at any number of threads.
+/// Everything that relighting needs. The same document gives the same bytes at any number of
+/// threads.
 struct Bake {
     BakeSettings settings;
-    std::uint64_t sceneHash = 0; ///< bakeInputHash of what it was made from
+    std::uint64_t sceneHash = 0; ///< bakeInputHash() of the baked scene
     LightmapLayout lightmap;
     glm::uvec3 gridSize{0};
     Bounds gridBounds;
-    std::vector<std::uint16_t> gridDepth; ///< kGridDepthTexels per cell: how far each one sees
+    std::vector<std::uint16_t> gridDepth; ///< kGridDepthTexels per cell, see field/grid_depth.h
     Surfels surfels;
     ClusterTree tree;
     Caches caches;
     BakeCounts counts;
     std::vector<std::pair<std::string, double>>
         seconds; ///< per stage in order; not part of the hash
-    /// What was made again and why, for people: "2 instances moved: 1 204 of 10 585 caches
+    /// Messages that say what was recomputed and why: "2 instances moved: 1 204 of 10 585 caches
     /// re-traced". Not part of the hash or the file.
     std::vector<std::string> notes;
 
-    /// Of everything but `counts`, `seconds` and `notes`: equal for equal documents, whatever was
-    /// known before.
+    /// Hash of everything but `counts`, `seconds` and `notes`. It is equal for equal documents,
+    /// whatever the stage store held.
     std::uint64_t hash() const;
 };
 
-/// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Not
-/// lights, albedo, emission, nor where dynamic instances are.
+/// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Excludes
+/// lights, albedo, emission and the places of dynamic instances.
 std::uint64_t bakeInputHash(const Scene& scene);
 
-/// Fails on an empty scene, on settings out of range, and when cancelled ("cancelled").
-/// Stages reported: charts, surfels, clusters, caches, trace, training, cut. What `store` knows is
-/// not made again: the result is the same, and counts.rays is what was traced now. `settings`
-/// replace the scene's own. Fails where predictBake() says that it would need more than `memory`.
+/// Bakes a scene. Stages reported: charts, surfels, clusters, caches, trace, training, cut. Stages
+/// found in `store` are reused: the result is the same, and counts.rays counts the rays traced now.
+/// `settings` replace the scene's own. Fails on an empty scene, on settings out of range, when
+/// cancelled ("cancelled"), and where predictBake() expects more than `memory`.
 Result<Bake> bake(const TraceScene& trace, const Progress& progress = {},
                   StageStore* store = nullptr, const BakeSettings* settings = nullptr,
                   const MemoryBudget& memory = {});

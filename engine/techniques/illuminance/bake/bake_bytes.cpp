@@ -46,7 +46,7 @@ std::uint64_t cacheArrays(const Caches& c, Use use) {
     return use(c.kind, c.position, c.normal, c.texel);
 }
 
-/// Of the axes' six directions, those that some triangle faces more than any other.
+/// Number of the axes' six directions that are the main direction of some triangle.
 std::uint32_t waysFaced(const Mesh& mesh) {
     std::uint32_t faced = 0;
     for (std::size_t t = 0; t < mesh.triangleCount() && faced != 0x3f; ++t) {
@@ -63,17 +63,17 @@ std::uint64_t linkBytes(const BakeSettings& s, std::uint64_t caches, double link
            std::uint64_t(double(caches) * links) * bytesPerLink(s.storage, s.bands);
 }
 
-/// What of a bake depends on what its rays will see, and what its scene adds.
+/// Estimates of what depends on the rays of a bake, and the sizes that its scene adds.
 struct Expected {
     double leaves;           ///< senders that a cache sees
     double links;            ///< of a cache
-    double aimed;            ///< rays of a cache that are aimed at senders, and meet them
+    double aimed;            ///< aimed rays of a cache that meet their senders
     std::uint64_t triangles; ///< of meshes
     std::uint64_t uv;        ///< of vertices, of all instances
     std::uint64_t meshVertices;
 };
 
-/// Senders that a cache may aim rays at.
+/// Number of senders that a cache may aim rays at.
 std::uint64_t targetsOf(const Scene& scene) {
     const std::uint64_t surfels = scene.bake.surfels;
     return scene.bake.linker == Linker::Gather
@@ -91,9 +91,9 @@ Expected expect(const Scene& scene) {
     // Several rays meet the same sender, the more so the more there are.
     const double rays = s.rays, senders = 2.2 * std::sqrt(double(s.surfels));
     e.leaves = (s.linker == Linker::Gather ? rays * senders / (rays + senders) : 0) + e.aimed;
-    // Together they have as many as if each had n_L or, where that is less, one per sender in
-    // sight. That number varies from cache to cache, which rounds off the minimum; those in walls
-    // have none.
+    // All caches together have as many links as if each had n_L or, where that is less, one per
+    // visible sender. That number varies from cache to cache, which smooths the minimum; caches in
+    // walls have none.
     constexpr double kValid = 0.95;
     e.links = kValid * std::pow(std::pow(s.links, -4.) + std::pow(e.leaves, -4.), -0.25);
     for (const Mesh& m : scene.assets->meshes) {
@@ -106,7 +106,7 @@ Expected expect(const Scene& scene) {
     return e;
 }
 
-/// Of MeshCharts and InstanceLightmap.
+/// Bytes of MeshCharts and InstanceLightmap.
 std::uint64_t chartBytes(const Expected& e) {
     const MeshCharts m;
     return 3 * e.triangles * kBytesPerEntry(m.indices) +
@@ -114,20 +114,21 @@ std::uint64_t chartBytes(const Expected& e) {
            e.meshVertices * kBytesPerEntry(m.sourceVertex, m.chartUv) + e.uv * sizeof(glm::vec2);
 }
 
-/// zstd leaves that much of each part, on the mean of the scenes at hand.
+/// Size of the file, from the mean ratios to which zstd compressed each part of the measured
+/// scenes.
 std::uint64_t fileBytes(const BakeBytes& b, const Expected& e) {
     return std::uint64_t(0.45 * double(b.surfels) + 0.6 * double(b.clusters) +
                          0.76 * double(b.links + b.caches) + 0.35 * double(chartBytes(e)));
 }
 
-/// The most of the stages' sums. What the scene itself takes is not among them.
+/// Maximum over the stages of the memory in use, without the scene itself.
 std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const Expected& e,
                            bool stored) {
     const auto caches = double(p.caches), surfels = double(s.surfels);
-    // While texels are laid the charts are there twice, and texels as often as five times.
+    // While texels are placed, there are two copies of the charts and up to five of the texels.
     const double atlas = 2. * double(chartBytes(e)) + 5. * sizeof(AtlasTexel) * caches;
-    // Each cache's points and, for one ray in 16, where it met which surfel. Each surfel's share of
-    // tables that say which surfel owns a place.
+    // Each cache's points and, for one ray in 16, the surfel and the place that it met. Each
+    // surfel's share of the tables that assign places to surfels.
     constexpr double kPerPoint = 2 * sizeof(glm::vec3), kPerLook = 24, kPerSurfel = 400;
     const double looks = caches * std::min(s.rays / 16, 32U) * kPerLook,
                  points = caches * AtlasTexel::kMaxPoints * kPerPoint;
@@ -141,8 +142,8 @@ std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const
                  worth = detail ? caches * e.leaves * sizeof(float) : 0,
                  links = double(p.bytes.links),
                  packed = links + caches * (e.links * sizeof(float) + sizeof(PackedLinks));
-    // The worth of refinements reuses the memory of the looks. A stage is kept as an archive that
-    // is then packed, into a string that grows by doubling; so is the bake, part by part.
+    // The worth of refinements reuses the memory of the looks. A stage is stored as an archive that
+    // is then compressed into a string that grows by doubling; so is the bake, part by part.
     const double trace = before + looks + hits + (stored ? 4 : 1) * aimed,
                  cut = before + hits + aimed + training + std::max(looks, worth) + packed + links,
                  written =
@@ -190,7 +191,7 @@ BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std:
 }
 
 std::uint64_t expectedCaches(const Scene& scene) {
-    LightmapLayout layout; // only as to which instances have a lightmap
+    LightmapLayout layout; // filled only as to which instances have a lightmap
     for (const Instance& i : scene.instances) {
         layout.instances.emplace_back();
         if (!i.dynamic)

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// Memory that relighting reads, without the charts of the lightmap.
+/// Memory that relighting reads, excluding the charts of the lightmap [bytes].
 struct BakeBytes {
     std::uint64_t surfels = 0, clusters = 0, links = 0, caches = 0;
     std::uint64_t total() const { return surfels + clusters + links + caches; }
@@ -15,40 +15,42 @@ struct BakeBytes {
 
 BakeBytes bytesOf(const Bake& bake);
 
-/// The same, were its links of this storage and number of bands: the same links either way.
+/// Memory of the same bake with its links stored as `storage` in `bands` bands. The number of links
+/// does not depend on either.
 BakeBytes bytesOf(const Bake& bake, LinkStorage storage, std::uint32_t bands);
 
-/// What a bake with these settings will take, known before it starts. Exact for as many surfels as
-/// given. Links: an upper bound, n_L for every cache; those in walls get none, those that see less
-/// get fewer, and CutCriterion::Detail keeps to the same sum. Caches: exact but for the sources of
-/// those in walls, at most 32 bytes each, and, where the settings leave the grid's size open, for
-/// how far its cells see, 512 bytes each.
+/// Memory that a bake with these settings will take, known before it starts. Surfels and clusters
+/// are exact for the given number of surfels. Links are an upper bound, n_L for every cache: caches
+/// in walls get none, caches that see less get fewer, and CutCriterion::Detail keeps the same
+/// total. Caches are exact but for the fill sources of caches in walls, at most 32 bytes each, and,
+/// where the settings leave the grid's size open, for the depths of its cells, 512 bytes each.
 BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std::uint64_t caches);
 
-/// About how many caches a bake of the scene will have, as many of them surfels' own as there may
-/// be. With texelsPerMetre the texels at the charts' borders are not counted. Cheap unless that is
-/// set; then it sums the areas of all triangles. Without what minTexels() says.
+/// Approximate number of caches in a bake of the scene, with the maximum number of own caches. With
+/// texelsPerMetre the texels at the charts' borders are not counted. Cheap unless that is set; then
+/// it sums the areas of all triangles. Does not take minTexels() into account.
 std::uint64_t expectedCaches(const Scene& scene);
 
-/// About how many lightmap texels the scene's static objects need, however few are asked for. Each
-/// chart needs one, but small charts of an object that face the same way share one. So an object
-/// needs one for each of the axes' six directions that some of its triangles face, two where both
-/// sides are lit.
+/// Approximate minimum number of lightmap texels that the scene's static objects need, however few
+/// are asked for. Each chart needs one, but small charts of an object that face the same way share
+/// one. So an object needs one for each of the axes' six directions that some of its triangles
+/// face, two where both sides are lit.
 std::uint64_t minTexels(const Scene& scene);
 
-/// What a bake of a scene will take, estimated before it starts. Of 16 scenes and settings, real
-/// and generated, one had a file and one a peak further off than a quarter, by a third or so. Least
-/// certain: how many lamps' surfels caches see, and how many caches a scene of fine parts gets.
+/// Estimate of the memory and file size of a bake, made before it starts. Over 16 scenes and
+/// settings, real and generated, one file and one peak were off by more than a quarter, by about a
+/// third. The least certain quantities are how many lamp surfels the caches see and how many caches
+/// a scene of fine parts gets.
 struct BakePrediction {
-    std::uint64_t caches = 0;    ///< expectedCaches(), and no fewer than minTexels()
-    std::uint64_t minTexels = 0; ///< where more than were asked for; else 0
-    BakeBytes bytes;             ///< of the bake; links as they are expected, not a bound
+    std::uint64_t caches = 0;    ///< expectedCaches(), but at least minTexels()
+    std::uint64_t minTexels = 0; ///< needed, where more than were asked for; else 0
+    BakeBytes bytes;             ///< of the bake; links are the expected number, not a bound
     std::uint64_t file = 0;      ///< size of its file [bytes]
-    std::uint64_t working = 0; ///< most memory while baking and writing, besides the scene [bytes]
+    std::uint64_t working = 0; ///< peak memory while baking and writing, besides the scene [bytes]
 };
 
-/// `stored`: a StageStore will keep the stages. Cheap unless something emits; then it sums the
-/// areas of all triangles.
+/// Estimates a bake of the scene. `stored`: a StageStore will keep the stages. Cheap unless
+/// something emits; then it sums the areas of all triangles.
 BakePrediction predictBake(const Scene& scene, bool stored = false);
 
 } // namespace limn

@@ -7,8 +7,9 @@
 
 namespace limn {
 
-/// What keeps a bake from being followed safely, "SURFELS: cache: out of range"; empty: nothing.
-/// With its scene, which may be null, also from being lit there. O(bake).
+/// Describes the first defect that makes a bake unsafe to use, "SURFELS: cache: out of range";
+/// empty where there is none. With `scene`, which may be null, also checks that the bake fits it.
+/// O(bake).
 std::string bakeDefect(const Bake& bake, const Scene* scene);
 
 } // namespace limn

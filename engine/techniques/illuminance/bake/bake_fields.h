@@ -9,13 +9,14 @@
 
 namespace limn {
 
-// The fields of a Bake and what must hold of them, in chunks: for files, and for whoever checks a
-// bake. `scene`: what the bake is of; null where that is not known.
+// The fields of a Bake and the rules they must satisfy, in chunks, for bake files and for checks of
+// a bake. `scene`: the baked scene; null where it is not known.
 
-/// Every cache's links bring finite light, no more than some hundred times what there can be.
+/// Whether every cache's links bring finite light, at most some hundred times the possible maximum.
 bool linksAreBounded(const Caches& caches, std::uint32_t bands);
 
-/// Caches of the lightmap lie in texels of their own, those of the grid in one cell after another.
+/// Whether each lightmap cache has a texel to itself and the grid's caches follow its cells in
+/// order.
 bool placesAreCaches(const Caches& caches, std::uint64_t texels, std::uint64_t cells);
 
 template <class A, class B>
@@ -128,7 +129,7 @@ void gridDepthFields(A& a, B& b) {
       rule::count((b.caches.size() - b.caches.lightmapCount) * kGridDepthTexels));
 }
 
-/// Calls visit(name, fields) for every chunk; `fields(archive, bake)` lists it.
+/// Calls visit(name, fields) for every chunk; `fields(archive, bake)` lists its fields.
 template <class F>
 void forBakeChunks(const Scene* scene, F visit) {
     visit("SETTINGS", [](auto& a, auto& b) { settingsFields(a, b); });

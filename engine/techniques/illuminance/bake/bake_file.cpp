@@ -29,7 +29,8 @@ constexpr std::uint32_t kVersion = 5;
 
 constexpr std::size_t kHeader = sizeof kMagic + 8, kChunkHeader = 8 + 3 * 8;
 
-/// Packs in place: chunks are as large as all else that a bake still holds when it is written.
+/// Compresses in place, because chunks are as large as everything else that a bake still holds when
+/// it is written.
 void appendChunk(const char* name, const std::string& plain, std::string& out) {
     const std::size_t at = out.size(), from = at + kChunkHeader,
                       most = ZSTD_compressBound(plain.size());

@@ -8,13 +8,13 @@
 
 namespace limn {
 
-/// `.limnbake`: versioned chunks with length and checksum, zstd inside. Written to a temporary file
-/// and renamed.
+/// Writes a `.limnbake` file: versioned chunks with length and checksum, compressed by zstd. It is
+/// written to a temporary file and renamed.
 Result<void> writeBake(const std::string& path, const Bake& bake);
 
-/// Fails, naming the chunk, on a damaged, truncated or newer file, on one that would need more than
-/// `memory`, and on one that cannot be followed safely (bakeDefect() without a scene: whoever
-/// lights a scene by it asks again). What loads equals what was written.
+/// Reads a `.limnbake` file; the bake equals the one that was written. Fails, naming the chunk, on
+/// a damaged, truncated or newer file, on one that would need more than `memory`, and on one that
+/// is unsafe to use (bakeDefect() without a scene, so check again before lighting one).
 Result<Bake> readBake(const std::string& path, const MemoryBudget& memory = {});
 
 } // namespace limn

@@ -54,9 +54,9 @@ std::uint64_t bakeInputHash(const Scene& scene) {
     for (const Instance& i : scene.instances) {
         h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), hashValue(i.node, h)));
         if (i.dynamic)
-            continue; // where it is and what it is made of is all the same to a bake
+            continue; // its place and its material do not affect a bake
         h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
-        // Whether it emits guides the sampling; how much does not.
+        // Whether a material emits guides the sampling; how much it emits does not.
         const Material& m = scene.materialOf(i);
         h = hashSurface(scene, m, hashValue(std::uint32_t(emits(m)), h));
     }

@@ -56,12 +56,12 @@ std::uint32_t raysPerCache(const BakeSettings& settings) {
                                              : std::min(settings.rays, kFormFactorRays);
 }
 
-/// A first look of few rays goes without: it would take half as long again.
+/// Quick bakes with few rays skip this step, which would make them half as long again.
 std::uint32_t raysForPatches(const BakeSettings& settings) {
     return settings.rays < 128 ? 0 : std::min(settings.rays / 16, 32U);
 }
 
-/// Which cells of patches walls part from their surfels.
+/// Finds the cells of patches that walls separate from their surfels.
 PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
                            const std::vector<std::uint64_t>& meshes, const Progress& progress,
                            StageStore* store, std::uint64_t& rays) {
@@ -89,7 +89,7 @@ PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const 
         });
 }
 
-/// The surfels' places and their own caches, as the surface's caches see them.
+/// Finds the surfels' places and own caches from what the surface's caches see.
 SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
                              const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
                              const CachePoints& points, std::uint32_t looks,
@@ -125,7 +125,7 @@ SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
         });
 }
 
-/// The training lights as shadow rays see them; traced again only near what moved.
+/// Traces the training lights' shadow rays, again only near what moved.
 TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, TraceReport& traced,
                              const Progress& progress, StageStore* store) {
     const auto fields = [&surfels](auto& a, auto& t) {
@@ -237,7 +237,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     const std::vector<float> seen =
         seenByCaches(set.surfels, hits, points, result.caches, result.tree);
     rays += traced->rays;
-    TrainingLight training; // read by the detail cut alone
+    TrainingLight training; // read only by CutCriterion::Detail
     if (scene.bake.cut == CutCriterion::Detail) {
         const TracedTraining light = trainingStage(trace, set.surfels, *traced, progress, store);
         if (progress.cancelled())

@@ -11,7 +11,7 @@
 
 namespace limn {
 
-/// Fills ratio[begin, end) for the surfels of one instance; < 0: no neighbour.
+/// Fills ratio[begin, end) for the surfels of one instance; < 0 where there is no neighbour.
 static void fillRatios(const Surfels& s, std::size_t begin, std::size_t end,
                        std::vector<float>& ratio) {
     const std::span<const glm::vec3> points(s.position.data() + begin, end - begin),

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Distance between neighbours of a hexagonal lattice whose points have the area each.
+/// Distance between neighbours of a hexagonal lattice whose points each stand for `area`.
 inline float hexagonalSpacing(float area) {
     return std::sqrt(2 * area / std::sqrt(3.f));
 }
@@ -22,7 +22,8 @@ struct SurfelSpacing {
     std::uint64_t count = 0; ///< surfels that have a neighbour
 };
 
-/// Neighbours are surfels of the same instance whose normals are less than a right angle apart.
+/// Measures how evenly surfels are spread. Neighbours are surfels of the same instance whose
+/// normals are less than a right angle apart.
 SurfelSpacing surfelSpacing(const Surfels& surfels);
 
 } // namespace limn

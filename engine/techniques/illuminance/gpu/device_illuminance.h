@@ -19,7 +19,7 @@ public:
                                                              std::shared_ptr<const Bake> bake,
                                                              std::shared_ptr<const Scene> baked);
 
-    /// The viewport shows the lights and objects of input.scene.
+    /// Precondition: the viewport shows the lights and objects of input.scene.
     LightingReport update(const LightingInput& input, const Progress& progress) override;
 
     const IndirectField* field() const override { return nullptr; }

@@ -15,10 +15,11 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kLanes = 64;
-constexpr std::size_t kStagingBytes = 2 << 20; // more goes in parts
-constexpr std::size_t kLinksAtOnce = 1024;     // of a task
+constexpr std::size_t kStagingBytes = 2 << 20; // larger updates are split
+constexpr std::size_t kLinksAtOnce = 1024;     // per task
 
-/// As relight_buffers packs harmonics: halfs in pairs.
+/// Number of words of a link that dimming changes. relight_buffers packs harmonics as pairs of
+/// halfs.
 std::size_t changingWords(const Bake& bake) {
     const std::size_t coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
     return bake.caches.shNode.empty() ? 1 : (coefficients + 1) / 2;
@@ -51,7 +52,7 @@ void GpuDimming::makePipeline() {
                                             "dim links");
 }
 
-/// Changed links [begin, end): the link, then its new words.
+/// Writes changed links [begin, end) to the staging buffer: the link, then its new words.
 void GpuDimming::fill(std::size_t begin, std::size_t end) {
     const HiddenLinks& hidden = m_dimming.hidden;
     const Caches& caches = m_bake.caches;

@@ -12,16 +12,16 @@
 
 namespace limn {
 
-/// Rewrites those links of a bake on the GPU that dynamic objects hide otherwise than before. The
-/// CPU finds them, as for Relighter; what goes to the GPU is the changed words.
+/// Rewrites the links of a bake on the GPU whose occlusion by dynamic objects has changed. The CPU
+/// finds them, as for Relighter, and sends only the changed words to the GPU.
 class GpuDimming {
 public:
-    /// `bake` and `links`, its RelightBuffers::links, outlive this.
+    /// `links` are the bake's RelightBuffers::links. All three arguments must outlive the object.
     GpuDimming(gpu::Device& device, const Bake& bake, const gpu::Buffer& links);
 
-    /// Follows the dynamic objects of `scene`; null: there are none. Nothing submitted reads the
-    /// links; those that change are there for later submissions. Returns the bytes sent, which are
-    /// 0 where no link changed; nothing where no object had moved.
+    /// Updates the links for the dynamic objects of `scene`; null: there are none. No submitted
+    /// work may be reading the links; later submissions see the changes. Returns the bytes sent, 0
+    /// where no link changed, or std::nullopt where no object has moved.
     std::optional<std::uint64_t> update(const Scene* scene);
 
     const HiddenLinks& hidden() const { return m_dimming.hidden; }
@@ -33,9 +33,9 @@ private:
     gpu::Device& m_device;
     const Bake& m_bake;
     const gpu::Buffer& m_links;
-    std::size_t m_words; ///< of a link that change: its cone's last one, or its harmonics
+    std::size_t m_words; ///< that change in a link: its cone's last one, or its harmonics
     Dimming m_dimming;
-    gpu::Buffer m_staging; ///< mapped; empty until something is dimmed, and never made anew
+    gpu::Buffer m_staging; ///< mapped; created when something is first dimmed, then kept
     gpu::DescriptorSetLayout m_setLayout;
     gpu::DescriptorPool m_pool;
     VkDescriptorSet m_set = VK_NULL_HANDLE;

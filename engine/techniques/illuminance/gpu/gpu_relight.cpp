@@ -29,7 +29,7 @@ double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// One array of the inputs as it is on the GPU.
+/// Copy of one input array as it is on the GPU.
 struct Sent {
     std::vector<glm::vec3> values;
     const gpu::Buffer* buffer = nullptr;
@@ -55,26 +55,26 @@ struct GpuRelighter::State {
     Convergence convergence;
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;                 ///< as sent
-    bool blackSky = false;                      ///< as the caches were sent
+    bool blackSky = false;                      ///< as assumed by the caches that were sent
     std::vector<std::uint32_t> linkEnds;        ///< of their links
     LinkCounts links;                           ///< of this call
     std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
     std::uint64_t fieldVersion = 0;
     float brightest = 0;   ///< radiosity of surfels at the last bounce [W m^-2]
-    float fieldScale = 0;  ///< of what the field holds; 0: nothing
+    float fieldScale = 0;  ///< scale of the values in the field; 0: nothing written yet
     CacheFlags everyCache; ///< of the lightmap
 
     /// Lists of the lightmap's caches: those that surfels read, those to write into the field, and
-    /// those that are lit besides.
+    /// the other ones to light.
     enum List { kRead, kLit, kRest };
     std::array<std::vector<std::uint32_t>, RelightBuffers::kCacheLists> lists; ///< as sent
     std::vector<std::uint32_t> order;                                          ///< working space
     CacheFlags read;
-    CacheFlags current;       ///< the field has the light of the last pull there
+    CacheFlags current;       ///< caches for which the field holds the light of the last pull
     bool unread = false;      ///< surfels have not read that light yet
-    CacheFlags lit, unlit;    ///< by this call; of those, to be lit yet
+    CacheFlags lit, unlit;    ///< caches that this call lights; of those, the ones still to be lit
     bool gridLit = false;     ///< the field has a grid
-    bool gridMissing = false; ///< and has it since this call
+    bool gridMissing = false; ///< and has had it since this call
 
     bool takeInputs(const SurfelInputs& inputs, bool newBands, GpuRelightStats& stats);
     CacheList list(List which, const CacheFlags& flags);
@@ -127,7 +127,7 @@ static std::vector<glm::vec4> padded(std::span<const glm::vec3> values) {
     return out;
 }
 
-/// True if the field is another one, black.
+/// Returns true if the field was replaced by a black one.
 bool GpuRelighter::State::setBands(std::uint32_t bands) {
     if (bands == 0)
         bands = bake->settings.bands;
@@ -142,7 +142,7 @@ bool GpuRelighter::State::setBands(std::uint32_t bands) {
     return true;
 }
 
-/// Counts those of caches that are to be lit.
+/// Counts the links of the caches that are to be lit.
 void GpuRelighter::State::countLinks(const CacheFlags& lightmap, bool grid) {
     const Caches& caches = bake->caches;
     for (std::size_t c = 0; c < caches.size(); ++c) {
@@ -153,7 +153,7 @@ void GpuRelighter::State::countLinks(const CacheFlags& lightmap, bool grid) {
     }
 }
 
-/// True if lights or materials had changed.
+/// Returns true if lights or materials had changed.
 bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& stats,
                                  bool& skyChanged) {
     const auto start = Clock::now();
@@ -186,7 +186,7 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
         sky.assign(inputs.sky.begin(), inputs.sky.end());
         send(buffers.radiosity, bake->tree.surfels, padded(sky));
         const bool black = std::ranges::all_of(sky, [](glm::vec3 c) { return c == glm::vec3(0); });
-        if (black != blackSky) { // links to nothing else are passed over
+        if (black != blackSky) { // links to sky alone are skipped
             blackSky = black;
             linkEnds = black ? linksBeforeSky(bake->caches, bake->tree) : allLinks(bake->caches);
             send(buffers.caches, 0, packCaches(bake->caches, linkEnds));
@@ -200,12 +200,12 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
     return changed;
 }
 
-/// True if the lights had changed.
+/// Returns true if the lights had changed.
 bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats) {
     if (lightsVersion == lights.version)
         return false;
     lightsVersion = lights.version;
-    direct.values.clear(); // what was sent is overwritten
+    direct.values.clear(); // the uploaded values are overwritten
     keptLights.assign(lights);
     stats.lightsTraced = keptLights.fresh + lights.count - keptLights.kept;
     device.immediate("light surfels", [&](VkCommandBuffer cmd) {
@@ -217,7 +217,7 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
     return true;
 }
 
-/// True if links are dimmed otherwise than before.
+/// Returns true if the dimming of some link changed.
 bool GpuRelighter::State::dim(const Scene* scene, GpuRelightStats& stats) {
     const auto start = Clock::now();
     const std::optional<std::uint64_t> sent = dimming.update(scene);
@@ -231,7 +231,7 @@ bool GpuRelighter::State::dim(const Scene* scene, GpuRelightStats& stats) {
     return true;
 }
 
-/// The caches of `flags` on the GPU.
+/// Uploads the caches of `flags` as a list.
 CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
     const std::uint32_t lightmap = bake->caches.lightmapCount;
     const auto begin =
@@ -251,7 +251,7 @@ CacheList GpuRelighter::State::list(List which, const CacheFlags& flags) {
     return result;
 }
 
-/// What was put off.
+/// Lights the caches that were postponed.
 void GpuRelighter::State::lightRest() {
     unlit = read;
     removeFrom(unlit, current);
@@ -265,7 +265,7 @@ void GpuRelighter::State::lightRest() {
     unread = false;
 }
 
-/// One iteration.
+/// Runs one iteration.
 RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
                                         GpuRelightStats& stats) {
     device.immediate("bounce", [&](VkCommandBuffer cmd) {
@@ -299,8 +299,8 @@ RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
     return round;
 }
 
-/// What no coefficient is brighter than: the integral of |Y_i| is below sqrt(4 pi), so that light
-/// of radiosity B all around, of radiance B / pi, gives one of 1.13 B at most.
+/// Upper bound on the coefficients. The integral of |Y_i| is below sqrt(4 pi), so light of
+/// radiosity B from all around, of radiance B / pi, gives a coefficient of at most 1.13 B.
 float GpuRelighter::State::brightestCoefficient() const {
     float most = brightest;
     for (const glm::vec3& c : sky)
@@ -308,8 +308,8 @@ float GpuRelighter::State::brightestCoefficient() const {
     return 1.13f * most;
 }
 
-/// Writes what is to be lit, and the grid; all that was lit before too where the scale has to
-/// change, which only another bounce can make it.
+/// Writes the caches that are to be lit, and the grid, into the field. Where the scale has to
+/// change, which happens only after another bounce, it also rewrites all that was lit before.
 void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
     const bool rescaled = !scaleServes(fieldScale, brightestCoefficient());
     if (rescaled) {
@@ -333,7 +333,7 @@ void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
     ++fieldVersion;
 }
 
-/// Takes over what the inputs change. True if that is anything.
+/// Applies changes of the inputs. Returns true if there were any.
 bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
                                      GpuRelightStats& stats) {
     bool skyChanged = false;

@@ -23,35 +23,38 @@ struct SurfelInputs {
     std::span<const glm::vec3> albedo;  ///< [0, 0.99]
     std::span<const glm::vec3> emitted; ///< pi L_e [W m^-2], >= 0
     std::span<const glm::vec3> sky;     ///< of each of the tree's sky cells, pi L [W m^-2], >= 0
-    /// Where set, irradiance comes from these and their shadow maps, anew when their version is.
+    /// Where set, irradiance is computed from these and their shadow maps, again whenever their
+    /// version changes.
     const ShadowedLights* lights = nullptr;
-    /// That the caches are lit in: [2, the bake's], by receiverBands(); 0: all of the bake's.
+    /// Number of bands in which the caches are lit: [2, the bake's], by receiverBands(); 0: all of
+    /// the bake's.
     std::uint32_t bands = 0;
-    /// As BakeSettings::maxBounces: up to kFewBounces they begin anew with every changed input.
+    /// As BakeSettings::maxBounces: up to kFewBounces, bounces restart with every changed input.
     std::uint32_t maxBounces = ~0U;
     bool grid = true; ///< the grid is read, as by needsGrid(); else its caches keep older light
-    /// Whose dynamic objects dim links, where dimsLinks(): as for Relighter. Null: none do.
+    /// Scene whose dynamic objects dim links, where dimsLinks(), as for Relighter. Null: none do.
     const Scene* dimming = nullptr;
 };
 
-/// Milliseconds and counters of one GpuRelighter::relight() call, where they differ from
-/// Relighter's: steps are in the GPU's time, without surfelReadMs; fieldMs is with the last bands
-/// of caches, dimMs with what is sent; linksPassedOver are those to a black sky; lightsTraced are
-/// also those without room to be kept. shadowRays, lightsOff, bandsLit and bandsSkipped are the
-/// caller's to say.
+/// Milliseconds and counters of one GpuRelighter::relight() call. They differ from Relighter's as
+/// follows. Steps are measured in GPU time, without surfelReadMs. fieldMs includes the last bands
+/// of caches, dimMs the upload. linksPassedOver counts links to a black sky. lightsTraced includes
+/// lights without room to be kept. The caller fills shadowRays, lightsOff, bandsLit and
+/// bandsSkipped.
 struct GpuRelightStats : RelightStats {
-    double uploadMs = 0;          ///< of what had changed
+    double uploadMs = 0;          ///< upload of what had changed
     std::uint32_t dispatches = 0; ///< 0 when skipped
     std::uint64_t bytesUploaded = 0;
 };
 
-/// Relighter's steps as Vulkan compute. The same light up to the rounding of 32-bit sums in another
-/// order; the same bits whenever the same device is given the same inputs. Keeps what did not
-/// change since the last call. Not thread-safe; the device outlives it.
+/// Runs Relighter's steps as Vulkan compute shaders. The light equals Relighter's up to the
+/// rounding of 32-bit sums in another order, and has the same bits whenever the same device gets
+/// the same inputs. Results that did not change since the last call are kept. Not thread-safe; the
+/// device must outlive the object.
 class GpuRelighter {
 public:
     /// Uploads the bake. Fails when a part of it is larger than the device can bind, or when the
-    /// device has too few bindings; the message says the sizes. Throws VulkanError when out of
+    /// device has too few bindings; the message names the sizes. Throws VulkanError when out of
     /// memory.
     static Result<std::unique_ptr<GpuRelighter>> create(gpu::Device& device,
                                                         std::shared_ptr<const Bake> bake);
@@ -60,15 +63,15 @@ public:
     /// Brings the field up to date by at most `bounces` iterations of B = albedo (E_direct +
     /// E_indirect(B)) + pi L_e. Call again to converge further. Uploads the inputs that differ from
     /// those of the last call. Waits for the GPU. Cancelled calls leave a valid field. `seen`: as
-    /// Relighter::relight(); nothing is put off where chrominance has fewer bands.
+    /// in Relighter::relight(), but nothing is postponed where chrominance has fewer bands.
     GpuRelightStats relight(const SurfelInputs& inputs, std::uint32_t bounces,
                             const Progress& progress = {}, const CacheFlags* seen = nullptr);
 
     const std::shared_ptr<const Bake>& bake() const;
 
-    /// The field for the viewport, without a way through the CPU. Each relight() that is not
-    /// skipped writes it anew, after the frames that were submitted before; it outlives this.
-    /// Another one after a relight() in other bands than the last.
+    /// The field for the viewport, which never passes through the CPU. Each relight() that is not
+    /// skipped rewrites it, after the frames that were submitted before. A relight() in other bands
+    /// than the last replaces it. It may outlive this object.
     std::shared_ptr<const GpuField> field() const;
     std::uint64_t fieldVersion() const; ///< grows with every change of the field; 0: still black
 

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// Sets `kept`. More places are all free.
+/// Sets `kept`. Growing the number of places frees all of them.
 void KeptLights::makeRoom(std::uint32_t lights) {
     const VkDeviceSize perLight = std::max<std::size_t>(m_surfels, 1) * sizeof(float),
                        most = std::min<VkDeviceSize>(

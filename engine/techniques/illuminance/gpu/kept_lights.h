@@ -9,23 +9,24 @@
 
 namespace limn {
 
-/// What each light brings the surfels for each unit of its colour and strength, shadow included,
-/// kept on the GPU: a light that changes nothing else, or stays as it is, is not worked out again.
+/// Stores on the GPU the irradiance that each light brings to the surfels per unit of its colour
+/// and strength, shadow included. A light is not recomputed unless something else about it changes.
 class KeptLights {
 public:
-    /// Of this array, all lights together; those behind are worked out each time [bytes].
+    /// Maximum size of this array for all lights together [bytes]. Lights beyond it are recomputed
+    /// each time.
     static constexpr VkDeviceSize kMaxBytes = 64 << 20;
 
-    /// The device outlives this.
+    /// The device must outlive the object.
     KeptLights(gpu::Device& device, std::size_t surfels) : m_device(device), m_surfels(surfels) {}
 
-    /// Finds a place for each of `lights`. Nothing submitted reads the buffers.
+    /// Finds a place for each of `lights`. No submitted work may be reading the buffers.
     void assign(const ShadowedLights& lights);
 
-    std::uint32_t kept = 0;  ///< lights with a place: the first of the list
-    std::uint32_t fresh = 0; ///< of those, lights that are to be worked out
-    gpu::Buffer unit;        ///< a float for each place and surfel
-    gpu::Buffer places;      ///< mapped: of each kept light its place; then which lights are fresh
+    std::uint32_t kept = 0;  ///< number of lights with a place: the first of the list
+    std::uint32_t fresh = 0; ///< number of those that are to be computed
+    gpu::Buffer unit;        ///< one float for each place and surfel
+    gpu::Buffer places; ///< mapped: the place of each kept light, then the list of fresh lights
 
 private:
     struct Place {

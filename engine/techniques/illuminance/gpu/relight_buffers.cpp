@@ -25,7 +25,7 @@ using shared::GpuSurfel;
 
 namespace {
 
-/// Makes storage buffers, none larger than the device can bind.
+/// Creates storage buffers, none larger than the device can bind.
 class StorageMaker {
 public:
     explicit StorageMaker(gpu::Device& device) : m_device(device), m_uploader(device) {}
@@ -39,7 +39,7 @@ public:
                    : gpu::Buffer();
     }
 
-    /// Not filled yet.
+    /// Creates a buffer without filling it.
     gpu::Buffer empty(std::size_t count, std::size_t elementBytes, const char* name,
                       gpu::MemoryKind memory = gpu::MemoryKind::Gpu) {
         const VkDeviceSize bytes = std::max<std::size_t>(count, 1) * elementBytes;
@@ -53,7 +53,7 @@ public:
                  .name = name}};
     }
 
-    std::string error; ///< empty: all fitted
+    std::string error; ///< empty if all fitted
 
 private:
     bool fits(VkDeviceSize bytes, const char* name) {
@@ -90,7 +90,7 @@ std::vector<GpuCache> packCaches(const Caches& caches, LinkEnds ends) {
     return out;
 }
 
-/// LinkStorage::Sh: a node, then its halfs in pairs.
+/// Packs links of LinkStorage::Sh: a node, then its halfs in pairs.
 static std::vector<std::uint32_t> packHarmonics(const Caches& caches, std::size_t coefficients) {
     const std::size_t words = 1 + (coefficients + 1) / 2;
     std::vector<std::uint32_t> out(caches.shNode.size() * words);
@@ -204,7 +204,7 @@ void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     field->gridSize = bake.gridSize;
     field->gridBounds = bake.gridBounds;
-    // Every cell is a cache, so this is no larger than the harmonics, which fit.
+    // Every cell is a cache, so this buffer is no larger than that of the harmonics, which fits.
     field->grid = StorageMaker(device).empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
                                                  bake.gridSize.z * layers,
                                              sizeof(glm::u16vec4), "grid cells");

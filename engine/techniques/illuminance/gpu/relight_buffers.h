@@ -15,39 +15,40 @@
 
 namespace limn {
 
-/// Everything relighting reads and writes, on the GPU. What each holds:
-/// shaders/shared/gpu_relight.h.
+/// All GPU buffers that relighting reads and writes. shaders/shared/gpu_relight.h describes their
+/// contents.
 struct RelightBuffers {
     gpu::Buffer surfels, innerNodes, levels, caches, links, fills, fillSources; ///< of the bake
-    gpu::Buffer direct, albedo, emitted;                                        ///< what comes in
-    gpu::Buffer indirect, radiosity, sh; ///< what is worked out; 0 at first
+    gpu::Buffer direct, albedo, emitted;                                        ///< inputs
+    gpu::Buffer indirect, radiosity, sh; ///< results of the steps; 0 at first
     gpu::Buffer change;                  ///< mapped
     gpu::Buffer order; ///< the grid's caches, then room for kCacheLists lists of the lightmap's
-    std::shared_ptr<const gpu::Buffer> gridDepth; ///< of the field
-    std::shared_ptr<GpuField> field;              ///< what comes out; of makeRelitField()
+    std::shared_ptr<const gpu::Buffer> gridDepth; ///< depth maps of the field's grid
+    std::shared_ptr<GpuField> field;              ///< output, from makeRelitField()
 
-    std::vector<std::uint32_t> levelBegin;          ///< as TreeLevels::begin
-    std::uint32_t fillCount = 0, lightmapFills = 0; ///< invalid caches; those of the lightmap first
+    std::vector<std::uint32_t> levelBegin; ///< as TreeLevels::begin
+    std::uint32_t fillCount = 0,
+                  lightmapFills = 0; ///< number of invalid caches; those of the lightmap come first
 
     static constexpr std::size_t kCacheLists = 3;
 
-    /// In the order of their bindings. The lightmap's comes last and is not among them.
+    /// Buffers in the order of their bindings, without the lightmap's, which comes last.
     std::vector<const gpu::Buffer*> inBindingOrder() const;
 };
 
-/// RelightBuffers::caches, of which links before `ends` are read.
+/// Packs caches for RelightBuffers::caches; only their links before `ends` are read.
 std::vector<shared::GpuCache> packCaches(const Caches& caches, LinkEnds ends);
 
-/// Uploads a bake, without a field; `lanes` is the size of a group of surfels. Fails when a buffer
-/// would be larger than what the device can bind, naming both sizes.
+/// Uploads a bake without creating a field; `lanes` is the size of a group of surfels. Fails when a
+/// buffer would be larger than the device can bind, naming both sizes.
 Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
                                             std::uint32_t lanes);
 
-/// Fills buffers with 0. What was submitted before must not use them any more.
+/// Fills buffers with 0. Work submitted before must no longer use them.
 void clearBuffers(gpu::Device& device, std::initializer_list<VkBuffer> buffers);
 
-/// A black field of so many bands, no more than the bake's, `chroma` of them in colour, and black
-/// harmonics.
+/// Creates a black field of `bands` bands, at most the bake's, of which `chroma` are in colour, and
+/// black harmonics.
 void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
                     std::uint32_t chroma, RelightBuffers& buffers);
 

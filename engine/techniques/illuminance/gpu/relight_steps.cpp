@@ -24,7 +24,7 @@ static_assert(std::uint32_t(LinkStorage::Rtp) == RELIGHT_STORAGE_RTP &&
 namespace {
 
 // Levels up to this size are pulled by one group in one dispatch: a tree of 33 k nodes takes 0.9 ms
-// on a software rasteriser, of 1.5 ms with a dispatch per level.
+// on a software rasteriser, instead of 1.5 ms with a dispatch per level.
 constexpr std::uint32_t kPullLanes = 256, kSmallLevel = 1024;
 
 constexpr gpu::Access kStep = gpu::kComputeWrite;
@@ -32,7 +32,7 @@ constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr std::array kLightTypes = {kBuffer, kBuffer, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                     kBuffer, kBuffer};
 
-/// As many lanes per cache as the device runs in step, within what its shared memory allows.
+/// Lanes per cache: as many as the device runs in lockstep, within what its shared memory allows.
 std::uint32_t cacheLanes(const gpu::Device& device) {
     VkPhysicalDeviceSubgroupProperties subgroup{};
     subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
@@ -109,7 +109,8 @@ void RelightSteps::dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
     ++dispatches;
 }
 
-// Shadow maps of all lights may be more than any cache holds, so all surfels read those of a few.
+// The shadow maps of all lights may exceed any memory cache, so all surfels read those of a few
+// lights at a time.
 constexpr std::uint32_t kLightsAtOnce = 16;
 
 void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights,

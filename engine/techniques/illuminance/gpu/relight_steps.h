@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// A part of RelightBuffers::order.
+/// A range of RelightBuffers::order.
 struct CacheList {
     std::uint32_t begin = 0, end = 0;
 };
@@ -22,30 +22,32 @@ struct CacheList {
 /// step and a barrier that makes what it wrote visible to the next.
 class RelightSteps {
 public:
-    /// Invocations of a group where each has a thing of its own.
+    /// Number of invocations of a group where each handles its own item.
     static constexpr std::uint32_t kItemLanes = 64;
-    /// Bound at once: those of gpu_relight.h, the lights, their shadow views and KeptLights'.
+    /// Number of storage buffers bound at once: those of gpu_relight.h, the lights, their shadow
+    /// views and those of KeptLights.
     static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP + 4;
 
-    /// Both outlive this. The caches are lit in `bounce` bands and, at last, in `final` bands.
+    /// `device`, `bake` and `buffers` must outlive the object. The caches are lit in `bounce` bands
+    /// and, in the end, in `final` bands.
     RelightSteps(gpu::Device& device, const Bake& bake, const RelightBuffers& buffers,
                  LightBands bounce, LightBands final);
 
-    /// E_direct from lights with shadow maps, to which `kept` is assigned. No earlier recording of
-    /// it may still run.
+    /// Computes E_direct from lights with shadow maps, to which `kept` is assigned. No earlier
+    /// recording of this step may still be running.
     void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights, const KeptLights& kept);
-    /// B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total,
+    /// Computes B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total,
     /// brightest).
     void recordSurfels(VkCommandBuffer cmd);
     void recordPull(VkCommandBuffer cmd);
-    /// Those of a list of the lightmap's caches, in the bands of bounces, then all invalid ones.
+    /// Lights a list of the lightmap's caches in the bands of bounces, then fills all invalid ones.
     void recordLightmapCaches(VkCommandBuffer cmd, CacheList list);
-    /// E_indirect of the surfels from their caches.
+    /// Computes E_indirect of the surfels from their caches.
     void recordIndirect(VkCommandBuffer cmd);
-    /// The final bands: the list's caches lose the chrominance that only bounces need, those of the
-    /// grid are lit where `grid` says so.
+    /// Produces the final bands: the list's caches lose the chrominance that only bounces need, and
+    /// the grid's caches are lit if `grid` is true.
     void recordFinalCaches(VkCommandBuffer cmd, CacheList list, bool grid);
-    /// Lightmap and grid, their values times `scale`, ready for fragment shaders.
+    /// Writes lightmap and grid, with values times `scale`, for fragment shaders.
     void recordField(VkCommandBuffer cmd, CacheList list, bool grid, float scale);
     bool dropsChroma() const { return m_dropsChroma; }
 

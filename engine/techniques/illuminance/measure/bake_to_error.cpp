@@ -25,7 +25,7 @@ std::uint32_t times(std::uint32_t count, double factor, std::uint32_t most) {
     return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(most))));
 }
 
-/// What is true at the points that are seen: irradiance straight from lights, and the same with all
+/// Reference at the visible points: irradiance straight from lights, and irradiance with all
 /// bounces, estimated twice by independent paths. Images of one row.
 struct Truth {
     std::vector<SeenPoint> points;
@@ -43,7 +43,7 @@ ImageF sum(ImageF image, const std::vector<glm::vec3>& more) {
     return image;
 }
 
-/// Nothing when cancelled.
+/// Computes the reference; std::nullopt when cancelled.
 std::optional<Truth> findTruth(const TraceScene& trace, const Camera& camera,
                                const Progress& progress) {
     Truth truth;

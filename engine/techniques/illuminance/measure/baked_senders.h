@@ -9,16 +9,16 @@ namespace limn {
 
 class StageStore;
 
-/// What a bake was traced with and does not keep: its surfels as they were placed, the tables of
-/// which surfel stands for a point, and where the rays of its caches start.
+/// Data that a bake was traced with but does not store: its surfels as they were placed, the tables
+/// that assign points to surfels, and the start points of its caches' rays.
 struct BakedSenders {
     PlacedAtlas placed;
     SurfelSet set;
     OwnerTables owners;
     CachePoints lightmap, grid;
 
-    /// Reads from `store` what the bake of `scene` kept there, and makes the rest again. Keeps
-    /// references to `scene`.
+    /// Reads what the bake of `scene` kept in `store` and recomputes the rest. Keeps references to
+    /// `scene`.
     BakedSenders(const TraceScene& trace, const Scene& scene, const Bake& baked, StageStore& store);
 };
 

@@ -20,7 +20,7 @@ namespace limn {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr std::uint32_t kSets = 4; ///< of rays, whose spread is the noise
+constexpr std::uint32_t kSets = 4; ///< number of ray sets, whose spread gives the noise
 
 /// Irradiance at one point from one set of rays, and the share of them that met backs.
 struct PointGather {
@@ -28,8 +28,8 @@ struct PointGather {
     float backs = 0;
 };
 
-/// What emissive surfaces send to a point themselves, from as many of their points as there are
-/// rays: gathering would meet a small lamp by chance.
+/// Irradiance that emissive surfaces send to a point directly, sampled at as many of their points
+/// as there are rays, because gathering would meet a small lamp only by chance.
 glm::vec3 emitterIrradiance(const TraceScene& trace, const Emitters& emitters, glm::vec3 origin,
                             glm::vec3 normal, std::uint32_t rays, std::uint32_t seed) {
     glm::vec3 sum{0};
@@ -83,7 +83,7 @@ PointGather gatherPoint(const TraceScene& trace, const Emitters& emitters, glm::
     return result;
 }
 
-/// Mean over the cache's points, but for those in walls; nothing where all are.
+/// Mean over the cache's points that do not lie in walls; std::nullopt where all do.
 struct CacheGather {
     bool valid = false;
     glm::vec3 mean{0}, variance{0}; ///< variance of the mean

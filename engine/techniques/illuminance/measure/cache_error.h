@@ -11,18 +11,18 @@
 
 namespace limn {
 
-/// What some of a bake's surface caches truly receive: irradiance [W m^-2] of light that was
-/// reflected once, or comes from emissive surfaces and the sky, over the front of the surface that
-/// the cache stands for. No surfel, cluster, link or SH takes part in it.
+/// Reference irradiance [W m^-2] of some of a bake's surface caches: light that was reflected once,
+/// or comes from emissive surfaces and the sky, over the front of the surface that the cache stands
+/// for. It is computed without surfels, clusters, links or SH.
 struct CacheReference {
-    std::vector<std::uint32_t> cache; ///< rising
+    std::vector<std::uint32_t> cache; ///< ascending
     std::vector<glm::vec3> irradiance;
-    double noise = 0; ///< rms standard error / mean irradiance, of the rays' number
+    double noise = 0; ///< rms standard error / mean irradiance, due to the number of rays
 };
 
-/// Every k-th lightmap cache, `count` at most, with `rays` rays each in four independent sets, to
-/// every hit of which the direct light is traced. Caches whose points all lie in walls are passed
-/// over. Empty when cancelled.
+/// Computes the reference of every k-th lightmap cache, at most `count`. Each shoots `rays` rays in
+/// four independent sets and traces the direct light at every hit. Caches whose points all lie in
+/// walls are skipped. Empty when cancelled.
 CacheReference referenceIrradiance(const TraceScene& trace, const Caches& caches,
                                    const CachePoints& points, std::uint32_t count,
                                    std::uint32_t rays, const Progress& progress = {});

@@ -59,7 +59,8 @@ glm::vec3 Chain::truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t 
     return sampleIndirectIrradiance(paths, p, {seed, sample}, rays);
 }
 
-/// One of the lookup's caches by its weight, or one that fills it; ~0 where there is none.
+/// Picks one of the lookup's caches in proportion to its weight, or one that fills it; ~0 where
+/// there is none.
 std::uint32_t Chain::pickCache(const Bilinear& lookup, float u) const {
     const Caches& caches = bakes.bake->caches;
     std::uint32_t cache = ~0U;
@@ -70,7 +71,7 @@ std::uint32_t Chain::pickCache(const Bilinear& lookup, float u) const {
         }
     if (cache == ~0U || caches.fillBegin[cache] == caches.fillBegin[cache + 1])
         return cache;
-    float rest = -u; // a leftover that is as good as random
+    float rest = -u; // the remainder serves as another random number
     rest -= std::floor(rest);
     for (std::uint32_t i = caches.fillBegin[cache]; i < caches.fillBegin[cache + 1]; ++i)
         if ((rest -= caches.fillWeight[i]) < 0)
@@ -78,8 +79,9 @@ std::uint32_t Chain::pickCache(const Bilinear& lookup, float u) const {
     return caches.fillSource[caches.fillBegin[cache]];
 }
 
-/// One of the cache's points, with the pixel's normal of shading: the caches' harmonics answer for
-/// any. The points of surfels' own caches, which fill some texels, are their middles.
+/// Picks one of the cache's points, with the pixel's shading normal, since the caches' harmonics
+/// give irradiance for any normal. Own caches, which fill some texels, use their middle as the only
+/// point.
 SurfacePoint Chain::pointOf(std::uint32_t cache, float u, SurfacePoint p) const {
     const CachePoints& points = bakes.points;
     if (cache + 1 >= points.begin.size()) {
@@ -119,7 +121,7 @@ std::optional<Irradiances> Chain::atTexels() const {
     return done ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// Of the tree's leaves: what surfels send if they receive what paths say at their places.
+/// Radiosity of the tree's leaves if surfels receive the path-traced light at their places.
 std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     const Bake& bake = *bakes.bake;
     const Surfels& s = bake.surfels;

@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// One step on the way from path-traced light to the light of the picture.
+/// One step from path-traced light to the light of the picture.
 struct EnergyStep {
     std::string name;
     double energy = 0; ///< mean irradiance / that of the reference
@@ -23,32 +23,32 @@ struct EnergyStep {
 struct EnergyOptions {
     Camera camera;
     std::uint32_t width = 160, height = 90; ///< one surface point for each pixel
-    std::uint32_t paths = 64;               ///< of each point, and of each surfel
+    std::uint32_t paths = 64;               ///< number for each point and each surfel
     std::uint32_t seed = 1;
 };
 
 struct EnergyChain {
     /// "reference": path tracing at the pixels' points. "texels": path tracing at the points of the
     /// lightmap caches that each pixel looks up, so interpolation alone differs. "surfels": caches
-    /// gather from surfels that hold path-traced light, through one link for each sender in sight.
-    /// "cut": the same through the bake's own links. "bounces": relighting, as the picture has it.
+    /// gather from surfels that hold path-traced light, through one link for each visible sender.
+    /// "cut": the same through the bake's own links. "bounces": relighting, as in the picture.
     /// "bounces, uncut": relighting through one link for each sender.
     std::vector<EnergyStep> steps;
     double noise = 0;         ///< standard error of the reference's mean, relative
-    std::uint64_t pixels = 0; ///< that see a surface with a lightmap
+    std::uint64_t pixels = 0; ///< number that see a surface with a lightmap
     bool complete = false;    ///< false when cancelled
 };
 
-/// What measureEnergyChain() compares.
+/// The bakes that measureEnergyChain() compares.
 struct EnergyBakes {
     std::shared_ptr<const Bake> bake;
-    std::shared_ptr<const Bake> uncut; ///< the same with CutCriterion::SolidAngle and 4096 links
-    const CachePoints& points;         ///< of the lightmap's caches, surfels' own aside
+    std::shared_ptr<const Bake> uncut; ///< same scene, CutCriterion::SolidAngle and 4096 links
+    const CachePoints& points;         ///< of the lightmap's caches, without own caches
 };
 
 /// Replaces the chain from surfels to picture by path tracing one step at a time, and measures the
-/// irradiance (View::Irradiance) at the points that the camera's pixels see. Unbiased but for the
-/// bounces that paths are cut after.
+/// irradiance (View::Irradiance) at the points that the camera's pixels see. Unbiased except that
+/// paths end after a maximum number of bounces.
 EnergyChain measureEnergyChain(const TraceScene& trace, const EnergyBakes& bakes,
                                const EnergyOptions& options, const Progress& progress = {});
 

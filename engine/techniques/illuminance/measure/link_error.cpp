@@ -34,7 +34,7 @@ struct CacheDeviations {
     std::uint64_t rays = 0, unlinked = 0;
 };
 
-/// Marks the rays of points most of whose rays meet backs, and other backs.
+/// Marks all rays of points most of whose rays meet backs, and the other rays that meet backs.
 void markBacks(std::uint32_t points, std::span<std::uint32_t> sender) {
     for (std::uint32_t k = 0; k < points; ++k) {
         std::uint32_t all = 0, backs = 0;
@@ -65,7 +65,7 @@ void addCache(const Caches& caches, std::uint32_t cache, const CachePoints& poin
     out.points.seed.push_back(points.seed[at]);
 }
 
-/// Normals in the frame of a cache's points, in which z is the normal, and which tilt each is of.
+/// A normal in the frame of a cache's points, in which z is the normal, and the index of its tilt.
 struct TiltedNormal {
     std::size_t tilt;
     glm::vec3 normal;

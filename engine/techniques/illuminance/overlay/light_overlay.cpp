@@ -22,14 +22,15 @@ constexpr std::uint32_t kMaxLobes = 500;                 // when no cache is pic
 constexpr std::uint32_t kDots = 192, kPickedDots = 1536; // of a lobe
 constexpr float kPickedScale = 3;                        // a picked lobe may reach into others
 
-// Told apart by the colour-blind; dots that face down are darker, so that the shape is seen.
+// Colours that the colour-blind can distinguish. Dots that face down are darker, so that the shape
+// is visible.
 const glm::vec3 kPositive(0.35f, 0.7f, 1), kNegative(1, 0.55f, 0.1f);
 
 float luma(glm::vec3 c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
-/// From radiosity to a colour that is never white: half of full brightness at `middle`.
+/// Maps radiosity to a colour that is never white, of half the full brightness at `middle`.
 glm::vec3 toColor(glm::vec3 radiosity, float middle) {
     return encodeSrgb(glm::clamp(radiosity / (luma(radiosity) + middle), 0.f, 1.f));
 }
@@ -64,10 +65,11 @@ OverlayData radiosityOverlay(const Bake& bake, const LitBake& lit, std::string t
     return out;
 }
 
-/// The lobe of one cache: dots where a ray from the cache is as long as the light from there.
+/// The lobe of one cache: in each direction, a dot at a distance in proportion to the light from
+/// there.
 struct Lobe {
     glm::vec3 position{0};
-    float reach = 0; ///< of the longest ray [m]
+    float reach = 0; ///< distance of the farthest dot [m]
 };
 
 void addLobe(const Lobe& lobe, const std::vector<float>& radiance, const DirectionSet& directions,
@@ -77,7 +79,7 @@ void addLobe(const Lobe& lobe, const std::vector<float>& radiance, const Directi
         most = std::max(most, std::abs(L));
     if (!(most > 0))
         return;
-    // Dots of a sphere of this radius touch each other.
+    // With this ratio of radius to distance, the dots of a sphere touch each other.
     const float spread = std::sqrt(4 / float(directions.count));
     for (std::uint32_t k = 0; k < directions.count; ++k) {
         const float r = std::abs(radiance[k]) / most * lobe.reach;
@@ -90,7 +92,7 @@ void addLobe(const Lobe& lobe, const std::vector<float>& radiance, const Directi
     }
 }
 
-/// How far lobes may reach so that they do not run into each other [m].
+/// Maximum reach of lobes that do not run into each other [m].
 float spacing(const Bake& bake, bool grid, std::uint32_t every) {
     const glm::vec3 size = bake.gridBounds.size();
     if (grid) {
@@ -121,7 +123,7 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
     double least = 0, most = 0;
     std::vector<float> radiance(directions.count);
     for (std::uint32_t c = one ? picked : 0; c < (one ? picked + 1 : caches.lightmapCount); ++c) {
-        if (!one && mixBits(c) % every != 0) // texels in steps would stand in rows
+        if (!one && mixBits(c) % every != 0) // regular steps would pick texels in rows
             continue;
         const glm::vec3* sh = lit.cacheSh.data() + c * coefficients;
         for (std::uint32_t k = 0; k < directions.count; ++k) {

@@ -5,8 +5,9 @@
 
 namespace limn {
 
-/// The overlays of kinds that showsLight(): what surfels and clusters send, what caches receive.
-/// Without `lit`, a note that nothing is lit yet.
+/// Builds the overlays of the kinds for which showsLight() holds: light sent by surfels and
+/// clusters, and light received by caches. Without `lit` it holds only a note that nothing is lit
+/// yet.
 OverlayData lightOverlay(const Bake& bake, const OverlayOptions& options, const LitBake* lit);
 
 } // namespace limn

@@ -7,14 +7,14 @@
 
 namespace limn {
 
-/// A sender of a cache's cut, all of its links taken together.
+/// A sender of a cache's cut, with all its links taken together.
 struct LinkedNode {
     std::uint32_t node;   ///< of the tree: surfel, sky cell or cluster
     float weight;         ///< sum of transport: visible solid angle / pi [1]
     std::uint32_t leaves; ///< surfels and sky cells below it
 };
 
-/// What lights a cache.
+/// The nodes that light a cache.
 struct LinkCut {
     std::uint32_t cache = 0;
     std::vector<LinkedNode> nodes; ///< strongest first
@@ -27,12 +27,13 @@ struct LinkCut {
         filledFrom; ///< of an invalid cache: source, weight
 };
 
-/// Precondition: `cache` is one of the bake's.
+/// The cut of a cache. Precondition: `cache` < the bake's number of caches.
 LinkCut linkCut(const Bake& bake, std::uint32_t cache);
 
-/// The cache that lights the side of a surface that was hit most: of the lightmap where the
-/// instance has one, else of the grid. `hit` names an instance of the baked scene, or one past its
-/// end for the grid. None: there is no such cache.
+/// Returns the cache that contributes most to the light on the side of the surface that was hit: a
+/// lightmap cache where the instance has a lightmap, else one of the grid. `hit` names an instance
+/// of the baked scene, or one past its end for the grid. Returns std::nullopt where there is no
+/// such cache.
 std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, const Hit& hit);
 
 } // namespace limn

@@ -20,8 +20,8 @@ namespace limn {
 
 namespace {
 
-// Discs of a surfel's own area and squares of a texel's own would hide the surface and one another;
-// of so much of their radius and side they let both be seen.
+// Discs and squares of the full area of a surfel or texel would hide the surface and one another,
+// so their radius and side are scaled by these factors.
 constexpr float kSurfelScale = 0.6f, kTexelScale = 0.3f;
 
 const glm::vec3 kValidTexel(0.13f, 0.57f, 0.9f), kValidCell(0.95f, 0.85f, 0.3f), kInvalid(1, 0, 1),
@@ -149,11 +149,11 @@ static float gridSpacing(const Bake& bake) {
 
 struct TexelRadii {
     std::vector<float> radius;
-    std::uint32_t own = 0; ///< caches that surfels alone read
+    std::uint32_t own = 0; ///< number of own caches, which only surfels read
 };
 
-// Half a side of the square of surface that each of the lightmap's texels stands for [m]; where no
-// lookup needs it, half the mean of that.
+// Half the side of the square of surface that each lightmap texel stands for [m]; half the mean of
+// that for texels that no lookup needs.
 static TexelRadii texelRadii(const Bake& bake, const Scene& scene) {
     TexelRadii out{texelUse(bake.lightmap, scene).density};
     double sum = 0;

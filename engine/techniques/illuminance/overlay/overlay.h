@@ -12,7 +12,7 @@
 
 namespace limn {
 
-/// What can be drawn over a picture to see a bake.
+/// Overlays that can be drawn over a picture to inspect a bake.
 enum class Overlay : std::uint32_t {
     None,
     Surfels,       ///< colour: albedo
@@ -29,7 +29,7 @@ enum class Overlay : std::uint32_t {
     Lobes,         ///< the lit caches' spherical harmonics, colour: sign
 };
 
-/// Whether it shows light: makeOverlay needs some.
+/// Whether the kind shows light, so that makeOverlay() needs a LitBake.
 inline bool showsLight(Overlay kind) {
     return kind >= Overlay::LitSurfels;
 }
@@ -69,29 +69,31 @@ struct OverlayOptions {
     bool operator==(const OverlayOptions&) const = default;
 };
 
-/// A bake as it is lit.
+/// The light of a lit bake.
 struct LitBake {
     std::vector<glm::vec4> radiosity; ///< per node of the tree, RGB in xyz [W m^-2]
     std::vector<glm::vec3> cacheSh;   ///< bands^2 per cache [W m^-2 sr^-1]
     int bands = 0;
 };
 
-/// `scene` is the one that was baked; its materials may be newer. None gives nothing to draw, and
-/// neither does a kind that showsLight() without `lit`, but for a note.
+/// Builds the overlay of a bake. `scene` is the one that was baked; its materials may be newer.
+/// Overlay::None gives nothing to draw; a kind for which showsLight() holds gives only a note
+/// without `lit`.
 OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options,
                         const LitBake* lit = nullptr);
 
-/// One disc per surfel in sRGB-encoded colours, one each.
+/// One disc per surfel. `colors`: sRGB-encoded, one per surfel.
 std::vector<OverlayMark> surfelMarks(const Surfels& surfels, const std::vector<glm::vec3>& colors);
 
 /// Depth of the deepest leaf of the tree; the root's is 0.
 std::uint32_t treeDepth(const ClusterTree& tree);
 
-/// Per leaf the node that stands for it when the tree is cut at `depth`: its ancestor there, or
-/// itself if it lies higher.
+/// Per leaf, the node that represents it when the tree is cut at `depth`: its ancestor at that
+/// depth, or the leaf itself if it lies higher.
 std::vector<std::uint32_t> clustersAtDepth(const ClusterTree& tree, std::uint32_t depth);
 
-/// A cache without links: it sees nothing but walls and copies others.
+/// Whether a cache has links. An invalid cache has none: it sees nothing but walls and copies
+/// others.
 inline bool isValid(const Caches& caches, std::uint32_t cache) {
     return caches.linkBegin[cache + 1] > caches.linkBegin[cache];
 }

@@ -19,7 +19,7 @@ namespace limn {
 
 namespace {
 
-constexpr int kSide = 4; // points a texel and axis; 16 fit a mask
+constexpr int kSide = 4; // points per texel and axis; 16 fit a mask
 
 const glm::vec3 kSingle(0.23f, 0.36f, 0.55f), kShared(0.99f, 0.75f, 0.25f), kOverlap(1, 0, 1);
 
@@ -34,7 +34,7 @@ struct AtlasTriangle {
     }
 };
 
-/// What a chart measures, for those too small to cover texels.
+/// Extent of a chart, for charts too small to cover texels.
 struct ChartExtent {
     glm::vec2 lower{std::numeric_limits<float>::max()}, upper{0}; ///< texels
     double area = 0;                                              ///< [m^2]
@@ -55,7 +55,7 @@ struct Raster {
     const LightmapLayout& layout;
     TexelUse use;
     std::vector<std::uint16_t> covered; ///< points of each texel that lie in a triangle
-    std::vector<float> weight;          ///< sum of what `density` is the mean of
+    std::vector<float> weight;          ///< sum of the weights of the samples in `density`
 
     void add(const AtlasTriangle& t, std::uint32_t chart, float density);
     void addTexel(std::size_t texel, std::uint32_t chart, std::uint16_t points, float density);
@@ -72,7 +72,7 @@ static bool hasLightmap(const LightmapLayout& layout, const Scene& scene, std::s
            !layout.meshes[scene.instances[i].mesh].indices.empty();
 }
 
-/// Of the front.
+/// Triangle of the front side.
 static AtlasTriangle atlasTriangle(const LightmapLayout& layout, const Scene& scene,
                                    std::size_t instance, std::size_t t) {
     const Instance& inst = scene.instances[instance];
@@ -110,8 +110,8 @@ static std::uint16_t pointsInside(const std::array<glm::vec2, 3>& t, int x, int 
     return bits;
 }
 
-// True if the open square of half-width 1 round the texel's centre, the reach of its bilinear
-// weight, meets the triangle.
+// Whether the triangle meets the open square of half-width 1 around the texel's centre, which is
+// the reach of its bilinear weight.
 static bool looksUp(const std::array<glm::vec2, 3>& t, int x, int y) {
     constexpr float kReach = 0.999f;
     const glm::vec2 c(float(x) + 0.5f, float(y) + 0.5f);
@@ -187,7 +187,7 @@ static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
     raster.use.charts += std::uint32_t(extents.size());
 }
 
-/// Finer texels belong to the charts of those that they stand for.
+/// Assigns finer texels to the charts of the texels that they stand for.
 static void addFineTexels(const LightmapLayout& layout, TexelUse& use) {
     constexpr std::uint32_t kBlock = kFineCells + 1;
     // Blocks come after what they stand for.
@@ -242,7 +242,8 @@ static void paintCharts(const TexelUse& use, OverlayData& out) {
                      100 * double(used) / double(out.texels.size()))}};
 }
 
-// The range that all but 1 % of the texels on either side lie in, widened to powers of 2.
+// The range of density, widened to powers of 2, beyond which lie at most 1 % of the texels on
+// either side.
 static glm::vec2 densityRange(const TexelUse& use) {
     std::vector<float> sorted;
     std::ranges::copy_if(use.density, std::back_inserter(sorted), [](float d) { return d > 0; });

@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// How the texels of a lightmap are used; each array row by row.
+/// Use of the texels of a lightmap; each array is stored row by row.
 struct TexelUse {
     enum class Kind : std::uint8_t {
         Unused,
@@ -14,16 +14,15 @@ struct TexelUse {
         Overlap, ///< two triangles cover the same point
     };
     std::vector<Kind> kind;
-    std::vector<std::uint32_t>
-        chart; ///< the first one to use it, counted through all instances; ~0: none
-    std::vector<float> density; ///< texels per metre, the mean of what uses it; 0: none
-    std::uint32_t charts = 0;   ///< of all instances
+    std::vector<std::uint32_t> chart; ///< first user, counted through all instances; ~0: none
+    std::vector<float> density;       ///< texels per metre, the mean over what uses it; 0: unused
+    std::uint32_t charts = 0;         ///< of all instances
 };
 
 /// Rasterises every instance's triangles into the atlas, 4 x 4 points a texel.
 TexelUse texelUse(const LightmapLayout& layout, const Scene& scene);
 
-/// Charts, Density or Overlap.
+/// Builds the overlay of `kind`, which is Charts, Density or Overlap.
 OverlayData texelOverlay(const Bake& bake, const Scene& scene, Overlay kind);
 
 } // namespace limn

@@ -12,43 +12,44 @@
 
 namespace limn {
 
-/// What a round did to the light that surfels send, all colours.
+/// Change of the light that surfels send in one round, summed over colours.
 struct RoundChange {
-    double change = 0;   ///< summed radiosity times area that each sends more or less [W]
+    double change = 0;   ///< sum of the absolute changes of radiosity times area [W]
     double total = 0;    ///< summed radiosity times area [W]
-    double relative = 0; ///< relativeChange() of each, summed times its seenShares()
+    double relative = 0; ///< sum of each surfel's relativeChange() times its seenShares()
 
     double ofAll() const { return total > 0 ? change / total : (change > 0 ? 1 : 0); }
 };
 
-/// Of a surfel that sends b, and did |b - d| or b + d before; 1 where it sends nothing any more.
+/// Relative change of a surfel that sends b now and sent |b - d| or b + d before; 1 where it no
+/// longer sends anything.
 inline float relativeChange(float d, float b) {
     return d > 0 ? std::min(d / std::max(b, std::numeric_limits<float>::min()), 1.f) : 0.f;
 }
 
-/// Per surfel, how much of all that caches see it is; 1 in all, with the sky.
+/// Per surfel, its share of everything that caches see. The shares sum to 1 with the sky's.
 std::vector<float> seenShares(const ClusterTree& tree);
 
-/// When bounces may end, on whichever device they run.
+/// Decides when bounces may end, on any device.
 class Convergence {
 public:
-    /// Bounces have converged when one, and all that would follow it, change both the total
-    /// radiosity of all surfels, and each surfel's own in the mean over what caches see, by less
-    /// than this share. With the total alone, a sunlit ground of 200 m hid the bounces in the house
-    /// on it, and its walls came out up to a fourth too dark. With this bounce alone, a closed room
-    /// of albedo 0.99 missed 1 %: each one that follows passes on nearly as much.
+    /// Bounces have converged when the latest one and all that would follow it change less than
+    /// this share of both the total radiosity of all surfels and each surfel's own, averaged over
+    /// what caches see. With the total alone, a sunlit ground of 200 m hid the bounces in the house
+    /// on it, and its walls came out up to a fourth too dark. With the latest bounce alone, a
+    /// closed room of albedo 0.99 missed 1 %, because each later one passes on nearly as much.
     static constexpr double kChange = 1e-4;
 
     bool reached() const { return m_reached; }
 
-    /// Share of the change by one round that the next one hands on; 0: not known yet. As surfaces
-    /// reflect less than they receive and receive no more than is sent, it is below 1.
+    /// Share of one round's change that the next round passes on; 0: not known yet. It is below 1,
+    /// because surfaces reflect less than they receive and receive no more than is sent.
     double passedOn() const { return m_passedOn; }
 
-    /// Rounds end, too, where the sum of all surfels' light grew in kGrowing of them, one after the
-    /// other, or kGrown times in all of these. It may grow for a few rounds although no surfel gets
-    /// more than the brightest one sends: by chance, rays meet some surfels more often than their
-    /// area deserves.
+    /// Rounds also end where the sum of all surfels' light grew in kGrowing consecutive rounds, or
+    /// by a factor of kGrown over consecutive rounds. It may grow for a few rounds although no
+    /// surfel receives more than the brightest one sends, because rays meet some surfels by chance
+    /// more often than in proportion to their area.
     static constexpr std::uint32_t kGrowing = 12;
     static constexpr double kGrown = 1e6;
     bool grows() const { return m_growing >= kGrowing || m_grown >= kGrown; }
@@ -60,8 +61,8 @@ public:
         m_passedOn = 0;
         m_latest = {};
     }
-    /// A changed sky, or links that are dimmed otherwise, change no surfel before the caches have
-    /// seen it: it reaches them in the first round, and the surfels' radiosity in the second.
+    /// Call this where the sky or the dimming of links has changed. Such a change reaches the
+    /// caches in the first round and the surfels' radiosity only in the second.
     void skyChanged() {
         lightChanged();
         m_unseenRounds = 2;
@@ -86,10 +87,10 @@ private:
     static constexpr std::uint32_t kBringing = 2;
     static constexpr double kRounding = 1.001;
 
-    /// This change and all that it would lead to, by the sum of the geometric series, over this
-    /// change alone where that is more. By the most that one of the latest rounds passed on: where
-    /// changes are no more than a hundred roundings, shares scatter by some per cent, and in a
-    /// white room the first one that came out low would end bounces 0.03 % to 0.1 % too early.
+    /// The sum of all changes that would follow the latest one, relative to it and at least 1, as a
+    /// geometric series. The ratio is the maximum share that one of the latest rounds passed on:
+    /// where changes are as small as a hundred roundings, shares scatter by some per cent, and in a
+    /// white room the first low one would end bounces 0.03 % to 0.1 % too early.
     double following() const {
         constexpr double kMaxPassedOn = 0.999; // noise, rounding
         const double q = std::min(std::ranges::max(m_latest), kMaxPassedOn);
@@ -99,16 +100,16 @@ private:
     bool m_reached = false;
     std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;
     double m_before = 0, m_passedOn = 0, m_grown = 1;
-    std::array<double, 4> m_latest{}; ///< passed on by the latest rounds
+    std::array<double, 4> m_latest{}; ///< shares passed on by the latest rounds
 };
 
-/// The bands that receivers see at last, where `lit` of the bake's are lit.
+/// The bands of the final light that receivers see, where `lit` of the bake's bands are lit.
 inline LightBands finalBands(const BakeSettings& settings, int lit) {
     return {lit, std::min(int(chromaBandsOf(settings)), lit)};
 }
 
-/// The bands that surfels read. A surface gets half of its irradiance from the second one: without
-/// its colour every bounce would grey the light.
+/// The bands that surfels read. A surface gets half of its irradiance from the second band, so
+/// without colour in it every bounce would make the light greyer.
 inline LightBands bounceBands(const BakeSettings& settings, int lit) {
     const LightBands last = finalBands(settings, lit);
     return {last.luma, std::max(last.chroma, 2)};

@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// The paper's method: it lights a bake.
+/// The technique that lights a bake, by the paper's method.
 extern const Technique kIlluminanceTechnique;
 
 } // namespace limn

@@ -47,11 +47,11 @@ bool needsGrid(const Scene& scene, const LightmapLayout& layout) {
 struct Relighter::State {
     std::shared_ptr<const Bake> bake;
     LitBands lit = LitBands::Needed;
-    int bands = 0; ///< that the caches are lit in
-    /// Of all bounces but the last one, which need irradiance only; of the last one; and of what
+    int bands = 0; ///< number in which the caches are lit
+    /// Bands of all bounces but the last, which need irradiance only; of the last one; and of what
     /// is seen.
     LightBands innerBands, bounceBands, finalBands;
-    std::vector<std::uint16_t> halfs; ///< of links in fewer bands than stored; empty: as stored
+    std::vector<std::uint16_t> halfs; ///< of links, in fewer bands than stored; empty: as stored
     std::vector<std::uint32_t> everyLink, beforeSky; ///< ends of each cache's links
     LinkEnds ends;                                   ///< the ones in use
     LinkCounts links;                                ///< of this call
@@ -59,7 +59,7 @@ struct Relighter::State {
     std::uint32_t maxBounces = 0; ///< of the last call's scene
     Convergence convergence;
 
-    std::vector<Material> materials; ///< that albedo and emitted belong to
+    std::vector<Material> materials; ///< materials of `albedo` and `emitted`
     std::vector<float> seenShare;    ///< per surfel
     std::vector<glm::vec3> albedo;   ///< per surfel
     std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
@@ -72,12 +72,12 @@ struct Relighter::State {
     std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands; see inner()
     IndirectField field;
     bool gridLit = false;     ///< the field has a grid
-    bool gridMissing = false; ///< and has it since this call
+    bool gridMissing = false; ///< and has had it since this call
 
     CacheRuns gridRuns;       ///< the grid's caches
     CacheFlags read;          ///< by surfels
     CacheRuns readRuns;       ///< the same
-    CacheFlags current;       ///< the field has the light of the last pull there
+    CacheFlags current;       ///< caches for which the field holds the light of the last pull
     CacheFlags missing, rest; ///< working space
     CacheRuns someRuns;       ///< the same
     bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
@@ -134,7 +134,7 @@ const std::vector<glm::vec3>& Relighter::cacheSh() const {
     return m_state->sh;
 }
 
-/// Makes room for them, black.
+/// Allocates the caches' SH in `count` bands, black.
 void Relighter::State::setBands(int count) {
     bands = count;
     finalBands = limn::finalBands(bake->settings, bands);
@@ -146,7 +146,7 @@ void Relighter::State::setBands(int count) {
     innerSh.clear();
     current.assign(bake->caches.lightmapCount, 0);
     unread = false;
-    dimmed = {}; // has links in as many bands
+    dimmed = {}; // its links have the old number of bands
     dimming.hidden = {};
     dimming.blockers = 0;
     field.bands = std::uint32_t(bands);
@@ -181,7 +181,7 @@ bool Relighter::State::updateSky(const Scene& scene) {
     return true;
 }
 
-/// Lights caches, valid and invalid ones.
+/// Lights both valid and invalid caches.
 void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out) {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(in.luma * in.luma);
@@ -196,13 +196,14 @@ void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<g
     fillInvalidCaches(caches, in.luma, runs, out);
 }
 
-/// Where surfels read, in innerBands: `sh` itself, unless that has more bands or is to lose colour.
+/// The SH that surfels read, in innerBands: `sh` itself, unless that has more bands or is to lose
+/// colour.
 std::vector<glm::vec3>& Relighter::State::inner() {
     const bool same = bands == innerBands.luma && finalBands.chroma >= bounceBands.chroma;
     return same ? sh : innerSh;
 }
 
-/// Copies what is in `sh`.
+/// Copies `sh` of the caches in `which` to inner().
 void Relighter::State::keepInner(const CacheFlags& which) {
     std::vector<glm::vec3>& out = inner();
     if (&out == &sh)
@@ -218,7 +219,7 @@ void Relighter::State::keepInner(const CacheFlags& which) {
     });
 }
 
-/// Lights what surfels read of the last pull and is not there yet.
+/// Lights the caches that surfels read and that do not have the light of the last pull yet.
 void Relighter::State::lightRest() {
     rest = read;
     removeFrom(rest, current);
@@ -231,8 +232,8 @@ void Relighter::State::readInner() {
     readCaches(bake->surfels, inner(), innerBands.luma, indirect);
 }
 
-/// Lights what the field is to have, in all bands. `newLight`: surfels have not read that of the
-/// last pull.
+/// Lights the caches in `which` for the field, in all bands. `newLight`: surfels have not read the
+/// light of the last pull.
 void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
     setRuns(which, someRuns);
     light(bounceBands, someRuns, sh);
@@ -282,7 +283,7 @@ void Relighter::State::writeField(const CacheFlags& which, bool grid) {
     ++field.version;
 }
 
-/// Takes over what `scene` changes. True if that is anything.
+/// Applies the changes in `scene`. Returns true if there were any.
 bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats) {
     Timer timer;
     const bool materialsChanged = updateMaterials(scene);

@@ -15,44 +15,43 @@ namespace limn {
 /// Milliseconds and counters of one relight() call, for the statistics panel and --json.
 struct RelightStats {
     double directMs = 0;      ///< lights onto the surfels, with shadow rays
-    double surfelLightMs = 0; ///< what the surfels send: their light times their albedo
-    double pullMs = 0;        ///< up the cluster tree
-    double cacheLightMs = 0;  ///< links into the caches
+    double surfelLightMs = 0; ///< radiosity of the surfels: their light times their albedo
+    double pullMs = 0;        ///< radiosity of the clusters, up the tree
+    double cacheLightMs = 0;  ///< light of the caches, through their links
     double surfelReadMs = 0;  ///< bounced light at the surfels, from the caches
-    double fieldMs = 0;       ///< what the viewport samples
+    double fieldMs = 0;       ///< the field that the viewport samples
     double dimMs = 0;         ///< which links dynamic objects block; 0 while they stand still
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint64_t shadowRays = 0;
-    bool converged = false; ///< another bounce would change next to nothing (Convergence)
-    double passedOn = 0; ///< of the light that a bounce brings, by the next (Convergence); 0: not
-                         ///< known yet
-    bool grows = false;  ///< bounces were stopped, because they brought ever more light
+    bool converged = false; ///< another bounce would change almost nothing (Convergence)
+    double passedOn = 0; ///< share of a bounce's light that the next one passes on (Convergence);
+                         ///< 0: not known yet
+    bool grows = false;  ///< bounces were stopped because they brought ever more light
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
     std::uint64_t links = 0;     ///< of the caches lit by this call, once for each bounce
-    std::uint64_t linksPassedOver = 0;   ///< of those: what they come from sends no light
+    std::uint64_t linksPassedOver = 0;   ///< of those: skipped, as their senders send no light
     std::uint32_t bandsLit = 0;          ///< of the caches
     std::uint32_t bandsSkipped = 0;      ///< bands of the bake that no surface's reflection needs
-    std::uint32_t gridCachesSkipped = 0; ///< nothing would read them
-    std::uint32_t cachesUnread =
-        0; ///< of the lightmap: no surfel reads them, no bounce lights them
-    std::uint32_t cachesUnseen = 0; ///< of the lightmap: the field has older light there
-    std::uint32_t cachesDimmed = 0; ///< that dynamic objects take light from
+    std::uint32_t gridCachesSkipped = 0; ///< the grid's caches, where nothing reads them
+    std::uint32_t cachesUnread = 0; ///< lightmap caches that no surfel reads and no bounce lights
+    std::uint32_t cachesUnseen = 0; ///< lightmap caches for which the field keeps older light
+    std::uint32_t cachesDimmed = 0; ///< caches that dynamic objects take light from
     std::uint64_t linksDimmed = 0;  ///< of those
-    bool skipped = false; ///< nothing had changed and bounces had converged: no work was done
+    bool skipped = false; ///< no work was done: nothing had changed and bounces had converged
 };
 
-/// Which of a bake's bands are lit: those that the scene's surfaces need (receiverBands()), which
-/// are 3 where none is glossy; or all. Of links kept as harmonics those that are needed are copied,
-/// 18 bytes a link for 3 bands.
+/// Which of a bake's bands are lit: those that the scene's surfaces need (receiverBands()), 3 where
+/// none is glossy, or all. Needed copies the bands it lights of links stored as harmonics, 18 bytes
+/// a link for 3 bands.
 enum class LitBands : std::uint8_t { Needed, All };
 
 /// Whether some instance of `scene` is lit from the grid: dynamic, or without lightmap.
 bool needsGrid(const Scene& scene, const LightmapLayout& layout);
 
-/// The live runtime on the CPU. Keeps what did not change since the last call.
-/// Not thread-safe: one thread at a time calls relight().
+/// Relights a bake on the CPU, at run time. Results that did not change since the last call are
+/// kept. Not thread-safe: one thread at a time calls relight().
 class Relighter {
 public:
     /// `bake` must come from a scene with the same bakeInputHash as the scenes passed to relight().
@@ -62,20 +61,21 @@ public:
     /// Brings the field up to date with the lights, materials, sky and, with scene.bake.dimming,
     /// the dynamic objects of `scene`, by at most `bounces` iterations of B = albedo (E_direct +
     /// E_indirect(B)) + pi L_e. Call again to converge further. Where scene.bake.maxBounces is
-    /// kFewBounces or less, a change begins anew without bounced light. `trace` answers the shadow
+    /// kFewBounces or less, a change restarts from no bounced light. `trace` answers the shadow
     /// rays. Cancelled calls leave a valid field.
     ///
     /// `seen`: lightmap caches where the field is needed, by seenCaches(); null: all. Others keep
-    /// older light. Bounces light what surfels read; the last one what is seen, and what surfels
-    /// read of the rest is put off until the next call, which drops it where the light has changed
-    /// and goes on with it where not. So light that stands still is the same, bit by bit, for every
-    /// view, and in moving light surfels begin with what they read one bounce earlier; in calls of
-    /// one bounce nothing is put off. Where nothing has changed, or without bounces, only what is
-    /// seen and has older light is lit.
+    /// older light. Bounces light the caches that surfels read, and the last bounce lights those
+    /// that are seen. What surfels read of the rest is postponed to the next call, which drops it
+    /// if the light has changed and otherwise continues with it. Static light is therefore the
+    /// same, bit by bit, for every view; in moving light surfels start from what they read one
+    /// bounce earlier. Calls of one bounce postpone nothing. Where nothing has changed, or without
+    /// bounces, only seen caches with older light are lit.
     RelightStats relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
                          const Progress& progress = {}, const CacheFlags* seen = nullptr);
 
-    /// Where it holds the light of the last relight(): everything but RelightStats::cachesUnseen.
+    /// The relit field. It holds the light of the last relight() in all but
+    /// RelightStats::cachesUnseen.
     const IndirectField& field() const;
     const Bake& bake() const;
 
@@ -83,7 +83,8 @@ public:
     const std::vector<glm::vec4>& radiosity() const;
 
     /// SH of incident radiance of cache c [W m^-2 sr^-1]: bands^2 values at c * bands^2; bands as
-    /// field()'s. From band chromaBandsOf(settings) on they are grey. Older where field() is.
+    /// field()'s. From band chromaBandsOf(settings) on they are grey. They hold older light where
+    /// field() does.
     const std::vector<glm::vec3>& cacheSh() const;
 
 private:

@@ -23,8 +23,8 @@ namespace {
 
 constexpr int kVersion = 1;
 
-/// {"version": 1, "times": {KEY: {"cpu_ms", "gpu_ms"}, …}}; without times where the file is of no
-/// use.
+/// {"version": 1, "times": {KEY: {"cpu_ms", "gpu_ms"}, …}}; without times where the file is
+/// unusable.
 Json readTimes(const std::string& file) {
     const Result<std::string> text = readFile(file);
     Json json = text ? Json::parse(*text, nullptr, false) : Json();
@@ -72,7 +72,7 @@ Result<void> rememberRelightTimes(const std::string& file, const std::string& ke
                                   const RelightTimes& times) {
     Json json = readTimes(file);
     json["times"][key] = {{"cpu_ms", times.cpuMs}, {"gpu_ms", times.gpuMs}};
-    std::error_code error; // replaceFile() says what is wrong
+    std::error_code error; // replaceFile() reports the error
     fs::create_directories(fs::path(file).parent_path(), error);
     return replaceFile(file, json.dump(1) + '\n');
 }

@@ -12,34 +12,34 @@
 
 namespace limn {
 
-/// Where bounced light is worked out.
+/// Device on which bounced light is computed.
 enum class RelightOn { Auto, Cpu, Gpu };
 inline constexpr std::array<std::string_view, 3> kRelightOnNames = {"auto", "cpu", "gpu"};
 
-/// What one update of one bounce took here, with every light moved [ms].
+/// Measured time of one update of one bounce on this machine, with every light moved [ms].
 struct RelightTimes {
     double cpuMs = 0, gpuMs = 0; ///< finite, > 0
     bool operator==(const RelightTimes&) const = default;
 };
 
-/// Cpu or Gpu: what was asked for where there is a GPU that can light the bake, else Cpu. Auto is
-/// the faster one; Cpu until it was measured, and where both take the same.
+/// Returns Cpu or Gpu: the one asked for where a GPU can light the bake, else Cpu. Auto gives the
+/// faster one, and Cpu where both take the same or neither was measured.
 RelightOn chooseRelight(RelightOn wanted, bool gpuCan, const std::optional<RelightTimes>& times);
 
-/// What times are remembered by: the Vulkan device, its driver, this machine's threads and the
-/// power of four that the links' bytes reach. Times of another size say nothing.
+/// Key under which times are stored: the Vulkan device, its driver, this machine's threads and the
+/// power of four that the links' bytes reach, since times do not carry over to other sizes.
 std::string relightTimesKey(const std::string& device, std::uint32_t driverVersion,
                             const Bake& bake);
 
-/// The times kept in the file under `key`. A file that is missing, damaged or of another version
-/// holds none: they are measured again.
+/// The times stored in the file under `key`; std::nullopt where there are none, or where the file
+/// is missing, damaged or of another version.
 std::optional<RelightTimes> rememberedRelightTimes(const std::string& file, const std::string& key);
 
-/// Keeps them there beside those of other keys; replaces a damaged file.
+/// Stores times in the file under `key` beside those of other keys. Replaces a damaged file.
 Result<void> rememberRelightTimes(const std::string& file, const std::string& key,
                                   const RelightTimes& times);
 
-/// relight.json beside defaultStageFolder(); empty where that is.
+/// Path of relight.json beside defaultStageFolder(); empty where that is empty.
 std::string defaultRelightTimesFile();
 
 } // namespace limn

@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// What relight() counted, as every technique reports it.
+/// The counters of relight() in the form that every technique reports.
 LightingReport reportOf(const RelightStats& stats);
 
 } // namespace limn

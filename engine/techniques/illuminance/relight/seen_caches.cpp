@@ -19,20 +19,20 @@ namespace limn {
 namespace {
 
 constexpr float kBeyond = 1.f / 256; ///< [texels]; filters round weights to 8 bits
-constexpr float kWider = 1.02f; ///< pictures of less than full size have another aspect, rounded
+constexpr float kWider = 1.02f;      ///< smaller pictures have another aspect, due to rounding
 
-/// Sine of the angle by which a triangle of a few pixels may turn when its corners are rounded to
-/// places within pixels.
+/// Sine of the angle by which a triangle of a few pixels may rotate when its corners are rounded to
+/// subpixel positions.
 constexpr float kEdgeOn = 0.02f;
 
-/// A corner of a triangle: where it looks the lightmap up, in texels from the first one's centre,
-/// and where it is in the world.
+/// A corner of a triangle: its lookup in the lightmap, in texels from the first one's centre, and
+/// its world position.
 struct Corner {
     glm::vec2 texel;
     glm::vec3 position;
 };
 
-/// A triangle cut by four lines: seven corners, or where rounding dents it 13, at most.
+/// A triangle clipped by four lines. It has at most seven corners, or 13 where rounding dents it.
 struct Polygon {
     std::array<Corner, 13> corners;
     std::size_t count = 0;
@@ -75,7 +75,7 @@ void add(CacheFootprint& to, const Polygon& p, glm::vec3 normal) {
     if (first)
         to.normal = normal;
     to.cosSpread = std::min(to.cosSpread, glm::dot(to.normal, normal));
-    if (to.cosSpread < 0.01f) // half of all sides or more: nowhere does it turn its back
+    if (to.cosSpread < 0.01f) // normals over half of all directions: it may be seen from anywhere
         to.normal = glm::vec3(0), to.cosSpread = 1;
 }
 
@@ -117,7 +117,7 @@ struct InstanceLookup {
         return p;
     }
 
-    /// Of the side in question.
+    /// Normal on the side that is looked up.
     glm::vec3 normal(std::uint32_t t) const {
         const Instance& i = instance();
         const glm::vec3 n = i.normalToWorld * triangleNormal(scene.meshOf(i), t);
@@ -126,7 +126,7 @@ struct InstanceLookup {
     }
 };
 
-/// The first and the last texel that a polygon looks up.
+/// Box of the texels that a polygon looks up: the first and the last one.
 struct TexelBox {
     glm::ivec2 lower, upper;
 };
@@ -141,7 +141,7 @@ TexelBox texelsOf(const Polygon& p, glm::ivec2 size) {
             glm::clamp(glm::ivec2(glm::floor(high + 1.f + kBeyond)), glm::ivec2(0), size - 1)};
 }
 
-/// Of the triangles of one chart.
+/// Adds the footprints of the triangles of one chart.
 void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles,
               std::vector<std::int32_t>& at, std::vector<TexelFootprint>& out) {
     const glm::ivec2 size(int(in.layout.width), int(in.layout.height));
@@ -156,7 +156,7 @@ void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles
         const Polygon whole = in.triangle(t);
         const glm::vec3 normal = in.normal(t);
         const TexelBox b = texelsOf(whole, size);
-        // Lookups of a triangle under a texel's size: to cut it would hardly make it smaller.
+        // The triangle is smaller than a texel, so clipping would hardly reduce it.
         const bool small = glm::all(glm::lessThanEqual(b.upper - b.lower, glm::ivec2(2)));
         for (glm::ivec2 texel = b.lower; texel.y <= b.upper.y; ++texel.y)
             for (texel.x = b.lower.x; texel.x <= b.upper.x; ++texel.x) {
@@ -188,7 +188,7 @@ void addSide(const InstanceLookup& in, std::vector<TexelFootprint>& out) {
     }
 }
 
-/// Planes through the eye, normals inwards, and the one that the camera looks from.
+/// Planes through the eye, with normals inwards, and the plane that the camera looks from.
 struct FieldOfView {
     glm::vec3 eye;
     std::array<glm::vec3, 5> inwards;
@@ -210,7 +210,7 @@ struct FieldOfView {
         });
     }
 
-    /// Whether a point of the footprint may have the eye before its front.
+    /// Whether some point of the footprint may face the eye.
     bool faces(const CacheFootprint& f) const {
         if (f.normal == glm::vec3(0))
             return true;
@@ -221,7 +221,8 @@ struct FieldOfView {
         const float sinSpread = std::sqrt(std::max(0.f, 1 - f.cosSpread * f.cosSpread));
         if (along >= 0)
             return true;
-        // The largest of dot(n, eye - p): n turned to the eye as far as the spread lets it.
+        // The maximum of dot(n, eye - p), with n turned towards the eye as far as the spread
+        // allows.
         const float box =
             f.cosSpread > 0.99999f ? glm::dot(glm::abs(f.normal), f.bounds.size() * 0.5f) : radius;
         return along * f.cosSpread + across * sinSpread + box >=

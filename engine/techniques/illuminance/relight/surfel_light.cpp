@@ -23,7 +23,7 @@ Light withoutName(Light l) {
     return l;
 }
 
-/// The light with everything that moves no shadow set to one.
+/// The light with every property that does not affect shadows set to one.
 Light shapeOf(Light l) {
     l.color = glm::vec3(1);
     l.strength = 1;
@@ -37,7 +37,7 @@ std::uint64_t hashOccluders(const Scene& scene) {
     return h;
 }
 
-/// What a light shines from; nothing: a point.
+/// The rectangles from which a light shines; empty: a point.
 std::vector<LightRectangle> rectanglesOf(const Light& light, const Scene& scene) {
     if (light.kind != LightKind::Rectangle)
         return {};
@@ -47,8 +47,8 @@ std::vector<LightRectangle> rectanglesOf(const Light& light, const Scene& scene)
     return parts;
 }
 
-// Neighbours shift the points on the rectangle differently, so that what is left of their pattern
-// averages out over a cluster.
+// Neighbours shift the points on the rectangle differently, so that the remaining pattern averages
+// out over a cluster.
 float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>& rectangles,
                      glm::vec3 p, glm::vec3 n, std::uint32_t surfel, std::uint64_t& rays) {
     const std::uint32_t bits = mixBits(surfel);
@@ -117,7 +117,7 @@ bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceSc
     const std::uint64_t occluders = hashOccluders(trace.scene());
     if (occluders != state.occluders)
         for (SurfelLight::PerLight& light : state.lights)
-            light.light.enabled = false; // no light that shines
+            light.light.enabled = false; // matches no light that shines
     else if (lights == state.summed && state.irradiance.size() == surfels.size())
         return false;
     state.occluders = occluders;
@@ -134,7 +134,7 @@ bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceSc
         if (same != known.end())
             std::swap(next.share, same->share);
     }
-    auto gone = known.begin(); // whose memory is of use
+    auto gone = known.begin(); // unused entries, whose memory is reused
     for (SurfelLight::PerLight& light : state.lights) {
         if (hasShare(light))
             continue;

@@ -10,9 +10,9 @@
 
 namespace limn {
 
-/// Per surfel its albedo, at most 0.99, and what it emits, pi L_e [W m^-2]: means over the surface
-/// it stands for. Fills both to the surfels' number. `known`: the materials that both hold already;
-/// only surfels of materials that differ from those are looked up.
+/// Computes the albedo of each surfel, at most 0.99, and its emission, pi L_e [W m^-2], as means
+/// over the surface that it stands for. Both get one entry per surfel. `known`: the materials of
+/// the values that both already hold; only surfels whose materials differ from those are looked up.
 void surfelMaterials(const Surfels& surfels, const Scene& scene, std::vector<glm::vec3>& albedo,
                      std::vector<glm::vec3>& emitted, std::span<const Material> known = {});
 

@@ -25,7 +25,7 @@ glm::vec3 sumOf(const glm::vec3* const caches[4], glm::vec4 weight, const float*
     return sum;
 }
 
-/// `stride`: coefficients of a cache.
+/// `stride`: number of coefficients per cache.
 template <int Bands>
 void readRange(const Surfels& s, const glm::vec3* sh, std::size_t stride, std::size_t begin,
                std::size_t end, glm::vec3* irradiance) {
@@ -37,7 +37,7 @@ void readRange(const Surfels& s, const glm::vec3* sh, std::size_t stride, std::s
             for (; k < (l + 1) * (l + 1); ++k)
                 factor[k] *= band[std::size_t(l)];
         const glm::vec3* caches[4];
-        for (int k = 0; k < 4; ++k) // a missing one has no weight
+        for (int k = 0; k < 4; ++k) // a missing cache has no weight
             caches[k] = sh + (s.cache[i][k] == ~0U ? 0 : s.cache[i][k]) * stride;
         irradiance[i] =
             glm::max(sumOf<Bands * Bands>(caches, s.cacheWeight[i], factor), glm::vec3(0));

@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// A case as one JSON file that needs no other: seed, document and meshes. Numbers are exact.
-/// Pictures and textures are left out: generated cases have none.
+/// Writes a case as one self-contained JSON file: seed, document and meshes. Numbers are exact.
+/// Pictures and textures are left out, since generated cases have none.
 Result<void> writeCase(const std::string& path, const StressCase& stressCase);
 
 Result<StressCase> readCase(const std::string& path);

@@ -20,8 +20,8 @@ struct MeanLight {
     glm::dvec3 mean{0}, variance{0};
 };
 
-/// Two reflections and no more: in a closed white room each passes on nearly all, so that all of
-/// them together would be a hundred times as noisy.
+/// Two reflections only: in a closed white room each passes on nearly all light, so all of them
+/// together would be a hundred times as noisy.
 MeanLight meanLight(const LitScene& s, const Progress& progress) {
     const Surfels& surfels = s.bake->surfels;
     const auto once = lightOf(s.bake, s.scene, *s.trace, 1, progress).radiosity;
@@ -42,13 +42,13 @@ MeanLight meanLight(const LitScene& s, const Progress& progress) {
         const glm::dvec3 d = share * (glm::dvec3(glm::vec3(twice[i])) - out.mean);
         out.variance += d * d;
     }
-    // Bounced light is that of few texels.
+    // Bounced light comes from few texels.
     out.variance += bounced * bounced / double(std::max(s.bake->caches.lightmapCount, 1U));
     return out;
 }
 
-/// How far the mean light of two bakes of one scene is apart, in standard deviations; a thousandth
-/// of it is rounding's.
+/// Difference of the mean light of two bakes of one scene, in standard deviations. A thousandth of
+/// the light is allowed for rounding.
 double deviations(const LitScene& a, const LitScene& b, const Progress& progress) {
     const MeanLight x = meanLight(a, progress), y = meanLight(b, progress);
     double most = 0;
@@ -60,14 +60,14 @@ double deviations(const LitScene& a, const LitScene& b, const Progress& progress
     return most;
 }
 
-/// Surfels and rays are drawn otherwise in the changed scene, so that only means can be compared:
-/// six standard deviations are a chance of 1 in 10^9.
+/// Surfels and rays are drawn differently in the changed scene, so only means can be compared. Six
+/// standard deviations are exceeded with a chance of 1 in 10^9.
 Judgement judgeAlike(const Subject& subject, const Scene& changed) {
     const Result<LitScene> other = bakeAndLight(changed, subject.progress);
     return other ? judged(deviations(subject.base, *other, subject.progress), 6) : broken();
 }
 
-/// How many of its sizes a scene lies away from the origin.
+/// Distance of a scene from the origin, in units of its size.
 double sizesAway(const Scene& scene) {
     const Bounds b = scene.bounds;
     const double size = double(glm::length(b.size()));
@@ -75,13 +75,13 @@ double sizesAway(const Scene& scene) {
                     : std::numeric_limits<double>::infinity();
 }
 
-/// A power of two changes no rounding, so nothing but constants with a unit can tell the
-/// difference: the light is the same within the design's 1e-3, and is so in every surfel.
+/// Scaling by a power of two changes no rounding, so only constants with a unit can cause a
+/// difference. The light is the same within the design's 1e-3, in every surfel.
 Judgement judgeScale(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     RandomStream random(subject.seed + 1);
     const double size = double(glm::length(scene.bounds.size()));
-    const int most = size < 1 ? 13 : -13; // towards the other end of what scenes may measure
+    const int most = size < 1 ? 13 : -13; // towards the other end of the allowed scene sizes
     const float s = std::exp2(float(random.whole(std::min(1, most), std::max(-1, most))));
     const Scene scaled = scaledScene(scene, s);
     for (const Light& l : scaled.lights)
@@ -105,7 +105,7 @@ Judgement judgeScale(const Subject& subject) {
     return judged(difference / all, 1e-3);
 }
 
-/// Not from or to where 24 bits of a coordinate no longer tell the parts of a scene apart.
+/// Maximum distance, so that 24 bits of a coordinate still distinguish the parts of a scene.
 constexpr double kMaxSizesAway = 100;
 
 Judgement judgeTranslation(const Subject& subject) {
@@ -118,8 +118,8 @@ Judgement judgeTranslation(const Subject& subject) {
     return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)));
 }
 
-/// Up to 2^24 sizes away, where floats about the file's origin could not tell its parts apart: the
-/// document says where its world space lies.
+/// Moves up to 2^24 sizes away, where floats relative to the file's origin could not distinguish
+/// the scene's parts. The document says where its world space lies.
 Judgement judgeFar(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     if (!subject.document || sizesAway(scene) > kMaxSizesAway)
@@ -131,11 +131,11 @@ Judgement judgeFar(const Subject& subject) {
     const Document moved = movedDocument(*subject.document, scene.assets->meshes, by);
     const Scene far = flatten(moved, scene.assets);
     if (moved.origin == glm::dvec3(0) || !reachDefect(far).empty())
-        return notJudged(); // nothing static, or not far for what is
+        return notJudged(); // nothing is static, or it is not far for what is
     return judgeAlike(subject, far);
 }
 
-/// x to y to z: no coordinate is rounded.
+/// Permutes the axes, x to y to z, which rounds no coordinate.
 Judgement judgeAxes(const Subject& subject) {
     if (!isEven(subject.base.scene.sky))
         return notJudged();
@@ -143,7 +143,7 @@ Judgement judgeAxes(const Subject& subject) {
     return judgeAlike(subject, turnedScene(subject.base.scene, turn));
 }
 
-/// About the upright where the sky says which way is up.
+/// Rotates the scene, about the vertical axis where the sky defines which way is up.
 Judgement judgeTurn(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     if (sizesAway(scene) > kMaxSizesAway)

@@ -35,7 +35,7 @@ double largest(glm::vec3 v) {
     return std::max({double(v.x), double(v.y), double(v.z)});
 }
 
-/// Counts NaN and infinities in what nodes send, caches hold and the field shows.
+/// Counts NaN and infinities in the light of nodes, caches and the field.
 Judgement judgeFinite(const Subject& subject) {
     const RelitState& l = subject.base.light;
     return judged(double(countNotFinite(l.radiosity) + countNotFinite(l.sh) +
@@ -43,7 +43,7 @@ Judgement judgeFinite(const Subject& subject) {
                   0);
 }
 
-/// Surfels that send less than nothing, and corners of the surface that get less.
+/// Counts surfels of negative radiosity and corners of the surface with negative light.
 Judgement judgeNotNegative(const Subject& subject) {
     const LitScene& s = subject.base;
     const auto isWrong = [](glm::vec3 v) { return !(v.x >= 0 && v.y >= 0 && v.z >= 0); };
@@ -69,7 +69,7 @@ Judgement judgeNotNegative(const Subject& subject) {
     return judged(double(wrong), 0);
 }
 
-/// What surfels send by first light, without bounces [W m^-2].
+/// Radiosity of surfels from first light, without bounces [W m^-2].
 struct FirstLight {
     std::vector<glm::vec3> radiosity;
     double maxAlbedo = 0, maxSky = 0; ///< pi times the sky's radiance
@@ -90,17 +90,18 @@ FirstLight firstLight(const LitScene& s) {
     return out;
 }
 
-/// Of all surfels and colours [W].
+/// Sums over all surfels and colours [W].
 struct Flux {
     double sent = 0, given = 0; ///< with bounces, and by first light
     double area = 0;            ///< [m^2]
-    double noise = 0;           ///< standard deviation of what arrives, as a share of what is sent
+    double noise = 0;           ///< standard deviation of the light that arrives / the light sent
 };
 
-/// What a surfel sends reaches others by rays that caches draw, some caches * rays / surfels of
-/// them: their number has a standard deviation of 1 / sqrt of it, and where n surfels send alike
-/// that of the sum is 1 / sqrt(n) of that. What arrives is then read where the surfels stand, with
-/// 1 / sqrt of their number, or of the caches' where these are fewer, of how uneven it is.
+/// A surfel's light reaches others by rays that caches draw, about caches * rays / surfels of them.
+/// Their number N has a relative standard deviation of 1 / sqrt(N), and where n surfels send alike
+/// that of the sum is smaller by 1 / sqrt(n). The light that arrives is then read at the surfels'
+/// places, with an error of 1 / sqrt of their number, or of the caches' where these are fewer,
+/// times its unevenness.
 double noiseOf(const LitScene& s, double senders) {
     const auto once = lightOf(s.bake, s.scene, *s.trace, 1, {}).radiosity;
     const auto twice = lightOf(s.bake, s.scene, *s.trace, 2, {}).radiosity;
@@ -136,12 +137,13 @@ Flux fluxOf(const LitScene& s, const FirstLight& first) {
     return flux;
 }
 
-/// All that surfels send, over what they may: first light, F, and the sky's, at most albedo times
-/// pi L on all of the area, reflected again and again: (F + albedo pi L A) / (1 - albedo).
+/// Ratio of all light that surfels send to its upper bound: first light, F, and the sky's, at most
+/// albedo times pi L on all of the area, reflected any number of times: (F + albedo pi L A) / (1 -
+/// albedo).
 /// Six standard deviations of noise are allowed, and 2 % for normals that caches do not look along.
 Judgement judgeEnergy(const Subject& subject) {
     const LitScene& s = subject.base;
-    if (s.scene.bake.linker != Linker::Gather) // only gathered light sums to what is sent
+    if (s.scene.bake.linker != Linker::Gather) // only gathered light sums to the light sent
         return notJudged();
     const FirstLight first = firstLight(s);
     const Flux flux = fluxOf(s, first);
@@ -152,16 +154,16 @@ Judgement judgeEnergy(const Subject& subject) {
     return judged(flux.sent / allowed, 1.02 + 6 * flux.noise);
 }
 
-/// Surfaces send less than they get, and gathered light is no more than what is sent: no bounce is
-/// stopped because light grows.
+/// Surfaces send less than they receive, and gathered light is at most the light sent, so bounces
+/// must never be stopped because light grows.
 Judgement judgeGrowth(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather)
         return notJudged();
     return judged(subject.base.light.stats.grows ? subject.base.light.stats.passedOn : 0, 1);
 }
 
-/// The same scene, everything of albedo 1/2 and without light. Where it had lamps it is baked anew:
-/// caches aim rays of their own at lamps, whose sum is only on an average what is seen.
+/// The same scene without light and with albedo 1/2 everywhere. A scene with lamps is baked again,
+/// because caches aim extra rays at lamps, whose sum equals the light seen only on average.
 std::optional<LitScene> greyScene(const Subject& subject) {
     LitScene s = subject.base;
     bool lamps = false;
@@ -193,8 +195,8 @@ Judgement judgeFurnace(const Subject& subject, const Judge& judge) {
 }
 constexpr double kFurnace = 2 * kPi; // pi L / (1 - albedo)
 
-/// Whether all surfels read caches that look where they do: no smooth normals, no texel round an
-/// edge.
+/// Whether all surfels read caches of their own normal: no smooth normals, no texels that wrap
+/// around an edge.
 bool looksAlong(const LitScene& s) {
     const Surfels& surfels = s.bake->surfels;
     for (std::size_t i = 0; i < surfels.size(); ++i)
@@ -206,7 +208,7 @@ bool looksAlong(const LitScene& s) {
     return true;
 }
 
-/// A furnace has the same light everywhere, pi L / (1 - albedo), and where it has openings less.
+/// A furnace has the same light everywhere, pi L / (1 - albedo), and less where it has openings.
 /// Links are halfs that are scaled to be exact where a cache looks: 1 % is the design's bound.
 /// Light to another normal has the error of its bands. In three, of a direction at an angle of
 /// cosine c, K(c) = 1/4 + c/2 + 5/32 (3 c^2 - 1) is seen instead of max(c, 0); the scale is
@@ -226,9 +228,9 @@ Judgement judgeFurnaceMost(const Subject& subject) {
     });
 }
 
-/// Whether every ray from every surfel and cache of the surface meets the front of something
-/// static, and no surfel reads light for another normal, of whose hemisphere a part lies below the
-/// surface and is dark.
+/// Whether every ray from every surfel and surface cache meets the front of something static, and
+/// no surfel reads light for a normal other than its cache's, part of whose hemisphere would lie
+/// below the surface and be dark.
 bool isClosed(const LitScene& s) {
     if (std::ranges::any_of(s.scene.instances, &Instance::dynamic) || !looksAlong(s))
         return false;
@@ -261,7 +263,8 @@ bool isClosed(const LitScene& s) {
     return true;
 }
 
-/// As little as judgeFurnaceMost() allows too much, in all of a closed furnace.
+/// Lower bound everywhere in a closed furnace, with the tolerance that judgeFurnaceMost() allows
+/// above.
 Judgement judgeFurnaceLeast(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather || !isClosed(subject.base))
         return notJudged();
@@ -273,8 +276,8 @@ Judgement judgeFurnaceLeast(const Subject& subject) {
     });
 }
 
-/// Nothing leaves a closed room: of albedo 1/2 all over it sends twice its first light, whatever
-/// lights it. Noise as in judgeEnergy().
+/// No light leaves a closed room: with albedo 1/2 everywhere it sends twice its first light,
+/// whatever lights it. The noise is that of judgeEnergy().
 Judgement judgeBalance(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather || !isClosed(subject.base))
         return notJudged();

@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// What a relighter made of a scene: copies of what it tells.
+/// Copies of a relighter's results for a scene.
 struct RelitState {
     std::vector<glm::vec4> radiosity; ///< as Relighter::radiosity()
     std::vector<glm::vec3> sh;        ///< as Relighter::cacheSh()
@@ -21,7 +21,7 @@ struct RelitState {
     RelightStats stats;
 };
 
-/// A scene, baked and lit.
+/// A scene with its bake and its light.
 struct LitScene {
     Scene scene;
     std::shared_ptr<const TraceScene> trace;
@@ -29,14 +29,15 @@ struct LitScene {
     RelitState light;
 };
 
-/// Of a fresh relighter after at most `bounces`.
+/// Results of a fresh relighter after at most `bounces` bounces.
 RelitState lightOf(const std::shared_ptr<const Bake>& bake, const Scene& scene,
                    const TraceScene& trace, std::uint32_t bounces, const Progress& progress);
 
-/// Of a relighter as it is now.
+/// Results of a relighter in its present state.
 RelitState lightOf(const Relighter& relighter, const RelightStats& stats);
 
-/// Bakes and lights by as many bounces as the scene's settings allow. Fails as bake() does.
+/// Bakes a scene and lights it with at most as many bounces as its settings allow. Fails as bake()
+/// does.
 Result<LitScene> bakeAndLight(const Scene& scene, const Progress& progress);
 
 } // namespace limn

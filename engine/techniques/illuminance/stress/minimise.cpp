@@ -56,7 +56,7 @@ private:
         return true;
     }
 
-    /// Halves first, then quarters, down to single ones.
+    /// Drops objects in halves first, then in quarters, down to single ones.
     template <class T>
     bool dropObjects() {
         bool dropped = false;
@@ -103,7 +103,7 @@ private:
         return dropped;
     }
 
-    /// Resets to plain values, one at a time, what differs from them.
+    /// Resets each value that is not plain, one at a time.
     bool makePlain() {
         bool changed = false;
         for (const auto& [id, object] : Document(m_best.document).objects)

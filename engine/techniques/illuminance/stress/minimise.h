@@ -7,13 +7,13 @@ namespace limn {
 
 struct MinimiseLimits {
     int tries = 300;
-    double seconds = 60;     ///< in all
-    double caseSeconds = 10; ///< of one try
+    double seconds = 60;     ///< maximum for all tries together
+    double caseSeconds = 10; ///< maximum for one try
 };
 
-/// What is left of a case that `oracle` fails when objects, lights, triangles and whatever differs
-/// from a plain scene are taken away, one after the other, as long as it fails. The case itself
-/// where that does not fail again.
+/// Reduces a case that fails `oracle`: removes objects, lights, triangles and everything that
+/// differs from a plain scene, one after the other, as long as the case still fails. Returns the
+/// case itself where it does not fail again.
 StressCase minimised(const StressCase& failing, const Oracle& oracle, const std::string& folder,
                      const MinimiseLimits& limits = {});
 

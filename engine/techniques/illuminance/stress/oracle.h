@@ -14,18 +14,18 @@ namespace limn {
 
 /// A scene under test, baked and lit once for all oracles.
 struct Subject {
-    std::uint64_t seed = 0; ///< of what an oracle draws
+    std::uint64_t seed = 0; ///< for an oracle's random numbers
     LitScene base;
-    std::string folder;                 ///< for files that are written and read back
-    Progress progress;                  ///< cancelled where a case takes too long
+    std::string folder;                 ///< for files that oracles write and read back
+    Progress progress;                  ///< cancelled when a case takes too long
     const Document* document = nullptr; ///< of the scene, where there is one
 };
 
-/// What an oracle says of a subject.
+/// An oracle's judgement of a subject.
 struct Judgement {
-    bool judged = false; ///< false: the oracle says nothing of such scenes
-    double value = 0;    ///< what was measured
-    double limit = 0;    ///< the most that it may be
+    bool judged = false; ///< false: the oracle does not apply to such scenes
+    double value = 0;    ///< measured value
+    double limit = 0;    ///< maximum allowed value
 
     bool failed() const { return judged && !(value <= limit); }
 };
@@ -36,31 +36,31 @@ inline Judgement notJudged() {
 inline Judgement judged(double value, double limit) {
     return {true, value, limit};
 }
-/// Of what cannot be measured, and should.
+/// Judgement of a quantity that should be measurable and is not; it always fails.
 inline Judgement broken() {
     return judged(std::numeric_limits<double>::infinity(), 0);
 }
 
-/// Keeps the larger one in `worst`: infinity where `value` is NaN.
+/// Raises `worst` to `value` where that is larger, and to infinity where `value` is NaN.
 inline void raise(double& worst, double value) {
     if (!(value <= worst))
         worst = value > worst ? value : std::numeric_limits<double>::infinity();
 }
 
-/// Something that holds of every scene, whatever is in it.
+/// A property that holds for every scene, whatever it contains.
 struct Oracle {
-    std::string_view name; ///< a word, as in tables
-    std::string_view what; ///< a sentence
+    std::string_view name; ///< one word, for tables
+    std::string_view what; ///< one sentence
     std::function<Judgement(const Subject&)> judge;
 };
 
-/// Everything that needs no device. Limits are explained where they are defined.
+/// All oracles that need no device. Limits are explained where they are defined.
 std::vector<Oracle> engineOracles();
 
-// Parts of it, one per file.
-void addLightOracles(std::vector<Oracle>& to);  ///< what light may be
-void addSumOracles(std::vector<Oracle>& to);    ///< light adds up, in whatever steps
+// Groups of engineOracles(), one per file.
+void addLightOracles(std::vector<Oracle>& to);  ///< bounds on light
+void addSumOracles(std::vector<Oracle>& to);    ///< light adds up, in any steps
 void addChangeOracles(std::vector<Oracle>& to); ///< scenes that look alike are lit alike
-void addRepeatOracles(std::vector<Oracle>& to); ///< the same, bit by bit
+void addRepeatOracles(std::vector<Oracle>& to); ///< repetition gives the same bits
 
 } // namespace limn

@@ -27,8 +27,8 @@ bool sameBits(const RelitState& a, const RelitState& b) {
            sameBits(a.field.lightmap, b.field.lightmap) && sameBits(a.field.grid, b.field.grid);
 }
 
-/// 0 where bake and light have the same bits as the subject's, 1 where the light, 2 where the bake
-/// has others.
+/// Value 0 where bake and light have the same bits as the subject's, 1 where the light differs, 2
+/// where the bake differs.
 Judgement judgeSame(const Subject& subject, const Bake& bake, const RelitState& light) {
     if (bake.hash() != subject.base.bake->hash() || bake.counts != subject.base.bake->counts)
         return judged(2, 0);
@@ -57,7 +57,8 @@ Judgement judgeFile(const Subject& subject) {
                      lightOf(bake, s.scene, *s.trace, s.scene.bake.maxBounces, subject.progress));
 }
 
-/// A bake that finds the stages of a scene with one object elsewhere equals one of everything.
+/// A bake that reuses the stages of a scene with one object at another place must equal a full
+/// bake.
 Judgement judgeRebake(const Subject& subject) {
     const LitScene& s = subject.base;
     if (s.scene.instances.empty())

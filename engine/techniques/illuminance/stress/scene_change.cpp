@@ -62,7 +62,7 @@ Document movedDocument(Document document, std::span<const Mesh> meshes, const gl
     return document;
 }
 
-/// The roll counts from the horizon, so it is what turns the level width to where it belongs.
+/// The roll is measured from the horizon, so it is recomputed from the rotated width.
 static void turnLight(Light& l, const glm::mat3& rotation) {
     const glm::vec3 width = rotation * lightRectangle(l).halfWidth;
     l.position = rotation * l.position;

@@ -10,7 +10,7 @@
 
 namespace limn {
 
-/// The same scene `s` times as large and as bright: what lamps send grows with s^2.
+/// The same scene `s` times as large and equally bright: the power of lamps grows with s^2.
 Scene scaledScene(Scene scene, float s);
 
 Scene movedScene(Scene scene, glm::vec3 by);
@@ -19,13 +19,13 @@ Scene movedScene(Scene scene, glm::vec3 by);
 /// an import would give it. `meshes` are those of its Assets.
 Document movedDocument(Document document, std::span<const Mesh> meshes, const glm::dvec3& by);
 
-/// Turned about the origin. The sky stays.
+/// The scene rotated about the origin. The sky is not rotated.
 Scene turnedScene(Scene scene, const glm::mat3& rotation);
 
-/// The triangles of each mesh in another order.
+/// The scene with the triangles of each mesh in another order.
 Scene withTrianglesShuffled(Scene scene, std::uint64_t seed);
 
-/// The instances in another order.
+/// The scene with its instances in another order.
 Scene withObjectsShuffled(Scene scene, std::uint64_t seed);
 
 /// Whether the sky is the same in every direction.

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Cancels once the time is up.
+/// Cancels a case when its time is up.
 class Deadline {
 public:
     explicit Deadline(double seconds)
@@ -34,7 +34,7 @@ private:
     std::atomic<bool> m_past = false;
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
-    std::jthread m_thread; ///< last: ends first
+    std::jthread m_thread; ///< declared last, so that it ends first
 };
 
 } // namespace
@@ -61,7 +61,7 @@ CaseResult runCase(const StressCase& c, const std::vector<Oracle>& oracles,
                               &c.document};
         for (std::size_t i = 0; i < oracles.size() && !deadline.past(); ++i) {
             const Judgement judgement = oracles[i].judge(subject);
-            if (!deadline.past()) // what was cancelled says nothing
+            if (!deadline.past()) // a cancelled judgement is meaningless
                 result.judgements[i] = judgement;
         }
     }

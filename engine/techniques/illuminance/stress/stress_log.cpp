@@ -85,7 +85,7 @@ Result<StressLog> StressLog::open(const std::string& folder, const std::vector<O
     if (table && std::getline(table, line) && line != header)
         return fail(folder + kTable + ": has other oracles, take another folder");
     while (table && std::getline(table, line))
-        if (std::optional<CaseResult> c = readLine(line, oracles.size())) { // not torn
+        if (std::optional<CaseResult> c = readLine(line, oracles.size())) { // skips a torn line
             log.m_cases.push_back(std::move(*c));
             kept += line + "\n";
         }

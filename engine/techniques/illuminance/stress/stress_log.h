@@ -16,16 +16,18 @@ namespace limn {
 inline constexpr std::array<std::string_view, 4> kCaseEndNames = {"done", "refused", "slow",
                                                                   "crashed"};
 
-/// Cases that were run, as a table in a folder that survives the process: stress.csv has a row per
-/// case, "value/limit" per oracle, nothing where it was not judged. While a case runs,
-/// stress.running holds its seed: a log that opens and finds it there counts that case as crashed.
+/// Log of the cases that were run, stored in a folder so that it survives a crash. stress.csv has a
+/// row per case, with "value/limit" per oracle, or nothing where it was not judged. While a case
+/// runs, stress.running holds its seed; a log that finds this file when it is opened counts that
+/// case as crashed.
 class StressLog {
 public:
-    /// Reads what the folder has; makes it where it is missing. Fails on a table of other oracles.
+    /// Opens the log in `folder`, which is created if missing. Fails on a table of other oracles.
     static Result<StressLog> open(const std::string& folder, const std::vector<Oracle>& oracles);
 
     const std::vector<CaseResult>& cases() const { return m_cases; }
-    /// Where a run that begins with seed `first` goes on: behind all seeds that the table has.
+    /// The seed with which a run that begins with seed `first` continues, behind all seeds in the
+    /// table.
     std::uint64_t next(std::uint64_t first) const;
 
     Result<void> begin(std::uint64_t seed);
@@ -39,10 +41,10 @@ private:
     Result<void> append(const std::string& line);
 };
 
-/// What one oracle said of all cases.
+/// Summary of one oracle's judgements of all cases.
 struct OracleCount {
     std::uint64_t judged = 0, skipped = 0, failed = 0;
-    Judgement worst; ///< of the largest value over its limit
+    Judgement worst; ///< the one with the largest value / limit
     std::optional<std::uint64_t> worstSeed, firstFailed;
 };
 std::vector<OracleCount> countOracles(const std::vector<CaseResult>& cases, std::size_t oracles);

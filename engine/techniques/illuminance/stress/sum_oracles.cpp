@@ -12,7 +12,7 @@ namespace limn {
 
 namespace {
 
-/// All light k times as strong.
+/// The scene with all light k times as strong.
 Scene brighter(Scene scene, float k) {
     for (Light& l : scene.lights)
         l.strength *= k;
@@ -50,10 +50,10 @@ std::uint32_t maxLinks(const Caches& caches) {
     return most;
 }
 
-/// What sums of n links differ by when they are summed otherwise: with the lights' sums and the
-/// way up the tree, some 40 numbers more, each rounds by sqrt(n + 40) / 4 + 1/2 units of 2^-24 of
-/// the cache's light, whose first coefficient no term exceeds by more than 4 times. Three sums are
-/// compared, and six standard deviations allowed.
+/// Maximum difference of sums of n links that are added in another order. With the lights' sums and
+/// the way up the tree, some 40 more numbers, each sum rounds by sqrt(n + 40) / 4 + 1/2 units of
+/// 2^-24 of the cache's light; no term exceeds its first coefficient by more than 4 times. Three
+/// sums are compared, and six standard deviations are allowed.
 double maxRoundings(const Caches& caches) {
     return 6 * std::sqrt(3.0) * (0.25 * std::sqrt(double(maxLinks(caches)) + 40) + 0.5);
 }
@@ -75,12 +75,13 @@ double roundings(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& 
     return worst;
 }
 
-/// Light that surfaces reflect once is linear, as no irradiance is clamped yet.
+/// SH of light that surfaces reflect once. It is linear in the lights, as no irradiance is clamped
+/// yet.
 std::vector<glm::vec3> reflectedOnce(const Subject& subject, const Scene& scene) {
     return lightOf(subject.base.bake, scene, *subject.base.trace, 1, subject.progress).sh;
 }
 
-/// A and B lit together are A plus B, in every cache.
+/// Light from A and B together equals A plus B in every cache.
 Judgement judgeAdditivity(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     Scene a = scene, b = scene;
@@ -95,7 +96,7 @@ Judgement judgeAdditivity(const Subject& subject) {
                   maxRoundings(caches));
 }
 
-/// Lights and materials in another order are the same light.
+/// Lights and materials in another order give the same light.
 Judgement judgeOrder(const Subject& subject) {
     Scene scene = subject.base.scene;
     std::ranges::reverse(scene.lights);
@@ -109,7 +110,7 @@ Judgement judgeOrder(const Subject& subject) {
                   maxRoundings(caches));
 }
 
-/// A scene on the way to that one: other strengths, places, materials and sky.
+/// An edit of the scene as a step before it: other strengths, places, materials and sky.
 Scene edited(Scene scene, RandomStream& random) {
     for (Light& l : scene.lights) {
         if (random.chance(0.3))
@@ -127,13 +128,13 @@ Scene edited(Scene scene, RandomStream& random) {
         if (random.chance(0.2))
             m.emission = glm::vec3(float(random.between(0, 100)));
     }
-    scene.sky.radiance = glm::vec3(float(random.between(0, 10))); // a change at least
+    scene.sky.radiance = glm::vec3(float(random.between(0, 10))); // at least this changes
     return scene;
 }
 
-/// Edits that lead to a scene leave its light. Up to eight bounces, bit by bit: they begin anew
-/// with each change. More go on from the light that was and end where what is to come is 1e-4 of
-/// all light, on either way.
+/// The light of a scene does not depend on the edits that led to it. Up to eight bounces it is the
+/// same bit by bit, because they restart with each change. More bounces continue from the earlier
+/// light and end where the remaining change is 1e-4 of all light, whether edited or not.
 Judgement judgeIncrements(const Subject& subject) {
     const LitScene& s = subject.base;
     RandomStream random(subject.seed + 7);
@@ -152,9 +153,9 @@ Judgement judgeIncrements(const Subject& subject) {
         return judged(double(different), 0);
     }
     const auto ended = [](const RelightStats& r) { return r.converged && !r.grows; };
-    if (!ended(stats) || !ended(s.light.stats)) // light that grows has no end to compare
+    if (!ended(stats) || !ended(s.light.stats)) // growing light has no limit to compare
         return notJudged();
-    double difference = 0, all = 1e-20; // light that was switched off fades by a share per bounce
+    double difference = 0, all = 1e-20; // light that was switched off fades by a factor per bounce
     for (std::size_t i = 0; i < s.bake->surfels.size(); ++i) {
         const glm::vec3 x(light.radiosity[i]), y(s.light.radiosity[i]), d = glm::abs(x - y);
         difference += double(d.x + d.y + d.z) * double(s.bake->surfels.area[i]);

@@ -20,7 +20,7 @@ bool isValid(const Caches& caches, std::size_t c) {
     return caches.linkBegin[c] < caches.linkBegin[c + 1];
 }
 
-/// For the invalid ones of caches [begin, end), from the valid ones.
+/// Finds sources for the invalid caches of [begin, end) among the valid ones.
 void findSources(const Caches& caches, std::size_t begin, std::size_t end, float spacing,
                  std::vector<Sources>& sources) {
     std::vector<std::uint32_t> valid;

@@ -18,14 +18,14 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kPicks = 16; ///< most places of a patch that are compared
-constexpr float kUnlike = 0.1f;      ///< share of the sky that makes caches wrong
+constexpr std::uint32_t kPicks = 16; ///< maximum number of places of a patch that are compared
+constexpr float kUnlike = 0.1f;      ///< difference in sky share that makes caches wrong
 
-/// Where a ray of a cache met a surfel's patch.
+/// The point where a ray of a cache met a surfel's patch.
 struct Sighting {
     std::uint32_t surfel = ~0U; ///< ~0: it met none
     MeshPoint point{};
-    bool near = false; ///< from nearer than the patch is wide
+    bool near = false; ///< from a distance less than the patch's width
 };
 
 bool isBack(const SurfelSet& set, std::uint32_t surfel, const Scene& scene) {
@@ -42,7 +42,7 @@ WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfe
     return p;
 }
 
-/// Share of the sky's irradiance, in [0, 1], where `open` sums the cosines of the rays that met
+/// Share of the sky's irradiance, in [0, 1]. `open`: sum of the cosines of the rays that met
 /// nothing.
 float skyShare(float open, std::uint32_t rays) {
     return 2 * open / float(std::max(rays, 1U));
@@ -54,11 +54,11 @@ struct Sight {
     const OwnerTables& owners;
     const Caches& caches;
     const CachePoints& points;
-    std::uint32_t rays;                    ///< of a cache, and of a surfel
+    std::uint32_t rays;                    ///< number for each cache and each surfel
     std::vector<Sighting> sightings = {};  ///< `rays` per cache
-    std::vector<float> sky = {};           ///< share of it that each cache sees
+    std::vector<float> sky = {};           ///< share of the sky that each cache sees
     std::vector<std::uint32_t> begin = {}; ///< of surfel s: order[begin[s] … begin[s + 1])
-    std::vector<std::uint32_t> order = {}; ///< of sightings
+    std::vector<std::uint32_t> order = {}; ///< indices into `sightings`
 
     bool look(const Progress& progress);
     void sort();
@@ -92,7 +92,7 @@ bool Sight::look(const Progress& progress) {
         });
 }
 
-/// By surfel, then by cache.
+/// Sorts the sightings that count by surfel, then by cache.
 void Sight::sort() {
     const std::size_t count = set.surfels.size();
     std::vector<bool> seenFromAfar(count);
@@ -114,7 +114,7 @@ void Sight::sort() {
             order[next[sightings[i].surfel]++] = i;
 }
 
-/// Some of the surfel's sightings, of caches far and wide.
+/// Picks at most kPicks of a surfel's sightings, spread evenly over the caches.
 std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
     const std::uint32_t all = begin[surfel + 1] - begin[surfel], count = std::min(all, kPicks);
     std::vector<std::uint32_t> result(count);
@@ -124,8 +124,8 @@ std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
     return result;
 }
 
-/// Asks a few of the caches that see the surfel's patch: whether at least half of them see the
-/// surfel's own position, too.
+/// Whether at least half of a few of the caches that see the surfel's patch also see the surfel's
+/// own position.
 bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
     constexpr std::size_t kAsked = 4;
     const glm::vec3 place = trace.clearOf(set.surfels.position[surfel], set.surfels.normal[surfel]);
@@ -141,7 +141,8 @@ bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picke
     return 2 * hidden <= asked;
 }
 
-/// Distances count as they do where owners are found (NearestPoint).
+/// The place of a surfel: its own, or the picked point closest to the others. Distances are
+/// measured as in the search for owners (NearestPoint).
 MeshPoint Sight::placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
     const Surfels& s = set.surfels;
     const MeshPoint own{s.triangle[surfel], s.barycentric[surfel]};
@@ -182,7 +183,7 @@ float skyAt(const TraceScene& trace, glm::vec3 position, glm::vec3 normal, std::
     return skyShare(open, rays);
 }
 
-/// Texels of the atlas that are no cache's.
+/// Texels of the atlas that belong to no cache.
 std::vector<std::uint32_t> freeTexels(const LightmapLayout& layout, const Caches& caches) {
     std::vector<bool> used(std::size_t(layout.width) * layout.height);
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
@@ -194,8 +195,8 @@ std::vector<std::uint32_t> freeTexels(const LightmapLayout& layout, const Caches
     return result;
 }
 
-/// How the caches of a surfel are wrong: what it sees of the sky less what they do, times how often
-/// it is seen.
+/// Error of the caches of a surfel: the share of the sky that the surfel sees minus the share that
+/// they see, times the number of rays that see the surfel.
 float wrongness(const Sight& sight, const Surfels& moved, std::uint32_t s) {
     float read = 0, sum = 0;
     for (int k = 0; k < 4; ++k)
@@ -211,14 +212,16 @@ float wrongness(const Sight& sight, const Surfels& moved, std::uint32_t s) {
     return std::abs(own - read) < kUnlike ? 0 : (own - read) * float(seen);
 }
 
-/// Surfels whose caches are wrong in the same way, close together and facing alike.
+/// A group of surfels that are close together, face alike, and whose caches are wrong in the same
+/// way.
 struct WrongGroup {
     std::uint64_t key = 0;
-    double wrong = 0; ///< > 0, of all
+    double wrong = 0; ///< sum of the absolute errors, > 0
     std::vector<std::uint32_t> surfels;
 };
 
-/// Strongest cache, darker or brighter than it, and the side that the surfel faces.
+/// Key of a surfel's group: its strongest cache, whether it is brighter or darker than that, and
+/// the side that it faces.
 std::uint64_t groupKey(const Surfels& s, std::uint32_t surfel, bool brighter) {
     const glm::vec4 w = s.cacheWeight[surfel];
     const glm::vec3 n = s.normal[surfel], a = glm::abs(n);
@@ -231,7 +234,7 @@ std::uint64_t groupKey(const Surfels& s, std::uint32_t surfel, bool brighter) {
            unsigned(2 * axis + int(n[axis] < 0));
 }
 
-/// The `most` worst groups, by key.
+/// The `most` worst groups, sorted by key.
 std::vector<WrongGroup> worstGroups(const Surfels& moved, const std::vector<float>& wrong,
                                     std::size_t most) {
     std::vector<WrongGroup> groups;
@@ -255,9 +258,9 @@ std::vector<WrongGroup> worstGroups(const Surfels& moved, const std::vector<floa
     return groups;
 }
 
-/// Points of the surfels' patches that are seen and face as the first surfel does: those in sight
-/// of the surfel's place a little above the surface, so on its side of a wall, or, where none is,
-/// any.
+/// Own cache over seen points of the surfels' patches that face as the first surfel does: those
+/// visible from the surfel's place a little above the surface, hence on its side of a wall, or any
+/// where none is.
 OwnCache ownCache(const Sight& sight, const Surfels& moved,
                   const std::vector<std::uint32_t>& surfels) {
     constexpr float kAlike = 0.9f, kAbove = 0.05f; // [patches' width]

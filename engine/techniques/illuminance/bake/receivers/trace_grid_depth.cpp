@@ -23,7 +23,7 @@ struct DepthMaker {
     std::uint32_t rays;
     float reach;
 
-    /// How far a ray went that met surfel s.
+    /// Length of a ray that met surfel s.
     float length(std::uint32_t s, glm::vec3 from, glm::vec3 d) const {
         const glm::vec3 way = surfels.position[s] - from;
         const float to = glm::length(way), along = glm::dot(surfels.normal[s], d);
@@ -35,7 +35,7 @@ struct DepthMaker {
                           to + apart);
     }
 
-    /// 1 / depth at `p` of the octahedron, near where a ray along unit `d` met `hit`.
+    /// 1 / depth at `p` of the octahedron, close to where a ray along unit `d` met `hit`.
     float inverseDepth(glm::vec3 from, glm::vec3 d, RawHit hit, glm::vec3 p) const {
         const std::uint32_t s = hit & ~kBack;
         if (s >= surfels.size())
@@ -51,7 +51,7 @@ struct DepthMaker {
         std::uint32_t backs = 0;
         for (std::uint32_t r = 0; r < rays; ++r)
             backs += (own[r] & kBack) ? 1 : 0; // kUntraced has the bit too
-        if (2 * backs > rays) {                // in a solid: as for its light
+        if (2 * backs > rays) {                // in a solid, by the same rule as for its light
             std::fill_n(out, kGridDepthTexels, std::uint16_t(0xffff));
             return;
         }

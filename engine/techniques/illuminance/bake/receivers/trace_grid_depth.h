@@ -9,9 +9,9 @@
 
 namespace limn {
 
-/// What the rays of the grid's caches tell, as they were traced and before anything is made of
-/// them: no ray is traced. A wall is the plane of the surfel that the hit is credited to. Cells
-/// follow one another as caches do.
+/// Computes the grid's depth maps (field/grid_depth.h) from the raw hits of the rays of its caches,
+/// without tracing further rays. A wall is the plane of the surfel that the hit is credited to.
+/// Cells are in the order of the caches.
 std::vector<std::uint16_t> gridDepths(const Surfels& surfels, const Caches& caches,
                                       const CachePoints& points, const std::vector<RawHit>& hits,
                                       std::uint32_t rays, float reach);

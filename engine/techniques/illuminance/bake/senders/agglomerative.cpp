@@ -40,7 +40,7 @@ Cluster merged(const Cluster& a, const Cluster& b, float normalWeight) {
     return c;
 }
 
-/// What encloses some clusters. bound() is rounded as distance() is, step by step, so it never
+/// Bounding box of some clusters. bound() is rounded as distance() is, step by step, so it never
 /// exceeds the distance to any of them.
 struct Box {
     std::array<float, 6> lower, upper;
@@ -104,7 +104,7 @@ struct Nearest {
     }
 };
 
-/// The clusters that are left, in a complete binary tree of boxes over slots.
+/// The remaining clusters, in a complete binary tree of boxes over slots.
 class ClusterIndex {
 public:
     ClusterIndex(const std::vector<Cluster>& clusters, float balanceWeight)
@@ -119,10 +119,10 @@ public:
         split(0, 0, std::uint32_t(m_slots.size()));
     }
 
-    /// The cluster nearest to `number` but itself; of several the lowest.
+    /// The cluster nearest to `number` other than itself; among equals the lowest.
     Nearest nearest(std::uint32_t number) const;
 
-    /// Puts `c` into the place of `a`, and nothing into that of `b`.
+    /// Puts `c` into the slot of `a` and empties the slot of `b`.
     void replace(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         m_leafOf[c] = m_leafOf[a];
         *find(a) = c;
@@ -131,7 +131,7 @@ public:
         refit(m_leafOf[b]);
     }
 
-    /// All that are left, but for kNone.
+    /// All remaining clusters; empty slots hold kNone.
     const std::vector<std::uint32_t>& slots() const { return m_slots; }
 
 private:
@@ -166,7 +166,7 @@ void ClusterIndex::split(std::size_t node, std::uint32_t begin, std::uint32_t en
         }
         return;
     }
-    // Areas of a ratio of two are C_b / 2 apart in the metric.
+    // Areas in a ratio of two are C_b / 2 apart in the metric.
     const float octave = std::sqrt(m_balanceWeight / 2);
     medianSplit<7>(std::span(m_slots).subspan(begin, end - begin),
                    [&](std::uint32_t i, std::size_t k) {
@@ -195,7 +195,7 @@ void ClusterIndex::refit(std::size_t leaf) {
 
 Nearest ClusterIndex::nearest(std::uint32_t number) const {
     struct Visit {
-        Nearest best; ///< the best that the box may hold
+        Nearest best; ///< lower bound for what the box may hold
         std::size_t node;
     };
     const Cluster& from = m_clusters[number];
@@ -226,13 +226,14 @@ Nearest ClusterIndex::nearest(std::uint32_t number) const {
     return best;
 }
 
-/// The nearest neighbour of `owner` when last asked. `low` < `high` are the two.
+/// The nearest neighbour of `owner` at the last query. `low` < `high` are the two.
 struct Candidate {
     float distance;
     std::uint32_t low, high, owner;
 
-    /// std heaps have the largest first. Of equal distances that whose later cluster came first:
-    /// were it by the earlier one, all of many points at one spot would ask again after each merge.
+    /// std heaps have the largest first. Of equal distances, the pair whose later cluster came
+    /// first is preferred: with the earlier cluster instead, many points at one spot would all
+    /// query again after each merge.
     bool operator<(const Candidate& o) const {
         return std::tie(distance, high, low) > std::tie(o.distance, o.high, o.low);
     }
@@ -242,7 +243,8 @@ Candidate candidate(std::uint32_t owner, const Nearest& n) {
     return {n.distance, std::min(owner, n.number), std::max(owner, n.number), owner};
 }
 
-/// Merges in the order they are made.
+/// Generic clustering algorithm of Müllner (clustering.h); yields merges in the order they are
+/// made.
 class Agglomeration {
 public:
     Agglomeration(std::span<const ClusterItem> items, const ClusterMetric& metric)
@@ -268,7 +270,7 @@ public:
     }
 
     MergeTree run(const Progress& progress) {
-        constexpr float kRebuildAt = 0.7f; // of what was left at the last time
+        constexpr float kRebuildAt = 0.7f; // share of the clusters at the last rebuild
         MergeTree tree;
         std::uint32_t left = m_count, built = m_count;
         while (left > 1 && !(left % 1024 == 0 && progress.cancelled())) {
@@ -296,9 +298,9 @@ private:
         std::push_heap(m_heap.begin(), m_heap.end());
     }
 
-    /// Of each two clusters, the one asked last has a neighbour no further than the other. So a
-    /// heap's top that still exists is the closest pair of all, and one whose neighbour is gone
-    /// asks again.
+    /// The one of two clusters that was queried last has a neighbour at most as far away as the
+    /// other cluster. So the heap's top, if it still exists, is the closest pair of all; if its
+    /// neighbour is gone, it queries again.
     std::pair<std::uint32_t, std::uint32_t> closestPair() {
         for (;;) {
             std::pop_heap(m_heap.begin(), m_heap.end());
@@ -323,7 +325,7 @@ private:
     std::vector<Cluster> m_clusters; ///< items, then merged ones
     ClusterIndex m_index;
     std::vector<bool> m_alive;
-    std::vector<Candidate> m_heap; ///< one for each cluster alive, and some of dead ones
+    std::vector<Candidate> m_heap; ///< one for each remaining cluster, and some of merged ones
 };
 
 /// The same tree with its inner nodes depth first.

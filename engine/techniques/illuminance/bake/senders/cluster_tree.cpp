@@ -41,7 +41,7 @@ MergeTree keptMeshTree(const MeshSurfels& surfels, const BakeSettings& settings,
     std::uint64_t key = hashVector(surfels.position, hashVector(surfels.normal, 0));
     key = hashValue(settings.clusterNormalWeight, hashValue(settings.clusterBalanceWeight, key));
     key = hashValue(std::uint32_t(settings.clustering), key);
-    constexpr std::size_t kWorthKeeping = 64; // of fewer, or halved ones, it is as fast to make
+    constexpr std::size_t kWorthKeeping = 64; // smaller or median trees rebuild as fast
     const bool slow =
         settings.clustering == Clustering::Agglomerative && surfels.size() >= kWorthKeeping;
     return keptOrMade<MergeTree>(
@@ -103,8 +103,8 @@ void joinRoots(const std::vector<Root>& roots, const Scene& scene, std::uint32_t
     tree.right.push_back(sky);
 }
 
-/// Appends the tree over the sky's cells, always of medians: the cells are a regular grid. Returns
-/// its root.
+/// Appends the tree over the sky's cells and returns its root. It is always split at medians,
+/// because the cells form a regular grid.
 std::uint32_t appendSky(ClusterTree& tree) {
     std::vector<ClusterItem> items;
     for (std::uint32_t c = 0; c < kSkyCells; ++c) {

@@ -5,28 +5,28 @@
 
 namespace limn {
 
-/// Number of sky cells: a sender for each, of equal solid angle.
+/// Number of sky cells. Each is a sender, and all have equal solid angle.
 inline constexpr std::uint32_t kSkyCells = 256;
 
-/// The cell of the sky in direction `d` (unit): equal-area bands of height by sectors about +Y.
+/// Sky cell in direction `d` (unit). Cells are sectors about +Y of equal-area bands of height.
 std::uint32_t skyCellOf(glm::vec3 d);
 
-/// The middle of a cell, unit. `cell` < kSkyCells.
+/// Unit direction of the middle of a cell. `cell` < kSkyCells.
 glm::vec3 skyCellDirection(std::uint32_t cell);
 
-/// Trees per mesh, built once in object space and used by each instance, a tree over the instances,
-/// and one over the sky cells, joined at the root. Surfels and instances are clustered as
-/// Scene::bake says, with the diagonal of the mesh's surfels, or of the scene, as the metric's
-/// extent. leftWeight is by area. Empty when cancelled.
-/// Trees of meshes that `store` knows are not built again.
+/// Builds the tree of all senders. It joins a tree over the instances and one over the sky cells at
+/// the root; each instance uses its mesh's tree, built once in object space. Surfels and instances
+/// are clustered as Scene::bake says, with the diagonal of the mesh's surfels, or of the scene, as
+/// the metric's extent. leftWeight is by area. Trees of meshes found in `store` are reused. Empty
+/// when cancelled.
 ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set,
                              const Progress& progress = {}, StageStore* store = nullptr);
 
-/// Fills leftWeight by area, and parent, from the children.
+/// Fills leftWeight, by area, and parent from the children.
 void fillWeightsAndParents(const Surfels& surfels, ClusterTree& tree);
 
-/// Per node whether nothing but sky is below it: a link to it brings nothing while the sky is
-/// black.
+/// Per node, true where all leaves below it are sky cells. Links to such nodes bring no light while
+/// the sky is black.
 std::vector<bool> skyNodes(const ClusterTree& tree);
 
 } // namespace limn

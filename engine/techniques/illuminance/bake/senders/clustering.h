@@ -20,9 +20,9 @@ struct ClusterItem {
     float area;         ///< sum, > 0; only ratios matter
 };
 
-/// Inner nodes of a binary tree over `count` items, depth first: a subtree's nodes stand together
-/// and children come before parents. Child < count: an item; else count + index of an inner node.
-/// Empty for a single item.
+/// Inner nodes of a binary tree over `count` items, depth first: a subtree's nodes are contiguous
+/// and children come before parents. A child < count is an item; any other is count + the index of
+/// an inner node. Empty for a single item.
 struct MergeTree {
     std::vector<std::uint32_t> left, right;
     bool operator==(const MergeTree&) const = default;
@@ -38,24 +38,24 @@ struct ClusterMetric {
     float balanceWeight = 0.02f; ///< C_b >= 0
 };
 
-/// An item in six coordinates in which squared distance is the first two terms of the metric for
-/// unit normals: x / extent and sqrt(C_n / 2) m, within +-1e9; what is not finite becomes 0.
+/// Maps an item to six coordinates in which the squared distance is the first two terms of the
+/// metric for unit normals: x / extent and sqrt(C_n / 2) m, within +-1e9. Non-finite values become
+/// 0.
 std::array<float, 6> metricCoordinates(const ClusterItem& item, const ClusterMetric& metric);
 
-/// Joins, again and again, the two clusters of least d(a,b); ties go to the pair whose
-/// later member has the lower number, then the earlier one; clusters are numbered after the items,
-/// as they are made. Exact: each choice is the one that
-/// a search through all pairs would make. The generic algorithm of Müllner. Modern Hierarchical,
-/// Agglomerative Clustering Algorithms. 2011, its nearest neighbours from a tree of boxes.
-/// Without nodes when cancelled.
+/// Repeatedly joins the two clusters of least d(a,b). Ties go to the pair whose later member has
+/// the lower number, then the earlier one; clusters are numbered after the items, as they are made.
+/// Exact: each choice is the one that a search through all pairs would make. Implements the generic
+/// algorithm of Müllner. Modern Hierarchical, Agglomerative Clustering Algorithms. 2011, with
+/// nearest neighbours from a tree of boxes. Without nodes when cancelled.
 MergeTree clusterAgglomerative(std::span<const ClusterItem> items, const ClusterMetric& metric,
                                const Progress& progress = {});
 
-/// Splits at the median of the widest of metricCoordinates(). The term for balance has no part: the
-/// median gives it.
+/// Splits at the median of the widest of metricCoordinates(). The balance term is not used, since
+/// splitting at the median balances the tree.
 MergeTree clusterByMedian(std::span<const ClusterItem> items, const ClusterMetric& metric);
 
-/// One of the two.
+/// Calls the function that `how` chooses of the two above.
 MergeTree clusterItems(Clustering how, std::span<const ClusterItem> items,
                        const ClusterMetric& metric, const Progress& progress = {});
 

@@ -13,32 +13,33 @@
 
 namespace limn {
 
-/// The SurfelOwners of a scene's meshes, each made when it is first asked for.
+/// The SurfelOwners of a scene's meshes, each built on first use.
 class OwnerTables {
 public:
     /// Keeps references.
     OwnerTables(const Scene& scene, const SurfelSet& set)
         : m_scene(scene), m_set(set), m_tables(set.meshes.size()) {}
 
-    /// Tables are taken from `store`, or kept there, under these keys per mesh.
+    /// Loads tables from `store`, or keeps them there, under `keys`, one per mesh.
     void keep(StageStore& store, std::vector<std::uint64_t> keys) {
         m_store = &store;
         m_keys = std::move(keys);
     }
 
-    /// Tables made after `progress` was cancelled are of no use.
+    /// Stops building tables when `progress` is cancelled. Tables built after that are meaningless.
     void stopWith(const Progress& progress) {
         m_progress = {.report = {}, .cancel = progress.cancel};
     }
 
-    /// Tables of instances that walls part, from now on. Not while threads ask.
+    /// Uses `sides` from now on for instances whose patches are split by walls. Must not be called
+    /// while other threads read the tables.
     void part(PatchSides sides) { m_sides = std::move(sides); }
     const PatchSides& sides() const { return m_sides; }
 
-    /// Any thread may ask. Precondition: the mesh has surfels.
+    /// Table of a mesh. Thread-safe. Precondition: the mesh has surfels.
     const SurfelOwners& of(std::uint32_t mesh) const;
 
-    /// How long PatchSides::owner is for an instance with surfels.
+    /// Length of PatchSides::owner for an instance with surfels.
     std::uint64_t cellsOf(std::uint32_t instance) const {
         const Instance& i = m_scene.instances[instance];
         return std::uint64_t(of(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
@@ -75,8 +76,8 @@ private:
     PatchSides m_sides;
 };
 
-/// The area that each surfel stands for in the world [m^2], by the cells that it owns; > 0 for
-/// those that own none, too. Surfels pushed over an edge, onto the rim of a thin lamp or the other
+/// World-space area that each surfel stands for [m^2], from the cells that it owns; > 0 even for
+/// surfels that own none. Surfels pushed over an edge, onto the rim of a thin lamp or the other
 /// way, stand for other areas than they were placed for; a rim of 6 mm had five times its own.
 std::vector<float> ownedAreas(const Scene& scene, const SurfelSet& set, const OwnerTables& owners);
 

@@ -71,7 +71,7 @@ std::uint32_t Patches::ownerOf(std::uint32_t triangle, glm::vec2 uv, std::uint32
     return first + nearestOwner;
 }
 
-/// Owners of all cells, fronts first; empty where no wall parts any.
+/// Owners of all cells, fronts first; empty where no wall splits any patch.
 std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& progress) {
     const Scene& scene = patches.trace.scene();
     const Instance& instance = scene.instances[patches.instance];
@@ -99,7 +99,7 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
     return differs ? std::move(result) : std::vector<std::uint32_t>();
 }
 
-/// Adds the cells of an instance to the hashes of the surfels that they left and came to.
+/// Adds the reassigned cells of an instance to the hashes of their old and new surfels.
 void noteChanges(const SurfelOwners& owners, const MeshSurfels& surfels, std::uint32_t first,
                  const std::vector<std::uint32_t>& parted, std::vector<std::uint64_t>& changed) {
     for (std::uint32_t c = 0; c < parted.size(); ++c) {

@@ -12,21 +12,22 @@ class OwnerTables;
 class TraceScene;
 struct SurfelSet;
 
-/// Which surfel stands for each point where walls cut surfels' patches.
+/// Assignment of points to surfels where walls cut surfels' patches.
 struct PatchSides {
-    /// Per instance, empty where no wall does: per cell of its mesh's SurfelOwners the surfel of
-    /// the MeshSurfels on the front; on two-sided ones then per cell that on the back.
+    /// Per instance, empty where no wall cuts a patch: for each cell of its mesh's SurfelOwners,
+    /// the index into MeshSurfels of the surfel on the front; on two-sided instances then, for each
+    /// cell, of that on the back.
     std::vector<std::vector<std::uint32_t>> owner;
     /// Per surfel of the scene, 0 or a hash of the cells that it lost or gained; empty: all 0.
     std::vector<std::uint64_t> changed;
-    std::uint64_t rays = 0; ///< traced for it
+    std::uint64_t rays = 0; ///< rays traced for this result
 };
 
-/// A cell of a patch belongs to the nearest surfel of like normal that it is on one side of all
-/// walls with: a segment between the two, a quarter of the surfels' spacing above the surface,
-/// meets nothing but surfaces of the same instance that face alike. A cell that is with none of the
-/// nearest few keeps the nearest. Without this, the floor on either side of a wall would be as
-/// bright as one surfel on one side of it. Of no use when cancelled.
+/// Assigns each cell of a patch to the nearest surfel of like normal on the same side of all walls:
+/// a segment between the two, a quarter of the surfels' spacing above the surface, meets only
+/// surfaces of the same instance that face alike. A cell for which none of the nearest few surfels
+/// qualifies keeps the nearest. Without this, the floor on both sides of a wall would be as bright
+/// as one surfel on one side of it. The result is meaningless when cancelled.
 PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
                           const Progress& progress);
 

@@ -16,8 +16,8 @@ namespace limn {
 
 namespace {
 
-// Found by trial on Cornell and Sponza: even distances and even areas of the points' Voronoi cells
-// after ten rounds. From a step of 0.6 on it swings instead of settling.
+// Found by experiment on Cornell and Sponza: even distances and even areas of the points' Voronoi
+// cells after ten rounds. From a step of 0.6 on, the points oscillate instead of settling.
 constexpr int kRounds = 10;
 constexpr float kReach = 1.5f;   // of repulsion [spacings]
 constexpr float kStep = 0.45f;   // displacement per force [reaches]
@@ -48,7 +48,7 @@ struct Relaxation {
             const float length = std::sqrt(d2);
             if (length > 0) {
                 force += d * (repulsion(length / reach) / length);
-            } else { // at one spot: apart in any direction
+            } else { // at the same spot: push apart in any direction
                 const float angle = 2 * std::numbers::pi_v<float> * unitFloat(mixBits(i));
                 force += basisAround(n) * glm::vec3(std::cos(angle), std::sin(angle), 0);
             }
@@ -56,7 +56,7 @@ struct Relaxation {
         return force - n * glm::dot(force, n);
     }
 
-    /// From the point's own mirror images behind the borders of its triangle.
+    /// Force from the point's own mirror images behind the borders of its triangle.
     glm::vec3 fromBorders(const MeshPoint& point) const {
         glm::vec3 force(0);
         const std::uint32_t t = point.triangle;

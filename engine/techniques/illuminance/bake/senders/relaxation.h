@@ -9,13 +9,13 @@
 
 namespace limn {
 
-/// Spreads points of a mesh evenly: repulsion from those near, moving within the surface only, all
-/// at once in each of a few rounds. Points that face away (other sheets, the other side of a thin
-/// wall) do not repel; borders do, as if the surface were mirrored there. `spacing` is the distance
-/// wanted where the density is 1 [object space], and shrinks with its root; nothing moves unless it
-/// is > 0 and finite. Each point keeps the distance of its own place from all others. Turk.
-/// Generating Textures on Arbitrary Surfaces Using Reaction-Diffusion. 1991, section 3.1.
-/// Deterministic. When cancelled, what it reached.
+/// Spreads points of a mesh evenly. Nearby points repel one another and move within the surface,
+/// all at once in each of a few rounds. Points that face away (other sheets, the other side of a
+/// thin wall) do not repel; borders do, as if the surface were mirrored there. `spacing` is the
+/// target distance where the density is 1 [object space], and shrinks with the density's root;
+/// nothing moves unless it is > 0 and finite. Each point keeps the target distance of its own place
+/// from all others. Turk. Generating Textures on Arbitrary Surfaces Using Reaction-Diffusion. 1991,
+/// section 3.1. Deterministic. When cancelled, the points stay as the last rounds left them.
 void relax(const Mesh& mesh, float spacing, const MeshDensity& density,
            std::vector<MeshPoint>& points, const Progress& progress = {});
 

@@ -8,8 +8,8 @@
 namespace limn {
 
 SenderOrder::SenderOrder(const ClusterTree& tree) : m_rank(tree.leaves()) {
-    // Leftmost and rightmost rank below each node would need them in depth-first order; a stack
-    // gives that. An inner node, between its halves, is where the leaves on either side part.
+    // Depth-first traversal with a stack. An inner node, visited between its halves, is the lowest
+    // common ancestor of the leaves on either side.
     std::vector<std::uint32_t> parting;
     struct Visit {
         std::uint32_t node;

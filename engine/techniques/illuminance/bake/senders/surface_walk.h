@@ -12,15 +12,16 @@ namespace limn {
 /// Moves points within the surface of a mesh, across the edges that join two triangles.
 class SurfaceWalk {
 public:
-    /// The mesh must outlive the object. Of no use when cancelled.
+    /// The mesh must outlive the object, which must not be used when cancelled.
     explicit SurfaceWalk(const Mesh& mesh, const Progress& progress = {});
 
-    /// Goes straight by `step` (object space, in the plane of the point's triangle), turning with
-    /// the surface at edges. Ends early at a border, see edgePartners(), before a triangle without
-    /// area, and after kMaxCrossings edges. The result always lies in its triangle.
+    /// Moves a point straight by `step` (object space, in the plane of the point's triangle),
+    /// following the surface across edges. Ends early at a border (see edgePartners()), before a
+    /// triangle without area, and after kMaxCrossings edges. The result always lies in its
+    /// triangle.
     MeshPoint move(MeshPoint point, glm::vec3 step) const;
 
-    /// Edge k of the triangle, from its corner k to the next, is a border.
+    /// Whether edge k of the triangle, from its corner k to the next, is a border.
     bool isBorder(std::uint32_t triangle, std::uint32_t k) const;
 
     const glm::vec3& normal(std::uint32_t triangle) const { return m_geometry.normal[triangle]; }

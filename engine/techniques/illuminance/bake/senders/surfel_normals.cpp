@@ -10,7 +10,7 @@ namespace limn {
 
 namespace {
 
-/// Unit, of the front; 0 where the triangle has none.
+/// Unit normal of the front; 0 where the triangle has none.
 glm::vec3 frontNormal(const Scene& scene, const Surfels& surfels, std::uint32_t surfel) {
     const Instance& instance = scene.instances[surfels.instance[surfel]];
     const glm::vec3 n =

@@ -30,7 +30,7 @@ bool sendsLight(const Scene& scene, const Instance& instance) {
     return !instance.dynamic && scene.meshOf(instance).triangleCount() > 0;
 }
 
-/// [m^2] of the lit sides in the world, per instance; 0 where no light is sent.
+/// World area of the lit sides [m^2], per instance; 0 where no light is sent.
 std::vector<double> litAreas(const Scene& scene) {
     std::vector<double> area(scene.instances.size());
     parallelRanges(area.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -42,7 +42,7 @@ std::vector<double> litAreas(const Scene& scene) {
     return area;
 }
 
-/// Pieces of a mesh that share no vertex position.
+/// Number of pieces of a mesh that share no vertex position.
 std::uint32_t countPieces(const Mesh& mesh) {
     const std::vector<std::uint32_t> point = weldVertices(mesh, false);
     std::uint32_t pieces = point.empty() ? 0 : *std::ranges::max_element(point) + 1;
@@ -64,12 +64,12 @@ std::uint32_t countPieces(const Mesh& mesh) {
     return std::max(pieces, 1U);
 }
 
-/// The least surfels of each mesh. Those of emissive meshes stand for lamps, which by their area
-/// alone would get one surfel, with one normal, or none. Caches that see a lamp of side w under
-/// less than an eighth of their rays, so from d > 1.1 w, sum over its surfels: with n of them on
-/// the side in sight the midpoint rule is off by (w / d)^2 / (12 n) or less in distance, 0.2 % for
-/// n = 32. Of a closed lamp half of the surfels look away: 64. All lamps together get a quarter of
-/// `target` at most.
+/// Minimum number of surfels of each mesh. Emissive meshes are lamps, which by their area alone
+/// would get one surfel, with one normal, or none. Caches that see a lamp of side w under less than
+/// an eighth of their rays, so from d > 1.1 w, sum over its surfels: with n of them on the side in
+/// sight the midpoint rule is off by (w / d)^2 / (12 n) or less in distance, 0.2 % for n = 32. Half
+/// of the surfels of a closed lamp face away, hence 64. All lamps together get at most a quarter of
+/// `target`.
 std::vector<std::uint32_t> minSurfels(const Scene& scene, const std::vector<double>& area,
                                       std::uint32_t target) {
     constexpr std::uint32_t kLampSurfels = 64;
@@ -92,14 +92,14 @@ std::vector<std::uint32_t> minSurfels(const Scene& scene, const std::vector<doub
     return least;
 }
 
-/// What a cell deserves: its area times its density.
+/// Weight of a cell: its area times its density.
 double worthOf(const Mesh& mesh, const MeshDensity& density, std::uint32_t triangle,
                glm::uvec2 at) {
     return triangleArea(mesh, triangle) * density.share(triangle, at) *
            double(density.density[density.cell(triangle, at)]);
 }
 
-/// Of all cells of a mesh.
+/// Sum over all cells of a mesh.
 double summedWorth(const Mesh& mesh, const MeshDensity& density) {
     double sum = 0;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
@@ -114,7 +114,7 @@ double summedArea(const Mesh& mesh) {
     return sum;
 }
 
-/// Per mesh, over its area.
+/// Mean density of each mesh over its area.
 std::vector<double> meanDensities(const Scene& scene, std::span<const MeshDensity> density) {
     std::vector<double> mean(scene.assets->meshes.size(), 1);
     for (std::size_t m = 0; m < density.size(); ++m)
@@ -123,8 +123,8 @@ std::vector<double> meanDensities(const Scene& scene, std::span<const MeshDensit
     return mean;
 }
 
-/// Counts per mesh from the areas of its instances times its mean density, and no fewer than
-/// minSurfels(): those that need more than that gives take it from the others.
+/// Number of surfels per mesh in proportion to the areas of its instances times its mean density,
+/// but at least minSurfels(), which raises some at the expense of the others.
 std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<double>& area,
                                           const std::vector<double>& density,
                                           std::uint32_t target) {
@@ -179,7 +179,7 @@ private:
     std::uint32_t m_state = 2463534242U;
 };
 
-/// Point of cell `at` from a point of the unit square: barycentrics of the triangle.
+/// Maps a point of the unit square to cell `at`; returns barycentrics of the triangle.
 glm::vec2 sampleCell(std::uint32_t side, glm::uvec2 at, glm::vec2 square) {
     if (at.x + at.y + 1 == side)
         square = sampleTriangle(square);
@@ -214,7 +214,7 @@ std::vector<MeshPoint> pointsByWorth(const Mesh& mesh, std::uint32_t count,
     return points;
 }
 
-/// Areas that go with the density at each point and sum to `total`.
+/// Areas that follow the density at each point and sum to `total`.
 std::vector<float> areasOf(const std::vector<MeshPoint>& points, const MeshDensity& density,
                            double total) {
     std::vector<float> areas;
@@ -228,8 +228,8 @@ std::vector<float> areasOf(const std::vector<MeshPoint>& points, const MeshDensi
     return areas;
 }
 
-/// The cofactor matrix stretches a unit patch; the average over the surfels need not meet the
-/// triangles' `area` [m^2] where sides stretch differently, so the sum is put right.
+/// The cofactor matrix stretches a unit patch; the average over the surfels need not equal the
+/// triangles' `area` [m^2] where sides stretch differently, so the sum is corrected.
 void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& local, double area,
                     Surfels& out) {
     const Instance& instance = scene.instances[index];
@@ -375,7 +375,8 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     const double worth = summedWorth(mesh, density) / surfels.frontCount; // of a surfel
     m_density = {density.level, density.begin, {}};
     m_blocks.resize(density.uniform() ? mesh.triangleCount() : density.density.size());
-    // Needles have long sides and no area. Their cells must not outnumber all else.
+    // Needle-shaped triangles have long sides and almost no area. Their cells must not outnumber
+    // all others.
     const double maxInAll = 256.0 * double(surfels.frontCount) + 4.0 * double(mesh.triangleCount());
     double inAll = 0;
     const auto forBlocks = [&](const auto& visit) {

@@ -13,22 +13,22 @@ namespace limn {
 class StageStore;
 
 /// Sample points of one mesh in object space, front sides first; a two-sided mesh repeats them with
-/// the normal turned.
+/// the normal reversed.
 struct MeshSurfels {
     std::vector<glm::vec3> position;
     std::vector<glm::vec3> normal; ///< unit, object space, of the side it stands for
     std::vector<std::uint32_t> triangle;
     std::vector<glm::vec2> barycentric;
     std::uint32_t frontCount = 0; ///< size() or, two-sided, half of it
-    float area = 0; ///< mean of a surfel in object space; frontCount * area is the mesh's area
-    std::vector<float> areas; ///< of each; empty: all alike
+    float area = 0; ///< mean area of a surfel in object space; frontCount * area is the mesh's area
+    std::vector<float> areas; ///< area of each surfel; empty: all equal
     MeshDensity density;
 
     std::size_t size() const { return position.size(); }
 };
 
-/// `count` >= 1 points, in proportion to area times density: point i starts in the cell at
-/// (i + 1/2)/count of the mesh's sum of those, so what small triangles deserve carries over to
+/// Places `count` >= 1 points in proportion to area times density. Point i starts in the cell at (i
+/// + 1/2)/count of the mesh's sum of those, so that the share of small triangles carries over to
 /// their neighbours, at a Halton point (bases 2, 3) of that cell, or a random one. Halton. On the
 /// Efficiency of Certain Quasi-Random Sequences of Points in Evaluating Multi-Dimensional
 /// Integrals. 1960
@@ -44,24 +44,24 @@ struct SurfelSet {
     Surfels surfels;   ///< world space; cache links not filled yet
 };
 
-/// About `target` surfels spread over the static instances by world area times `density` (per mesh;
-/// empty: the same all over), at least one per mesh side. Instances of a mesh share its points.
-/// World areas include the local stretch of the transform; those of an instance sum to the area of
-/// its lit sides.
-/// When cancelled, of no use. Points of meshes that `store` knows are not placed again.
+/// Spreads about `target` surfels over the static instances by world area times `density` (per
+/// mesh; empty: uniform), at least one per mesh side. Instances of a mesh share its points. World
+/// areas include the local stretch of the transform; those of an instance sum to the area of its
+/// lit sides.
+/// Points of meshes found in `store` are reused. The result is meaningless when cancelled.
 SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
                        std::span<const MeshDensity> density = {}, const Progress& progress = {},
                        StageStore* store = nullptr);
 
-/// About how many of `target` surfels will lie on emissive surfaces, were all others equally dense.
+/// Approximate number of `target` surfels on emissive surfaces if all others were equally dense.
 std::uint64_t expectedLampSurfels(const Scene& scene, std::uint32_t target);
 
-/// Which surfel stands for a point of a mesh: tables of triangle cells, built with the nearest
-/// surfel of like normal.
+/// Finds the surfel that stands for a point of a mesh, from tables of triangle cells that hold the
+/// nearest surfel of like normal.
 class SurfelOwners {
 public:
     SurfelOwners() = default;
-    /// When cancelled, of no use.
+    /// Meaningless when cancelled.
     SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress = {});
 
     /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
@@ -134,12 +134,12 @@ private:
     static std::uint32_t last(glm::uvec2 at, float side, std::uint32_t n, std::uint32_t i) {
         return float(at.x + at.y + 1) < side ? n - 1 : n - 1 - i;
     }
-    /// Those that are read, within m_owner.
+    /// Whether the blocks that are read lie within m_owner.
     bool blocksLieWithin(const Mesh& mesh) const;
     void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);
 
     std::uint32_t m_frontCount = 0;
-    MeshDensity m_density;       ///< without its densities: only how triangles are parted
+    MeshDensity m_density;       ///< without its densities: only how triangles are divided
     std::vector<Block> m_blocks; ///< per cell of the density, or triangle where that is uniform
     std::vector<std::uint32_t> m_owner; ///< front surfel per cell
 };

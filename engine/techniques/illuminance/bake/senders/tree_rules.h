@@ -6,8 +6,8 @@
 
 namespace limn {
 
-/// The inner nodes of a tree over `leaves` leaves: every node but the last is a child of exactly
-/// one, which comes after it. Children of inner node k are numbers < leaves + k.
+/// Whether these are the inner nodes of a tree over `leaves` leaves: every node but the last is a
+/// child of exactly one node, which comes after it, and children of inner node k are < leaves + k.
 bool isTree(const std::vector<std::uint32_t>& left, const std::vector<std::uint32_t>& right,
             std::uint32_t leaves);
 

@@ -33,7 +33,7 @@ ArrivedObjects::ArrivedObjects(const TraceScene& trace, const std::vector<std::u
     }
 }
 
-// z falls evenly along the lattice, so a cone's rays lie within one run of it.
+// z decreases evenly along the lattice, so a cone's rays lie within one contiguous range of it.
 void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from,
                                 const BoundingSphere& sphere,
                                 std::vector<std::uint8_t>& candidate) const {

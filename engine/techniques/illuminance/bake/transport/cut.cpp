@@ -64,13 +64,13 @@ glm::mat3 turnAboutZ(float turns) {
     return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// Irradiance, over its solid angle / pi, of a sender of radiosity 1; for a cell of the grid the
-/// mean over all normals that see it, by half.
+/// Irradiance from a sender of radiosity 1, divided by its solid angle / pi; for a cell of the
+/// grid, half the mean over all normals that see it.
 float irradianceShare(CacheKind kind, float cosTheta) {
     return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
 }
 
-/// The directions of a cache's rays but for its own turn about z and its surface.
+/// The directions of a cache's rays, without its own rotation about z and its surface's frame.
 std::vector<glm::vec3> unturnedRays(std::uint32_t rays, bool sphere) {
     DirectionSet set(rays, sphere, 0);
     set.turn = 0;
@@ -80,7 +80,7 @@ std::vector<glm::vec3> unturnedRays(std::uint32_t rays, bool sphere) {
     return result;
 }
 
-/// What all caches are linked from.
+/// Input shared by the linking of all caches.
 struct LinkInput {
     const Surfels& surfels;
     const GatherHits& hits;
@@ -97,7 +97,7 @@ class CacheLinker {
 public:
     explicit CacheLinker(const LinkInput& input) : in(input), m_seen(input.order) {}
 
-    /// Joins what a cache sees. False for a cache that sees nothing.
+    /// Builds the tree of what a cache sees. Returns false for a cache that sees nothing.
     bool look(const Caches& caches, std::uint32_t cache) {
         forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float) {
             m_seen.add(sender, sight);
@@ -106,10 +106,10 @@ public:
         return m_seen.size() > 0;
     }
 
-    /// After look(): leaves that it found.
+    /// After look(): number of visible leaves.
     std::uint32_t leaves() const { return m_seen.leaves(); }
 
-    /// After look(): what each refinement is worth.
+    /// After look(): worth of each refinement.
     const std::vector<float>& weigh() {
         if (in.settings.criterion == CutCriterion::SolidAngle)
             m_worth.bySolidAngle(m_seen);
@@ -118,7 +118,8 @@ public:
         return m_worth.worth();
     }
 
-    /// After look(): refines what is worth more than `bound`, the best `maxLinks` - 1 of them.
+    /// After look(): applies the refinements worth more than `bound`, at most the best `maxLinks` -
+    /// 1 of them.
     PackedLinks link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
                      float bound, std::uint32_t maxLinks) {
         chooseRefined(worth, bound, maxLinks);
@@ -138,8 +139,8 @@ public:
     }
 
 private:
-    /// Calls visit(sender, what the sample sees of it, u of the cone that it stands for), of rays
-    /// and aimed samples.
+    /// Calls visit(sender, Sight of the sample, u of the cone that it stands for) for rays and
+    /// aimed samples.
     template <class Visit>
     void forEachSample(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         forEachRay(caches, cache, visit);
@@ -173,8 +174,8 @@ private:
         }
     }
 
-    /// Its ray meets the middle of a sender whose solid angle it stands for: pi transport / scale
-    /// = 2 pi u.
+    /// Visits an aimed sample. Its ray meets the middle of a sender and stands for the sender's
+    /// solid angle: pi transport / scale = 2 pi u.
     template <class Visit>
     void visitAimed(CacheKind kind, const AimedSample& sample, const Visit& visit) const {
         const SenderView v = viewOf(in.surfels, in.points, kind, sample);
@@ -216,7 +217,7 @@ private:
         return packHarmonics(bands, std::move(nodes), m_harmonics);
     }
 
-    /// After put(): m_linkOf of the leaves in sight.
+    /// After put(): fills m_linkOf for the visible leaves.
     void findLinksOfLeaves() {
         constexpr std::uint32_t kNone = ~0U;
         m_linkOf.resize(in.sky.size());
@@ -238,7 +239,7 @@ private:
         m_order.clear();
         for (std::uint32_t i = 0; i < worth.size(); ++i)
             if (worth[i] > bound)
-                m_order.emplace_back(-worth[i], ~i); // of equals the parent, which comes last
+                m_order.emplace_back(-worth[i], ~i); // among equals the parent, which comes last
         const std::size_t count = std::min<std::size_t>(m_order.size(), maxLinks - 1);
         if (count < m_order.size())
             std::nth_element(m_order.begin(), m_order.begin() + std::ptrdiff_t(count),
@@ -259,14 +260,14 @@ private:
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
     std::vector<Cone> m_cones;
-    // Of LinkStorage::Sh alone:
+    // For LinkStorage::Sh only:
     std::vector<float> m_harmonics;         ///< bands^2 for each of m_cones
     std::vector<std::uint32_t> m_linkOf;    ///< per node of the ClusterTree
     std::vector<std::uint32_t> m_linkAbove; ///< per node of m_seen
 };
 
-/// How many refinements of all caches are worth how much, in steps of less than 1 % of the worth:
-/// the upper half of a positive float's bits.
+/// Histogram of the worth of all caches' refinements, in steps of less than 1 % of the worth: bins
+/// are the upper half of a positive float's bits.
 using WorthHistogram = std::vector<std::uint64_t>;
 
 std::uint32_t stepOf(float worth) {
@@ -285,10 +286,10 @@ float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// Fills `worth` per cache, as CacheLinker::weigh() has it, and finds the bound on the worth that
-/// gives all caches together as many links as n_L each would. Nothing when cancelled. What a cache
-/// saw is not kept: it would take 24 bytes a leaf, the most of all that a bake needs, and looking
-/// again is as quick as reading that back.
+/// Fills `worth` per cache with CacheLinker::weigh() and finds the bound on the worth that gives
+/// all caches together as many links as n_L each would. Returns std::nullopt when cancelled. What a
+/// cache saw is not stored: it would take 24 bytes a leaf, more than anything else in a bake, and
+/// looking again is as fast as reading it back.
 std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
                                  const Caches& caches, const CutSettings& settings,
                                  const Progress& progress, std::vector<std::vector<float>>& worth) {
@@ -325,7 +326,7 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
     for (std::uint32_t c = 0; c < caches.size(); ++c) {
         const CacheKind kind = caches.kind[c];
         const bool sphere = kind != CacheKind::Hemisphere;
-        const DirectionSet rays(hits.rays, sphere, 0); // its turn changes no height
+        const DirectionSet rays(hits.rays, sphere, 0); // the rotation changes no height
         const std::uint32_t* sender = hits.sender.data() + std::size_t(c) * hits.rays;
         const auto kept =
             hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
@@ -354,7 +355,8 @@ void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
 
 void weighByLinks(const std::vector<float>& seen, const std::vector<double>& linked,
                   ClusterTree& tree) {
-    // Links at a node or below it come out of what is seen of it: the rest reads it from above.
+    // Subtracting the links at a node or below it from what is seen of it leaves what links above
+    // it read.
     std::vector<double> all(seen.begin(), seen.end()), below = linked;
     all.resize(tree.size());
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
@@ -374,7 +376,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches,
                 std::vector<double>* linked) {
-    constexpr std::uint32_t kMaxOfBudget = 16; // a cache may have this many times n_L
+    constexpr std::uint32_t kMaxOfBudget = 16; // a cache has at most this many times n_L links
     const LinkInput input{surfels,
                           hits,
                           points,

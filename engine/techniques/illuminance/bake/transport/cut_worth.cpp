@@ -12,13 +12,13 @@ namespace {
 constexpr std::uint32_t kLightings = TrainingLight::kCount;
 
 /// Mean square radiosity by which the halves of a cluster may differ though no training lighting
-/// shows it; they are scaled to a mean square of 1. Without it, what all of them leave dark would
-/// never be told apart, and light unlike any of them, such as an even sky through small windows,
-/// would fare worse than with the paper's cut; with more of it, light leaks through walls as with
-/// that. Error of the cut, agglomerative trees of 16 384 surfels, at 64 links with 0.003, 0.03,
-/// 0.1, and with the paper's: a living room under an even sky 0.034, 0.016, 0.013, 0.015; sunlit
-/// Sponza 0.178, 0.207, 0.227, 0.310; Cornell with a lamp 0.034, 0.036, 0.038, 0.056. Leaks into a
-/// sealed room, as a share of the paper's: 1/12, 1/5.3, 1/3.1.
+/// shows it; they are scaled to a mean square of 1. Without it, clusters that all of them leave
+/// dark would never be split, and light unlike any of them, such as an even sky through small
+/// windows, would fare worse than with the paper's cut; with more of it, light leaks through walls
+/// as with that. Error of the cut, agglomerative trees of 16 384 surfels, at 64 links with 0.003,
+/// 0.03, 0.1, and with the paper's: a living room under an even sky 0.034, 0.016, 0.013, 0.015;
+/// sunlit Sponza 0.178, 0.207, 0.227, 0.310; Cornell with a lamp 0.034, 0.036, 0.038, 0.056. Leaks
+/// into a sealed room, as a share of the paper's: 1/12, 1/5.3, 1/3.1.
 constexpr float kPrior = 0.03f;
 
 /// Errors are weighted relative to the cache's own irradiance in each lighting, so that a dark room
@@ -35,7 +35,7 @@ struct Received {
 };
 
 /// Fills brought[t] with what two senders bring; returns the mean square of its difference to what
-/// a link to both in one brings. Eight sums, so that SIMD can take them at once.
+/// one link to both brings. Uses eight sums, so that SIMD can compute them at once.
 float bringBoth(const Received& a, const Received& b, const Received& link, const float* weight,
                 float* brought) {
     std::array<float, 8> sums{};
@@ -84,7 +84,7 @@ void CutWorth::byDetail(const VisibleTree& seen, const TrainingLight& training) 
     measureGains(seen, training);
     joinGroups(seen);
     m_worth.resize(m_groups.size());
-    for (std::size_t i = m_groups.size(); i-- > 0;) // who took a group in comes after it
+    for (std::size_t i = m_groups.size(); i-- > 0;) // a group comes before the one that took it in
         m_worth[i] = m_groups[i].joined != kNone ? m_worth[m_groups[i].joined]
                                                  : std::max(m_groups[i].worth(), 0.f);
 }
@@ -92,15 +92,15 @@ void CutWorth::byDetail(const VisibleTree& seen, const TrainingLight& training) 
 void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& training) {
     m_error.assign(seen.size(), 0);
     m_groups.assign(seen.size() - seen.leaves(), Group{});
-    // Inner nodes come in post-order: of what their inner children brought the right one's lies on
-    // top of the stack.
+    // Inner nodes come in post-order, so what the right inner child brought lies on top of the
+    // stack.
     std::size_t depth = 0;
     const auto received = [&](std::uint32_t node) -> Received {
         if (node >= seen.leaves())
             return {1, m_brought.data() + --depth * kLightings};
         return {seen.sight[node].irradiance, training.row(seen.node[node])};
     };
-    // The rows lie far apart in memory: asked for some nodes ahead.
+    // The rows lie far apart in memory, so they are prefetched some nodes ahead.
     const auto fetch = [&](std::uint32_t node) {
         constexpr std::uint32_t kPerLine = 64 / sizeof(float);
         const float* row = training.row(seen.node[node]);
@@ -152,8 +152,8 @@ std::uint32_t CutWorth::rankOf(std::uint32_t heap) const {
     return heap == kNone ? 0 : m_groups[heap].rank;
 }
 
-/// Leftist heaps, the greatest worth on top. Crane. Linear Lists and Priority Queues as Balanced
-/// Binary Trees. 1972
+/// Merges two leftist heaps with the greatest worth on top. Crane. Linear Lists and Priority Queues
+/// as Balanced Binary Trees. 1972
 std::uint32_t CutWorth::merge(std::uint32_t a, std::uint32_t b) {
     if (a == kNone || b == kNone)
         return a == kNone ? b : a;

@@ -9,9 +9,9 @@
 
 namespace limn {
 
-/// What each refinement of a cache's cut is worth: replacing a node's link by links to its two
-/// children. Never more than the parent's, so the refinements above any bound form a cut. Keeps its
-/// working space from cache to cache.
+/// Computes the worth of each refinement of a cache's cut; a refinement replaces a node's link by
+/// links to its two children. A worth never exceeds the parent's, so the refinements above any
+/// bound form a cut. The object reuses its working space from cache to cache.
 class CutWorth {
 public:
     /// The paper's criterion: the visible solid angle / pi of the node. Jendersie, Kuri, Grosch.
@@ -19,14 +19,14 @@ public:
     /// Compression. 2016
     void bySolidAngle(const VisibleTree& seen);
 
-    /// By how much the squared error of irradiance falls, per link spent, in proportion to the
-    /// irradiance that the cache has in each training lighting; the mean over those lightings, plus
-    /// a prior for what they do not show. The error of a link is what its
-    /// senders truly bring less what its mean radiosity would; errors of different links count as
-    /// independent. A node whose own refinement gains little but opens the way to better ones is
-    /// worth the mean gain of the best group of refinements that it heads: so every bound on the
-    /// worth gives the cut of least error for its number of links, and the same bound for all
-    /// caches the least error for all their links. Chou, Lookabaugh, Gray. Optimal Pruning with
+    /// The worth is the decrease of the squared error of irradiance per link spent, relative to the
+    /// irradiance of the cache in each training lighting: the mean over those lightings, plus a
+    /// prior for what they do not show. The error of a link is the difference between what its
+    /// senders truly bring and what their mean radiosity would; errors of different links count as
+    /// independent. A node whose own refinement gains little but enables better ones is worth the
+    /// mean gain of the best group of refinements that it heads. Every bound on the worth therefore
+    /// gives the cut of least error for its number of links, and the same bound for all caches
+    /// gives the least error for all their links. Chou, Lookabaugh, Gray. Optimal Pruning with
     /// Applications to Tree-Structured Source Coding and Modeling. 1989
     void byDetail(const VisibleTree& seen, const TrainingLight& training);
 
@@ -39,8 +39,8 @@ private:
     struct Group {
         float gain = 0;
         std::uint32_t count = 1;
-        std::uint32_t joined = kNone; ///< the group that took it in
-        std::uint32_t below = kNone;  ///< heap of the groups it opens the way to
+        std::uint32_t joined = kNone;                        ///< the group that took it in
+        std::uint32_t below = kNone;                         ///< heap of the groups that it enables
         std::uint32_t left = kNone, right = kNone, rank = 1; ///< as an element of a heap
 
         float worth() const { return gain / float(count); }

@@ -18,7 +18,7 @@ namespace limn {
 
 namespace {
 
-/// Surfels of instances whose material emits.
+/// The surfels of instances whose material emits.
 std::vector<std::uint32_t> emissiveSurfels(const Scene& scene, const SurfelSet& set) {
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> emissiveSurfels(const Scene& scene, const SurfelSet& 
     return result;
 }
 
-/// Where a ray starts that leaves a cache's point.
+/// Origin of the rays that leave a cache's point.
 glm::vec3 startOf(const TraceScene& trace, const CachePoints& points, std::uint32_t point) {
     return trace.clearOf(points.position[point], points.normal[point]);
 }
@@ -45,7 +45,8 @@ struct Finisher {
     bool aimedAlready;
     std::vector<bool> isTarget; ///< per sender; empty without targets
 
-    /// Of a buried cache the other hits do not count, known or not.
+    /// Marks hits on backs; in a buried cache all hits, since the others do not count, known or
+    /// not.
     static void markBacks(std::uint32_t rays, std::uint32_t* sender) {
         if (isBuried(sender, rays))
             std::fill_n(sender, rays, kBack);
@@ -92,9 +93,9 @@ struct Finisher {
     }
 
 private:
-    /// One sample of each target. Of more than kMaxAimed emissive ones, systematic sampling chooses
-    /// kMaxAimed with probability in proportion to their unoccluded transport; each sample is
-    /// scaled by the inverse of its probability, so the sum is unbiased.
+    /// One sample of each target. From more than kMaxAimed emissive ones, systematic sampling
+    /// chooses kMaxAimed with probability in proportion to their unoccluded transport; each sample
+    /// is scaled by the inverse of its probability, so the sum is unbiased.
     std::vector<AimedSample> chooseSamples(std::uint32_t cache,
                                            const std::vector<std::uint32_t>& open) const {
         std::vector<AimedSample> all;
@@ -121,7 +122,7 @@ private:
         return chosen;
     }
 
-    /// False where the two do not face each other: no ray is traced.
+    /// Returns false where the two do not face each other; no ray is traced then.
     bool aim(CacheKind kind, const AimedSample& sample, std::vector<AimedSample>& aimed) const {
         const SenderView view = viewOf(set.surfels, points, kind, sample);
         if (!(view.transport > 0))
@@ -139,7 +140,7 @@ private:
     }
 };
 
-/// What caches aim at.
+/// The senders that caches aim at.
 std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, Linker linker) {
     if (linker == Linker::Gather)
         return emissiveSurfels(scene, set);
@@ -148,8 +149,8 @@ std::vector<std::uint32_t> aimTargets(const Scene& scene, const SurfelSet& set, 
     return all;
 }
 
-/// Moves what each cache aims at into one array. Gives memory back on the way, so that the two
-/// hardly lie there at once.
+/// Moves each cache's aimed samples into one array. Memory is freed on the way, so that the two
+/// copies hardly coexist.
 void joinAimed(std::vector<std::vector<AimedSample>>& aimed, GatherHits& hits) {
     std::size_t all = 0;
     for (const std::vector<AimedSample>& a : aimed)
@@ -170,7 +171,7 @@ void joinAimed(std::vector<std::vector<AimedSample>>& aimed, GatherHits& hits) {
     }
 }
 
-/// Number of the k-th probe's ray.
+/// Index of the k-th probe's ray.
 std::uint32_t probeRay(std::uint32_t k, std::uint32_t rays) {
     return std::uint32_t(std::uint64_t(k) * rays / kProbes);
 }
@@ -300,7 +301,7 @@ bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& cac
                 finisher.markBacks(hits.rays, sender);
                 finisher.leaveOutBuried(points.begin[c + 1] - points.begin[c], hits.rays, sender);
                 traced += finisher.aimCache(cache, hits.rays, sender, found);
-                aimed[c] = found; // a copy has no room to spare
+                aimed[c] = found; // a copy has no spare capacity
             }
         });
     aimedRays += traced;

@@ -12,23 +12,23 @@
 
 namespace limn {
 
-/// A sender in sight of one of a cache's points, found by a ray towards it.
+/// A sender visible from one of a cache's points, found by a ray aimed at it.
 struct AimedSample {
     std::uint32_t sender; ///< leaf of the ClusterTree
     std::uint32_t point;  ///< of CachePoints
     float scale = 1;      ///< senders that it stands for, itself included [1]
 };
 
-/// How a sender would look from a point if nothing stood between.
+/// How a sender would appear from a point without occlusion.
 struct SenderView {
     float transport = 0;          ///< solid angle / pi; 0: they do not face each other
     float cosTheta = 0;           ///< at the point; 0 for the grid
     glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
 };
 
-/// Times the sample's scale, of a surfel the bounded solid angle a cos / (d^2 + a / 2 pi), which
-/// tends to 2 pi at contact; of a sky cell its own. A point of a Hemisphere cache sees nothing
-/// behind it.
+/// View of the sample's sender from its point. The solid angle, times the sample's scale, is a sky
+/// cell's own; for a surfel it is the bounded a cos / (d^2 + a / 2 pi), which tends to 2 pi at
+/// contact. A point of a Hemisphere cache sees nothing behind it.
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
                   const AimedSample& sample);
 
@@ -48,8 +48,8 @@ struct GatherHits {
     std::vector<AimedSample> aimed;
 };
 
-/// The rays of a cache: a function of its kind, points and number alone. Local z is the point's
-/// normal (world z for Grid).
+/// The rays of a cache, which depend only on its kind, its points with their seed, and the number
+/// of rays. Local z is the point's normal (world z for Grid).
 struct CacheRays {
     DirectionSet local;
     std::uint32_t points;
@@ -60,16 +60,17 @@ struct CacheRays {
 CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
                  std::uint32_t rays);
 
-/// What one ray met before anything is made of it: a leaf of the ClusterTree, or, with kBack set,
-/// the surfel on the front of the one-sided surface whose back it met. 4 bytes a ray is all that
-/// tracing leaves, so it can be kept and read again.
+/// Result of one ray before finishHits(): a leaf of the ClusterTree or, with kBack set, the surfel
+/// on the front of the one-sided surface whose back it met. Tracing yields only these 4 bytes per
+/// ray, so they can be stored and read again.
 using RawHit = std::uint32_t;
 inline constexpr RawHit kBack = 1U << 31;
 /// Not traced: the cache is buried.
 inline constexpr RawHit kUntraced = ~0U;
 
-/// A cache all of whose probes, every so many of its rays, meet backs lies in a solid: its other
-/// rays tell nothing more. Not asked of caches with fewer than twice the rays.
+/// Number of probes, which are evenly spaced among a cache's rays. A cache whose probes all meet
+/// backs lies in a solid, and its other rays need not be traced. Not applied to caches with fewer
+/// than twice as many rays.
 inline constexpr std::uint32_t kProbes = 64;
 bool isBuried(const RawHit* hits, std::uint32_t rays);
 
@@ -77,7 +78,7 @@ bool isBuried(const RawHit* hits, std::uint32_t rays);
 /// point, an escaped ray to its sky cell.
 class RayGatherer {
 public:
-    /// Keeps references to all but `rays`, per cache.
+    /// Keeps references to all but `rays`, the number per cache.
     RayGatherer(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
                 const CachePoints& points, std::uint32_t rays, const OwnerTables& owners)
         : m_trace(trace), m_set(set), m_caches(caches), m_points(points), m_rays(rays),
@@ -92,13 +93,14 @@ public:
         return credit(m_trace.closestHit(ray, TraceMask::Static), ray.direction);
     }
 
-    /// What a ray along `direction` met where `hit` says so.
+    /// Raw hit of a ray along `direction` that met `hit`.
     RawHit credit(const Hit& hit, glm::vec3 direction) const;
 
-    /// All of a cache's rays; of a buried one only the probes. Returns how many.
+    /// Traces all of a cache's rays, or only the probes of a buried one. Returns the number traced.
     std::uint32_t traceCache(std::uint32_t cache, RawHit* out) const;
 
-    /// Traces those rays of a cache that are kUntraced, unless it is buried. Returns how many.
+    /// Traces those rays of a cache that are kUntraced, unless it is buried. Returns the number
+    /// traced.
     std::uint32_t traceRest(std::uint32_t cache, RawHit* hits) const;
 
 private:
@@ -110,29 +112,29 @@ private:
     const OwnerTables& m_owners;
 };
 
-/// Makes of raw hits, in hits.sender, what a bake needs: backs of one-sided surfaces carry nothing.
-/// Of a cache's points, those most of whose rays meet backs are left out; where that is all of them
-/// the cache is invalid.
+/// Turns the raw hits in hits.sender into senders and marks; backs of one-sided surfaces carry
+/// nothing. Points of a cache most of whose rays meet backs are left out; a cache without remaining
+/// points is invalid.
 ///
-/// Linker::Gather: small bright lamps would be met by a handful of rays: blotches. A cache that
-/// meets the emissive surfels with fewer than an eighth of its rays aims one ray at each of them
-/// instead, or, where there are more than kMaxAimed, at a sample of them in proportion to what they
-/// would bring if nothing stood between. Which materials emit only guides the sampling: any other
-/// sender is met by the rays.
+/// Linker::Gather: only a handful of rays would meet a small bright lamp, which causes blotches. A
+/// cache that meets the emissive surfels with fewer than an eighth of its rays therefore aims one
+/// ray at each of them or, where there are more than kMaxAimed, at a sample of them in proportion
+/// to what they would bring without occlusion. Which materials emit only guides the sampling; rays
+/// meet all other senders.
 ///
 /// Linker::FormFactor: every cache aims a ray at every surfel and sky cell that faces it, and the
 /// rays only tell which of its points are in walls.
 ///
-/// Where hits.aimedBegin is filled already nothing is traced and hits.aimed stays. Adds the rays
-/// aimed to `aimedRays`. Returns false when cancelled.
+/// Where hits.aimedBegin is already filled, nothing is traced and hits.aimed stays. Adds the number
+/// of aimed rays to `aimedRays`. Returns false when cancelled.
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
                 const CachePoints& points, Linker linker, const Progress& progress,
                 GatherHits& hits, std::uint64_t& aimedRays);
 
-/// Greatest number of emissive surfels that one cache aims at.
+/// Maximum number of emissive surfels that one cache aims at.
 inline constexpr std::uint32_t kMaxAimed = 512;
 
-/// Greatest number of senders that one cache aims at.
+/// Maximum number of senders that one cache aims at.
 std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker);
 
 } // namespace limn

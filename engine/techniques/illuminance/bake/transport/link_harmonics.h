@@ -7,31 +7,31 @@
 
 namespace limn {
 
-/// Adds what a sample of a cache's surroundings brings to a link, at unit radiosity: transport
-/// Y_i(direction), bands^2 coefficients; the Monte Carlo estimate that links are projected by in
-/// the paper. `u` > 0: the sample stands for a cone of that 1 - cos(half-angle) about `direction`
-/// (coneFactors). `direction` unit; transport: solid angle / pi.
+/// Adds the contribution of a sample of a cache's surroundings to a link at unit radiosity:
+/// transport Y_i(direction), bands^2 coefficients. This is the Monte Carlo estimate by which the
+/// paper projects links. With `u` > 0 the sample stands for a cone of that 1 - cos(half-angle)
+/// about `direction` (coneFactors). `direction` is unit; `transport` is solid angle / pi.
 /// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
 /// with Chrominance Compression. 2016, eq. 2 and appendix A
 void addHarmonics(int bands, glm::vec3 direction, float u, float transport, float* coefficients);
 
 /// Irradiance of a surface as a linear function of SH coefficients: sum_i a_i c_i with a_i = A_l
-/// Y_i(normal), of a series too short to be exact for one link.
+/// Y_i(normal). The series is too short to be exact for one link.
 class IrradianceAxis {
 public:
-    static constexpr float kMaxGain = 2; ///< where the series is near zero along the surface
+    static constexpr float kMaxGain = 2; ///< for the near-zero series along the surface
 
     /// bands in [2, kIrradianceBands].
     IrradianceAxis(int bands, glm::vec3 normal);
 
-    /// Of coefficients as they are.
+    /// Irradiance of unscaled coefficients.
     float irradiance(const float* coefficients) const;
 
-    /// What coefficients are to be multiplied with for that irradiance, kMaxGain at most; 1 where
-    /// the series is not positive. The least change of the first three bands instead of a factor
-    /// for all halves the error at normals tilted by 60 degrees, but keeps light along the surface
-    /// as strong as it is, whose ringing turns reflections black: a metal box under a lamp is 57 %
-    /// too dark in 8 bands instead of 16 % (limn bench links, limn bench glossy).
+    /// Factor by which the coefficients give that irradiance, at most kMaxGain; 1 where the series
+    /// is not positive. The least change of the first three bands, instead of a factor for all,
+    /// would halve the error at normals tilted by 60 degrees, but would leave light along the
+    /// surface at full strength, whose ringing turns reflections black: a metal box under a lamp is
+    /// 57 % too dark in 8 bands instead of 16 % (limn bench links, limn bench glossy).
     float gainTo(float irradiance, const float* coefficients) const;
 
 private:

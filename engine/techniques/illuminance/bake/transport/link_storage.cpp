@@ -13,7 +13,7 @@
 
 namespace limn {
 
-// Of the power of two that brings `largest` into [2^14, 2^15).
+// Exponent of the power of two that brings `largest` into [2^14, 2^15).
 static std::int8_t exponentFor(float largest) {
     if (!(largest > 0))
         return 0;

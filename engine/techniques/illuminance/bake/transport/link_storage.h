@@ -28,11 +28,11 @@ struct PackedLinks {
     std::vector<float> irradiance; ///< of each link, at unit radiosity
 };
 
-/// Packs a cache's links as LinkStorage::Rtp keeps them.
+/// Packs a cache's links for LinkStorage::Rtp.
 PackedLinks packCones(std::span<const Cone> cones);
 
-/// Packs a cache's links as LinkStorage::Sh keeps them: `coefficients` has bands^2 values for each
-/// of `nodes`, link after link, which are what a radiosity of 1 adds to the cache's SH.
+/// Packs a cache's links for LinkStorage::Sh. `coefficients` has bands^2 values for each of
+/// `nodes`, link after link: the SH that a radiosity of 1 adds to the cache.
 PackedLinks packHarmonics(int bands, std::vector<std::uint32_t> nodes,
                           std::span<const float> coefficients);
 
@@ -42,17 +42,17 @@ void joinLinks(std::span<const PackedLinks> packed, Caches& caches);
 /// Bytes of one link.
 std::uint64_t bytesPerLink(LinkStorage storage, std::uint32_t bands);
 
-/// A link as both storages know it.
+/// The part of a link that both storages have in common.
 struct LinkWeight {
     std::uint32_t node;
     float transport; ///< visible solid angle / pi [1]
 };
 
-/// Link k of those of cache c, k in [linkBegin[c], linkBegin[c + 1]).
+/// Link k of cache c; k lies in [linkBegin[c], linkBegin[c + 1]).
 LinkWeight linkWeight(const Caches& caches, std::uint32_t c, std::uint32_t k);
 
-/// Writes what a radiosity of 1 at that link's node adds to the cache's SH: bands^2 coefficients.
-/// bands: no more than links of LinkStorage::Sh have.
+/// Writes the bands^2 coefficients that a radiosity of 1 at that link's node adds to the cache's
+/// SH. `bands` is at most the number that links of LinkStorage::Sh have.
 void expandLink(const Caches& caches, std::uint32_t c, std::uint32_t k, int bands,
                 float* coefficients);
 

@@ -24,7 +24,7 @@ std::vector<std::uint32_t> lampsOf(const TracedTraining& traced) {
     return result;
 }
 
-/// Per lamp the least lamp of its room.
+/// Per lamp, the lowest-numbered lamp of its room.
 std::array<std::uint32_t, kLamps> joinLamps(const std::vector<std::uint32_t>& lamps) {
     std::array<std::array<std::uint32_t, kLamps>, kLamps> both{};
     for (const std::uint32_t lit : lamps)
@@ -40,8 +40,8 @@ std::array<std::uint32_t, kLamps> joinLamps(const std::vector<std::uint32_t>& la
     return room;
 }
 
-/// Appends to `out` the tree that `tree` spans over the leaves for which in(leaf); returns its
-/// root, kNone without any.
+/// Appends to `out` the tree that `tree` spans over the leaves for which in(leaf) holds; returns
+/// its root, or kNone where there are no such leaves.
 template <class In>
 std::uint32_t span(const ClusterTree& tree, In in, ClusterTree& out) {
     std::vector<std::uint32_t> at(tree.size(), kNone);

@@ -15,7 +15,7 @@ namespace {
 
 using IrradianceSh = std::array<float, kIrradianceBands * kIrradianceBands>;
 
-/// The SH of a valid cache c where every node has a radiosity of 1.
+/// The SH of a valid cache c when every node has a radiosity of 1.
 IrradianceSh sumOfLinks(const Caches& caches, std::uint32_t c, int bands) {
     IrradianceSh sum{}, link{};
     for (std::uint32_t k = caches.linkBegin[c]; k < caches.linkBegin[c + 1]; ++k) {
@@ -26,7 +26,7 @@ IrradianceSh sumOfLinks(const Caches& caches, std::uint32_t c, int bands) {
     return sum;
 }
 
-/// Per lightmap cache; invalid ones copy theirs.
+/// The same for each lightmap cache; invalid caches take theirs from their sources.
 std::vector<IrradianceSh> furnaceSh(const Caches& caches, int bands) {
     std::vector<IrradianceSh> sh(caches.lightmapCount);
     parallelRanges(sh.size(), 64, [&](std::size_t begin, std::size_t end) {

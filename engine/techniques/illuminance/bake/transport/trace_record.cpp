@@ -163,7 +163,7 @@ InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) 
     }
     for (const auto& [shape, count] : left)
         match.removed += count;
-    // A patch that another wall parts has other hits, though its surfel is where it was.
+    // A patch that another wall splits has other hits, even though its surfel has not moved.
     const auto partedAt = [](const TraceRecord& r, std::uint32_t s) {
         return r.parted.empty() ? 0 : r.parted[s];
     };

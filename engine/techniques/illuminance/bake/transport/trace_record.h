@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// What rays can tell of one static instance.
+/// The properties of one static instance that rays depend on.
 struct TracedInstance {
     std::uint64_t shape;   ///< hash of triangles, sides and holes
     std::uint64_t surfels; ///< hash of the mesh's surfels
@@ -24,7 +24,8 @@ struct TracedInstance {
     bool inPlace(const TracedInstance& o) const { return shape == o.shape && toWorld == o.toWorld; }
 };
 
-/// All that the raw hits of a bake follow from, so that a later bake can tell which still hold.
+/// Everything that determines the raw hits of a bake, so that a later bake can find the hits that
+/// are still valid.
 struct TraceRecord {
     std::uint32_t rays = 0;           ///< per cache
     std::uint32_t cachesPerBlock = 1; ///< hits are stored in blocks of that many caches
@@ -32,7 +33,7 @@ struct TraceRecord {
     std::vector<TracedInstance> instances;
     std::vector<std::uint64_t> parted; ///< PatchSides::changed of the surfels
     std::vector<std::uint64_t> caches; ///< hash of each cache's points and seed
-    std::vector<std::uint64_t> blocks; ///< where each block's hits are kept; filled last
+    std::vector<std::uint64_t> blocks; ///< key in the store of each block's hits; filled last
 
     std::uint32_t surfels() const;
     std::uint32_t blockCount() const {
@@ -40,41 +41,41 @@ struct TraceRecord {
     }
 };
 
-/// `meshes`: hashMeshes of the scene. Without `blocks`.
+/// Describes a trace, without `blocks`. `meshes`: hashMeshes of the scene.
 TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
                           const Caches& caches, const CachePoints& points, std::uint32_t rays,
                           const std::vector<std::uint64_t>& meshes);
 
-/// Per mesh, of what its SurfelOwners follow from.
+/// Hash, per mesh, of everything that determines its SurfelOwners.
 std::vector<std::uint64_t> ownerKeys(const SurfelSet& set,
                                      const std::vector<std::uint64_t>& meshes);
 
-/// Of everything but `blocks`.
+/// Hash of everything but `blocks`.
 std::uint64_t hashRecord(const TraceRecord& record);
 
 std::string recordBytes(const TraceRecord& record);
-/// False where `bytes` are not those of a record.
+/// Returns false where `bytes` are not those of a record.
 bool readRecord(const std::string& bytes, TraceRecord& record);
 
 /// How the instances of two records correspond.
 struct InstanceMatch {
     static constexpr std::uint32_t kGone = ~0U;
-    /// Per surfel of the older record: its number now; kGone where it was not in the same place.
-    /// Sky cells follow the surfels in both.
+    /// Per surfel of the older record: its index now; kGone where its place has changed. Sky cells
+    /// follow the surfels in both.
     std::vector<std::uint32_t> surfelNow;
     std::vector<std::uint32_t> arrived; ///< Scene::instances that are new at their place
     std::uint32_t moved = 0, added = 0, removed = 0, resampled = 0; ///< for people
     /// Instances that are no longer at their place.
     struct Left {
         glm::mat4 toWorld;
-        std::uint32_t alike; ///< of Scene::instances now, one of the same shape; ~0: none
+        std::uint32_t alike; ///< index now into Scene::instances of one of the same shape; ~0: none
     };
     std::vector<Left> left;
-    bool identity = true; ///< no surfel has another number; some are elsewhere
+    bool identity = true; ///< no surfel's index has changed; some may have moved
 };
 InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now);
 
-/// "2 instances moved, 1 removed"; empty where nothing did.
+/// Describes a match in words, "2 instances moved, 1 removed"; empty where nothing changed.
 std::string matchWords(const InstanceMatch& match);
 
 } // namespace limn

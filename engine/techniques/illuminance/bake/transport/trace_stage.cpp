@@ -26,7 +26,7 @@ namespace limn {
 
 namespace {
 
-// What of a trace is kept under which key.
+// Keys under which the parts of a trace are stored.
 std::uint64_t recordKey(std::uint64_t trace) {
     return stageKey(Stage::TraceRecord, trace);
 }
@@ -34,7 +34,7 @@ std::uint64_t blockKey(std::uint64_t trace, std::uint32_t block) {
     return stageKey(Stage::TraceBlock, hashValue(block, trace));
 }
 
-/// Of what every trace of a document shares, whatever stands where.
+/// Key of what every trace of a document shares, wherever its objects are.
 std::uint64_t documentKey(const TraceInput& in) {
     return stageKey(Stage::TraceOfDocument, hashValue(in.rays, hashVector(in.meshes, 0)));
 }
@@ -55,7 +55,7 @@ void patchFields(A& a, Root& root, Patched& patched, Hits& hits, std::size_t cac
     a("hits", hits, rule::count(std::uint64_t(patched.size()) * rays));
 }
 
-/// Every cache aims from its own points, at senders that there are.
+/// Whether every cache aims from its own points, at existing senders.
 bool areAims(const GatherHits& hits, const TraceInput& in) {
     const std::uint64_t senders = in.set.surfels.size() + kSkyCells;
     for (std::size_t c = 0; c < in.caches.size(); ++c)
@@ -87,19 +87,19 @@ std::string grouped(std::uint64_t n) {
     return s;
 }
 
-/// How a block of caches lies in the store: all its hits, or, where few caches differ from an
-/// earlier block, that one's key and the hits of those.
+/// Form in which a block of caches is stored: all its hits or, where few caches differ from an
+/// earlier block, that block's key and the hits of those caches.
 struct KeptBlock {
     bool known = false;                 ///< its hits were found
     std::uint64_t root = 0;             ///< key of all hits, its own or the earlier block's
     std::vector<std::uint32_t> patched; ///< caches that differ from it, from the block's first
 };
 
-/// An earlier trace whose hits may still hold.
+/// An earlier trace whose hits may still be valid.
 struct Base {
     TraceRecord record;
     InstanceMatch match;
-    bool aligned = false;     ///< most of its caches are today's, one by one
+    bool aligned = false;     ///< most of its caches equal the current ones, index by index
     std::vector<RawHit> hits; ///< of all its caches; empty where aligned
     std::vector<KeptBlock> blocks;
     std::unordered_map<std::uint64_t, std::uint32_t> cacheOf; ///< by hash; empty where aligned
@@ -146,23 +146,23 @@ private:
     RayGatherer m_gatherer;
     TraceRecord m_record;
     std::uint64_t m_key;
-    bool m_exact = false; ///< all of this very trace was kept
+    bool m_exact = false; ///< this very trace was stored completely
     std::unique_ptr<Base> m_base;
     std::vector<std::uint8_t> m_done;               ///< per block: its hits are final
-    std::vector<std::uint8_t> m_changed;            ///< per cache: not as the base has it
+    std::vector<std::uint8_t> m_changed;            ///< per cache: differs from the base
     std::vector<std::atomic<std::uint32_t>> m_left; ///< per block: caches still to do
     std::atomic<std::uint64_t> m_rays = 0, m_retraced = 0;
     TraceReport m_report;
 };
 
-/// What rays can have met where there are so many surfels.
+/// Whether these are valid hits for `surfels` surfels.
 bool areHits(std::span<const RawHit> hits, std::uint32_t surfels) {
     return std::ranges::all_of(hits, [surfels](RawHit hit) {
         return hit == kUntraced || (hit & ~kBack) < (hit & kBack ? surfels : surfels + kSkyCells);
     });
 }
 
-/// Hits of another trace, of as many surfels, to `out`.
+/// Loads hits of another trace, of as many surfels, into `out`.
 KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
                              std::uint32_t surfels) const {
     const std::size_t bytesPerCache = in.rays * sizeof(RawHit);
@@ -185,7 +185,7 @@ KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
     return block;
 }
 
-/// Blocks of this very trace, finished or stopped.
+/// Loads the blocks of this very trace, whether it was finished or stopped.
 void Tracing::loadDone() {
     TraceRecord kept;
     const std::optional<std::string> bytes = m_store->find(recordKey(m_key));
@@ -203,7 +203,7 @@ void Tracing::loadDone() {
     });
 }
 
-/// Whether more of the caches have kept their number than not.
+/// Whether more of the caches have kept their index than not.
 bool alignedCaches(const TraceRecord& before, const TraceRecord& now) {
     std::size_t same = 0;
     for (std::size_t c = 0; c < std::min(before.caches.size(), now.caches.size()); ++c)
@@ -211,7 +211,7 @@ bool alignedCaches(const TraceRecord& before, const TraceRecord& now) {
     return before.caches.size() == now.caches.size() && 2 * same > now.caches.size();
 }
 
-/// The latest finished trace of the document, where its rays start alike.
+/// Loads the latest finished trace of the document, if its rays start alike.
 void Tracing::loadBase() {
     std::uint64_t key = 0;
     const std::optional<std::string> pointer = m_store->find(documentKey(in));
@@ -236,7 +236,7 @@ void Tracing::loadBase() {
         m_base->arrived = std::make_unique<ArrivedObjects>(in.trace, m_base->match.arrived);
 }
 
-/// False where there is no room for them.
+/// Loads the base's hits. Returns false where memory does not suffice.
 bool Tracing::loadBaseHits() {
     Base& base = *m_base;
     const std::size_t caches = base.record.caches.size();
@@ -262,7 +262,7 @@ bool Tracing::loadBaseHits() {
     return true;
 }
 
-/// Says what moved since the base, `key`, where that can be told.
+/// Reports what moved since the base, `key`, where that can be determined.
 void Tracing::noteMoved(std::uint64_t key) {
     const InstanceMatch& match = m_base->match;
     if (!match.identity)
@@ -284,7 +284,7 @@ void Tracing::noteMoved(std::uint64_t key) {
     m_report.moved = std::move(moved);
 }
 
-/// Copies an earlier cache's hits to `out`, where they are not there already.
+/// Copies an earlier cache's hits to `out`, unless they are already there.
 bool Tracing::takeFromBase(std::uint32_t cache, RawHit* out) const {
     if (!m_base)
         return false;
@@ -336,7 +336,7 @@ void Tracing::traceOne(std::uint32_t cache) {
         keepBlock(block);
 }
 
-/// As little as tells it from what the base has.
+/// Stores a block, only as its difference from the base where possible.
 void Tracing::keepBlock(std::uint32_t block) {
     const std::size_t begin = first(block), caches = last(block) - begin;
     const RawHit* hits = &m_hits.sender[begin * in.rays];
@@ -371,7 +371,7 @@ void Tracing::keepBlock(std::uint32_t block) {
                  {reinterpret_cast<const char*>(hits), caches * in.rays * sizeof(RawHit)});
 }
 
-/// Also names this trace as the latest of the document.
+/// Stores the record and marks this trace as the latest of the document.
 void Tracing::keepRecord(bool changed) {
     if (changed)
         m_store->put(recordKey(m_key), recordBytes(m_record));
@@ -380,7 +380,7 @@ void Tracing::keepRecord(bool changed) {
         m_store->put(documentKey(in), latest);
 }
 
-/// From raw hits to the cut's, aimed rays included.
+/// Turns the raw hits into those that the cut needs, aimed rays included.
 bool Tracing::finish() {
     const bool aims = maxAimed(in.trace.scene(), in.set, in.linker) > 0;
     const std::uint64_t key = aimedKey(in, m_key);

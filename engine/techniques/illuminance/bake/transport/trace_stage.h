@@ -24,25 +24,26 @@ struct TraceInput {
     float gridReach = 0;                      ///< gridReach() of the grid [m]
 };
 
-/// What moved since an earlier trace in which all surfels had the same numbers.
+/// What has moved since an earlier trace in which all surfels had the same indices.
 struct MovedSince {
     std::uint64_t key = 0;               ///< of that trace
-    std::vector<std::uint8_t> elsewhere; ///< per surfel: it was not where it is
-    std::vector<BoundingSphere> places;  ///< around all that moved, where it was and where it is
+    std::vector<std::uint8_t> elsewhere; ///< per surfel: 1 where its place has changed
+    std::vector<BoundingSphere> places;  ///< around all that moved, at old and new places
 };
 
 struct TraceReport {
     std::uint64_t key = 0;                ///< hash of all that the hits depend on
-    std::uint64_t rays = 0;               ///< traced now, whatever for
+    std::uint64_t rays = 0;               ///< traced by this call, for any purpose
     std::vector<std::string> notes;       ///< what was traced again and why
     std::vector<std::uint16_t> gridDepth; ///< gridDepths() of the hits
-    std::optional<MovedSince> moved;      ///< where hits of such a trace were used
+    std::optional<MovedSince> moved;      ///< set where hits of such a trace were reused
 };
 
-/// The trace stage: fills `hits` from what the store knows and traces the rest. Hits are stored in
-/// blocks as they come, so a trace that was stopped goes on where it was. Where objects moved since
-/// the latest trace of the same meshes and rays, only the rays that met one of them before, or meet
-/// it now, are traced again. The hits are those of tracing everything. `store` may be null.
+/// Runs the trace stage: fills `hits` from the store and traces the rest. Hits are stored in blocks
+/// as they are traced, so a trace that was stopped resumes where it ended. Where objects moved
+/// since the latest trace of the same meshes and rays, only the rays that met one of them before,
+/// or meet it now, are traced again. The hits equal those of tracing everything. `store` may be
+/// null.
 /// Fails when cancelled ("cancelled") and where the hits would take more than half the machine's
 /// memory.
 Result<TraceReport> traceHits(const TraceInput& input, const Progress& progress, StageStore* store,

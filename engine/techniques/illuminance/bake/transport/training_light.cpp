@@ -18,14 +18,14 @@ constexpr std::uint32_t kSuns = TracedTraining::kSuns, kLamps = TracedTraining::
                         kEmitters = 8;
 static_assert(kSuns + kLamps + kSkies + kEmitters == TrainingLight::kCount);
 
-/// Suns and lamps may be anywhere, emitters are where they are: so their light counts for more. At
-/// 64 links the error of the cut in Cornell under its own light is 0.0051 with 1, 0.0004 with 16;
-/// with a lamp in the air 0.0349 and 0.0346.
+/// Suns and lamps may be anywhere, but emitters have fixed places, so their light counts for more.
+/// At 64 links the error of the cut in Cornell under its own light is 0.0051 with 1, 0.0004 with
+/// 16; with a lamp in the air 0.0349 and 0.0346.
 constexpr float kEmitterWeight = 16;
 
-/// So does the sky's, which most scenes have in common. Error of the cut at 64 links in a living
-/// room under an even sky, with 1 and 4: 0.0158 and 0.0145, the paper's cut 0.0146; in sunlit
-/// Sponza 0.207 and 0.212, 0.310.
+/// The sky's light also counts for more, because most scenes have one. Error of the cut at 64 links
+/// in a living room under an even sky, with 1 and 4: 0.0158 and 0.0145, the paper's cut 0.0146; in
+/// sunlit Sponza 0.207 and 0.212, 0.310.
 constexpr float kSkyWeight = 4;
 
 std::vector<Light> suns() {
@@ -42,9 +42,9 @@ std::vector<Light> suns() {
     return result;
 }
 
-/// Each lamp hangs between a surfel and what it faces, so in the open, a fifth to a half of the
-/// way: where all hung half way, few were near walls. Surfels share the area evenly, so lamps share
-/// the rooms.
+/// Each lamp hangs between a surfel and what it faces, and thus in free space, at a fifth to a half
+/// of the way: with all of them half way, few were near walls. Surfels divide the area evenly, so
+/// lamps are spread evenly over the rooms.
 std::vector<Light> lamps(const TraceScene& trace, const Surfels& surfels) {
     std::vector<Light> result;
     const float extent = glm::length(staticBounds(trace.scene()).size());
@@ -70,7 +70,7 @@ bool meets(const Ray& ray, const std::vector<BoundingSphere>& spheres) {
     });
 }
 
-/// Lights one surfel after the other.
+/// Computes the training irradiance of single surfels.
 struct Trainer {
     const TraceScene& trace;
     const Surfels& surfels;
@@ -94,7 +94,7 @@ struct Trainer {
     }
 };
 
-/// Number of each emissive instance, counted from 0; ~0 for the others.
+/// Index of each emissive instance, counted from 0; ~0 for the others.
 std::vector<std::uint32_t> emitterNumbers(const Scene& scene) {
     std::vector<std::uint32_t> result;
     std::uint32_t next = 0;
@@ -117,7 +117,7 @@ void lightSurfels(const Scene& scene, const Surfels& surfels, const TracedTraini
     }
 }
 
-/// Skies: even, and brighter towards three sides.
+/// Sets the sky lightings: an even sky, and skies that are brighter towards three sides.
 void lightSky(const ClusterTree& tree, TrainingLight& out) {
     for (std::uint32_t c = 0; c < tree.skyCells; ++c) {
         const glm::vec3 d = tree.skyDirection[c];
@@ -130,10 +130,11 @@ void lightSky(const ClusterTree& tree, TrainingLight& out) {
     }
 }
 
-/// Not to a mean of 1: what lights little would be bright there, and its errors outweigh all
-/// others. With a mean of 1, and the prior best for that, the error of the cut at 32 and 256 links
-/// was 0.096 and 0.0116 in Cornell with a lamp, 0.36 and 0.0134 in sunlit Sponza; so it is 0.072
-/// and 0.0092, 0.28 and 0.0113.
+/// Scales each lighting to a given mean square, not to a mean of 1: a lighting that lights little
+/// would be bright there, and its errors would outweigh all others. With a mean of 1, and the best
+/// prior for that, the error of the cut at 32 and 256 links was 0.096 and 0.0116 in Cornell with a
+/// lamp, 0.36 and 0.0134 in sunlit Sponza; with this scaling it is 0.072 and 0.0092, 0.28 and
+/// 0.0113.
 void normalise(const std::vector<float>& seen, TrainingLight& out) {
     double squares[TrainingLight::kCount] = {}, total = 0;
     for (std::size_t leaf = 0; leaf < seen.size(); ++leaf) {

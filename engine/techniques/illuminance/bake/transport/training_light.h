@@ -12,16 +12,18 @@
 namespace limn {
 
 /// Radiosity of every sender under a few lightings that a user might set: suns, lamps in the air,
-/// skies, and the scene's emissive surfaces. They tell, before any light is set, which clusters may
-/// differ inside and by how much. Surfaces count as white: their colours are no part of a bake.
+/// skies, and the scene's emissive surfaces. They show, before any light is set, which clusters may
+/// vary within and by how much. Surfaces count as white, because their colours are not part of a
+/// bake.
 struct TrainingLight {
-    /// Lightings in a row. With 32 of them clusters that happened to be dark in all hid sunlit
-    /// spots: Sponza at 32 links per cache, error of the cut 0.63; with 64, 0.50.
+    /// Lightings per row. With 32 of them, clusters that happened to be dark in all of them hid
+    /// sunlit spots: the error of the cut in Sponza at 32 links per cache was 0.63; with 64 it was
+    /// 0.50.
     static constexpr std::uint32_t kCount = 64;
 
-    /// radiosity[node * kCount + t]: leaves as the tree numbers them, then inner nodes. Each
-    /// lighting's mean square over what the caches see is 1, that of emitters 256, or it is 0
-    /// everywhere.
+    /// radiosity[node * kCount + t]: leaves as the tree numbers them, then inner nodes. The mean
+    /// square of each lighting over what the caches see is 1, that of emitters 256; a lighting may
+    /// also be 0 everywhere.
     std::vector<float> radiosity;
 
     /// Root mean square of lighting `t` over what the caches see.
@@ -32,7 +34,7 @@ struct TrainingLight {
     }
 };
 
-/// Irradiance of the training suns and lamps at the surfels: all that rays are needed for.
+/// Irradiance of the training suns and lamps at the surfels, the only part that needs rays.
 struct TracedTraining {
     static constexpr std::uint32_t kSuns = 20, kLamps = 32, kCount = kSuns + kLamps;
 
@@ -40,9 +42,9 @@ struct TracedTraining {
     float lamp(std::size_t s, std::uint32_t k) const { return irradiance[s * kCount + kSuns + k]; }
 
     std::vector<float> irradiance;   ///< [surfel * kCount + light]; empty when cancelled
-    std::vector<glm::vec3> lamps;    ///< where they hang
+    std::vector<glm::vec3> lamps;    ///< world positions
     std::vector<glm::vec3> position; ///< of the surfels
-    std::uint64_t rays = 0;          ///< traced for it
+    std::uint64_t rays = 0;          ///< rays traced for this result
 };
 
 /// An earlier training light of the same document, and what moved since.
@@ -51,12 +53,13 @@ struct EarlierTraining {
     MovedSince moved;
 };
 
-/// With `earlier`, which may be null, only shadow rays that come near what moved are traced; the
-/// result is the same.
+/// Traces the training suns and lamps. With `earlier`, which may be null, only shadow rays that
+/// pass near what moved are traced; the result is the same.
 TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                              const EarlierTraining* earlier, const Progress& progress);
 
-/// `seen`: how much of each leaf all caches together see, in irradiance.
+/// Computes the training light of all nodes. `seen`: how much of each leaf all caches together see,
+/// in irradiance (seenByCaches()).
 TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,
                             const std::vector<float>& seen, const TracedTraining& traced);
 

@@ -33,7 +33,7 @@ void VisibleTree::build() {
         m_child[inner - m_leaves] = {left, right};
         return inner++;
     };
-    // Neighbours join at their lowest common ancestor, and an ancestor has the greater number: so a
+    // Neighbours join at their lowest common ancestor, and an ancestor has the greater number, so a
     // subtree on the stack is complete as soon as the next join lies above it.
     for (std::uint32_t leaf = 0; leaf < m_leaves; ++leaf) {
         const std::uint32_t rank = m_found[leaf];

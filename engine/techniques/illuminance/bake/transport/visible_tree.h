@@ -25,9 +25,9 @@ struct Sight {
     }
 };
 
-/// The tree that the leaves in a cache's sight span: each of its inner nodes is one of the
-/// ClusterTree's with leaves in sight on both sides. Nodes [0, leaves) are leaves from left to
-/// right, then inner nodes, children first. Kept from cache to cache to save its allocations.
+/// The tree spanned by the leaves that a cache sees. Its inner nodes are the ClusterTree's nodes
+/// with visible leaves on both sides. Nodes [0, leaves) are leaves from left to right, then inner
+/// nodes, children first. One object serves many caches, to save allocations.
 class VisibleTree {
 public:
     /// `order` must outlive the object.
@@ -44,7 +44,7 @@ public:
             m_added[entry] += s;
         }
     }
-    /// Joins the leaves that were added since the last call.
+    /// Builds the tree of the leaves that were added since the last call.
     void build();
 
     std::uint32_t leaves() const { return m_leaves; }

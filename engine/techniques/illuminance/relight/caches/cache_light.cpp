@@ -13,7 +13,7 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity) {
     const std::uint32_t leaves = tree.leaves();
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
         const glm::vec4 l = radiosity[tree.left[k]], r = radiosity[tree.right[k]];
-        // Not r + (l - r) w: a lamp in r, of no weight, would leave its rounding in a dark l.
+        // Not r + (l - r) w, which would leave the rounding of a lamp in r of weight 0 in a dark l.
         radiosity[leaves + k] = l * tree.leftWeight[k] + r * (1 - tree.leftWeight[k]);
     }
 }

@@ -11,37 +11,39 @@
 
 namespace limn {
 
-/// Radiosity [W m^-2] as it is kept per node: RGB, and its luma, which grey bands take.
+/// Radiosity [W m^-2] as it is stored per node: RGB in xyz, and its luma, which grey bands use, in
+/// w.
 inline glm::vec4 withLuma(glm::vec3 rgb) {
     return {rgb, toYCoCg(rgb).y};
 }
 
-/// Radiosity of the inner nodes from their children's: the weighted mean, in one sweep.
+/// Computes the radiosity of the inner nodes as the weighted mean of their children's, in one
+/// sweep.
 /// `radiosity` has one entry per node, leaves filled in by withLuma.
 void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 
-/// Links of the caches that were lit, and how many of them were passed over, because what they come
-/// from sends no light: the same number for any number of threads. Their error is 0.
+/// Number of links of the caches that were lit, and of those that were skipped because their
+/// senders send no light. Skipping causes no error. Both are the same for any number of threads.
 struct LinkCounts {
     std::uint64_t links = 0, passedOver = 0;
 };
 
-/// SH of incident radiance of the caches of some runs, which do not overlap: sh[c * bands^2 + i] =
-/// sum over links before ends[c] of B transport g_l(u) Y_i(direction), bands = bands.luma, with
-/// links of either storage; empty `halfs` are Caches::shCoefficients. From band bands.chroma on the
-/// light is grey: its luma alone, half of which is green. Invalid caches among them are left 0.
-/// Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition
-/// with Chrominance Compression. 2016
+/// Computes the SH of incident radiance of the caches of `runs`, which do not overlap: sh[c *
+/// bands^2 + i] = sum over links before ends[c] of B transport g_l(u) Y_i(direction), bands =
+/// bands.luma, with links of either storage; empty `halfs` are Caches::shCoefficients. From band
+/// bands.chroma on the light is grey: its luma alone, half of which is green. Invalid caches among
+/// them are left 0. Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed
+/// Illuminance Composition with Chrominance Compression. 2016
 LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                        LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
                        LinkHalfs halfs = {});
 
-/// The first bands^2 halfs of each link of LinkStorage::Sh, without the others between: memory
-/// brings whole lines. Empty where links are cones.
+/// The first bands^2 halfs of each link of LinkStorage::Sh, packed without the others, because
+/// memory is read in whole cache lines. Empty where links are cones.
 std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands);
 
-/// Where the links of each cache end, and where those to more than sky do: all that is read while
-/// the sky is black.
+/// Per cache, the end of its links, and the end of those to more than sky, which alone are read
+/// while the sky is black.
 std::vector<std::uint32_t> allLinks(const Caches& caches);
 std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTree& tree);
 

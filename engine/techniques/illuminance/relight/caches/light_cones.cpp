@@ -12,7 +12,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/techniques/illuminance/relight/caches/light_cones.cpp"
-// Besides plain code, AVX2 and AVX-512 are enough.
+// Plain code, AVX2 and AVX-512 are enough.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
@@ -27,7 +27,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using V = hn::Vec<Floats>;
 
-/// Of lambdas whose variables are registers.
+/// For lambdas whose variables must stay in registers.
 #define LIMN_UNROLLED __attribute__((always_inline))
 
 /// 32 vector registers instead of 16.
@@ -47,7 +47,7 @@ HWY_INLINE void unrolled(const F& f) {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Every fourth link's light, in one block of four lanes each.
+/// Loads the light of every fourth link, in one block of four lanes each.
 template <class D>
 HWY_INLINE hn::Vec<D> blocksOf(D d, const Link* links, const glm::vec4* radiosity) {
     if constexpr (hn::MaxLanes(D()) == 4) {
@@ -72,13 +72,13 @@ HWY_INLINE hn::Vec<hn::Full128<float>> sumBlocks(D, hn::Vec<D> v) {
 
 #endif
 
-/// Red, green, blue and luma of the nodes of as many links as there are lanes.
+/// Loads red, green, blue and luma of the nodes of one link per lane.
 HWY_INLINE void gatherLight(Floats d, const Link* links, const glm::vec4* radiosity, V* light) {
 #if HWY_TARGET == HWY_SCALAR
     for (int k = 0; k < 4; ++k)
         light[k] = hn::Set(d, radiosity[links->node][k]);
 #else
-    // Block k of v[j] is the light of link 4 k + j; each four by four is then turned.
+    // Block k of v[j] is the light of link 4 k + j; each four by four block is then transposed.
     V v[4];
     for (std::size_t j = 0; j < 4; ++j)
         v[j] = blocksOf(d, links + j, radiosity);
@@ -120,7 +120,7 @@ constexpr float monicBeta(int l, int m) {
     return float(double((l - 1 - m) * (l - 1 + m)) / double((2 * l - 1) * (2 * l - 3)));
 }
 
-/// What those leave out of Y_lm and of a cone's factor of band l: at l(l+1)+m.
+/// The factors that these omit from Y_lm and from a cone's factor of band l, at l(l+1)+m.
 constexpr auto monicScales() {
     std::array<float, kMaxCoefficients> scale{};
     double odd = 1, factorial = 1; // (2l-1)!!, l!
@@ -206,13 +206,13 @@ HWY_INLINE V inverseRoot(Floats d, V v) {
 #endif
 }
 
-/// What links say of their cones: unit axes, factors of the bands.
+/// The cones of some links: unit axes and factors of the bands.
 template <int Bands>
 struct Cones {
     V x, y, z, factor[Bands];
 };
 
-/// As many as there are lanes.
+/// Unpacks one link per lane.
 template <int Bands>
 HWY_INLINE void readCones(Floats d, const Link* links, Cones<Bands>& cones) {
     const hn::RebindToUnsigned<Floats> du;
@@ -240,13 +240,14 @@ HWY_INLINE void readCones(Floats d, const Link* links, Cones<Bands>& cones) {
     coneBands<Bands>(d, u, transport, cones.factor);
 }
 
-/// So many links before it is used, light is fetched from where many nodes are kept.
+/// Prefetch distance in links: light is fetched this many links before its use where there are many
+/// nodes.
 constexpr std::size_t kAhead = 32;
 
-/// Links behind those of a cache that are read too, though nothing comes of them.
+/// Number of links beyond those of a cache that are also read; their values are discarded.
 constexpr std::size_t kReadBehind = kAhead + hn::MaxLanes(Floats());
 
-/// As gatherLight; lanes of `count` and more are black.
+/// Same as gatherLight(), but lanes from `count` on are black.
 HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const glm::vec4* radiosity,
                         V* light) {
     gatherLight(d, links, radiosity, light);
@@ -259,13 +260,13 @@ HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const gl
 
 /// Whether links of this light add nothing at all.
 HWY_INLINE bool isBlack(Floats d, const V* light) {
-    // Luma nearly says it, in one test where all is lit.
+    // Luma decides nearly always, in one test where all is lit.
     const V zero = hn::Zero(d), any = hn::Or(hn::Or(light[0], light[1]), light[2]);
     return hn::AllTrue(d, hn::Eq(light[3], zero)) && hn::AllTrue(d, hn::Eq(any, zero));
 }
 
-/// Which of the sums of a cache, 3 colours of Chroma^2 coefficients, then luma of the others, are
-/// of those orders.
+/// Indices of a cache's sums that belong to the orders Of. The sums are 3 colours of Chroma^2
+/// coefficients, then luma of the others.
 template <int Bands, int Chroma, Orders Of>
 constexpr auto sumsOf() {
     struct {
@@ -294,7 +295,7 @@ HWY_INLINE void addCones(Floats d, const Cones<Bands>& cones, const V* light, V*
         });
 }
 
-/// Adds the lanes of each.
+/// Adds up the lanes of each sum.
 template <int Bands, int Chroma, Orders Of>
 HWY_INLINE void addTotals(const V* sum, float* total) {
     static constexpr auto kSums =
@@ -312,7 +313,7 @@ HWY_INLINE void addTotals(const V* sum, float* total) {
 
 /// Adds the sums of some links, all in registers: of the orders First at once, then of the orders
 /// Second, if any, for which cones and light of a block of links wait in the nearest cache. Returns
-/// how many links were passed over.
+/// the number of links skipped.
 template <int Bands, int Chroma, Orders First, Orders Second>
 HWY_INLINE std::size_t sumCones(const Link* links, std::size_t count, const glm::vec4* radiosity,
                                 float* total) {
@@ -388,7 +389,7 @@ HWY_INLINE void addBlock(const float* basis, std::size_t stride, const float* li
         [&](auto i) LIMN_UNROLLED { hn::Store(sum[i], d, sums + i * lanes); });
 }
 
-/// Of `coefficients` in a row, with as many sums at once as there are registers for.
+/// Adds `coefficients` sums in a row, as many at once as there are registers for.
 template <int Colours>
 HWY_INLINE void addBlocks(int coefficients, const float* basis, std::size_t stride,
                           const float* light, std::size_t lights, std::size_t vectors,
@@ -407,7 +408,8 @@ HWY_INLINE void addBlocks(int coefficients, const float* basis, std::size_t stri
     }
 }
 
-/// As sumCones for more sums than there are registers: basis and light of a block of links wait
+/// Same as sumCones, for more sums than there are registers: basis and light of a block of links
+/// wait
 /// in the nearest cache.
 template <int Bands>
 HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
@@ -460,7 +462,7 @@ HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
     return passedOver;
 }
 
-/// Not in line: it is called from two places, and compiling it once takes long enough.
+/// Not inlined: it is called from two places and takes long to compile.
 template <int Bands>
 HWY_NOINLINE std::size_t sumLinks(const Link* links, std::size_t count, const glm::vec4* radiosity,
                                   int chroma, float* total) {
@@ -477,10 +479,10 @@ HWY_NOINLINE std::size_t sumLinks(const Link* links, std::size_t count, const gl
         return sumBlocksOfCones<Bands>(links, count, radiosity, chroma * chroma, total);
 }
 
-/// So many links are copied at once where the array ends behind them.
+/// Number of links copied at once near the end of the array.
 constexpr std::size_t kCopied = 1024;
 
-/// The sums of a cache, of its links [first, last). Returns how many were passed over.
+/// Computes the sums of a cache over its links [first, last). Returns the number of links skipped.
 template <int Bands>
 HWY_INLINE std::size_t sumCache(const std::vector<Link>& links, std::size_t first, std::size_t last,
                                 const glm::vec4* radiosity, int chroma, float* total) {

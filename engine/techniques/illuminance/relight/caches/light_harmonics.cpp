@@ -8,7 +8,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/techniques/illuminance/relight/caches/light_harmonics.cpp"
-// Besides plain code, AVX2 and AVX-512 are enough.
+// Plain code, AVX2 and AVX-512 are enough.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -22,13 +22,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using V = hn::Vec<Floats>;
 
-/// Vectors that the coefficients of so many bands fill.
+/// Number of vectors that the coefficients of `bands` bands fill.
 constexpr int vectorsOf(int bands) {
     constexpr int kLanes = int(hn::MaxLanes(Floats()));
     return (bands * bands + kLanes - 1) / kLanes;
 }
 
-/// Adds some links of one cache to its sums; `halfs` are theirs, `stored` for each, of which the
+/// Adds some links of one cache to its sums. `halfs` has `stored` halfs for each link, of which the
 /// first vectorsOf(Bands) vectors are read. The sums are red of all coefficients, or luma where
 /// there is no colour, and green and blue of the first `Coloured` vectors of them.
 template <int Bands, int Coloured>
@@ -72,7 +72,8 @@ HWY_INLINE void addHarmonics(const std::uint32_t* nodes, const std::uint16_t* ha
 template <int Bands, int Coloured>
 void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity, int chroma,
                 LinkHalfs all, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
-    // With fewer of chrominance in the same number of vectors, colour costs nothing until the end.
+    // Where fewer bands of chrominance fill the same number of vectors, colour costs nothing until
+    // the end.
     if constexpr (Coloured > 1)
         if (vectorsOf(chroma) < Coloured)
             return lightBands<Bands, Coloured - 1>(caches, ends, radiosity, chroma, all, begin, end,
@@ -84,7 +85,7 @@ void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
     alignas(HWY_MAX_BYTES) float sums[3 * kSums] = {};
     const float *const r = sums, *const g = sums + kSums, *const b = sums + 2 * kSums;
     const std::size_t stored = all.size() / caches.shNode.size();
-    // From this link on vectors reach beyond the array's end. Those are fewer halfs than kSums.
+    // From this link on vectors reach beyond the array's end. These are fewer halfs than kSums.
     const std::size_t behind = all.size() < kSums ? 0 : (all.size() - kSums) / stored + 1;
     std::uint16_t copies[2 * kSums] = {};
     if (ends[end - 1] > behind)

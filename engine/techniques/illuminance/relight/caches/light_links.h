@@ -12,34 +12,35 @@
 
 namespace limn {
 
-/// How many bands are lit: luma in [2, kMaxBands] and no more than the links of
+/// Number of bands that are lit: luma in [2, kMaxBands] and no more than the links of
 /// LinkStorage::Sh have; chroma in [1, luma].
 struct LightBands {
     int luma = 3, chroma = 3;
 };
 
-/// Which links are read: of cache c those from Caches::linkBegin[c] to end[c].
+/// The links that are read: for cache c, those from Caches::linkBegin[c] to end[c].
 using LinkEnds = std::span<const std::uint32_t>;
 
-/// Halfs of links of LinkStorage::Sh, as many for each, at least LightBands::luma^2.
+/// Halfs of links of LinkStorage::Sh, the same number for each link, at least LightBands::luma^2.
 using LinkHalfs = std::span<const std::uint16_t>;
 
-/// What the links of cache c are multiplied with.
+/// Factor that undoes the scale of the halfs of cache c.
 inline float linkScale(const Caches& caches, std::uint32_t c) {
     return std::ldexp(1.f, -caches.linkExponent[c]);
 }
 
-// The sums of lightCaches, of radiosity as withLuma keeps it, for the caches [begin, end), on one
-// thread, by the widest vectors that this machine has. The order of a cache's sums depends on the
-// machine's vectors, so results of two kinds of machine agree to rounding only.
+// The sums of lightCaches for the caches [begin, end), from radiosity as withLuma stores it, on one
+// thread, with the widest vectors that this machine has. The order of a cache's sums depends on the
+// machine's vectors, so results of two kinds of machine agree only up to rounding.
 
-/// Of links of LinkStorage::Rtp: one link per lane. Whole vectors of links to nodes without light
-/// are passed over, which changes no sum; returns how many links that are.
+/// Lights caches with links of LinkStorage::Rtp, one link per lane. Whole vectors of links to nodes
+/// without light are skipped, which changes no sum. Returns the number of links skipped.
 std::size_t lightCones(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                        LightBands bands, std::uint32_t begin, std::uint32_t end, glm::vec3* sh);
 
-/// Of links of LinkStorage::Sh: one coefficient per lane. Those without light are read like all:
-/// memory brings their coefficients with the others', and finding them takes longer than that.
+/// Lights caches with links of LinkStorage::Sh, one coefficient per lane. Links without light are
+/// not skipped: memory brings their coefficients with the others', and finding them takes longer
+/// than summing them.
 void lightHarmonics(const Caches& caches, LinkEnds ends, const std::vector<glm::vec4>& radiosity,
                     LightBands bands, LinkHalfs halfs, std::uint32_t begin, std::uint32_t end,
                     glm::vec3* sh);

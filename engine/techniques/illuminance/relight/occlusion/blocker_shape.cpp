@@ -19,15 +19,15 @@ namespace {
 using Side = BlockerShape::Side;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The triangles with vertices of one place as one.
+/// The triangles of a mesh with vertices at the same place merged.
 struct Welded {
     std::vector<glm::vec3> position;
-    std::vector<std::array<std::uint32_t, 3>> triangles; ///< with three of them
-    std::vector<Edge> rim; ///< edges without their opposite; none: the mesh is closed
-    float size = 0;        ///< longest side of the box about it
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< those with three distinct vertices
+    std::vector<Edge> rim; ///< edges without an opposite; empty: the mesh is closed
+    float size = 0;        ///< longest side of its bounding box
 };
 
-// Of the size: vertices as near are one, and planes as near.
+// Distances, as shares of the size, below which vertices or planes count as the same.
 constexpr float kOnePlace = 1e-5f, kOnePlane = 1e-4f;
 
 Bounds boundsOfTriangles(const Mesh& mesh) {
@@ -73,8 +73,8 @@ Welded weld(const Mesh& mesh, const Bounds& box) {
     return w;
 }
 
-/// The plane through `p` as a side with the whole mesh behind it; nothing where there is mesh on
-/// both of its sides, or only in it.
+/// The plane through `p` as a side with the whole mesh behind it; std::nullopt where the mesh lies
+/// on both sides of the plane, or only in it.
 std::optional<Side> sideThrough(const Welded& w, glm::vec3 p, glm::vec3 normal) {
     float least = 1e30f, most = -1e30f;
     for (const glm::vec3 q : w.position) {
@@ -111,7 +111,7 @@ std::optional<Side> lidOf(const Welded& w) {
     return lid;
 }
 
-/// Of a mesh that is convex, but for one side that may be missing; else none.
+/// The sides of a convex mesh, one of which may be missing; empty where the mesh is not convex.
 std::vector<Side> convexSides(const Welded& w) {
     const float near = kOnePlane * w.size;
     std::vector<Side> sides;
@@ -153,7 +153,7 @@ std::vector<Side> boxSides(const Bounds& box) {
     return sides;
 }
 
-/// Squared. Ericson. Real-Time Collision Detection. 2005
+/// Squared distance. Ericson. Real-Time Collision Detection. 2005
 float distance2(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     const auto toEdge = [](glm::vec3 p, glm::vec3 q) {
         const glm::vec3 d = q - p;
@@ -169,7 +169,7 @@ float distance2(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
                                        : std::min({toEdge(a, b), toEdge(b, c), toEdge(c, a)});
 }
 
-/// Seen from 0. Van Oosterom, Strackee. The Solid Angle of a Plane Triangle. 1983
+/// Solid angle seen from 0. Van Oosterom, Strackee. The Solid Angle of a Plane Triangle. 1983
 double solidAngle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
     return 2 *
@@ -177,7 +177,7 @@ double solidAngle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
                                                          glm::dot(b, c) * la + glm::dot(c, a) * lb);
 }
 
-/// About `centre`, within all triangles; 0 where the mesh is not closed around it.
+/// Radius of a ball about `centre` inside all triangles; 0 where the mesh is not closed around it.
 float ballWithin(const Welded& w, glm::vec3 centre) {
     if (!w.rim.empty())
         return 0;

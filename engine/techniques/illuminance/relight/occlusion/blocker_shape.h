@@ -10,28 +10,28 @@
 
 namespace limn {
 
-/// What of a mesh keeps bounced light off, in the object's space: its triangles; alpha is not
-/// asked.
+/// Shape by which a mesh blocks bounced light, in the object's space: its triangles. Alpha is
+/// ignored.
 struct BlockerShape {
-    /// Of a convex solid: dot(normal, p) <= offset within.
+    /// Side of a convex solid: dot(normal, p) <= offset within it.
     struct Side {
         glm::vec3 normal; ///< unit
         float offset;
-        bool there; ///< the mesh has triangles there, all over it
+        bool there; ///< the mesh's triangles cover all of this side
     };
     static constexpr std::size_t kMaxSides = 16;
 
-    Bounds box;              ///< about the mesh
-    std::vector<Side> sides; ///< of a convex solid about the mesh
+    Bounds box;              ///< bounding box of the mesh
+    std::vector<Side> sides; ///< of a convex solid that encloses the mesh
     bool closed = false;     ///< all sides are there
-    /// Null: the mesh is those of the sides that are there, to a ten-thousandth of its size.
+    /// Null where the mesh consists of the sides that are there, to a ten-thousandth of its size.
     std::unique_ptr<const TraceScene> triangles;
-    /// Radii of balls about the middle of the box: within the mesh, which is closed, or 0; and
-    /// around it.
+    /// Radii of balls about the middle of the box: one inside the mesh, or 0 where it is not
+    /// closed, and one that encloses it.
     float innerBall = 0, outerBall = 0;
 };
 
-/// O(triangles).
+/// Computes the shape of a mesh. O(triangles).
 BlockerShape blockerShape(const Scene& scene, std::uint32_t mesh);
 
 } // namespace limn

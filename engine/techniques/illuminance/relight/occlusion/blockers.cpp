@@ -14,7 +14,7 @@ namespace limn {
 
 namespace {
 
-/// Of a matrix that only turns and scales, with room for rounding; else 0.
+/// Scale of a matrix that only rotates and scales uniformly, up to rounding; else 0.
 float uniformScale(const glm::mat3& m) {
     const glm::mat3 products = glm::transpose(m) * m;
     const float square = std::max({products[0][0], products[1][1], products[2][2]});
@@ -26,7 +26,7 @@ float uniformScale(const glm::mat3& m) {
     return 1.001f * std::sqrt(square);
 }
 
-/// False where it cannot block.
+/// Places a blocker by its instance. Returns false where it cannot block.
 bool place(const Instance& instance, Blocker& b) {
     const glm::mat3 linear(instance.toWorld);
     const Bounds& box = b.shape->box;
@@ -38,7 +38,7 @@ bool place(const Instance& instance, Blocker& b) {
         extend(b.bounds, b.origin + linear * glm::mix(box.lower, box.upper, side));
     }
     b.centre = b.origin + linear * box.centre();
-    for (unsigned k = 0; k < 4; ++k) { // the other corners are as far
+    for (unsigned k = 0; k < 4; ++k) { // the opposite corners are as far away
         const glm::vec3 side(k & 1U, k >> 1, 1);
         b.radius = std::max(b.radius, glm::length(linear * ((side - 0.5f) * box.size())));
     }

@@ -16,21 +16,22 @@ namespace limn {
 /// A dynamic instance as it blocks light.
 struct Blocker {
     std::shared_ptr<const BlockerShape> shape;
-    glm::mat3 toObject{1}; ///< of directions, from the world
-    glm::vec3 origin{0};   ///< world, of the object's space
-    glm::vec3 centre{0};   ///< world, of a sphere about the mesh
+    glm::mat3 toObject{1}; ///< transforms directions from world to object space
+    glm::vec3 origin{0};   ///< world position of the object space's origin
+    glm::vec3 centre{0};   ///< world, of a sphere that encloses the mesh
     float radius = 0;      ///< [m]
-    Bounds bounds;         ///< world, about the box
+    Bounds bounds;         ///< world, of the box
 };
 
-/// By mesh; kept between calls.
+/// Shapes by mesh, kept between calls.
 using BlockerShapes = std::map<std::uint32_t, std::shared_ptr<const BlockerShape>>;
 
-/// Of the dynamic instances of `scene`; without those whose matrix has no inverse, which block
-/// nothing. Adds to `shapes` those that are missing.
+/// Blockers of the dynamic instances of `scene`, except those whose matrix has no inverse, which
+/// block nothing. Adds missing shapes to `shapes`.
 std::vector<Blocker> sceneBlockers(const Scene& scene, BlockerShapes& shapes);
 
-/// Hash of all that sceneBlockers depends on but the meshes themselves. 0: there are none.
+/// Hash of everything that sceneBlockers() depends on except the meshes themselves; 0 where there
+/// are no blockers.
 std::uint64_t hashBlockers(const Scene& scene);
 
 } // namespace limn

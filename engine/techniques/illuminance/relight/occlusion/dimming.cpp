@@ -23,7 +23,7 @@ constexpr float kPlanar = 0.99f; // length of the mean normal
 constexpr std::size_t kCachesAtOnce = 64, kLinksAtOnce = 4096;
 constexpr std::size_t kCompared = 32; // links
 
-/// Takes over what is hidden of a cache's links now; adds those that are hidden otherwise to
+/// Stores the hidden directions of a cache's links; adds the links for which they changed to
 /// `changed`.
 void takeHidden(const Caches& caches, std::uint32_t cache, const std::uint16_t* now,
                 HiddenLinks& out, std::vector<std::uint32_t>& changed) {

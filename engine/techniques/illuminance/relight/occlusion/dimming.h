@@ -16,43 +16,45 @@ bool dimsLinks(const Scene& scene);
 
 std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree& tree);
 
-/// Which of a bake's links dynamic objects hide.
+/// The links of a bake that dynamic objects hide.
 struct HiddenLinks {
-    std::vector<std::uint16_t> directions; ///< per link, as findHiddenLinks; empty: none is hidden
-    std::vector<std::uint32_t> linksOf;    ///< per cache: how many are hidden, in part at least
-    std::vector<std::uint32_t> changed; ///< links that are hidden otherwise than before, ascending
-    std::uint32_t caches = 0;           ///< with hidden links
-    std::uint64_t links = 0;            ///< hidden
+    std::vector<std::uint16_t>
+        directions;                     ///< per link, as findHiddenLinks(); empty: none is hidden
+    std::vector<std::uint32_t> linksOf; ///< per cache: number that are hidden at least in part
+    std::vector<std::uint32_t> changed; ///< links whose hidden directions have changed, ascending
+    std::uint32_t caches = 0;           ///< number with hidden links
+    std::uint64_t links = 0;            ///< number hidden
 };
 
-/// Follows the dynamic objects of scenes with one bake, which knows none: this is beyond the paper.
-/// A cache within a closed object sees nothing. Only light coming from behind an object is taken
-/// away; what the object reflects is not added.
+/// Tracks how the dynamic objects of scenes occlude the links of one bake, which contains none of
+/// them; the paper has no such step. A cache inside a closed object sees nothing. Only light from
+/// behind an object is removed; light that the object reflects is not added.
 struct Dimming {
     HiddenLinks hidden;
-    std::uint64_t blockers = 0; ///< hash of those that `hidden` belongs to; 0: none
+    std::uint64_t blockers = 0; ///< hashBlockers() of the scene that `hidden` belongs to; 0: none
     BlockerShapes shapes;
     std::vector<SenderPlace> places; ///< empty until needed
 };
 
-/// Brings `dimming` up to date with `scene`. False: nothing had moved, and nothing was done.
+/// Brings `dimming` up to date with `scene`. Returns false, and does nothing, where nothing has
+/// moved.
 bool updateDimming(const Bake& bake, const Scene& scene, Dimming& dimming);
 
 /// The share of link k's directions that nothing blocks.
 float openShare(const Bake& bake, const HiddenLinks& hidden, std::size_t k);
 
-/// A transport or coefficient of a link that is open to a share.
+/// A transport or coefficient of a link, reduced to its open share.
 std::uint16_t dimmedHalf(std::uint16_t half, float share);
 
-/// The bake's links as they are to be read instead of its own: transports times openShare().
+/// The links to read instead of the bake's own: those with transports times openShare().
 struct DimmedLinks {
     Caches cones; ///< LinkStorage::Rtp: only lightmapCount, linkBegin, linkExponent and links
-    std::vector<std::uint16_t> halfs; ///< LinkStorage::Sh: as many per link as were given
+    std::vector<std::uint16_t> halfs; ///< LinkStorage::Sh: as many per link as dimLinks() was given
 };
 
-/// Brings `dimmed` up to date after an updateDimming() that was not false. Empty to begin with, and
-/// without blockers. `halfs`: those of links of LinkStorage::Sh that are read, bands^2 for each;
-/// empty: the bake's.
+/// Brings `dimmed` up to date after an updateDimming() that returned true. `dimmed` is empty at
+/// first and where there are no blockers. `halfs`: those of links of LinkStorage::Sh that are read,
+/// bands^2 for each; empty: the bake's.
 void dimLinks(const Bake& bake, const Dimming& dimming, LinkHalfs halfs, DimmedLinks& dimmed);
 
 } // namespace limn

@@ -15,7 +15,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/techniques/illuminance/relight/occlusion/hidden_links.cpp"
-// Besides plain code, AVX2 and AVX-512 are enough.
+// Plain code, AVX2 and AVX-512 are enough.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -28,10 +28,10 @@ namespace {
 /// How a cache sees a blocker's sphere.
 struct Sight {
     glm::vec3 direction{0, 0, 1}; ///< unit
-    float cosine = -1, sine = 0;  ///< of the half-angle; of all directions from within
+    float cosine = -1, sine = 0;  ///< of the half-angle; all directions where the cache is inside
 };
 
-/// False where the blocker takes nothing from the cache.
+/// Returns false where the blocker takes no light from the cache.
 bool sees(const Bake& bake, std::uint32_t cache, const Blocker& b, glm::vec3 cell, Sight& sight) {
     const glm::vec3 x = bake.caches.position[cache], way = b.centre - x;
     const float distance = glm::length(way);
@@ -122,7 +122,7 @@ struct Cones {
     U node;
 };
 
-/// Of denormal halfs, too.
+/// Converts halfs to floats, including denormal ones.
 HWY_INLINE V lowHalf(U word) {
     const hn::Rebind<hwy::float16_t, Floats> dh;
     const hn::Rebind<std::uint16_t, Floats> dh16;
@@ -145,7 +145,7 @@ HWY_INLINE Cones unpack(U node, U oct, U cone) {
     return {direction, hn::Sqrt(dot(direction, direction)), lowHalf(cone), node};
 }
 
-/// As coneOfHarmonics(), of the first four harmonics.
+/// Vector form of coneOfHarmonics(), from the first four harmonics.
 HWY_INLINE Cones coneOf(U node, U first, U second) {
     const Floats d;
     const V zeroth = lowHalf(first), zero = hn::Zero(d);
@@ -163,7 +163,7 @@ HWY_INLINE Cones coneOf(U node, U first, U second) {
 struct ConeReader {
     const Caches& caches;
     std::size_t coefficients; ///< of a link; 0: cones
-    std::uint32_t first;      ///< no link before this one is asked for
+    std::uint32_t first;      ///< lowest link that is requested
 
     /// Links before the first count as that one.
     HWY_INLINE Cones harmonicsAt(U links) const {
@@ -192,7 +192,7 @@ struct ConeReader {
         return unpack(word(0), word(1), word(2));
     }
 
-    /// Of link k and those behind it; past the last link, of that one.
+    /// Cones of link k and those after it; lanes past the last link repeat it.
     HWY_INLINE Cones from(std::uint32_t k) const {
         const Uints d;
         const auto count = std::uint32_t(caches.linkCount());
@@ -205,7 +205,7 @@ struct ConeReader {
     }
 };
 
-/// Links that wait for a closer look, until there are enough for whole vectors.
+/// Queue of links for a closer test, until there are enough for whole vectors.
 struct Waiting {
     static constexpr std::size_t kRoom = 512;
     std::uint32_t link[kRoom + kMaxLanes], cache[kRoom + kMaxLanes];
@@ -221,7 +221,7 @@ struct Waiting {
     bool full() const { return count + kMaxLanes > kRoom; }
 };
 
-/// What is known of some links when they are looked at.
+/// Data of some links during a test.
 struct Links {
     M valid;
     U link;
@@ -236,14 +236,14 @@ struct Range {
     V first, last; ///< [m]
 };
 
-/// Of a blocker, in world axes from its origin: dot(normal, p) <= offset within.
+/// Side of a blocker, in world axes from its origin: dot(normal, p) <= offset within.
 struct Side {
     glm::vec3 normal; ///< of this length
     float length, offset;
     bool there;
 };
 
-/// Looks for one blocker.
+/// Finds the links that one blocker hides.
 struct Finder {
     const LinksAndBlockers& scene;
     const Blocker& blocker;
@@ -268,11 +268,11 @@ struct Finder {
         }
     }
 
-    /// Keeps those of `valid` cones that meet the sphere about the blocker.
+    /// Queues the `valid` cones that meet the blocker's bounding sphere.
     HWY_INLINE void keep(const Cones& c, V cos, V sin, U links, std::uint32_t cache, M valid) {
         const Floats d;
         const V cosine = set(sight.cosine), sine = set(sight.sine);
-        const M round = hn::Le(cos, hn::Neg(cosine)), // together they go all the way round
+        const M round = hn::Le(cos, hn::Neg(cosine)), // together they cover all directions
             meets = hn::Ge(dot(c.direction, set(sight.direction)),
                            (cos * cosine - sin * sine) * c.length);
         const M found = hn::And(hn::Or(round, meets), valid);
@@ -303,8 +303,8 @@ struct Finder {
         return l;
     }
 
-    /// What the whole cones of `seen` tell: no direction is blocked, or all are; or it is not
-    /// known. A direction is no further from the axis than their chord, 2 sin(half-angle / 2).
+    /// Tests the whole cones of `seen`: no direction is blocked, all are, or neither can be
+    /// decided. A direction is at most the chord, 2 sin(half-angle / 2), from the axis.
     void sift(std::uint32_t cache) {
         const Floats d;
         const Uints du;
@@ -341,8 +341,9 @@ struct Finder {
         seen.count = 0;
     }
 
-    /// Whether all directions are blocked, where light comes from `nearest` at least. Without one
-    /// side of a convex solid another is met from outside, on the way in or out.
+    /// Whether all directions are blocked, for light from a distance of at least `nearest`. Where
+    /// one side of a convex solid is missing, a ray still meets another one from outside, on the
+    /// way in or out.
     HWY_INLINE M fillsCones(const Range& outer, const Range& inner, V nearest) const {
         const Floats d;
         if (shape.triangles)
@@ -354,15 +355,15 @@ struct Finder {
         return hn::And(passes, hn::And(outside, hn::Lt(outer.last, nearest)));
     }
 
-    /// Keeps of a ray what is behind a side, `height` from it, towards which it goes as fast as
-    /// `component`.
+    /// Clips a ray to the part behind a side; the ray starts `height` from the side and approaches
+    /// it at the rate `component`.
     static HWY_INLINE void bound(V component, V height, Range& range) {
         const V t = height / awayFrom0(component);
         const M isLast = hn::Ge(component, hn::Zero(Floats()));
         range.last = hn::IfThenElse(isLast, hn::Min(range.last, t), range.last);
         range.first = hn::IfThenElse(isLast, range.first, hn::Max(range.first, t));
     }
-    /// A small number stands for 0: no 0 / 0.
+    /// Replaces 0 by a small number, to avoid 0 / 0.
     static HWY_INLINE V awayFrom0(V v) {
         return hn::IfThenElse(hn::Gt(hn::Abs(v), set(1e-18f)), v, hn::CopySign(set(1e-18f), v));
     }
@@ -382,7 +383,7 @@ struct Finder {
             hidden[link[i] - firstLink] |= std::uint16_t(bits[i]);
     }
 
-    /// Asks of each direction of the cones.
+    /// Tests each direction of the cones.
     void sample(Waiting& waiting, const Spread& spread) {
         const Floats d;
         const Uints du;
@@ -432,7 +433,7 @@ struct Finder {
         return bits;
     }
 
-    /// Of the sides above caches.
+    /// Heights of the sides above caches.
     struct Heights {
         V of[BlockerShape::kMaxSides];
         M within; ///< the cache is below all of them
@@ -448,8 +449,8 @@ struct Finder {
         return h;
     }
 
-    /// Whether it begins before `tMost` along a unit way from the cache. From within a closed solid
-    /// all is blocked, so a surface that a box stands on gets no light there.
+    /// Whether the blocker begins before `tMost` along a unit direction from the cache. From inside
+    /// a closed solid everything is blocked, so a surface that a box stands on gets no light there.
     HWY_INLINE M blocks(const Links& l, const Heights& heights, V3 way, V tMost) const {
         const Floats d;
         Range through{set(-1e30f), set(1e30f)};
@@ -478,17 +479,17 @@ struct Finder {
         return hn::And(hit, hn::Or(enters, leaves));
     }
 
-    /// Of rays that come within the mesh's box and may start there.
+    /// Whether rays that enter the mesh's bounding box, or start in it, meet its triangles.
     HWY_INLINE M meetsTriangles(V3 origin, V3 way, V tMost, M which, M startWithin) const {
         const Floats d;
         const V3 centre = set(shape.box.centre()) - origin;
         const V square = dot(way, way), along = dot(centre, way), apart = dot(centre, centre);
-        // A quarter of the discriminant of where the ray meets a ball.
+        // A quarter of the discriminant of the ray's intersection with a ball.
         const auto discriminant = [&](float radius) {
             return along * along - square * (apart - set(radius * radius));
         };
         which = hn::And(which, hn::Gt(discriminant(shape.outerBall), hn::Zero(d)));
-        // From outside to within a closed mesh.
+        // A ray from outside that enters the inner ball crosses a closed mesh.
         const V inner = discriminant(shape.innerBall), root = hn::Sqrt(hn::Max(inner, hn::Zero(d)));
         const M ends = hn::And(hn::Gt(inner, hn::Zero(d)),
                                hn::Gt(along, set(shape.innerBall > 0 ? 0.f : 1e30f))),
@@ -507,7 +508,7 @@ struct Finder {
         hn::Store(tMost, d, t);
         hn::Store(hn::IfThenElseZero(which, set(1)), d, hit);
         for (std::size_t i = 0; i < hn::Lanes(d); ++i)
-            // As long in the object's space as in the world: t is the same.
+            // The direction is not normalised in object space, so t is the same as in the world.
             if (hit[i] > 0 &&
                 !shape.triangles->occluded({{ox[i], oy[i], oz[i]}, {x[i], y[i], z[i]}, 0, t[i]}))
                 hit[i] = 0;

@@ -13,15 +13,16 @@
 
 namespace limn {
 
-/// What a link's light comes through.
+/// The cone of directions that a link's light comes through.
 struct LinkCone {
     std::uint32_t node = 0;
     glm::vec3 direction{0, 0, 1}; ///< of any length
     float u = 0;                  ///< 1 - cos(half-angle)
 };
 
-/// Of link k of LinkStorage::Sh, whose links have bands^2 coefficients, from the first two bands of
-/// a cone: transport Y_00 and transport (2 - u) / 2 Y_1m. All directions where it carries nothing.
+/// Recovers the cone of link k of LinkStorage::Sh, whose links have `coefficients` = bands^2 each,
+/// from the first two bands of a cone: transport Y_00 and transport (2 - u) / 2 Y_1m. Returns all
+/// directions where the link carries nothing.
 inline LinkCone coneOfHarmonics(const Caches& caches, std::size_t k, std::size_t coefficients) {
     const std::uint16_t* h = caches.shCoefficients.data() + k * coefficients;
     const glm::vec3 first(halfToFloat(h[3]), halfToFloat(h[1]), halfToFloat(h[2]));
