@@ -53,6 +53,40 @@ may_include() {
         }'
 }
 
+# The rooms and their edges, those that follow from others left out, as docs/architecture.md shows them.
+rooms_drawing() {
+    echo '```mermaid'
+    echo 'flowchart TD'
+    {
+        declared_rooms
+        echo "room app limn_app"
+        declared_rooms | awk '$1 == "room" { print "edge limn_app", $3 }'
+    } | awk '
+        $1 == "room" { name = $2; sub(/^engine\//, "", name); folder[$3] = name; rooms[++n] = $3 }
+        $1 == "edge" { direct[$2, $3] = 1; reach[$2, $3] = 1 }
+        END {
+            for (k = 1; k <= n; k++)
+                for (i = 1; i <= n; i++)
+                    for (j = 1; j <= n; j++)
+                        if (reach[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) reach[rooms[i], rooms[j]] = 1
+            for (i = 1; i <= n; i++) print "    " rooms[i] "[\"" folder[rooms[i]] "\"]"
+            for (i = 1; i <= n; i++)
+                for (j = 1; j <= n; j++) {
+                    if (!direct[rooms[i], rooms[j]]) continue
+                    implied = 0
+                    for (k = 1; k <= n; k++)
+                        if (direct[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) implied = 1
+                    if (!implied) print "    " rooms[i] " --> " rooms[j]
+                }
+        }' | sort | sed 's/limn_//g'
+    echo '```'
+}
+# A drawing that is committed goes stale, unless something compares it.
+drawing_of_rooms_is_current() {
+    diff <(sed -n '/^```mermaid$/,/^```$/p' docs/architecture.md) <(rooms_drawing) ||
+        { echo "docs/architecture.md: its drawing is not what tests/repo/repository_test.sh rooms_drawing prints"; return 1; }
+}
+
 layers_point_downward() {
     local allowed private
     allowed=$(may_include)
