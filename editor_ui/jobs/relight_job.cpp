@@ -51,7 +51,7 @@ bool sameStaticGeometry(const Scene& a, const Scene& b) {
 }
 
 bool sameBakeInputs(const Scene& a, const Scene& b) {
-    return sameStaticGeometry(a, b) && a.bake == b.bake &&
+    return sameStaticGeometry(a, b) && sameBake(a.bake, b.bake) &&
            std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
 }
 
@@ -137,8 +137,8 @@ void RelightJob::Worker::setLighting(bool here) {
 
 void RelightJob::Worker::relight(const Progress& progress) {
     const bool fresh = !illuminance || inputHash == baked.bake->sceneHash;
-    const Scene& lit = fresh ? *scene : relit.emplace(relitScene(*baked.scene, *scene));
-    const LightingInput input{.scene = lit,
+    const Scene& shown = fresh ? *scene : relit.emplace(relitScene(*baked.scene, *scene));
+    const LightingInput input{.scene = shown,
                               .trace = fresh ? trace.get() : baked.trace.get(),
                               .view = view ? &*view : nullptr};
     countUpdate(status, driver, driver.step(input, LightingDriver::Rest::All, progress));

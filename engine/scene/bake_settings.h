@@ -81,6 +81,10 @@ std::string settingsDefect(const BakeSettings& settings);
 /// changes. Precondition: the setting exists.
 std::string setBakeSetting(BakeSettings& settings, std::string_view key, const std::string& text);
 
+/// Whether a bake with settings `a` serves settings `b`: they differ at most in settings that
+/// invalidate light alone.
+bool sameBake(const BakeSettings& a, const BakeSettings& b);
+
 /// A named combination of counts.
 struct BakePreset {
     const char* name; ///< as on the command line

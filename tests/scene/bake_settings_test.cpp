@@ -120,4 +120,16 @@ TEST(BakeSettings, TextForTheLightmapsSizeReplacesItsDensity) {
     EXPECT_EQ(s.lightmapCaches, 500U);
 }
 
+TEST(BakeSettings, OnlyWhatABakeDependsOnAsksForAnother) {
+    BakeSettings a, b;
+    b.maxBounces = 3;
+    b.dimming = false;
+    EXPECT_TRUE(sameBake(a, b));
+    b.rays = 64;
+    EXPECT_FALSE(sameBake(a, b));
+    b = a;
+    b.grid = {3, 3, 3};
+    EXPECT_FALSE(sameBake(a, b));
+}
+
 } // namespace limn
