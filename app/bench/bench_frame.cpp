@@ -40,6 +40,7 @@ struct FrameTimes {
     double perLight = 0; ///< shadow maps and lights on surfels over the lights
     double total = 0;    ///< of the clock on the wall
     std::uint32_t cachesUnseen = 0;
+    std::uint32_t bandsLit = 0; ///< of the bake's, those that some surface needs
 };
 
 struct Pass {
@@ -102,6 +103,7 @@ FrameTimes FrameScene::draw(const Scene& lit, std::uint32_t bounces) {
         t.perLight = (t.shadowMaps + t.lightsOnSurfels) / double(lit.lights.size());
     t.total = total.count();
     t.cachesUnseen = light.cachesUnseen;
+    t.bandsLit = light.bandsLit;
     return t;
 }
 
@@ -121,6 +123,7 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
                 {"bounces", o.bounces},
                 {"caches_lit", frame.seen ? "seen" : "all"},
                 {"caches_unseen", frames.back().cachesUnseen},
+                {"bands_lit", frames.back().bandsLit},
                 {"frames", frames.size()},
                 {"geometry_drawn", stats.geometryDrawn - 1}, // but for the first
                 {"bytes", stats.gpuBytes}});
@@ -140,7 +143,7 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"lights", 6, "lights"},
                                {"surfels", 7, "surfels"},
                                {"links", 5, "links"},
-                               {"bands", 5, "bands"},
+                               {"bands", 5, "bands_lit"},
                                {"kind", -4, "storage"},
                                {"shadows", 7, "shadow_maps_median_ms"},
                                {"direct", 7, "lights_on_surfels_median_ms"},
