@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/scene_options.h"
 #include "app/commands/number_range.h"
+#include "app/resources.h"
 
 #include "engine/core/log.h"
 #include "engine/files/project_file.h"
@@ -198,7 +199,7 @@ Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {
 
 std::string projectsFolder() {
     const char* folder = std::getenv("LIMN_PROJECTS");
-    return folder && *folder ? folder : LIMN_SOURCE_DIR "/projects";
+    return folder && *folder ? folder : dataFolder("projects");
 }
 
 } // namespace limn

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/editor/editor_window.h"
 
+#include "app/resources.h"
+#include "engine/core/log.h"
+#include "engine/core/read_file.h"
 #include "engine/gpu/vulkan_error.h"
+#include "engine/scene/decode_image.h"
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
@@ -113,6 +117,20 @@ static std::string lastGlfwError() {
     return text ? text : "unknown reason";
 }
 
+/// A window without an icon works as well.
+static void setIcon(GLFWwindow* window) {
+    const std::string path = dataFolder("resources") + "/icons/limn.png";
+    const Result<std::string> bytes = readFile(path);
+    if (!bytes)
+        return logWarning(path + ": " + bytes.error().message);
+    Result<Image> icon =
+        decodeImage({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
+    if (!icon)
+        return logWarning(path + ": " + icon.error().message);
+    const GLFWimage image{int(icon->width), int(icon->height), icon->rgba.data()};
+    glfwSetWindowIcon(window, 1, &image);
+}
+
 Result<std::unique_ptr<EditorWindow>> createEditorWindow(std::uint32_t width,
                                                          std::uint32_t height) {
     if (!glfwInit())
@@ -127,6 +145,7 @@ Result<std::unique_ptr<EditorWindow>> createEditorWindow(std::uint32_t width,
     if (!window->m_window)
         return fail(fmt::format("cannot open a window: {}", lastGlfwError()));
     glfwSetWindowSizeLimits(window->m_window, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    setIcon(window->m_window);
     glfwSetWindowUserPointer(window->m_window, window.get());
     setCallbacks(window->m_window);
     return window;
