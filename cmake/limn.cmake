@@ -16,6 +16,11 @@ if(LIMN_SANITIZE)
   target_link_options(limn_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(LIMN_THREAD_SANITIZER)
+  target_compile_options(limn_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(limn_options INTERFACE -fsanitize=thread)
+endif()
+
 if(LIMN_FUZZ)
   target_compile_options(limn_options INTERFACE -fsanitize=fuzzer-no-link)
   # AddressSanitizer misses an index that leads into another array, or into memory that was never used; this does not.
@@ -40,7 +45,7 @@ function(limn_test name)
   target_compile_definitions(${name} PRIVATE LIMN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 600
-    ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0")
+    ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0;TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp")
 endfunction()
 
 # limn_shaders(limn_render viewport/surface.frag): compiles shaders/viewport/surface.frag to SPIR-V and embeds it, as

@@ -11,13 +11,60 @@
 #include <atomic>
 #include <mutex>
 
+#if defined(__SANITIZE_THREAD__)
+extern "C" {
+void __tsan_acquire(void* address);
+void __tsan_release(void* address);
+}
+#endif
+
 namespace limn {
+
+namespace {
+
+/// Tells ThreadSanitizer about the ordering inside oneTBB that it cannot see: what the caller wrote
+/// is visible to the loop's bodies, and what they wrote is visible after the loop. Does nothing in
+/// other builds.
+class LoopOrder {
+public:
+    LoopOrder() { released(m_started); }
+    ~LoopOrder() { acquired(m_ended); }
+    LoopOrder(const LoopOrder&) = delete;
+    LoopOrder& operator=(const LoopOrder&) = delete;
+
+    /// Exists for the duration of one call of the body.
+    struct Body {
+        LoopOrder& loop;
+        explicit Body(LoopOrder& of) : loop(of) { acquired(loop.m_started); }
+        ~Body() { released(loop.m_ended); }
+        Body(const Body&) = delete;
+        Body& operator=(const Body&) = delete;
+    };
+
+private:
+#if defined(__SANITIZE_THREAD__)
+    static void acquired(char& at) {
+        __tsan_acquire(&at);
+    }
+    static void released(char& at) {
+        __tsan_release(&at);
+    }
+#else
+    static void acquired(char&) {}
+    static void released(char&) {}
+#endif
+    char m_started = 0, m_ended = 0;
+};
+
+} // namespace
 
 void parallelRanges(std::size_t count, std::size_t grain, RangeBody body) {
     if (count == 0)
         return;
+    LoopOrder order;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
                       [&](const tbb::blocked_range<std::size_t>& r) {
+                          const LoopOrder::Body ordered(order);
                           const FlushDenormals flush;
                           body(r.begin(), r.end());
                       });
@@ -31,9 +78,11 @@ bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progre
     std::mutex reporting;
     grain = std::max<std::size_t>(grain, 1);
     const std::size_t blocks = (count + grain - 1) / grain;
+    LoopOrder order;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, blocks, 1),
         [&](const tbb::blocked_range<std::size_t>& r) {
+            const LoopOrder::Body ordered(order);
             const FlushDenormals flush;
             for (std::size_t block = r.begin(); block != r.end(); ++block) {
                 if (progress.cancelled()) {

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// A callable (begin, end) that lives for as long as the call that it is given to. Never allocates.
+/// Non-owning reference to a callable (begin, end), which must outlive it. Never allocates.
 class RangeBody {
 public:
     template <class Body>
@@ -27,8 +27,8 @@ private:
 /// not depend on the number of threads. They run under FlushDenormals, on the calling thread too.
 void parallelRanges(std::size_t count, std::size_t grain, RangeBody body);
 
-/// The same with progress of `stage` and cancellation between ranges of `grain` items.
-/// Returns false when cancelled; the work is then incomplete.
+/// Same, with progress of `stage` and cancellation between ranges of `grain` items. Returns false
+/// when cancelled; the work is then incomplete.
 bool parallelRanges(std::size_t count, std::size_t grain, const Progress& progress,
                     const char* stage, RangeBody body);
 
