@@ -63,8 +63,6 @@ void RenderWorker::makeRelighter(const PictureRequest& request) {
     }
     m_lighting = made->get();
     m_driver = LightingDriver(std::move(*made));
-    relight.converged = false;
-    relight.bounces = 0;
 }
 
 void RenderWorker::measure(const PictureRequest& request) {

@@ -59,8 +59,7 @@ Scene relitScene(const Scene& baked, const Scene& now) {
     Scene scene = baked;
     scene.lights = now.lights;
     scene.sky = now.sky;
-    scene.bake.maxBounces = now.bake.maxBounces;
-    scene.bake.dimming = now.bake.dimming;
+    scene.bake = now.bake; // what the bake was made with is in the bake
     if (scene.materials.size() == now.materials.size())
         scene.materials = now.materials;
     return scene;
@@ -167,7 +166,7 @@ std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
 }
 
 void countUpdate(LightingStatus& status, const LightingDriver& driver,
-                 const LightingReport* report) {
+                 const std::optional<LightingReport>& report) {
     status.bounces = driver.bounces();
     status.converged = driver.converged();
     if (!report)

@@ -72,7 +72,7 @@ private:
 /// Adds a driver's update and its progress to `status`. `report` is the result of
 /// LightingDriver::step().
 void countUpdate(LightingStatus& status, const LightingDriver& driver,
-                 const LightingReport* report);
+                 const std::optional<LightingReport>& report);
 
 /// True if a bake of `a` serves `b` as well, as far as can be told without hashing the meshes.
 bool sameBakeInputs(const Scene& a, const Scene& b);

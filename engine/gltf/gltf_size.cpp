@@ -14,7 +14,7 @@ namespace limn {
 
 namespace {
 
-/// As read, and as kept: three floats become as many, with four copies of an attribute at most.
+/// Bytes of a vertex, counted twice, as read and as kept: two attributes each of 3, 4 and 2 floats.
 constexpr std::uint64_t kVertexBytes =
     2 * (2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2));
 constexpr std::uint64_t kIndexBytes = 2 * sizeof(std::uint32_t);

@@ -17,10 +17,10 @@ void LightingDriver::lightChanged() {
     m_bounces = 0;
 }
 
-const LightingReport* LightingDriver::step(LightingInput input, Rest rest,
-                                           const Progress& progress) {
+std::optional<LightingReport> LightingDriver::step(LightingInput input, Rest rest,
+                                                   const Progress& progress) {
     if (done() || (m_converged && rest == Rest::Later))
-        return nullptr;
+        return {};
     const bool resting = m_converged;
     const std::uint32_t most = input.scene.bake.maxBounces;
     input.bounces = resting ? 0 : bouncesPerUpdate(most);
@@ -30,11 +30,10 @@ const LightingReport* LightingDriver::step(LightingInput input, Rest rest,
     m_whole = report.whole;
     m_everWhole |= m_whole;
     if (resting)
-        return nullptr;
-    m_report = std::move(report);
-    m_bounces += m_report.bounces;
-    m_converged = m_report.converged || m_bounces >= most;
-    return &m_report;
+        return {};
+    m_bounces += report.bounces;
+    m_converged = report.converged || m_bounces >= most;
+    return report;
 }
 
 } // namespace limn

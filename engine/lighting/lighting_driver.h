@@ -3,8 +3,8 @@
 
 #include "engine/lighting/lighting.h"
 
-#include <functional>
 #include <memory>
+#include <optional>
 
 namespace limn {
 
@@ -25,10 +25,6 @@ public:
     bool converged() const { return m_converged; }
     std::uint32_t bounces() const { return m_bounces; } ///< since lightChanged()
 
-    /// Whether there is light everywhere, perhaps older where no view has been since. Until then
-    /// updates ignore the view, so that there is light wherever the user looks next.
-    bool everWhole() const { return m_everWhole; }
-
     /// What step() does once the bounces have converged.
     enum class Rest : std::uint8_t {
         All,  ///< light what the view did not show
@@ -37,15 +33,16 @@ public:
     };
 
     /// Performs one update: a few bounces, or, once they have converged, the rest as `rest` says.
-    /// Overwrites input.bounces. Precondition: there is a Lighting. Returns null if there was
-    /// nothing to do, and after updating the rest, whose report contains no bounces.
-    const LightingReport* step(LightingInput input, Rest rest, const Progress& progress = {});
+    /// Overwrites input.bounces. Ignores the view until there is light everywhere, so that there is
+    /// some wherever the user looks next. Returns std::nullopt if there was nothing to do, and
+    /// after updating the rest, whose report contains no bounces.
+    std::optional<LightingReport> step(LightingInput input, Rest rest,
+                                       const Progress& progress = {});
 
     Lighting* lighting() const { return m_lighting.get(); }
 
 private:
     std::unique_ptr<Lighting> m_lighting;
-    LightingReport m_report;
     std::uint32_t m_bounces = 0;
     bool m_converged = false, m_whole = false, m_everWhole = false;
 };

@@ -34,42 +34,43 @@ declared_rooms() {
         }'
 }
 
-# A line for each room and each room that it may include, itself among them: what its CMake target depends on, and what that does.
-may_include() {
-    declared_rooms | awk '
-        $1 == "room" { folder[$3] = $2; rooms[++n] = $3; reach[$3, $3] = 1 }
+# The same with app, which may include every room, and "reach TARGET TARGET" for what follows from the edges.
+rooms_and_reach() {
+    {
+        declared_rooms
+        echo "room app limn_app"
+        declared_rooms | awk '$1 == "room" { print "edge limn_app", $3 }'
+    } | awk '
+        { print }
+        $1 == "room" { rooms[++n] = $3 }
         $1 == "edge" { reach[$2, $3] = 1 }
         END {
             for (k = 1; k <= n; k++)
                 for (i = 1; i <= n; i++)
                     for (j = 1; j <= n; j++)
                         if (reach[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) reach[rooms[i], rooms[j]] = 1
-            for (i = 1; i <= n; i++) {
+            for (i = 1; i <= n; i++)
                 for (j = 1; j <= n; j++)
-                    if (reach[rooms[i], rooms[j]]) print folder[rooms[i]], folder[rooms[j]]
-                print "app", folder[rooms[i]]
-            }
-            print "app", "app"
+                    if (reach[rooms[i], rooms[j]]) print "reach", rooms[i], rooms[j]
         }'
+}
+
+# A line for each room and each room that it may include, itself among them: what its CMake target depends on, and what that does.
+may_include() {
+    rooms_and_reach | awk '
+        $1 == "room" { folder[$3] = $2; print $2, $2 }
+        $1 == "reach" { print folder[$2], folder[$3] }'
 }
 
 # The rooms and their edges, those that follow from others left out, as docs/architecture.md shows them.
 rooms_drawing() {
     echo '```mermaid'
     echo 'flowchart TD'
-    {
-        declared_rooms
-        echo "room app limn_app"
-        declared_rooms | awk '$1 == "room" { print "edge limn_app", $3 }'
-    } | awk '
-        $1 == "room" { name = $2; sub(/^engine\//, "", name); folder[$3] = name; rooms[++n] = $3 }
-        $1 == "edge" { direct[$2, $3] = 1; reach[$2, $3] = 1 }
+    rooms_and_reach | awk '
+        $1 == "room" { name = $2; sub(/^engine\//, "", name); rooms[++n] = $3; print "    " $3 "[\"" name "\"]" }
+        $1 == "edge" { direct[$2, $3] = 1 }
+        $1 == "reach" { reach[$2, $3] = 1 }
         END {
-            for (k = 1; k <= n; k++)
-                for (i = 1; i <= n; i++)
-                    for (j = 1; j <= n; j++)
-                        if (reach[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) reach[rooms[i], rooms[j]] = 1
-            for (i = 1; i <= n; i++) print "    " rooms[i] "[\"" folder[rooms[i]] "\"]"
             for (i = 1; i <= n; i++)
                 for (j = 1; j <= n; j++) {
                     if (!direct[rooms[i], rooms[j]]) continue

@@ -22,9 +22,8 @@ struct ShadowCamera {
 /// Maximum number of cascades per directional light.
 constexpr std::uint32_t kMaxCascades = 4;
 
-/// Each cascade's texels are finer than those of the previous one by this factor. The first cascade
-/// is compared with the map of the whole scene, provided that a cascade has half as many texels
-/// across as that map.
+/// Factor by which a cascade's texels are finer than those of the one before it. The first one's
+/// are finer by it than those of the whole scene's map, which has twice as many texels across.
 constexpr float kCascadeRatio = 2.5f;
 
 /// Cascades end once texels are at most this wide [pixels]: finer maps are not worth their time.

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace limn {
 
@@ -46,15 +48,10 @@ public:
         const Scene& scene = input.scene;
         LightingReport report;
         report.converged = true;
-        const double constant = settingOf(scene.technique, kRadiance);
-        const glm::vec3 radiance = settingOf(scene.technique, kConstant) > 0
-                                       ? glm::vec3(float(constant))
-                                       : meanRadiance(scene.sky);
-        report.skipped = m_lit && radiance == m_radiance &&
-                         scene.bounds.lower == m_field.gridBounds.lower &&
-                         scene.bounds.upper == m_field.gridBounds.upper;
+        Inputs inputs{scene.sky, scene.technique, scene.bounds};
+        report.skipped = inputs == m_inputs;
         if (!report.skipped)
-            fill(radiance, scene.bounds);
+            fill(m_inputs.emplace(std::move(inputs)));
         const std::chrono::duration<double, std::milli> took =
             std::chrono::steady_clock::now() - start;
         report.totalMs = took.count();
@@ -65,20 +62,28 @@ public:
     const IndirectField* field() const override { return &m_field; }
 
 private:
+    /// Everything that the field depends on.
+    struct Inputs {
+        Sky sky;
+        TechniqueChoice choice;
+        Bounds bounds;
+        bool operator==(const Inputs&) const = default;
+    };
+
     /// Of a constant radiance L only the first harmonic is not 0: L times the integral of
     /// Y_00 = 1 / sqrt(4 pi) over the sphere.
-    void fill(glm::vec3 radiance, const Bounds& bounds) {
-        m_lit = true;
-        m_radiance = radiance;
-        m_field.gridBounds = bounds;
+    void fill(const Inputs& in) {
+        const glm::vec3 radiance = settingOf(in.choice, kConstant) > 0
+                                       ? glm::vec3(float(settingOf(in.choice, kRadiance)))
+                                       : meanRadiance(in.sky);
+        m_field.gridBounds = in.bounds;
         m_field.grid.assign(m_field.coefficients(), glm::vec4(0));
         m_field.grid[0] = glm::vec4(radiance * (2 * std::sqrt(std::numbers::pi_v<float>)), 0);
         ++m_field.version;
     }
 
     IndirectField m_field;
-    glm::vec3 m_radiance{0};
-    bool m_lit = false;
+    std::optional<Inputs> m_inputs; ///< of the field; none before the first update
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 // A bake that reads what earlier ones kept equals the bake that does everything, byte for byte.
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas_stage.h"
+#include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/bake/bake.h"
@@ -17,6 +18,7 @@
 #include <filesystem>
 #include <map>
 #include <random>
+#include <string_view>
 #include <thread>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -67,6 +69,42 @@ TEST(Stages, NothingIsTracedWhenOnlyLinksOrBandsChange) {
     const Bake fewer = baked(scene, &store);
     EXPECT_EQ(fewer.counts.rays, 0U);
     EXPECT_EQ(fewer.hash(), baked(scene).hash());
+}
+
+/// Another value of a setting, within its range.
+void change(std::uint32_t& value, const SettingRange& range) {
+    value = value == std::uint32_t(range.upper) ? value - 1 : value + 1;
+}
+void change(float& value, const SettingRange&) {
+    value += 0.25f;
+}
+void change(glm::uvec3& value, const SettingRange&) {
+    value += 1U;
+}
+void change(bool& value) {
+    value = !value;
+}
+template <class T>
+void change(T& value, const SettingChoices& choices) {
+    value = T((std::size_t(value) + 1) % choices.names.size());
+}
+
+TEST(Stages, TheHashOfABakesInputsHasEverySettingThatABakeDependsOnAndNoOther) {
+    const Scene start = stagedRoom({});
+    BakeSettings defaults;
+    visitBakeSettings(defaults, [&](const Setting& setting, auto&, const auto&...) {
+        Scene scene = start;
+        visitBakeSettings(scene.bake,
+                          [&](const Setting& other, auto& value, const auto&... limits) {
+                              if (std::string_view(other.key) == setting.key)
+                                  change(value, limits...);
+                          });
+        EXPECT_EQ(bakeInputHash(scene) != bakeInputHash(start),
+                  setting.invalidates == Invalidates::Bake)
+            << setting.key;
+        EXPECT_EQ(sameBake(scene.bake, start.bake), setting.invalidates != Invalidates::Bake)
+            << setting.key;
+    });
 }
 
 TEST(Stages, OtherRaysTraceEverything) {
