@@ -21,6 +21,7 @@ static int runLimn(int argc, char** argv) {
 #ifdef LIMN_EDITOR
     addEditCommand(app, run);
 #endif
+    addExportCommand(app, run);
     addInfoCommand(app, run);
     addReferenceCommand(app, run);
     addRenderCommand(app, run);

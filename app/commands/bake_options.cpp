@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/bake_options.h"
+#include "app/commands/setting_type_name.h"
 
 #include "engine/core/hash.h"
 #include "engine/scene/bake_settings_fields.h"
@@ -10,7 +11,6 @@
 #include <type_traits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace limn {
@@ -30,17 +30,6 @@ static std::string presetNames() {
 static const BakePreset* presetNamed(const std::string& name) {
     const auto* at = std::ranges::find(kBakePresets, name, &BakePreset::name);
     return at == kBakePresets.end() ? nullptr : at;
-}
-
-/// What --help shows in place of a value.
-static std::string typeName(const SettingRange& range) {
-    return fmt::format("NUMBER in [{}, {}]", range.lowest, range.upper);
-}
-static std::string typeName(const SettingChoices& choices) {
-    return fmt::format("{}", fmt::join(choices.names, " or "));
-}
-static std::string typeName() {
-    return "true or false";
 }
 
 void addBakeOptions(CLI::App& command, BakeOptions& o) {

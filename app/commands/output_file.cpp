@@ -39,7 +39,7 @@ bool holdsItsKind(const fs::path& file) {
 
 } // namespace
 
-Result<void> checkOutputFile(const std::string& path, std::initializer_list<const char*> extensions,
+Result<void> checkOutputFile(const std::string& path, std::span<const std::string_view> extensions,
                              std::initializer_list<std::string> inputs) {
     const fs::path file(path);
     std::error_code error;

@@ -34,9 +34,9 @@ static std::span<const std::uint8_t> spanOf(const std::string& bytes) {
     return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
 }
 
-Result<void> writeExr(const std::string& path, const ImageF& image) {
+Result<std::string> encodeExr(const ImageF& image) {
     if (image.width == 0 || image.height == 0)
-        return fail(fmt::format("{}: the image is empty", path));
+        return fail("the image is empty");
     const std::size_t count = std::size_t(image.width) * image.height;
     std::vector<float> planes(count * 3); // blue, green, red: channels are sorted by name
     for (std::size_t i = 0; i < count; ++i)
@@ -70,9 +70,19 @@ Result<void> writeExr(const std::string& path, const ImageF& image) {
     if (size == 0) {
         const std::string reason = problem ? problem : "unknown";
         FreeEXRErrorMessage(problem);
-        return fail(fmt::format("{}: cannot encode EXR: {}", path, reason));
+        return fail(fmt::format("cannot encode EXR: {}", reason));
     }
-    return replaceFile(path, {reinterpret_cast<const char*>(memory), size});
+    return std::string(reinterpret_cast<const char*>(memory), size);
+}
+
+static Result<void> replaceWith(const std::string& path, const Result<std::string>& bytes) {
+    if (!bytes)
+        return fail(fmt::format("{}: {}", path, bytes.error().message));
+    return replaceFile(path, *bytes);
+}
+
+Result<void> writeExr(const std::string& path, const ImageF& image) {
+    return replaceWith(path, encodeExr(image));
 }
 
 namespace {
@@ -177,9 +187,9 @@ Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memor
     return image;
 }
 
-Result<void> writePng(const std::string& path, const Image& image) {
+Result<std::string> encodePng(const Image& image) {
     if (image.width == 0 || image.height == 0)
-        return fail(fmt::format("{}: the image is empty", path));
+        return fail("the image is empty");
     std::string png;
     const auto append = [](void* context, void* data, int size) {
         static_cast<std::string*>(context)->append(static_cast<const char*>(data),
@@ -187,8 +197,12 @@ Result<void> writePng(const std::string& path, const Image& image) {
     };
     if (!stbi_write_png_to_func(append, &png, int(image.width), int(image.height), 4,
                                 image.rgba.data(), int(image.width) * 4))
-        return fail(fmt::format("{}: cannot encode PNG", path));
-    return replaceFile(path, png);
+        return fail("cannot encode PNG");
+    return png;
+}
+
+Result<void> writePng(const std::string& path, const Image& image) {
+    return replaceWith(path, encodePng(image));
 }
 
 Result<Image> readPng(const std::string& path) {

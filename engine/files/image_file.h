@@ -13,6 +13,9 @@ namespace limn {
 /// complete.
 Result<void> writeExr(const std::string& path, const ImageF& image);
 
+/// The bytes of the file that writeExr() writes.
+Result<std::string> encodeExr(const ImageF& image);
+
 /// Reads an EXR or .hdr with R, G, B channels. Fails, before allocating, if it would not fit into
 /// memory.
 Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memory = {});
@@ -20,6 +23,9 @@ Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memor
 /// Writes an 8-bit PNG without converting the values. The old file is kept until the new one is
 /// complete.
 Result<void> writePng(const std::string& path, const Image& image);
+
+/// The bytes of the file that writePng() writes.
+Result<std::string> encodePng(const Image& image);
 
 /// Reads a PNG or a JPEG, whatever the file's extension.
 Result<Image> readPng(const std::string& path);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/export_settings.h"
+
+#include "engine/scene/setting_text.h"
+
+#include <fmt/format.h>
+
+namespace limn {
+
+std::string settingsDefect(const ExportSettings& settings) {
+    std::string defect;
+    visitExportSettings(settings,
+                        [&](const Setting& setting, const auto& value, const auto&... limits) {
+                            const std::string wrong = valueDefect(value, limits...);
+                            if (defect.empty() && !wrong.empty())
+                                defect = fmt::format("{} {}", setting.flag, wrong);
+                        });
+    if (defect.empty() && settings.detail % 2 == 0)
+        defect = fmt::format("--detail: {} is not odd", settings.detail);
+    return defect;
+}
+
+} // namespace limn

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/setting.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace limn {
+
+/// File format of exported textures.
+enum class TextureEncoding : std::uint8_t {
+    Exr,        ///< 32-bit float, row 0 at the top
+    Ktx2Half,   ///< RGBA, binary16
+    Ktx2Rgb9e5, ///< 32 bits per texel: 9 bits per channel with a shared exponent
+};
+inline constexpr std::array<std::string_view, 3> kTextureEncodingNames = {"exr", "ktx2-half",
+                                                                          "ktx2-rgb9e5"};
+inline constexpr std::array<const char*, 3> kTextureEncodingLabels = {"EXR", "KTX2, half float",
+                                                                      "KTX2, shared exponent"};
+
+/// Quantity that the texels of a lightmap hold. E is irradiance [W m^-2], rho the albedo.
+enum class LightmapQuantity : std::uint8_t {
+    Irradiance,       ///< E
+    IrradianceOverPi, ///< E / pi
+    Radiance,         ///< rho E / pi [W m^-2 sr^-1]
+};
+inline constexpr std::array<std::string_view, 3> kLightmapQuantityNames = {
+    "irradiance", "irradiance-over-pi", "radiance"};
+inline constexpr std::array<const char*, 3> kLightmapQuantityLabels = {
+    "Irradiance E", "Irradiance E / \u03c0", "Radiance \u03c1 E / \u03c0"};
+
+/// How the coefficients of a lightmap of spherical harmonics are stacked in a texture.
+enum class ShLayers : std::uint8_t { Array, Volume };
+inline constexpr std::array<std::string_view, 2> kShLayersNames = {"array", "volume"};
+inline constexpr std::array<const char*, 2> kShLayersLabels = {"Texture array", "3D texture"};
+
+/// Settings of an export. Each format reads some of them: ExportFormat::settings.
+struct ExportSettings {
+    TextureEncoding encoding = TextureEncoding::Exr;
+    bool compress = false;
+    LightmapQuantity quantity = LightmapQuantity::Irradiance;
+    bool direct = false;
+    std::uint32_t bands = 1;
+    ShLayers layers = ShLayers::Array;
+    std::uint32_t detail = 3;
+    std::uint32_t maxSize = 8192;
+
+    bool operator==(const ExportSettings&) const = default;
+};
+
+/// What is wrong with the settings: a number outside its range, or an even number of texels per
+/// cache. Empty: nothing.
+std::string settingsDefect(const ExportSettings& settings);
+
+/// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
+/// other setting. `s` is an ExportSettings, const or not.
+template <class S, class Visit>
+void visitExportSettings(S& s, const Visit& visit) {
+    visit(Setting{.key = "encoding",
+                  .flag = "--encoding",
+                  .label = "Texture files",
+                  .help = "File format of textures",
+                  .tooltip = "File format of the light's textures. KTX2 loads fastest; EXR is "
+                             "read by most tools",
+                  .invalidates = Invalidates::Light},
+          s.encoding, SettingChoices{kTextureEncodingNames, kTextureEncodingLabels});
+    visit(Setting{.key = "compress",
+                  .flag = "--compress",
+                  .label = "Zstandard",
+                  .help = "Compress KTX2 files with Zstandard",
+                  .tooltip = "Compresses KTX2 files with Zstandard. The consumer must support it",
+                  .invalidates = Invalidates::Light},
+          s.compress);
+    visit(Setting{.key = "quantity",
+                  .flag = "--quantity",
+                  .label = "Texels hold",
+                  .help = "Quantity of the lightmap's texels",
+                  .tooltip = "Irradiance E [W/m\u00b2], E / \u03c0, or the radiance \u03c1 E / "
+                             "\u03c0 that a surface of albedo \u03c1 sends [W/m\u00b2/sr]",
+                  .invalidates = Invalidates::Light},
+          s.quantity, SettingChoices{kLightmapQuantityNames, kLightmapQuantityLabels});
+    visit(Setting{.key = "direct",
+                  .flag = "--direct",
+                  .label = "Direct light",
+                  .help = "Add the lights' direct light to the lightmap",
+                  .tooltip = "Adds the direct light of the scene's lights, with shadows. Leave it "
+                             "off where the engine computes direct light itself",
+                  .invalidates = Invalidates::Light},
+          s.direct);
+    visit(Setting{.key = "bands",
+                  .flag = "--lightmap-bands",
+                  .label = "Lightmap's SH bands",
+                  .help = "Bands of spherical harmonics per texel; 1: irradiance only",
+                  .tooltip = "1: texels hold one colour. 2 or 3: texels hold spherical harmonics "
+                             "of incident radiance, so that normal maps are lit by them",
+                  .invalidates = Invalidates::Light},
+          s.bands, SettingRange{1, 3});
+    visit(Setting{.key = "layers",
+                  .flag = "--layers",
+                  .label = "Harmonics as",
+                  .help = "How a texture stacks the harmonics' coefficients",
+                  .tooltip = "How a texture stacks the harmonics' coefficients: as layers of an "
+                             "array or as slices of a 3D texture",
+                  .invalidates = Invalidates::Light,
+                  .applies = s.bands > 1},
+          s.layers, SettingChoices{kShLayersNames, kShLayersLabels});
+    visit(Setting{.key = "detail",
+                  .flag = "--detail",
+                  .label = "Texels per cache",
+                  .help = "Texels per cache along each side; odd",
+                  .tooltip = "Texels per light cache along each side, an odd number. More texels "
+                             "keep light from leaking where walls meet, and take more memory",
+                  .invalidates = Invalidates::Light},
+          s.detail, SettingRange{1, 9});
+    visit(Setting{.key = "maxSize",
+                  .flag = "--max-size",
+                  .label = "Largest texture (texels)",
+                  .help = "Maximum width and height of a texture",
+                  .tooltip = "Maximum width and height of a texture [texels]. Fewer texels per "
+                             "cache are used where a lightmap would be larger",
+                  .invalidates = Invalidates::Light},
+          s.maxSize, SettingRange{64, 16384});
+}
+
+} // namespace limn

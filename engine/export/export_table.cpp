@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/export_table.h"
+
+#include "engine/core/replace_file.h"
+#include "engine/export/gltf_format.h"
+#include "engine/export/lightmap_format.h"
+
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+static constexpr std::array kFormats = {&kGltfFormat, &kLightmapFormat};
+
+std::span<const ExportFormat* const> exportFormats() {
+    return kFormats;
+}
+
+const ExportFormat* findExportFormat(std::string_view name) {
+    for (const ExportFormat* format : kFormats)
+        if (format->name == name)
+            return format;
+    return nullptr;
+}
+
+Result<void> writeExport(const std::string& path, const ExportFormat& format,
+                         const std::vector<ExportFile>& files) {
+    namespace fs = std::filesystem;
+    const fs::path folder =
+        format.extensions.empty() ? fs::path(path) : fs::path(path).parent_path();
+    std::vector<fs::path> made;
+    const auto undo = [&](const std::string& why) {
+        std::error_code ignored;
+        for (const fs::path& file : made)
+            fs::remove(file, ignored);
+        return fail(why);
+    };
+    for (std::size_t k = files.size(); k-- > 0;) { // the main file, which is first, comes last
+        const fs::path file = folder / files[k].name;
+        std::error_code error;
+        if (file.has_parent_path())
+            fs::create_directories(file.parent_path(), error);
+        if (error)
+            return undo(fmt::format("{}: {}", file.parent_path().string(), error.message()));
+        const bool existed = fs::exists(file, error);
+        if (const Result<void> written = replaceFile(file.string(), files[k].bytes); !written)
+            return undo(written.error().message);
+        if (!existed)
+            made.push_back(file);
+    }
+    return {};
+}
+
+} // namespace limn

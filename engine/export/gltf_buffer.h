@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// The buffer of a glTF file with its buffer views and accessors. Each add() appends an accessor
+/// with a buffer view of its own, aligned to 4 bytes, and returns the accessor's index.
+struct GltfBuffer {
+    std::string bytes;
+    nlohmann::ordered_json views = nlohmann::ordered_json::array();
+    nlohmann::ordered_json accessors = nlohmann::ordered_json::array();
+
+    /// Vertex attributes. The accessor of positions states their bounds, as glTF demands.
+    std::size_t add(std::span<const glm::vec2> values);
+    std::size_t add(std::span<const glm::vec3> values);
+    std::size_t add(std::span<const glm::vec4> values);
+    std::size_t addPositions(std::span<const glm::vec3> values);
+
+    /// Vertex indices, with 16 bits each if there are fewer than 65 535 vertices.
+    std::size_t addIndices(std::span<const std::uint32_t> values, std::size_t vertices);
+};
+
+} // namespace limn

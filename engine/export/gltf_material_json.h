@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/surface/material.h"
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// TEXCOORD set of an exported texture that a document's material reads from set `texCoord`. Set 1
+/// is the lightmap's, so the scene's own second set moves to 2.
+inline std::uint32_t exportedTexCoord(std::uint32_t texCoord) {
+    return texCoord == 0 ? 0 : 2;
+}
+
+/// Materials of a glTF file with the textures and samplers that they use.
+struct GltfMaterials {
+    nlohmann::ordered_json materials = nlohmann::ordered_json::array();
+    nlohmann::ordered_json textures = nlohmann::ordered_json::array();
+    nlohmann::ordered_json samplers = nlohmann::ordered_json::array();
+    std::vector<std::int32_t> images; ///< index into Assets::images of each glTF image
+    std::set<std::string> extensions; ///< that they use
+
+    /// Index of the exported material: `source`, which has that index in Scene::materials, or a
+    /// one-sided version of it. Animated textures show their first frame.
+    std::size_t index(const Material& source, std::uint32_t number, bool oneSided);
+
+private:
+    std::map<std::pair<std::uint32_t, bool>, std::size_t> m_known;
+
+    nlohmann::ordered_json texture(const TextureRef& ref);
+};
+
+} // namespace limn

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/gltf_scene.h"
+
+#include "engine/core/parallel.h"
+#include "engine/export/gltf_buffer.h"
+#include "engine/export/gltf_light_json.h"
+#include "engine/export/gltf_material_json.h"
+#include "engine/files/image_file.h"
+#include "engine/lightmap/atlas.h"
+
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Which of a mesh's surfaces a primitive holds.
+enum class Side : std::uint8_t {
+    Whole, ///< the mesh as it is
+    Front, ///< with vertices split along charts
+    Back   ///< the same, turned round
+};
+
+/// A glTF file in the making.
+struct GltfScene {
+    const ExportScene& in;
+    const GltfOptions& options;
+    GltfBuffer buffer;
+    GltfMaterials materials;
+    Json nodes = Json::array(), meshes = Json::array(), cameras = Json::array(),
+         lights = Json::array();
+    std::map<std::pair<std::uint32_t, Side>, Json> primitives; ///< without material and lightmap
+
+    bool hasLightmap(std::uint32_t instance) const {
+        return options.lightmap && instance < in.layout.instances.size() &&
+               !in.layout.instances[instance].uv.empty();
+    }
+    const Json& primitive(std::uint32_t mesh, Side side);
+    Json lightmapPrimitive(std::uint32_t instance, bool back);
+    void addInstance(std::uint32_t instance);
+    void addLights();
+    void addCameras();
+};
+
+/// The values at the vertices in `source`, or all if that is empty; nothing of no values.
+template <class T>
+std::vector<T> pick(const std::vector<T>& values, const std::vector<std::uint32_t>& source) {
+    if (source.empty() || values.empty())
+        return values;
+    std::vector<T> picked;
+    picked.reserve(source.size());
+    for (const std::uint32_t v : source)
+        picked.push_back(values[v]);
+    return picked;
+}
+
+std::vector<std::uint32_t> turnedRound(std::vector<std::uint32_t> indices) {
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3)
+        std::swap(indices[t + 1], indices[t + 2]);
+    return indices;
+}
+
+const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
+    const auto [known, isNew] = primitives.try_emplace({meshIndex, side});
+    if (!isNew)
+        return known->second;
+    const Mesh& mesh = in.scene.assets->meshes[meshIndex];
+    const bool split = side != Side::Whole;
+    const std::vector<std::uint32_t> source =
+        split ? in.layout.meshes[meshIndex].sourceVertex : std::vector<std::uint32_t>();
+    Json json;
+    Json& attributes = json["attributes"];
+    if (side == Side::Back) { // shares all but what turns round
+        const Json front = primitive(meshIndex, Side::Front);
+        attributes = front["attributes"];
+    } else {
+        const std::vector<glm::vec3> positions = pick(mesh.positions, source);
+        attributes["POSITION"] = buffer.addPositions(positions);
+        if (!mesh.uv0.empty())
+            attributes["TEXCOORD_0"] = buffer.add(pick(mesh.uv0, source));
+        if (!mesh.uv1.empty())
+            attributes["TEXCOORD_2"] = buffer.add(pick(mesh.uv1, source));
+        if (!mesh.colors.empty())
+            attributes["COLOR_0"] = buffer.add(pick(mesh.colors, source));
+    }
+    std::vector<glm::vec3> normals = pick(mesh.normals, source);
+    std::vector<glm::vec4> tangents = pick(mesh.tangents, source);
+    if (side == Side::Back) {
+        for (glm::vec3& n : normals)
+            n = -n;
+        for (glm::vec4& t : tangents) // keeps the bitangent
+            t.w = -t.w;
+    }
+    attributes["NORMAL"] = buffer.add(normals);
+    if (!tangents.empty())
+        attributes["TANGENT"] = buffer.add(tangents);
+    const std::vector<std::uint32_t>& indices =
+        split ? in.layout.meshes[meshIndex].indices : mesh.indices;
+    json["indices"] = buffer.addIndices(side == Side::Back ? turnedRound(indices) : indices,
+                                        split ? source.size() : mesh.positions.size());
+    return primitives[{meshIndex, side}] = std::move(json);
+}
+
+Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
+    Json json = primitive(in.scene.instances[instance].mesh, back ? Side::Back : Side::Front);
+    std::vector<glm::vec2> uv = in.layout.instances[instance].uv;
+    if (back)
+        for (glm::vec2& p : uv)
+            p.y += backOffset(in.layout, instance);
+    json["attributes"]["TEXCOORD_1"] = buffer.add(uv);
+    return json;
+}
+
+void GltfScene::addInstance(std::uint32_t i) {
+    const Instance& instance = in.scene.instances[i];
+    const Material& material = in.scene.materialOf(instance);
+    Json list = Json::array();
+    const bool map = hasLightmap(i), both = map && in.layout.instances[i].backRows > 0;
+    for (const bool back : {false, true}) {
+        if (back && !both)
+            continue;
+        Json json = map ? lightmapPrimitive(i, back) : primitive(instance.mesh, Side::Whole);
+        json["material"] = materials.index(material, instance.material, both);
+        list.push_back(std::move(json));
+    }
+    const Mesh& mesh = in.scene.meshOf(instance);
+    Json node;
+    const auto object = in.document.objects.find(instance.node);
+    if (object != in.document.objects.end())
+        node["name"] = objectName(object->second);
+    node["mesh"] = meshes.size();
+    if (instance.toWorld != glm::mat4(1))
+        node["matrix"] = matrixJson(instance.toWorld);
+    meshes.push_back({{"name", mesh.name}, {"primitives", std::move(list)}});
+    nodes.push_back(std::move(node));
+}
+
+void GltfScene::addLights() {
+    for (const Light& light : in.scene.lights) {
+        if (!shines(light))
+            continue;
+        if (light.kind == LightKind::Rectangle) {
+            nodes.push_back(rectangleNode(light));
+            continue;
+        }
+        nodes.push_back(lightNode(light, lights.size()));
+        lights.push_back(lightJson(light));
+    }
+}
+
+void GltfScene::addCameras() {
+    const float zNear = std::max(glm::length(in.scene.bounds.size()) * 1e-4f, 1e-6f);
+    for (const Camera& camera : in.scene.cameras) {
+        nodes.push_back(cameraNode(camera, cameras.size()));
+        cameras.push_back(cameraJson(camera, zNear));
+    }
+}
+
+Result<std::vector<ExportFile>> imageFiles(const GltfScene& gltf, const std::string& stem,
+                                           const Progress& progress) {
+    std::vector<ExportFile> files;
+    for (std::size_t i = 0; i < gltf.materials.images.size(); ++i) {
+        if (progress.cancelled())
+            return fail("cancelled");
+        progress.at("textures", float(i) / float(gltf.materials.images.size()));
+        const Image& image = gltf.in.scene.assets->images[std::size_t(gltf.materials.images[i])];
+        Result<std::string> png = encodePng(image);
+        if (!png)
+            return fail(fmt::format("image \"{}\": {}", image.name, png.error().message));
+        files.push_back({fmt::format("{}-texture-{}.png", stem, i), std::move(*png)});
+    }
+    return files;
+}
+
+/// Adds the member unless it is empty: glTF forbids empty arrays.
+void addArray(Json& json, const char* key, Json& array) {
+    if (!array.empty())
+        json[key] = std::move(array);
+}
+
+Json documentJson(GltfScene& gltf, const std::string& bufferName,
+                  const std::vector<ExportFile>& images) {
+    const glm::dvec3 origin = gltf.in.document.origin;
+    Json children = Json::array();
+    for (std::size_t n = 0; n < gltf.nodes.size(); ++n)
+        children.push_back(n);
+    Json root = {{"name", "Limn"}, {"children", std::move(children)}};
+    if (origin != glm::dvec3(0))
+        root["translation"] = {origin.x, origin.y, origin.z};
+    gltf.nodes.push_back(std::move(root));
+
+    Json json = {{"asset", {{"version", "2.0"}, {"generator", "Limn"}}}};
+    if (!gltf.options.extras.is_null())
+        json["asset"]["extras"]["limn"] = gltf.options.extras;
+    std::set<std::string>& used = gltf.materials.extensions;
+    if (!gltf.lights.empty()) {
+        used.insert("KHR_lights_punctual");
+        json["extensions"]["KHR_lights_punctual"]["lights"] = std::move(gltf.lights);
+    }
+    if (!used.empty())
+        json["extensionsUsed"] = used;
+    json["scene"] = 0;
+    json["scenes"] = {{{"nodes", {gltf.nodes.size() - 1}}}};
+    addArray(json, "nodes", gltf.nodes);
+    addArray(json, "meshes", gltf.meshes);
+    addArray(json, "cameras", gltf.cameras);
+    addArray(json, "materials", gltf.materials.materials);
+    addArray(json, "textures", gltf.materials.textures);
+    addArray(json, "samplers", gltf.materials.samplers);
+    Json imageList = Json::array();
+    for (const ExportFile& image : images)
+        imageList.push_back({{"uri", uriOf(image.name)}});
+    addArray(json, "images", imageList);
+    json["buffers"] = {{{"uri", uriOf(bufferName)}, {"byteLength", gltf.buffer.bytes.size()}}};
+    json["bufferViews"] = std::move(gltf.buffer.views);
+    json["accessors"] = std::move(gltf.buffer.accessors);
+    return json;
+}
+
+} // namespace
+
+std::string uriOf(const std::string& fileName) {
+    std::string uri;
+    for (const char c : fileName) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) && byte < 128)
+            uri += c;
+        else if (std::string_view("-._~/").find(c) != std::string_view::npos)
+            uri += c;
+        else
+            uri += fmt::format("%{:02X}", byte);
+    }
+    return uri;
+}
+
+std::string stemOf(const std::string& fileName) {
+    return std::filesystem::path(fileName).stem().string();
+}
+
+Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOptions& options,
+                                          const std::string& name, const Progress& progress) {
+    if (scene.scene.instances.empty())
+        return fail("the scene has no surfaces");
+    GltfScene gltf{scene, options};
+    for (std::uint32_t i = 0; i < scene.scene.instances.size(); ++i) {
+        if (progress.cancelled())
+            return fail("cancelled");
+        progress.at("geometry", float(i) / float(scene.scene.instances.size()));
+        gltf.addInstance(i);
+    }
+    gltf.addLights();
+    gltf.addCameras();
+    const std::string stem = stemOf(name);
+    Result<std::vector<ExportFile>> images = imageFiles(gltf, stem, progress);
+    if (!images)
+        return images;
+    const std::string bufferName = stem + "-geometry.bin";
+    const Json json = documentJson(gltf, bufferName, *images);
+    std::vector<ExportFile> files;
+    files.push_back({name, json.dump(1) + "\n"});
+    files.push_back({bufferName, std::move(gltf.buffer.bytes)});
+    for (ExportFile& image : *images)
+        files.push_back(std::move(image));
+    return files;
+}
+
+} // namespace limn

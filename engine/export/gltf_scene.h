@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/result.h"
+#include "engine/export/export_format.h"
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// How a scene is written as glTF.
+struct GltfOptions {
+    bool lightmap = true; ///< with TEXCOORD_1 of the layout, and both sides of two-sided surfaces
+    nlohmann::ordered_json extras; ///< asset.extras.limn: what the light beside the file means
+};
+
+/// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files. Each instance is a node
+/// with a mesh of its own, because texture coordinates of a lightmap belong to instances;
+/// attributes that instances share are stored once. Vertices are split along the lightmap's charts.
+/// Two-sided surfaces with a lightmap become two one-sided ones. Lights, cameras and emission are
+/// written by KHR_lights_punctual, glTF cameras and KHR_materials_emissive_strength. Fails for a
+/// scene without surfaces, and when cancelled.
+Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOptions& options,
+                                          const std::string& name, const Progress& progress);
+
+/// A file name as a relative reference: all but unreserved characters of RFC 3986 are escaped.
+std::string uriOf(const std::string& fileName);
+
+/// "room" of "room.gltf".
+std::string stemOf(const std::string& fileName);
+
+} // namespace limn

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/result.h"
+#include "engine/export/export_format.h"
+#include "engine/lightmap/plain_lightmap.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Texels of a lightmap, for bilinear lookups at TEXCOORD_1.
+struct LightmapImage {
+    std::uint32_t width = 0, height = 0;
+    std::uint32_t layers = 1; ///< 1, or a coefficient of spherical harmonics in each
+    /// rgb[(layer * height + y) * width + x], row 0 at the top, in ExportSettings::quantity; with
+    /// several layers radiance coefficients as in IndirectField.
+    std::vector<glm::vec3> rgb;
+};
+
+/// Number of texels per cache along each side: settings.detail, or the largest odd number below it
+/// with which the lightmap stays within settings.maxSize. Fails where no number does, and for
+/// settings with a settingsDefect().
+Result<std::uint32_t> lightmapDetail(const LightmapLayout& layout, const ExportSettings& settings);
+
+/// Evaluates the lightmap. Every texel holds the light at its centre, at the interpolated normal
+/// there. Direct light is the mean of four points of the texel. Fails if no instance has a
+/// lightmap, where harmonics of direct light are asked for, or of light that has fewer bands, and
+/// when cancelled.
+Result<LightmapImage> lightmapImage(const ExportScene& scene, const ExportSettings& settings,
+                                    const Progress& progress);
+
+/// Width, height and size of that lightmap, encoded as `settings` ask, before it is evaluated.
+ExportForecast forecastLightmap(const LightmapLayout& layout, const ExportSettings& settings);
+
+} // namespace limn

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+// What is exported as glTF is imported again as the same scene.
+#include "engine/export/gltf_scene.h"
+
+#include "engine/export/export_table.h"
+#include "engine/export/lightmap_image.h"
+#include "engine/field/sample_field.h"
+#include "engine/files/image_file.h"
+#include "engine/gltf/gltf_import.h"
+#include "engine/lightmap/atlas.h"
+#include "engine/scene/mesh/triangle_geometry.h"
+#include "tests/core/temporary_folder.h"
+#include "tests/export/exported_room.h"
+#include "tests/trace/simple_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+namespace {
+
+/// A room with a two-sided sheet, two placements of a ball, lights of every kind and a camera.
+Document roomDocument(Assets& assets) {
+    using namespace simple;
+    Document d;
+    assets.meshes = {box(glm::vec3(0), glm::vec3(4, 3, 5), true, 0), sphere(0.4f, 2, false, 1),
+                     quad({2, 0.5f, 1}, {0, 1, 0}, {0.3f, 0, 1}, 2)};
+    Material wall = lambert({0.7f, 0.5f, 0.3f}), ball = lambert({0.2f, 0.3f, 0.6f}, {3, 6, 9}),
+             sheet = lambert(glm::vec3(0.4f));
+    wall.name = "wall";
+    ball.roughness = 0.25f;
+    ball.metallic = 0.5f;
+    sheet.doubleSided = true;
+    for (const Material& m : {wall, ball, sheet})
+        addObject(d, m);
+    for (const auto& [mesh, x] : {std::pair<std::uint32_t, double>(0, 0), {1, 1}, {1, 3}, {2, 0}}) {
+        Node node;
+        node.name = "node " + std::to_string(x);
+        node.meshes = {mesh};
+        node.transform.translation = mesh == 1 ? glm::dvec3(x, 0.5, 2) : glm::dvec3(0);
+        addObject(d, node);
+    }
+    Light point{.name = "lamp", .position = {2, 2.5f, 2}, .color = {1, 2, 0.5f}, .strength = 8};
+    point.range = 20;
+    Light spot{.name = "spot", .kind = LightKind::Spot, .position = {1, 2.9f, 1}, .strength = 30};
+    spot.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
+    spot.innerAngle = 0.2f;
+    spot.outerAngle = 0.7f;
+    Light sun{.name = "sun", .kind = LightKind::Directional, .strength = 2};
+    sun.direction = glm::normalize(glm::vec3(0.1f, -1, 0.4f));
+    Light panel{.name = "panel", .kind = LightKind::Rectangle, .position = {2, 2.8f, 4}};
+    panel.strength = 5;
+    Light off = point;
+    off.enabled = false;
+    for (const Light& light : {point, spot, sun, panel, off})
+        addObject(d, light);
+    addObject(d, Camera{.name = "eye", .eye = {3.5f, 1.5f, 4.5f}, .target = {1, 1, 1}});
+    BakeSettings bake;
+    bake.surfels = 600;
+    bake.lightmapCaches = 1200;
+    bake.rays = 64;
+    bake.links = 48;
+    addObject(d, bake);
+    return d;
+}
+
+class Gltf : public testing::Test {
+protected:
+    Gltf() {
+        auto assets = std::make_shared<Assets>();
+        Document d = roomDocument(*assets);
+        room = std::make_unique<ExportedRoom>(std::move(d), assets);
+    }
+    /// Exports, writes and imports.
+    ImportedScene reimported(const ExportSettings& settings = {}) {
+        const ExportFormat& format = *findExportFormat("gltf");
+        files = *format.write(room->view(), settings, "room.gltf", {});
+        const Result<void> written = writeExport(folder.file("room.gltf"), format, files);
+        EXPECT_TRUE(written) << written.error().message;
+        Result<ImportedScene> read = importGltf(folder.file("room.gltf"));
+        EXPECT_TRUE(read) << read.error().message;
+        EXPECT_TRUE(read->repairs.empty()) << read->repairs.front();
+        return std::move(*read);
+    }
+    nlohmann::json json() const { return nlohmann::json::parse(files.front().bytes); }
+
+    std::unique_ptr<ExportedRoom> room;
+    TemporaryFolder folder;
+    std::vector<ExportFile> files;
+};
+
+TEST_F(Gltf, IsImportedAgainWithTheSameLightsAndCameras) {
+    const ImportedScene again = reimported();
+    const Scene scene = flatten(again.document, again.assets);
+    ASSERT_EQ(scene.cameras.size(), 1U);
+    const Camera& camera = scene.cameras[0];
+    EXPECT_LT(glm::distance(camera.eye, room->scene.cameras[0].eye), 1e-5f);
+    EXPECT_FLOAT_EQ(camera.fovY, room->scene.cameras[0].fovY);
+    EXPECT_GT(glm::dot(glm::normalize(camera.target - camera.eye),
+                       glm::normalize(room->scene.cameras[0].target - camera.eye)),
+              0.99999f);
+    ASSERT_EQ(scene.lights.size(), 3U); // neither the rectangle nor the one that is off
+    for (const Light& light : scene.lights) {
+        const auto same = std::ranges::find(room->scene.lights, light.name, &Light::name);
+        ASSERT_NE(same, room->scene.lights.end());
+        EXPECT_EQ(light.kind, same->kind);
+        EXPECT_LT(glm::distance(light.color * light.strength, same->color * same->strength),
+                  1e-4f * same->strength);
+        EXPECT_FLOAT_EQ(light.range, same->range);
+        if (light.kind != LightKind::Directional) {
+            EXPECT_LT(glm::distance(light.position, same->position), 1e-5f);
+        }
+        if (light.kind != LightKind::Point) {
+            EXPECT_GT(glm::dot(light.direction, same->direction), 0.999999f);
+        }
+        if (light.kind == LightKind::Spot) {
+            EXPECT_FLOAT_EQ(light.innerAngle, same->innerAngle);
+            EXPECT_FLOAT_EQ(light.outerAngle, same->outerAngle);
+        }
+    }
+}
+
+TEST_F(Gltf, IsImportedAgainWithTheSameSurfaces) {
+    const ImportedScene again = reimported();
+    const Scene scene = flatten(again.document, again.assets);
+    double area = 0, expected = 0, emitted = 0, expectedEmitted = 0;
+    for (const Instance& i : scene.instances) {
+        EXPECT_FALSE(isTwoSided(scene.materialOf(i))); // both sides are there
+        area += worldArea(scene, i);
+        emitted += worldArea(scene, i) * double(scene.materialOf(i).emission.y);
+    }
+    for (const Instance& i : room->scene.instances) {
+        const Material& m = room->scene.materialOf(i);
+        expected += worldArea(room->scene, i) * (isTwoSided(m) ? 2 : 1);
+        expectedEmitted += worldArea(room->scene, i) * double(m.emission.y);
+    }
+    EXPECT_NEAR(area, expected, 1e-4 * expected);
+    EXPECT_NEAR(emitted, expectedEmitted, 1e-4 * expectedEmitted);
+    for (const Material& m : scene.materials)
+        if (m.emission.y > 0) {
+            EXPECT_FLOAT_EQ(m.metallic, 0.5f);
+            EXPECT_FLOAT_EQ(m.roughness, 0.25f);
+        }
+}
+
+/// Bilinear lookup as a graphics card does it, row 0 at the top.
+glm::vec3 lookup(const ImageF& image, glm::vec2 uv) {
+    LightmapLayout texture;
+    texture.width = image.width;
+    texture.height = image.height;
+    const Bilinear at = bilinearAt(texture, uv);
+    glm::vec3 sum(0);
+    for (int k = 0; k < 4; ++k)
+        sum += image.rgb[at.texel[k]] * at.weight[k];
+    return sum;
+}
+
+/// Irradiance that the bake holds at a point of the exported surface, found by the trace scene.
+glm::vec3 bakedIrradiance(const ExportedRoom& room, glm::vec3 p, glm::vec3 n) {
+    const Hit hit = room.trace.closestHit({p + n * 0.01f, -n, 0, 0.02f});
+    if (!hit)
+        return glm::vec3(-1);
+    return sampleIrradiance({room.relighter.field(), room.baked->lightmap, room.scene, hit.instance,
+                             hit.triangle, hit.u, hit.v, hit.position, n, !hit.frontFace});
+}
+
+TEST_F(Gltf, ItsLightmapHoldsTheLightOfItsSurfaces) {
+    const ImportedScene again = reimported();
+    const Scene scene = flatten(again.document, again.assets);
+    const Result<ImageF> map = readFloatImage(folder.file("room-lightmap.exr"));
+    ASSERT_TRUE(map) << map.error().message;
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<float> unit(0, 1);
+    double error = 0, sum = 0;
+    int points = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const Instance& instance = scene.instances[rng() % scene.instances.size()];
+        const Mesh& mesh = scene.meshOf(instance);
+        ASSERT_EQ(mesh.uv1.size(), mesh.positions.size());
+        const std::size_t t = rng() % mesh.triangleCount();
+        const float root = std::sqrt(unit(rng)), v = unit(rng) * root, u = 1 - root;
+        const auto [a, b, c] = mesh.triangle(t);
+        const glm::vec2 uv = mesh.uv1[a] * (1 - u - v) + mesh.uv1[b] * u + mesh.uv1[c] * v;
+        const glm::vec3 p(instance.toWorld * glm::vec4(trianglePoint(mesh, t, {u, v}), 1));
+        const glm::vec3 geometric =
+            glm::normalize(instance.normalToWorld * triangleNormal(mesh, t));
+        const glm::vec3 n = shadingNormal(mesh, instance, t, {u, v}, geometric);
+        const glm::vec3 expected = bakedIrradiance(*room, p, n);
+        if (expected.x < 0)
+            continue;
+        error += double(glm::length(lookup(*map, uv) - expected));
+        sum += double(glm::length(expected));
+        ++points;
+    }
+    EXPECT_GT(points, 3500);
+    EXPECT_LT(error / sum, 0.02);
+}
+
+TEST_F(Gltf, TexelsHoldTheQuantityAskedFor) {
+    ExportSettings settings{.detail = 1};
+    const auto texels = [&](LightmapQuantity quantity) {
+        settings.quantity = quantity;
+        reimported(settings);
+        return readFloatImage(folder.file("room-lightmap.exr"))->rgb;
+    };
+    const std::vector<glm::vec3> e = texels(LightmapQuantity::Irradiance),
+                                 overPi = texels(LightmapQuantity::IrradianceOverPi),
+                                 radiance = texels(LightmapQuantity::Radiance);
+    const float pi = std::numbers::pi_v<float>;
+    std::size_t walls = 0;
+    for (std::size_t t = 0; t < e.size(); ++t) {
+        EXPECT_NEAR(overPi[t].x * pi, e[t].x, 1e-5f * e[t].x);
+        EXPECT_LE(radiance[t].x, overPi[t].x * 0.7001f);
+        walls += std::abs(radiance[t].x - 0.7f * overPi[t].x) < 1e-4f * overPi[t].x;
+    }
+    EXPECT_GT(walls, e.size() / 2);
+}
+
+TEST_F(Gltf, DirectLightIsAddedWhereAskedFor) {
+    reimported({.detail = 1});
+    const ImageF without = *readFloatImage(folder.file("room-lightmap.exr"));
+    reimported({.direct = true, .detail = 1});
+    const ImageF with = *readFloatImage(folder.file("room-lightmap.exr"));
+    // The lights' direct irradiance, summed over texels of nearly equal area, is about that of the
+    // surfels.
+    double added = 0;
+    for (std::size_t t = 0; t < with.rgb.size(); ++t) {
+        EXPECT_GE(with.rgb[t].y, without.rgb[t].y * 0.9999f);
+        added += double(with.rgb[t].y - without.rgb[t].y);
+    }
+    EXPECT_GT(added, 0);
+}
+
+TEST_F(Gltf, KeepsTheRulesOfTheFormat) {
+    reimported();
+    const nlohmann::json j = json();
+    EXPECT_EQ(j["asset"]["version"], "2.0");
+    for (const auto& view : j["bufferViews"])
+        EXPECT_EQ(view["byteOffset"].get<int>() % 4, 0);
+    EXPECT_EQ(j["buffers"][0]["byteLength"], files[1].bytes.size());
+    for (const auto& mesh : j["meshes"])
+        for (const auto& primitive : mesh["primitives"]) {
+            const auto& attributes = primitive["attributes"];
+            const auto& position = j["accessors"][attributes["POSITION"].get<std::size_t>()];
+            EXPECT_EQ(position["min"].size(), 3U);
+            EXPECT_EQ(position["max"].size(), 3U);
+            for (const auto& [name, accessor] : attributes.items())
+                EXPECT_EQ(j["accessors"][accessor.get<std::size_t>()]["count"], position["count"])
+                    << name;
+        }
+    for (const char* extension : {"KHR_lights_punctual", "KHR_materials_emissive_strength"})
+        EXPECT_NE(std::ranges::find(j["extensionsUsed"], extension), j["extensionsUsed"].end());
+    EXPECT_EQ(j["asset"]["extras"]["limn"]["lightmap"]["uri"], "room-lightmap.exr");
+}
+
+TEST_F(Gltf, LowersTheDetailUntilTheLightmapFitsItsLimit) {
+    LightmapLayout layout;
+    layout.width = 1000;
+    layout.height = 1500;
+    EXPECT_EQ(*lightmapDetail(layout, {.detail = 5, .maxSize = 8192}), 5U);
+    EXPECT_EQ(*lightmapDetail(layout, {.detail = 9, .maxSize = 8192}), 5U);
+    EXPECT_EQ(*lightmapDetail(layout, {.detail = 9, .maxSize = 1500}), 1U);
+    EXPECT_FALSE(lightmapDetail(layout, {.detail = 9, .maxSize = 1499}));
+}
+
+TEST_F(Gltf, EscapesNamesOfFiles) {
+    EXPECT_EQ(uriOf("a room #1.bin"), "a%20room%20%231.bin");
+    EXPECT_EQ(uriOf("z\xc3\xbcrich.bin"), "z%C3%BCrich.bin");
+}
+
+TEST_F(Gltf, IsTheSameEveryTime) {
+    const ExportFormat& format = *findExportFormat("gltf");
+    const auto first = *format.write(room->view(), {}, "a.gltf", {}),
+               second = *format.write(room->view(), {}, "a.gltf", {});
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t k = 0; k < first.size(); ++k)
+        EXPECT_EQ(first[k].bytes, second[k].bytes) << first[k].name;
+}
+
+TEST_F(Gltf, SaysWhatItCannotHold) {
+    const ExportFormat& format = *findExportFormat("gltf");
+    const auto messageOf = [&](const ExportSettings& settings) {
+        const auto written = format.write(room->view(), settings, "a.gltf", {});
+        return written ? std::string() : written.error().message;
+    };
+    EXPECT_NE(messageOf({.detail = 2}).find("odd"), std::string::npos);
+    EXPECT_NE(messageOf({.maxSize = 8}).find("--max-size"), std::string::npos);
+    std::atomic<bool> cancel = true;
+    EXPECT_FALSE(format.write(room->view(), {}, "a.gltf", {.report = {}, .cancel = &cancel}));
+}
+
+} // namespace
+} // namespace limn
