@@ -132,7 +132,7 @@ static void picturePanel(EditorState& state, const Rect& place) {
 }
 
 static void rightPanels(EditorState& state, Rect place) {
-    const bool overlay = state.overlay.options.kind != Overlay::None;
+    const bool overlay = state.overlay.options.kind != nullptr;
     const float inspector = overlay ? std::floor(0.42f * place.h) : place.h;
     beginFixed("inspector", {place.x, place.y, place.w, inspector});
     inspectorPanel(state);

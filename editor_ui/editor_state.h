@@ -10,7 +10,6 @@
 #include "editor_ui/view/overlay_state.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
 #include "engine/trace/trace_scene.h"
 
 #include <memory>
@@ -118,7 +117,7 @@ struct EditorState {
     bool autoBake = false;
     double seconds = 0;                      ///< since the start of animated textures
     bool playing = false;                    ///< `seconds` advances
-    BakePrediction prediction;               ///< of a bake of the document
+    Prediction prediction;                   ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;
     BakeStatus bake;

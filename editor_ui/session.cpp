@@ -47,6 +47,10 @@ static void addTechniqueChoice(Document& document) {
     addObject(document, TechniqueChoice{});
 }
 
+static Prediction predictionFor(const Scene& scene) {
+    return precomputingTechnique(scene.technique).precomputation->predict(scene, true);
+}
+
 Session::Session(SessionOptions options)
     : m_options(std::move(options)),
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
@@ -150,7 +154,7 @@ void Session::takeOpened() {
     m_shownSeconds = state.seconds;
     state.view.camera = chooseCamera(*m_scene, {});
     state.sceneBounds = m_scene->bounds;
-    state.prediction = predictBake(*m_scene, true);
+    state.prediction = predictionFor(*m_scene);
     state.view.flySpeed = std::max(glm::length(m_scene->bounds.size()) / 8, 0.01f);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
@@ -190,14 +194,8 @@ void Session::useBake(BakedScene baked) {
     state.relightPlace.refusal.clear(); // of the bake before
     state.bake = {};
     if (m_baked.bake) {
-        const Bake& bake = *m_baked.bake;
-        state.bake.counts = bake.counts;
-        state.bake.bytes = bytesOf(bake);
-        state.bake.seconds = bake.seconds;
-        state.bake.notes = bake.notes;
+        state.bake.last = m_baked.bake->report();
         state.bake.preview = m_baked.preview;
-        for (const auto& [stage, seconds] : bake.seconds)
-            state.bake.totalSeconds += seconds;
     }
     setOverlayBake(state.overlay, m_baked.bake, m_baked.scene);
     fitLayout();
@@ -206,7 +204,7 @@ void Session::useBake(BakedScene baked) {
 
 bool Session::lightsBake() const {
     const Technique* technique = findTechnique(m_scene->technique.technique);
-    return technique && !technique->light;
+    return technique && technique->precomputation;
 }
 
 void Session::fitLayout() {
@@ -216,10 +214,10 @@ void Session::fitLayout() {
         m_layout = nullptr;
     else if (sameInstances(*m_scene,
                            *m_baked.scene)) // a pointer into the bake, which it keeps alive
-        m_layout = std::shared_ptr<const LightmapLayout>(m_baked.bake, &m_baked.bake->lightmap);
+        m_layout = std::shared_ptr<const LightmapLayout>(m_baked.bake, &m_baked.bake->layout());
     else
         m_layout = std::make_shared<const LightmapLayout>(
-            layoutFor(*m_scene, *m_baked.scene, m_baked.bake->lightmap));
+            layoutFor(*m_scene, *m_baked.scene, m_baked.bake->layout()));
 }
 
 void Session::takeBaked() {
@@ -233,10 +231,10 @@ void Session::takeBaked() {
         state.bake.error = result->error().message;
         log(LogLine::Level::Warning, "Bake: " + state.bake.error);
     } else if ((*result)->scene->assets == state.assets) {
-        if (!preview)
-            for (const std::string& note : (*result)->bake->notes)
-                log(LogLine::Level::Info, "Baked. " + note);
         useBake(std::move(**result));
+        if (!preview)
+            for (const std::string& note : state.bake.last.notes)
+                log(LogLine::Level::Info, "Baked. " + note);
     }
 }
 
@@ -254,7 +252,7 @@ void Session::followDocument() {
     const bool sameList = sameInstances(*m_scene, *scene) &&
                           m_scene->technique.technique == scene->technique.technique;
     if (!sameBakeInputs(*m_scene, *scene))
-        state.prediction = predictBake(*scene, true);
+        state.prediction = predictionFor(*scene);
     m_scene = std::move(scene);
     state.sceneBounds = m_scene->bounds;
     if (!sameList)
@@ -278,8 +276,8 @@ static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, cons
         return BakeFreshness::None;
     if (!relit.hashedScene || !sameBakeInputs(*relit.hashedScene, scene))
         return BakeFreshness::Checking;
-    return relit.inputHash == baked.bake->sceneHash ? BakeFreshness::UpToDate
-                                                    : BakeFreshness::Needed;
+    return relit.inputHash == baked.bake->inputHash() ? BakeFreshness::UpToDate
+                                                      : BakeFreshness::Needed;
 }
 
 void Session::showStatus() {
@@ -288,7 +286,8 @@ void Session::showStatus() {
     m_relightJob.setLighting(!viewportRelights());
     const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
     m_relightJob.setView({state.view.camera, size.x / size.y});
-    m_relightJob.keepLit(showsLight(state.overlay.options.kind) && !viewportRelights());
+    const OverlayKind* overlay = state.overlay.options.kind;
+    m_relightJob.keepLit(overlay && overlay->showsLight && !viewportRelights());
     if (!viewportRelights())
         state.relight = m_relit.status;
     m_bakeJob.report(state.bake);

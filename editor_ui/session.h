@@ -47,11 +47,13 @@ public:
     const BakedScene& baked() const { return m_baked; }
     /// True if whoever draws the viewport must light baked() on its device and fill state.relight.
     bool viewportRelights() const {
-        return m_baked.bake && lightsBake() && state.relightPlace.used() == RelightOn::Gpu;
+        return m_baked.bake && m_baked.bake->technique().name == m_scene->technique.technique &&
+               state.relightPlace.used() == RelightOn::Gpu;
     }
 
-    /// Lit bake for an overlay of light; null if there is no such overlay or the viewport relights.
-    const std::shared_ptr<const LitBake>& lit() const { return m_relit.lit; }
+    /// The light for an overlay of light; null if there is no such overlay or the viewport
+    /// relights.
+    const std::shared_ptr<const LightSnapshot>& lit() const { return m_relit.lit; }
 
     bool wantsQuit() const { return m_quit; }
     /// True if nothing is being opened, saved, baked or relit.

@@ -14,14 +14,6 @@ namespace limn {
 
 using Json = nlohmann::ordered_json;
 
-void addEnergyBench(CLI::App& bench, Run& run);
-void addErrorBench(CLI::App& bench, Run& run);
-void addFrameBench(CLI::App& bench, Run& run);
-void addGlossyBench(CLI::App& bench, Run& run);
-void addLinksBench(CLI::App& bench, Run& run);
-void addRelightBench(CLI::App& bench, Run& run);
-void addStressBench(CLI::App& bench, Run& run);
-
 /// Writes `rows`, objects with the same keys, as NAME.csv and NAME.json into `folder`, which is
 /// created if missing. With `json`, also prints them on stdout.
 Exit writeRows(const Json& rows, const std::string& folder, const std::string& name, bool json);

@@ -9,9 +9,7 @@
 #include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
 #include "engine/scene/bake_settings_fields.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
-#include "engine/techniques/illuminance/relight/relight.h"
-#include "engine/techniques/illuminance/relight/relight_report.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,22 +112,24 @@ void addErrors(Json& row, const std::string& prefix, const Comparison& c) {
 
 /// `draw` draws with Vulkan; null if that is not requested.
 Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPicture* draw) {
-    Result<Bake> made = bake(m.trace, progressOnStderr(), nullptr, &settings);
+    const Technique& technique = precomputingTechnique(m.scene.technique);
+    const auto made =
+        technique.precomputation->prepare(m.trace, {.settings = &settings}, progressOnStderr());
     endProgressLine();
     if (!made)
         return fail(fmt::format("generated:{}: {}", m.seed, made.error().message));
-    const auto baked = std::make_shared<const Bake>(std::move(*made));
-    Relighter relighter(baked, LitBands::All);
-    const RelightStats lit = relighter.relight(m.scene, m.trace, settings.maxBounces);
-    const IndirectField& field = relighter.field();
-    double seconds = 0;
-    for (const auto& [stage, t] : baked->seconds)
-        seconds += t;
+    const Prepared prepared{*made, std::make_shared<const Scene>(m.scene)};
+    const LightmapLayout& layout = prepared.data->layout();
+    const PrecomputedReport report = prepared.data->report();
+    const auto lighting = technique.light(prepared);
+    const LightingReport lit =
+        lighting->update({.scene = m.scene, .trace = &m.trace, .bounces = settings.maxBounces}, {});
+    const IndirectField& field = *lighting->field();
     Json row = {{"name", fmt::format("generated:{}", m.seed)},
                 {"kind", kSceneKindNames[std::size_t(m.generated.kind)]},
                 {"half", m.seed % 2 == 0 ? "tuned" : "untuned"}};
     row.update(settingsOf(settings));
-    const Comparison c = m.errorOf(drawn(m, m.view.camera, field, baked->lightmap));
+    const Comparison c = m.errorOf(drawn(m, m.view.camera, field, layout));
     addErrors(row, "", c);
     if (draw) {
         RenderRequest request;
@@ -137,9 +137,9 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
         request.camera = m.view.camera;
         request.width = m.view.width;
         request.height = m.view.height;
-        request.layout = {baked, &baked->lightmap};
-        request.bake = baked;
-        request.relight = [&] { return CpuLight{field, reportOf(lit)}; };
+        request.layout = {prepared.data, &layout};
+        request.prepared = prepared;
+        request.relight = [&] { return CpuLight{field, lit}; };
         const Result<RenderedImage> picture = (*draw)(m.scene, request);
         if (!picture)
             return tl::make_unexpected(picture.error());
@@ -147,7 +147,7 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
     }
     row["leak"] = nullptr;
     if (m.generated.darkCamera) {
-        const ImageF dark = drawn(m, *m.generated.darkCamera, field, baked->lightmap);
+        const ImageF dark = drawn(m, *m.generated.darkCamera, field, layout);
         row["leak"] = meanOf(dark) / meanOf(meanImage(m.truth.first(), m.truth.second()));
     }
     row["reference_spp"] = 2 * m.truth.samplesPerPixel; // of either of the two
@@ -155,8 +155,8 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
     row["nrmse_noise"] = c.nrmseNoise;
     row["bias_noise"] = c.biasNoise;
     row["sure"] = isSure(c);
-    row["seconds"] = seconds;
-    row["bytes"] = bytesOf(*baked).total();
+    row["seconds"] = totalOf(report.seconds);
+    row["bytes"] = std::uint64_t(totalOf(report.bytes));
     row["description"] = m.generated.description;
     return row;
 }

@@ -7,12 +7,13 @@
 
 namespace limn {
 
-std::vector<Light> pointsOver(const Scene& scene, const Surfels& surfels, std::uint32_t count) {
+std::vector<Light> pointsOver(const Scene& scene, std::span<const glm::vec3> positions,
+                              std::span<const glm::vec3> normals, std::uint32_t count) {
     std::vector<Light> lights(count);
     for (std::uint32_t k = 0; k < count; ++k) {
-        const std::size_t s = (2 * std::size_t(k) + 1) * surfels.size() / (2 * std::size_t(count));
-        lights[k].position =
-            surfels.position[s] + surfels.normal[s] * (0.05f * glm::length(scene.bounds.size()));
+        const std::size_t s =
+            (2 * std::size_t(k) + 1) * positions.size() / (2 * std::size_t(count));
+        lights[k].position = positions[s] + normals[s] * (0.05f * glm::length(scene.bounds.size()));
         lights[k].strength = 10;
     }
     return lights;

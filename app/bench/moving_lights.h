@@ -2,16 +2,18 @@
 #pragma once
 
 #include "engine/scene/scene.h"
-#include "engine/techniques/illuminance/bake/bake.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace limn {
 
-/// `count` point lights spread evenly over the surfaces, a twentieth of the scene's size away from
-/// them.
-std::vector<Light> pointsOver(const Scene& scene, const Surfels& surfels, std::uint32_t count);
+/// `count` point lights, each a twentieth of the scene's size away from a surface along its unit
+/// normal. The surfaces are those of points at even steps through `positions`, which are spread
+/// evenly over the scene.
+std::vector<Light> pointsOver(const Scene& scene, std::span<const glm::vec3> positions,
+                              std::span<const glm::vec3> normals, std::uint32_t count);
 
 /// The lights as placed in run k: a directional light turns a little, any other moves a little.
 std::vector<Light> movedLights(std::vector<Light> lights, int k);

@@ -101,34 +101,29 @@ nlohmann::ordered_json settingsJson(const BakeSettings& settings) {
     return json;
 }
 
-nlohmann::json bytesSummary(const BakeBytes& b) {
-    return {{"surfels", b.surfels},
-            {"clusters", b.clusters},
-            {"links", b.links},
-            {"caches", b.caches},
-            {"total", b.total()}};
+static nlohmann::json countsSummary(const std::vector<LightingCounter>& counters) {
+    nlohmann::json json;
+    for (const LightingCounter& counter : counters)
+        json[counter.id] = std::uint64_t(counter.value);
+    return json;
 }
 
-nlohmann::json bakeSummary(const Bake& bake) {
+nlohmann::json bytesSummary(const std::vector<LightingCounter>& bytes) {
+    nlohmann::json json = countsSummary(bytes);
+    json["total"] = std::uint64_t(totalOf(bytes));
+    return json;
+}
+
+nlohmann::json bakeSummary(const Precomputed& bake) {
+    const PrecomputedReport report = bake.report();
     nlohmann::json seconds;
-    double total = 0;
-    for (const auto& [stage, s] : bake.seconds) {
+    for (const auto& [stage, s] : report.seconds)
         seconds[stage] = s;
-        total += s;
-    }
-    seconds["total"] = total;
-    const BakeCounts& c = bake.counts;
+    seconds["total"] = totalOf(report.seconds);
     return {{"seconds", seconds},
-            {"counts",
-             {{"triangles", c.triangles},
-              {"surfels", c.surfels},
-              {"clusters", c.clusters},
-              {"caches", c.caches},
-              {"invalid_caches", c.invalidCaches},
-              {"links", c.links},
-              {"rays", c.rays}}},
-            {"bytes", bytesSummary(bytesOf(bake))},
-            {"notes", bake.notes},
+            {"counts", countsSummary(report.counts)},
+            {"bytes", bytesSummary(report.bytes)},
+            {"notes", report.notes},
             {"hash", hexHash(bake.hash())}};
 }
 

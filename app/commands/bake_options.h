@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/lighting/precomputed.h"
 
 #include <CLI/CLI.hpp>
 
@@ -32,10 +32,10 @@ bool hasOption(const BakeOptions& options, std::string_view key);
 /// Every setting by its key in snake case: numbers, names, and [x, y, z] for a grid.
 nlohmann::ordered_json settingsJson(const BakeSettings& settings);
 
-/// {"surfels", "clusters", "links", "caches", "total"}.
-nlohmann::json bytesSummary(const BakeBytes& bytes);
+/// Each part's bytes by its id, and "total".
+nlohmann::json bytesSummary(const std::vector<LightingCounter>& bytes);
 
 /// {"seconds", "counts", "bytes", "notes", "hash"}.
-nlohmann::json bakeSummary(const Bake& bake);
+nlohmann::json bakeSummary(const Precomputed& bake);
 
 } // namespace limn

@@ -10,9 +10,9 @@
 #include "engine/core/memory_budget.h"
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
+#include "engine/measure/bake_to_error.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
-#include "engine/techniques/illuminance/measure/bake_to_error.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -44,7 +44,7 @@ void printBytes(const nlohmann::json& bytes) {
 }
 
 /// {"caches", "least_texels", "file_bytes", "peak_bytes"}; the peak is the process'.
-nlohmann::json summaryOf(const BakePrediction& p) {
+nlohmann::json summaryOf(const Prediction& p) {
     return {{"caches", p.caches},
             {"least_texels", p.minTexels},
             {"file_bytes", p.file},
@@ -63,16 +63,17 @@ void print(const BakeSettings& settings, const nlohmann::json& predicted) {
     std::fflush(stdout);
 }
 
-void print(const Bake& bake, std::uint64_t file, std::uint64_t peak) {
+void print(const Precomputed& bake, std::uint64_t file, std::uint64_t peak) {
     const nlohmann::json summary = bakeSummary(bake);
-    for (const auto& [stage, seconds] : bake.seconds)
+    const PrecomputedReport report = bake.report();
+    for (const auto& [stage, seconds] : report.seconds)
         fmt::print("{:<10} {:8.2f} s\n", stage, seconds);
     fmt::print("{:<10} {:8.2f} s\n", "total", summary["seconds"]["total"].get<double>());
     for (const auto& [name, count] : summary["counts"].items())
         fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
     printBytes(summary["bytes"]);
     printBytes({{"file", file}, {"peak", peak}});
-    for (const std::string& note : bake.notes)
+    for (const std::string& note : report.notes)
         fmt::print("{}\n", note);
     fmt::print("hash {}\n", summary["hash"].get<std::string>());
 }
@@ -92,10 +93,8 @@ nlohmann::json countsOf(const BakeSettings& s) {
 }
 
 void printStep(const MeasuredBake& made) {
-    const BakeSettings& s = made.bake->settings;
-    double seconds = 0;
-    for (const auto& [stage, t] : made.bake->seconds)
-        seconds += t;
+    const BakeSettings& s = made.bake->settings();
+    const double seconds = totalOf(made.bake->report().seconds);
     endProgressLine();
     fmt::print(
         "--lightmap {:<7} --surfels {:<7} --links {:<4} --rays {:<4} {:7.2f} s, error {:.3f} "
@@ -125,8 +124,8 @@ std::string shortfall(const MeasuredBake& made, double error) {
 }
 
 /// The bake, and with `error` its measured error.
-Result<MeasuredBake> make(const BakeCommand& command, const Camera& camera, const TraceScene& trace,
-                          StageStore* store) {
+Result<MeasuredBake> make(const BakeCommand& command, const Technique& technique,
+                          const Camera& camera, const TraceScene& trace, StageStore* store) {
     const MemoryBudget& memory = command.scene.import.memory;
     Result<MeasuredBake> made;
     if (command.error > 0) {
@@ -134,11 +133,13 @@ Result<MeasuredBake> make(const BakeCommand& command, const Camera& camera, cons
             if (!command.json)
                 printStep(bake);
         };
-        made = bakeToError(trace, {command.error, camera}, progressOnStderr(), store, memory, step);
+        made = bakeToError(technique, trace, {command.error, camera}, progressOnStderr(), store,
+                           memory, step);
     } else {
-        Result<Bake> baked = bake(trace, progressOnStderr(), store, nullptr, memory);
+        auto baked = technique.precomputation->prepare(trace, {.store = store, .memory = memory},
+                                                       progressOnStderr());
         if (baked)
-            made->bake = std::make_shared<const Bake>(std::move(*baked));
+            made->bake = std::move(*baked);
         else
             made = tl::make_unexpected(baked.error());
     }
@@ -172,19 +173,20 @@ Exit runBake(const BakeCommand& command) {
     StageStore store(options);
     const TraceScene trace(scene);
     releaseFreedMemory(); // what reading the scene left behind; residentMemory() would count it
-    const BakePrediction prediction = predictBake(scene, !command.noStore);
+    const Technique& technique = precomputingTechnique(scene.technique);
+    const Prediction prediction = technique.precomputation->predict(scene, !command.noStore);
     const nlohmann::json predicted = summaryOf(prediction);
     if (!command.json)
         print(scene.bake, predicted);
     const Result<MeasuredBake> made =
-        make(command, *camera, trace, command.noStore ? nullptr : &store);
+        make(command, technique, *camera, trace, command.noStore ? nullptr : &store);
     store.flush();
     if (const std::string defect = store.defect(); !defect.empty())
         logWarning(fmt::format("{}; this bake was not kept", defect));
     if (!made)
         return failed(made.error().message);
-    const Bake& baked = *made->bake;
-    if (const Result<void> written = writeBake(command.output, baked); !written)
+    const Precomputed& baked = *made->bake;
+    if (const Result<void> written = baked.write(command.output); !written)
         return failed(written.error().message);
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(command.output, error);
@@ -193,7 +195,7 @@ Exit runBake(const BakeCommand& command) {
         nlohmann::json summary = bakeSummary(baked);
         if (command.error > 0) {
             summary["error"] = summaryOf(made->error);
-            summary["settings"] = countsOf(baked.settings);
+            summary["settings"] = countsOf(baked.settings());
         }
         summary["file_bytes"] = file;
         summary["peak_bytes"] = peak;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
+#include "app/techniques/technique_program.h"
 
 #include "engine/core/replace_file.h"
 
@@ -76,15 +77,8 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 void addBenchCommand(CLI::App& app, Run& run) {
     CLI::App* bench = app.add_subcommand("bench", "Measures, and writes tables");
     bench->require_subcommand(1);
-    addEnergyBench(*bench, run);
-    addErrorBench(*bench, run);
-    addGlossyBench(*bench, run);
-    addLinksBench(*bench, run);
-    addRelightBench(*bench, run);
-    addStressBench(*bench, run);
-#ifdef LIMN_HAS_VIEWPORT
-    addFrameBench(*bench, run);
-#endif
+    for (const TechniqueProgram* program : techniquePrograms())
+        program->addBenches(*bench, run);
 }
 
 } // namespace limn

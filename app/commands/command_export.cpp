@@ -124,7 +124,7 @@ Exit runExport(const Options& options) {
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     const ExportScene in{imported->document, *lit->scene,  *lit->trace,
-                         *lit->layout,       lit->field(), lit->bake.get()};
+                         *lit->layout,       lit->field(), lit->prepared.data.get()};
     const ExportForecast forecast = (*format)->forecast(in, options.settings);
     if (forecast.detail > 0 && forecast.detail < options.settings.detail)
         logWarning(fmt::format("{} texels per cache a side instead of {}: the lightmap would be "

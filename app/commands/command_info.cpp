@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "app/commands/bake_options.h"
 #include "app/commands/command.h"
 #include "app/commands/scene_options.h"
+#include "app/techniques/technique_program.h"
 
 #include "engine/core/hash.h"
 #include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/scene/origin.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
-#include "engine/techniques/illuminance/bake/surfel_spacing.h"
-#include "engine/techniques/illuminance/bake/tree_shape.h"
+#include "engine/techniques/technique_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -106,48 +105,6 @@ static Result<Json> describeResult(const Result<T>& read) {
     return describe(*read);
 }
 
-// Memory of the bake's links and of the whole bake in either storage, as Table 4 of Jendersie,
-// Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition with
-// Chrominance Compression. 2016
-static Json storageTable(const Bake& bake) {
-    Json table = Json::array();
-    for (std::uint32_t bands = 2; bands <= 8; ++bands) {
-        const BakeBytes rtp = bytesOf(bake, LinkStorage::Rtp, bands),
-                        sh = bytesOf(bake, LinkStorage::Sh, bands);
-        table.push_back({{"bands", bands},
-                         {"rtp_links", rtp.links},
-                         {"sh_links", sh.links},
-                         {"rtp_total", rtp.total()},
-                         {"sh_total", sh.total()}});
-    }
-    return table;
-}
-
-static Json describe(const Bake& bake) {
-    Json json;
-    json["kind"] = "bake";
-    const BakeSettings& s = bake.settings;
-    json["settings"] = settingsJson(s);
-    json["settings"]["chroma_bands"] = chromaBandsOf(s);
-    json["settings"]["grid"] = {bake.gridSize.x, bake.gridSize.y, bake.gridSize.z};
-    const LightmapLayout& map = bake.lightmap;
-    json["lightmap"] = {{"width", map.width},
-                        {"height", map.height},
-                        {"utilisation", double(bake.caches.lightmapCount) /
-                                            std::max(1., double(map.width) * double(map.height))}};
-    const SurfelSpacing spacing = surfelSpacing(bake.surfels);
-    json["spacing"] = {{"mean", spacing.mean}, {"spread", spacing.spread}};
-    const TreeShape tree = treeShapeOf(bake.tree);
-    json["tree"] = {
-        {"most_depth", tree.maxDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};
-    json["input"] = hexHash(bake.sceneHash);
-    const nlohmann::json summary = bakeSummary(bake);
-    for (const auto& [key, value] : summary.items())
-        json[key] = value;
-    json["storage_bytes"] = storageTable(bake);
-    return json;
-}
-
 /// Describes a file according to its extension; files without one of our extensions are opened as
 /// scenes.
 static Result<Json> describeFile(const std::string& file) {
@@ -156,8 +113,11 @@ static Result<Json> describeFile(const std::string& file) {
         return describeResult(readFloatImage(file));
     if (extension == ".png")
         return describeResult(readPng(file));
-    if (extension == ".limnbake")
-        return describeResult(readBake(file));
+    if (extension == ".limnbake") {
+        const auto read = readPrecomputed(file);
+        return read ? Result<Json>(programOf((*read)->technique()).describe(**read))
+                    : tl::make_unexpected(read.error());
+    }
     return describeResult(openAny(file, projectsFolder()));
 }
 
@@ -165,23 +125,13 @@ static std::string valueText(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-static void printStorageTable(const Json& table) {
-    fmt::print("\n{:>5} {:>15} {:>14} {:>15} {:>14}\n", "bands", "RTP links [MiB]",
-               "SH links [MiB]", "RTP total [MiB]", "SH total [MiB]");
-    const auto mib = [](const Json& bytes) {
-        return double(bytes.get<std::uint64_t>()) / (1 << 20);
-    };
-    for (const Json& row : table)
-        fmt::print("{:>5} {:>15.2f} {:>14.2f} {:>15.2f} {:>14.2f}\n", row["bands"].dump(),
-                   mib(row["rtp_links"]), mib(row["sh_links"]), mib(row["rtp_total"]),
-                   mib(row["sh_total"]));
-}
-
 static void printForPeople(const Json& json) {
     for (const auto& [key, value] : json.items()) {
-        if (key == "storage_bytes") {
-            printStorageTable(value);
-        } else if (value.is_object()) {
+        if (std::ranges::any_of(techniquePrograms(), [&](const TechniqueProgram* program) {
+                return program->print(key, value);
+            }))
+            continue;
+        if (value.is_object()) {
             for (const auto& [inner, number] : value.items())
                 fmt::print("{:<12} {} {}\n", key, inner, valueText(number));
         } else if (value.is_array()) {

@@ -11,11 +11,6 @@
 #include "engine/files/image_file.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/compare.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
-#include "engine/techniques/illuminance/relight/relight.h"
-#include "engine/techniques/illuminance/relight/relight_report.h"
-#include "engine/techniques/illuminance/relight/seen_caches.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -47,13 +42,13 @@ struct Options {
 /// What a picture needs besides the scene: indirect light and an overlay. Empty if it needs
 /// neither.
 struct Baked {
-    std::unique_ptr<Lighting> lighting;           ///< of a technique that needs no bake
+    const Technique* technique = nullptr;
+    Prepared prepared;                            ///< by the technique, where it precomputes
     std::shared_ptr<const LightmapLayout> layout; ///< of the light
-    std::shared_ptr<const Bake> bake;
     std::shared_ptr<const TraceScene> trace;
-    bool light = false;                   ///< the picture shows bounced light
-    std::optional<CacheFlags> seen;       ///< caches that the picture looks up; none: light all
-    std::unique_ptr<Relighter> relighter; ///< made when the CPU has to light the bake
+    bool light = false;                 ///< the picture shows bounced light
+    std::optional<Viewpoint> view;      ///< where light must be up to date; none: everywhere
+    std::unique_ptr<Lighting> lighting; ///< made when the CPU has to light
     std::shared_ptr<const OverlayData> overlay;
 };
 
@@ -82,58 +77,54 @@ bool needsIndirect(View view) {
 }
 
 // Reads the bake, or makes one with the document's settings.
-Result<Bake> obtainBake(const Options& options, Scene& scene, const TraceScene& trace) {
+Result<std::shared_ptr<const Precomputed>> obtainBake(const Options& options,
+                                                      const Precomputation& precomputation,
+                                                      Scene& scene, const TraceScene& trace) {
     if (options.bake.empty()) {
-        Result<Bake> made = bake(trace, progressOnStderr());
+        auto made = precomputation.prepare(trace, {}, progressOnStderr());
         endProgressLine();
         return made;
     }
-    Result<Bake> read = readBake(options.bake, options.scene.import.memory);
+    auto read = precomputation.read(options.bake, options.scene.import.memory);
     if (!read)
         return read;
     const bool dimming = scene.bake.dimming; // the document's, not that of the time of the bake
-    scene.bake = read->settings;
+    scene.bake = (*read)->settings();
     scene.bake.dimming = dimming;
-    if (read->sceneHash != bakeInputHash(scene))
+    if ((*read)->inputHash() != precomputation.inputHash(scene))
         return fail(
             fmt::format("{}: is the bake of another scene than {}, or of an older state of it",
                         options.bake, options.scene.scene));
-    if (const std::string defect = bakeDefect(*read, &scene); !defect.empty())
+    if (const std::string defect = (*read)->defect(scene); !defect.empty())
         return fail(fmt::format("{}: {}", options.bake, defect));
     return read;
 }
 
 CpuLight relight(const Scene& scene, Baked& baked) {
-    if (baked.lighting) {
-        LightingReport report = baked.lighting->update(
-            {.scene = scene, .trace = baked.trace.get(), .bounces = scene.bake.maxBounces},
-            progressOnStderr());
-        endProgressLine();
-        return {*baked.lighting->field(), std::move(report)};
-    }
-    if (!baked.relighter) // an overlay of light has one already
-        baked.relighter = std::make_unique<Relighter>(baked.bake);
-    const RelightStats stats =
-        baked.relighter->relight(scene, *baked.trace, baked.bake->settings.maxBounces,
-                                 progressOnStderr(), baked.seen ? &*baked.seen : nullptr);
+    if (!baked.lighting) // an overlay of light has made it already
+        baked.lighting = baked.technique->light(baked.prepared);
+    LightingReport report = baked.lighting->update({.scene = scene,
+                                                    .trace = baked.trace.get(),
+                                                    .bounces = scene.bake.maxBounces,
+                                                    .view = baked.view ? &*baked.view : nullptr},
+                                                   progressOnStderr());
     endProgressLine();
-    return {baked.relighter->field(), reportOf(stats)};
+    return {*baked.lighting->field(), std::move(report)};
 }
 
-Result<void> addOverlay(const Options& options, const Scene& scene, const TraceScene& trace,
-                        const Camera& camera, Baked& baked) {
-    const Result<OverlayOptions> wanted = overlayOptions(
-        options.overlay, *baked.bake, trace, camera, options.camera.width, options.camera.height);
+Result<void> addOverlay(const Options& options, const Scene& scene, const Camera& camera,
+                        Baked& baked) {
+    const Precomputed& data = *baked.prepared.data;
+    const Result<OverlayRequest> wanted = overlayRequest(
+        options.overlay, data, *baked.trace, camera, options.camera.width, options.camera.height);
     if (!wanted)
         return tl::make_unexpected(wanted.error());
-    std::optional<LitBake> lit;
-    if (showsLight(wanted->kind)) {
+    std::shared_ptr<const LightSnapshot> lit;
+    if (wanted->kind->showsLight) {
         relight(scene, baked);
-        const Relighter& r = *baked.relighter;
-        lit = {r.radiosity(), r.cacheSh(), int(r.field().bands)};
+        lit = baked.lighting->snapshot();
     }
-    baked.overlay = std::make_shared<const OverlayData>(
-        makeOverlay(*baked.bake, scene, *wanted, lit ? &*lit : nullptr));
+    baked.overlay = std::make_shared<const OverlayData>(data.overlay(*wanted, scene, lit.get()));
     return {};
 }
 
@@ -143,30 +134,28 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
         return Baked{}; // nothing receives light, or nobody asks
     Baked baked;
     baked.trace = std::make_shared<const TraceScene>(scene);
-    const Technique& technique = *findTechnique(scene.technique.technique);
-    if (technique.light) {
+    baked.technique = findTechnique(scene.technique.technique);
+    const Precomputation* precomputation = baked.technique->precomputation;
+    if (!precomputation) {
         if (options.overlay.wanted() || !options.bake.empty())
             return fail(fmt::format("{}: shows a bake, and the technique \"{}\" needs none",
                                     options.overlay.wanted() ? "--overlay" : "--bake",
-                                    technique.name));
-        baked.lighting = technique.light();
+                                    baked.technique->name));
         baked.layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(scene));
         baked.light = true;
         return baked;
     }
-    Result<Bake> made = obtainBake(options, scene, *baked.trace);
+    const auto made = obtainBake(options, *precomputation, scene, *baked.trace);
     if (!made)
         return tl::make_unexpected(made.error());
-    baked.bake = std::make_shared<const Bake>(std::move(*made));
-    baked.layout = {baked.bake, &baked.bake->lightmap}; // lives as long as the bake
+    baked.prepared = {*made, std::make_shared<const Scene>(scene)};
+    baked.layout = {*made, &(*made)->layout()}; // lives as long as the bake
     if (options.overlay.wanted())
-        if (const Result<void> added = addOverlay(options, scene, *baked.trace, camera, baked);
-            !added)
+        if (const Result<void> added = addOverlay(options, scene, camera, baked); !added)
             return tl::make_unexpected(added.error());
     baked.light = light;
-    if (light && !options.allCaches)
-        baked.seen = seenCaches(cacheFootprints(scene, *baked.bake), camera,
-                                float(options.camera.width) / float(options.camera.height));
+    if (!options.allCaches)
+        baked.view = {camera, float(options.camera.width) / float(options.camera.height)};
     return baked;
 }
 
@@ -231,8 +220,8 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
     request.layout = baked.layout;
-    request.bake = baked.bake;
-    request.seen = baked.seen ? &*baked.seen : nullptr;
+    request.prepared = baked.prepared;
+    request.lightAll = !baked.view;
     request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));
     request.overlay = baked.overlay;
     return request;
@@ -248,7 +237,7 @@ nlohmann::ordered_json lightingJson(const std::string& device, const LightingRep
     for (const LightingStep& step : report.steps)
         json[std::string(step.id) + "_ms"] = step.ms;
     for (const LightingCounter& counter : report.counters)
-        if (counter.unit == CounterUnit::Count)
+        if (counter.unit == CounterUnit::Count || counter.unit == CounterUnit::Bytes)
             json[counter.id] = std::uint64_t(counter.value);
         else
             json[counter.id] = counter.value;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/overlay_options.h"
 
-#include "engine/techniques/illuminance/overlay/link_cut.h"
-
-#include <algorithm>
+#include "engine/techniques/technique_table.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -12,9 +10,9 @@
 namespace limn {
 
 void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
-    std::vector<std::string> names;
-    for (const OverlayName& overlay : kOverlays)
-        names.emplace_back(overlay.name);
+    std::vector<std::string> names = {"none"};
+    for (const OverlayKind* kind : overlayKinds())
+        names.emplace_back(kind->name);
     command.add_option("--overlay", flags.name, "what of the bake is drawn over a .png")
         ->check(CLI::IsMember(names));
     command.add_option("--overlay-depth", flags.depth,
@@ -29,25 +27,38 @@ void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
         ->excludes(pick);
 }
 
-static Overlay kindOf(const OverlayFlags& flags) {
-    const auto at = std::ranges::find(kOverlays, flags.name,
-                                      [](const OverlayName& o) { return std::string(o.name); });
-    return Overlay(at - kOverlays.begin());
+static const OverlayKind* kindOf(const OverlayFlags& flags) {
+    for (const OverlayKind* kind : overlayKinds())
+        if (kind->name == flags.name)
+            return kind;
+    return nullptr;
+}
+
+/// "links and lobes", the kinds for which a flag is.
+template <class Takes>
+static std::string namesOf(const Takes& takes) {
+    std::string names;
+    for (const OverlayKind* kind : overlayKinds())
+        if (takes(*kind))
+            names += (names.empty() ? "" : " and ") + std::string(kind->name);
+    return names;
 }
 
 Result<void> checkOverlayFlags(const OverlayFlags& flags) {
-    const Overlay kind = kindOf(flags);
+    const auto hasDepth = [](const OverlayKind& kind) { return kind.hasDepth; };
+    const auto picks = [](const OverlayKind& kind) { return kind.pick != OverlayPick::None; };
+    const OverlayKind* kind = kindOf(flags);
     const bool picked = !flags.pick.empty() || flags.cache;
-    if (flags.depth && !hasDepth(kind))
-        return fail("--overlay-depth: is for --overlay clusters and lit-clusters");
-    if (picked && !hasCache(kind))
-        return fail("--pick, --cache: are for --overlay links and lobes");
-    if (!picked && kind == Overlay::Links)
-        return fail("--overlay links: needs --pick X,Y or --cache N");
+    if (flags.depth && !(kind && hasDepth(*kind)))
+        return fail("--overlay-depth: is for --overlay " + namesOf(hasDepth));
+    if (picked && !(kind && picks(*kind)))
+        return fail("--pick, --cache: are for --overlay " + namesOf(picks));
+    if (!picked && kind && kind->pick == OverlayPick::Required)
+        return fail(fmt::format("--overlay {}: needs --pick X,Y or --cache N", kind->name));
     return {};
 }
 
-static Result<std::uint32_t> pickedCache(const OverlayFlags& flags, const Bake& bake,
+static Result<std::uint32_t> pickedCache(const OverlayFlags& flags, const Precomputed& bake,
                                          const TraceScene& trace, const Camera& camera,
                                          glm::vec2 size) {
     const glm::vec2 at(float(flags.pick[0]), float(flags.pick[1]));
@@ -56,28 +67,28 @@ static Result<std::uint32_t> pickedCache(const OverlayFlags& flags, const Bake& 
     const glm::vec2 ndc = (at + 0.5f) / size * 2.f - 1.f;
     const glm::vec3 d = rayDirection(camera, size.x / size.y, ndc.x, -ndc.y);
     const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)});
-    const auto cache = hit ? cacheAt(bake, trace.scene(), hit) : std::nullopt;
+    const auto cache = hit ? bake.pickAt(trace.scene(), hit) : std::nullopt;
     if (!cache)
         return fail("--pick: there is no cache at this pixel");
     return *cache;
 }
 
-Result<OverlayOptions> overlayOptions(const OverlayFlags& flags, const Bake& bake,
+Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const Precomputed& bake,
                                       const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height) {
-    OverlayOptions options;
+    OverlayRequest options;
     options.kind = kindOf(flags);
     options.depth = flags.depth.value_or(options.depth);
     if (flags.cache) {
-        if (*flags.cache >= bake.caches.size())
-            return fail(fmt::format("--cache: the bake has {} caches, from 0", bake.caches.size()));
-        options.cache = *flags.cache;
+        if (*flags.cache >= bake.pickCount())
+            return fail(fmt::format("--cache: the bake has {} caches, from 0", bake.pickCount()));
+        options.pick = *flags.cache;
     } else if (!flags.pick.empty()) {
         const Result<std::uint32_t> cache =
             pickedCache(flags, bake, trace, camera, glm::vec2(width, height));
         if (!cache)
             return tl::make_unexpected(cache.error());
-        options.cache = *cache;
+        options.pick = *cache;
     }
     return options;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/techniques/illuminance/overlay/overlay.h"
+#include "engine/lighting/precomputed.h"
 #include "engine/trace/trace_scene.h"
 
 #include <CLI/CLI.hpp>
@@ -29,9 +29,9 @@ void addOverlayFlags(CLI::App& command, OverlayFlags& flags);
 /// Fails if a flag does not apply to the named overlay or a flag that it needs is missing.
 Result<void> checkOverlayFlags(const OverlayFlags& flags);
 
-/// The options that `flags` select. Precondition: checkOverlayFlags() succeeded. Fails if there is
-/// no such cache, or nothing to pick at the pixel of a picture of that size.
-Result<OverlayOptions> overlayOptions(const OverlayFlags& flags, const Bake& bake,
+/// The overlay of `bake` that `flags` select. Precondition: checkOverlayFlags() succeeded. Fails if
+/// there is no such cache, or nothing to pick at the pixel of a picture of that size.
+Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const Precomputed& bake,
                                       const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height);
 

@@ -3,8 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
-#include "engine/techniques/illuminance/gpu/viewport_relighter.h"
-#include "engine/techniques/illuminance/relight/relight_report.h"
+#include "engine/techniques/device/device_table.h"
 
 #include <algorithm>
 
@@ -18,8 +17,9 @@ static RelightOn choose(const gpu::Device& device, const RenderRequest& request)
     const VkPhysicalDeviceProperties& p = device.properties;
     return chooseRelight(
         request.relightOn, true,
-        rememberedRelightTimes(defaultRelightTimesFile(),
-                               relightTimesKey(p.deviceName, p.driverVersion, *request.bake)));
+        rememberedRelightTimes(
+            defaultRelightTimesFile(),
+            relightTimesKey(p.deviceName, p.driverVersion, request.prepared.data->sizeClass())));
 }
 
 namespace {
@@ -28,24 +28,25 @@ namespace {
 struct GpuDrawing {
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
-    std::unique_ptr<ViewportRelighter> relighter; ///< null: bounced light is the CPU's
-    bool chosen = false;                          ///< which of the two
+    std::unique_ptr<Lighting> lighting; ///< null: bounced light is the CPU's
+    bool chosen = false;                ///< which of the two
 
     explicit GpuDrawing(std::unique_ptr<gpu::Device> on)
         : device(std::move(on)), viewport(*device) {}
 
-    Result<void> chooseRelighter(const RenderRequest& request);
+    Result<void> chooseLighting(const RenderRequest& request);
     Result<void> relight(const Scene& scene, const RenderRequest& request, RenderedImage& result);
     Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request);
 };
 
-Result<void> GpuDrawing::chooseRelighter(const RenderRequest& request) {
+Result<void> GpuDrawing::chooseLighting(const RenderRequest& request) {
     chosen = true;
     if (choose(*device, request) == RelightOn::Cpu)
         return {};
-    auto made = ViewportRelighter::create(*device, request.bake);
+    auto made =
+        lightOnDevice(request.prepared.data->technique(), *device, viewport, request.prepared);
     if (made)
-        relighter = std::move(*made);
+        lighting = std::move(*made);
     else if (request.relightOn == RelightOn::Gpu)
         return fail("--relight: " + made.error().message);
     else
@@ -58,18 +59,21 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
                                  RenderedImage& result) {
     if (!request.relight)
         return {};
-    if (!chosen && request.bake)
-        if (const Result<void> done = chooseRelighter(request); !done)
+    if (!chosen && request.prepared.data)
+        if (const Result<void> done = chooseLighting(request); !done)
             return done;
-    if (!relighter) {
+    if (!lighting) {
         const CpuLight light = request.relight();
         viewport.setIndirect(light.field);
         result.relightDevice = "cpu";
         result.relight = light.report;
         return {};
     }
-    result.relight = reportOf(
-        relighter->relight(viewport, scene, request.bake->settings.maxBounces, {}, request.seen));
+    const Viewpoint view{request.camera, float(request.width) / float(request.height)};
+    result.relight = lighting->update({.scene = scene,
+                                       .bounces = scene.bake.maxBounces,
+                                       .view = request.lightAll ? nullptr : &view},
+                                      {});
     result.relightDevice = device->properties.deviceName;
     return {};
 }

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/lighting/lighting_report.h"
+#include "engine/lighting/lighting.h"
+#include "engine/lighting/precomputed.h"
+#include "engine/lighting/relight_choice.h"
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
-#include "engine/techniques/illuminance/relight/relight.h"
-#include "engine/techniques/illuminance/relight/relight_choice.h"
 
 #include <functional>
 #include <memory>
@@ -33,9 +33,9 @@ struct RenderRequest {
     std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
     /// Computes the light on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
-    std::shared_ptr<const Bake> bake;     ///< bake that a device can light; null: only the CPU can
-    const CacheFlags* seen = nullptr;     ///< caches that the picture looks up; null: light all
-    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the drawing device lights `bake` instead
+    Prepared prepared;                    ///< what a device can light; null: only the CPU can
+    bool lightAll = false;                ///< on a device, light also what the picture hides
+    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the drawing device lights `prepared` instead
     std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
 };
 

@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gltf/gltf_import.h"
-#include "engine/techniques/illuminance/relight/relight_choice.h"
+#include "engine/lighting/relight_choice.h"
 
 #include <cstdint>
 #include <string>

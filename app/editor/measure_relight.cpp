@@ -35,14 +35,15 @@ double medianMs(const Scene& scene, const Relight& relight) {
 
 } // namespace
 
-RelightTimes measureRelight(Viewport& viewport, ViewportRelighter& relighter, const Scene& scene,
-                            const TraceScene& trace) {
+RelightTimes measureRelight(Viewport& viewport, Lighting& onDevice, Lighting& onCpu,
+                            const Scene& scene, const TraceScene& trace) {
     RelightTimes times;
-    Relighter cpu(relighter.gpu().bake());
-    times.cpuMs = medianMs(scene, [&](const Scene& s) { return cpu.relight(s, trace, 1); });
+    times.cpuMs = medianMs(scene, [&](const Scene& s) {
+        return onCpu.update({.scene = s, .trace = &trace, .bounces = 1}, {});
+    });
     times.gpuMs = medianMs(scene, [&](const Scene& s) {
         viewport.setLighting(s);
-        return relighter.relight(viewport, s, 1);
+        return onDevice.update({.scene = s, .bounces = 1}, {});
     });
     return times;
 }

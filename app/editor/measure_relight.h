@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/illuminance/gpu/viewport_relighter.h"
-#include "engine/techniques/illuminance/relight/relight_choice.h"
-#include "engine/trace/trace_scene.h"
+#include "engine/lighting/lighting.h"
+#include "engine/lighting/relight_choice.h"
+#include "engine/render/viewport.h"
 
 namespace limn {
 
 /// Measures one update of one bounce on the CPU and on the viewport's device with every light
-/// moved: the median of three updates after a warm-up. `trace` belongs to `scene` and `relighter`
-/// to the bake in use. `viewport` shows the scene; it is left with other lights and the relighter's
-/// field.
-RelightTimes measureRelight(Viewport& viewport, ViewportRelighter& relighter, const Scene& scene,
-                            const TraceScene& trace);
+/// moved: the median of three updates after a warm-up. `onCpu` is fresh, and `onDevice` lights the
+/// same data on `viewport`, which shows the scene; `trace` belongs to `scene`. The viewport is left
+/// with other lights and the device's field.
+RelightTimes measureRelight(Viewport& viewport, Lighting& onDevice, Lighting& onCpu,
+                            const Scene& scene, const TraceScene& trace);
 
 } // namespace limn

@@ -3,7 +3,6 @@
 
 #include "editor_ui/jobs/relight_job.h"
 #include "engine/render/viewport.h"
-#include "engine/techniques/illuminance/overlay/overlay.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -24,10 +23,10 @@ struct PictureRequest {
     std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
     ViewportOptions options;
     bool moving = false; ///< shadow maps that change may be coarse
-    OverlayOptions overlay;
-    std::shared_ptr<const Bake> bake;        ///< bake that the overlay shows; null: no overlay
-    std::shared_ptr<const Scene> bakedScene; ///< scene that `bake` was made from
-    std::shared_ptr<const LitBake> light;    ///< for overlays that showsLight(), unless `relight`
+    OverlayRequest overlay;
+    std::shared_ptr<const Precomputed> bake;    ///< bake that the overlay shows; null: no overlay
+    std::shared_ptr<const Scene> bakedScene;    ///< scene that `bake` was made from
+    std::shared_ptr<const LightSnapshot> light; ///< for overlays of light, unless `relight`
     BakedScene lit;       ///< whose bounced light is shown; null members: no bake
     bool relight = false; ///< it is computed here, on the viewport's device, instead of `field`
     /// Trace scene of `scene`. If set, the time of relighting is first measured on either device;
@@ -40,12 +39,12 @@ struct DrawnPicture {
     std::uint64_t number = 0;           ///< of this picture, counted from 1
     OverlayLegend legend;               ///< of its overlay
     ViewportStats stats;
-    bool running = false;              ///< another one is being drawn
-    std::shared_ptr<const Bake> lit;   ///< bake that the following members are about
-    LightingStatus relight;            ///< by this device
-    std::string refusal;               ///< why the device cannot light it; empty: it can
-    std::optional<RelightTimes> times; ///< of bakes like it, measured now or before
-    std::string error;                 ///< why there will be no more pictures
+    bool running = false;                   ///< another one is being drawn
+    std::shared_ptr<const Precomputed> lit; ///< bake that the following members are about
+    LightingStatus relight;                 ///< by this device
+    std::string refusal;                    ///< why the device cannot light it; empty: it can
+    std::optional<RelightTimes> times;      ///< of bakes like it, measured now or before
+    std::string error;                      ///< why there will be no more pictures
 };
 
 /// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload

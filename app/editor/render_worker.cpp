@@ -2,6 +2,7 @@
 #include "app/editor/render_worker.h"
 
 #include "app/editor/measure_relight.h"
+#include "engine/techniques/device/device_table.h"
 
 #include <chrono>
 #include <stdexcept>
@@ -27,7 +28,7 @@ RenderWorker::RenderWorker(bool validate) : device(openDevice(validate)), viewpo
 void RenderWorker::takeBake(const PictureRequest& request) {
     if (request.lit.bake == shown.lit.bake)
         return;
-    dropRelighter();
+    dropLighting();
     m_litOf = nullptr;
     relight = {};
     refusal.clear();
@@ -35,7 +36,7 @@ void RenderWorker::takeBake(const PictureRequest& request) {
     if (!request.lit.bake)
         return;
     const VkPhysicalDeviceProperties& p = device->properties;
-    m_timesKey = relightTimesKey(p.deviceName, p.driverVersion, *request.lit.bake);
+    m_timesKey = relightTimesKey(p.deviceName, p.driverVersion, request.lit.bake->sizeClass());
     times = rememberedRelightTimes(defaultRelightTimesFile(), m_timesKey);
 }
 
@@ -48,30 +49,31 @@ void RenderWorker::takeScene(const PictureRequest& request) {
     viewport.setLighting(*request.scene);
 }
 
-void RenderWorker::dropRelighter() {
-    m_lighting = nullptr;
+void RenderWorker::dropLighting() {
     m_driver = LightingDriver();
 }
 
-void RenderWorker::makeRelighter(const PictureRequest& request) {
-    if (m_lighting || !refusal.empty())
+void RenderWorker::makeLighting(const PictureRequest& request) {
+    if (m_driver.lighting() || !refusal.empty())
         return;
-    auto made = DeviceIlluminance::create(*device, viewport, request.lit.bake, request.lit.scene);
+    auto made =
+        lightOnDevice(request.lit.bake->technique(), *device, viewport, request.lit.prepared());
     if (!made) {
         refusal = made.error().message;
         return;
     }
-    m_lighting = made->get();
     m_driver = LightingDriver(std::move(*made));
 }
 
 void RenderWorker::measure(const PictureRequest& request) {
     if (!request.measure || !request.lit.bake || times)
         return;
-    makeRelighter(request);
-    if (!m_lighting)
+    makeLighting(request);
+    if (!m_driver.lighting())
         return;
-    times = measureRelight(viewport, m_lighting->relighter(), *request.scene, *request.measure);
+    const auto onCpu = request.lit.bake->technique().light(request.lit.prepared());
+    times =
+        measureRelight(viewport, *m_driver.lighting(), *onCpu, *request.scene, *request.measure);
     // Where there is no folder to keep it in, it is measured again next time.
     (void)rememberRelightTimes(defaultRelightTimesFile(), m_timesKey, *times);
     viewport.setLighting(*request.scene);
@@ -95,8 +97,8 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
     const auto start = Clock::now();
     const ViewportOptions& o = request.options;
     const Viewpoint view{o.camera, float(o.width) / float(o.height)};
-    const LightingInput input{.scene = *m_litScene,
-                              .view = showsLight(request.overlay.kind) ? nullptr : &view};
+    const bool lightOverlay = request.overlay.kind && request.overlay.kind->showsLight;
+    const LightingInput input{.scene = *m_litScene, .view = lightOverlay ? nullptr : &view};
     using Rest = LightingDriver::Rest;
     const bool newLight = !m_driver.converged();
     while (!m_driver.converged()) {
@@ -111,7 +113,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
 }
 
 void RenderWorker::takeField(const PictureRequest& request) {
-    dropRelighter();
+    dropLighting();
     // The relighter's field stays until its replacement exists.
     const bool gone = !request.lit.bake && (m_ownField || shown.field);
     if (!gone && !(request.field && (m_ownField || request.field != shown.field)))
@@ -120,33 +122,20 @@ void RenderWorker::takeField(const PictureRequest& request) {
     m_ownField = false;
 }
 
-static LitBake readLit(const GpuRelighter& gpu) {
-    LitBake lit;
-    for (const glm::vec3 b : gpu.readRadiosity())
-        lit.radiosity.emplace_back(b, 0);
-    lit.cacheSh = gpu.readCacheSh();
-    lit.bands = int(gpu.field()->bands);
-    return lit;
-}
-
 void RenderWorker::makeOverlay(const PictureRequest& request) {
-    // Albedo is the one thing it shows that can change without a bake.
-    const bool newAlbedo = request.overlay.kind == Overlay::Surfels &&
-                           request.scene != shown.scene &&
-                           (!shown.scene || shown.scene->materials != request.scene->materials);
-    const bool light = showsLight(request.overlay.kind);
-    const bool newLight = light && (request.light != shown.light || m_lighting);
-    if (request.bake == shown.bake && request.overlay == shown.overlay && !newAlbedo && !newLight)
+    const OverlayKind* kind = request.overlay.kind;
+    const bool newMaterials = kind && kind->showsMaterials && request.scene != shown.scene &&
+                              (!shown.scene || shown.scene->materials != request.scene->materials);
+    const bool light = kind && kind->showsLight, here = m_driver.lighting() != nullptr;
+    const bool newLight = light && (request.light != shown.light || here);
+    if (request.bake == shown.bake && request.overlay == shown.overlay && !newMaterials &&
+        !newLight)
         return;
     overlay = nullptr;
-    if (request.bake && request.overlay.kind != Overlay::None) {
-        const std::shared_ptr<const LitBake> lit =
-            light && m_lighting
-                ? std::make_shared<const LitBake>(readLit(m_lighting->relighter().gpu()))
-                : request.light;
-        overlay = std::make_shared<const OverlayData>(
-            limn::makeOverlay(*request.bake, relitScene(*request.bakedScene, *request.scene),
-                              request.overlay, lit.get()));
+    if (request.bake && kind) {
+        const auto lit = light && here ? m_driver.lighting()->snapshot() : request.light;
+        overlay = std::make_shared<const OverlayData>(request.bake->overlay(
+            request.overlay, relitScene(*request.bakedScene, *request.scene), lit.get()));
     }
     viewport.setOverlay(overlay);
 }
@@ -159,8 +148,8 @@ Image RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry)
     viewport.setCoarseShadows(request.moving);
     const bool here = request.relight && request.lit.bake;
     if (here)
-        makeRelighter(request);
-    if (here && m_lighting)
+        makeLighting(request);
+    if (here && m_driver.lighting())
         bounce(request, hurry);
     else
         takeField(request);

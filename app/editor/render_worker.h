@@ -4,7 +4,7 @@
 #include "app/editor/render_job.h"
 #include "engine/gpu/device.h"
 #include "engine/lighting/lighting_driver.h"
-#include "engine/techniques/illuminance/gpu/device_illuminance.h"
+#include "engine/render/viewport.h"
 
 namespace limn {
 
@@ -19,7 +19,7 @@ public:
 
     /// True if the light is still bouncing or not all caches are lit, so that the picture shown
     /// must be redrawn.
-    bool bouncing() const { return shown.relight && m_lighting && !m_driver.done(); }
+    bool bouncing() const { return shown.relight && m_driver.lighting() && !m_driver.done(); }
 
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
@@ -32,15 +32,14 @@ public:
 private:
     void takeBake(const PictureRequest& request);
     void takeScene(const PictureRequest& request);
-    void dropRelighter();
-    void makeRelighter(const PictureRequest& request);
+    void dropLighting();
+    void makeLighting(const PictureRequest& request);
     void measure(const PictureRequest& request);
     void takeField(const PictureRequest& request);
     void bounce(const PictureRequest& request, const std::atomic<bool>& hurry);
     void makeOverlay(const PictureRequest& request);
 
     LightingDriver m_driver;                 ///< of shown.lit, while it is needed
-    DeviceIlluminance* m_lighting = nullptr; ///< the driver's
     bool m_litMoving = false;                ///< lit by shadow maps that may be coarse
     bool m_ownField = false;                 ///< the viewport shows the relighter's field
     std::shared_ptr<const Scene> m_litOf;    ///< scene from which `m_litScene` was made

@@ -96,7 +96,7 @@ void ViewportPicture::update(Session& session) {
         view.view,       view.tonemap,         view.exposureEv,           view.camera, full,
         session.scene(), session.layout(),     session.field(),           {},          nullptr,
         session.lit(),   session.baked().bake, session.viewportRelights()};
-    if (state.overlay.options.kind != Overlay::None) {
+    if (state.overlay.options.kind) {
         shown.overlay = state.overlay.options;
         shown.bake = state.overlay.bake;
     }

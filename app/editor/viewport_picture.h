@@ -44,11 +44,11 @@ private:
         std::shared_ptr<const Scene> scene;
         std::shared_ptr<const LightmapLayout> layout;
         std::shared_ptr<const IndirectField> field;
-        OverlayOptions overlay;
-        std::shared_ptr<const Bake> bake; ///< of the overlay; null: there is none
-        std::shared_ptr<const LitBake> light;
-        std::shared_ptr<const Bake> lit; ///< whose light is shown
-        bool relight = false;            ///< by the viewport's device
+        OverlayRequest overlay;
+        std::shared_ptr<const Precomputed> bake; ///< of the overlay; null: there is none
+        std::shared_ptr<const LightSnapshot> light;
+        std::shared_ptr<const Precomputed> lit; ///< whose light is shown
+        bool relight = false;                   ///< by the viewport's device
 
         bool operator==(const Shown&) const = default;
     };
@@ -67,8 +67,8 @@ private:
     std::chrono::steady_clock::time_point m_changed;
     /// Times of the last picture: of its shadow maps, which do not depend on its size, and of the
     /// rest.
-    double m_shadowMs = 0, m_msPerPixel = 0; ///< 0: none yet
-    std::shared_ptr<const Bake> m_measured;  ///< bake for which relighting was measured last
+    double m_shadowMs = 0, m_msPerPixel = 0;       ///< 0: none yet
+    std::shared_ptr<const Precomputed> m_measured; ///< bake for which relighting was measured last
     bool m_reduced = false; ///< the picture asked for has fewer pixels than the window has for it
 };
 

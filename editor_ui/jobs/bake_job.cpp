@@ -2,6 +2,7 @@
 #include "editor_ui/jobs/bake_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
+#include "engine/techniques/technique_table.h"
 
 #include <utility>
 
@@ -41,7 +42,9 @@ bool BakeJob::start(std::shared_ptr<const Scene> scene, std::shared_ptr<const Tr
     return true;
 }
 
-Result<Bake> BakeJob::bakeWith(const BakeSettings& settings, const TraceScene& trace) {
+Result<std::shared_ptr<const Precomputed>> BakeJob::bakeWith(const Precomputation& precomputation,
+                                                             const BakeSettings& settings,
+                                                             const TraceScene& trace) {
     auto shown = Clock::now();
     Progress progress;
     progress.cancel = &m_cancel;
@@ -59,7 +62,8 @@ Result<Bake> BakeJob::bakeWith(const BakeSettings& settings, const TraceScene& t
             m_wake();
         }
     };
-    return bake(trace, progress, &m_store, &settings, m_memory);
+    return precomputation.prepare(
+        trace, {.settings = &settings, .store = &m_store, .memory = m_memory}, progress);
 }
 
 void BakeJob::put(Result<BakedScene> result) {
@@ -72,23 +76,24 @@ void BakeJob::work(std::shared_ptr<const Scene> scene, std::shared_ptr<const Tra
     lowerThreadPriority();
     if (!trace)
         trace = std::make_shared<const TraceScene>(*scene);
-    const BakeSettings first = previewSettings(scene->bake);
+    const Precomputation& precomputation = *precomputingTechnique(scene->technique).precomputation;
+    const BakeSettings first = precomputation.preview(scene->bake);
     if (preview && first != scene->bake)
-        if (Result<Bake> rough = bakeWith(first, *trace)) {
+        if (const auto rough = bakeWith(precomputation, first, *trace)) {
             {
                 const std::lock_guard lock(m_mutex);
-                m_expected = expectedSeconds(*rough, scene->bake);
+                m_expected = (*rough)->expectedSeconds(scene->bake);
             }
-            put(BakedScene{std::make_shared<const Bake>(std::move(*rough)), scene, trace, true});
+            put(BakedScene{*rough, scene, trace, true});
             m_wake();
         }
-    Result<Bake> result = bakeWith(scene->bake, *trace);
+    const auto result = bakeWith(precomputation, scene->bake, *trace);
     if (result) {
         const std::lock_guard lock(m_mutex);
-        m_expected = expectedSeconds(*result, scene->bake);
+        m_expected = (*result)->expectedSeconds(scene->bake);
     }
     if (result)
-        put(BakedScene{std::make_shared<const Bake>(std::move(*result)), scene, trace});
+        put(BakedScene{*result, scene, trace});
     else
         put(tl::make_unexpected(result.error()));
     m_running = false;

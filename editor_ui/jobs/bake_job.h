@@ -4,8 +4,8 @@
 #include "editor_ui/panels/bake_estimate.h"
 #include "editor_ui/panels/statistics.h"
 #include "engine/core/result.h"
+#include "engine/lighting/technique.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake.h"
 
 #include <atomic>
 #include <chrono>
@@ -19,10 +19,12 @@ namespace limn {
 
 /// A bake and what it was made from. The members are null if there is none.
 struct BakedScene {
-    std::shared_ptr<const Bake> bake;
+    std::shared_ptr<const Precomputed> bake;
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const TraceScene> trace;
     bool preview = false; ///< made with few rays; the full bake follows
+
+    Prepared prepared() const { return {bake, scene}; }
 };
 
 /// Bakes in the background, one bake at a time. No call waits for the baker except the destructor,
@@ -37,8 +39,8 @@ public:
     BakeJob& operator=(const BakeJob&) = delete;
 
     /// Starts a bake; returns false if one is running. `trace` belongs to `scene`; if null, it is
-    /// built on the thread. With `preview` there are two results, the first with previewSettings(),
-    /// to have something to look at.
+    /// built on the thread. With `preview` there are two results, the first with
+    /// Precomputation::preview() settings, to have something to look at.
     bool start(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
                bool preview);
     void cancel() { m_cancel = true; }
@@ -56,7 +58,9 @@ public:
 private:
     void work(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
               bool preview);
-    Result<Bake> bakeWith(const BakeSettings& settings, const TraceScene& trace);
+    Result<std::shared_ptr<const Precomputed>> bakeWith(const Precomputation& precomputation,
+                                                        const BakeSettings& settings,
+                                                        const TraceScene& trace);
     void put(Result<BakedScene> result);
 
     std::function<void()> m_wake;

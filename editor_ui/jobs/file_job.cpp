@@ -4,8 +4,7 @@
 #include "editor_ui/jobs/background_priority.h"
 #include "engine/files/project_file.h"
 #include "engine/files/sky_file.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/technique_table.h"
 
 #include <filesystem>
 #include <utility>
@@ -64,13 +63,12 @@ static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene
     const std::string path = bakePathOf(projectPath);
     if (!fs::exists(path, error))
         return {};
-    Result<Bake> bake = readBake(path, memory);
+    const auto bake = readPrecomputed(path, memory);
     auto scene = std::make_shared<const Scene>(flatten(imported.document, imported.assets));
-    if (!bake || bake->sceneHash != bakeInputHash(*scene) ||
-        !bakeDefect(*bake, scene.get()).empty())
+    if (!bake || (*bake)->inputHash() != (*bake)->technique().precomputation->inputHash(*scene) ||
+        !(*bake)->defect(*scene).empty())
         return {};
-    return {std::make_shared<const Bake>(std::move(*bake)), scene,
-            std::make_shared<const TraceScene>(*scene)};
+    return {*bake, scene, std::make_shared<const TraceScene>(*scene)};
 }
 
 static Result<OpenedFile> openFile(const std::string& what, const std::string& projectsFolder,
@@ -111,12 +109,12 @@ bool FileJob::openSkyImage(std::string path) {
     });
 }
 
-bool FileJob::save(std::string path, Document document, std::shared_ptr<const Bake> bake) {
+bool FileJob::save(std::string path, Document document, std::shared_ptr<const Precomputed> bake) {
     return start(
         [this, path = std::move(path), document = std::move(document), bake = std::move(bake)] {
             Result<void> written = saveProject(path, document);
             if (written && bake)
-                written = writeBake(bakePathOf(path), *bake);
+                written = bake->write(bakePathOf(path));
             const std::lock_guard lock(m_mutex);
             if (written)
                 m_saved = document;

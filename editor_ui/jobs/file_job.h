@@ -41,7 +41,7 @@ public:
     bool open(std::string what);
     bool openSkyImage(std::string path);
     /// Writes the project and, beside it, the bake if there is one.
-    bool save(std::string path, Document document, std::shared_ptr<const Bake> bake);
+    bool save(std::string path, Document document, std::shared_ptr<const Precomputed> bake);
 
     /// Returns the result of the last open() once.
     std::optional<Result<OpenedFile>> takeOpened();

@@ -3,7 +3,6 @@
 
 #include "editor_ui/jobs/background_priority.h"
 #include "engine/scene/mesh/input_hash.h"
-#include "engine/techniques/illuminance/relight/cpu_illuminance.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -72,11 +71,11 @@ struct RelightJob::Worker {
     std::uint64_t inputHash = 0;
     BakedScene baked;
     LightingDriver driver;
-    const CpuIlluminance* illuminance = nullptr; ///< the driver's, where that lights the bake
+    bool lightsBake = false; ///< the driver's lighting is of `baked`
     std::array<std::shared_ptr<IndirectField>, 3>
         pool; ///< fields that are no longer in use are reused
     LightingStatus status;
-    std::shared_ptr<const LitBake> lit; ///< null: nobody asks
+    std::optional<std::shared_ptr<const LightSnapshot>> lit; ///< none: nobody asks
     bool lighting = true;
     std::optional<Viewpoint> view; ///< newest; none: all is looked at
     std::optional<Scene> relit;    ///< what is lit where the bake is older than the scene
@@ -89,7 +88,7 @@ struct RelightJob::Worker {
     void makeLighting();
     void relight(const Progress& progress);
     std::shared_ptr<const IndirectField> copyField();
-    std::shared_ptr<const LitBake> copyLit() const;
+    std::shared_ptr<const LightSnapshot> copyLit() const;
 };
 
 void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
@@ -97,12 +96,14 @@ void RelightJob::Worker::takeScene(std::shared_ptr<const Scene> next) {
     const bool sameFixed = scene && sameStaticGeometry(*scene, *next);
     const bool sameInputs = scene && sameBakeInputs(*scene, *next);
     const bool sameTechnique = scene && scene->technique.technique == next->technique.technique;
+    const Technique& baking = precomputingTechnique(next->technique);
+    const bool sameBaking = scene && &precomputingTechnique(scene->technique) == &baking;
     scene = std::move(next);
     if (!sameRays)
         trace = sameFixed ? std::make_shared<const TraceScene>(*scene, *trace)
                           : std::make_shared<const TraceScene>(*scene);
-    if (!sameInputs)
-        inputHash = bakeInputHash(*scene);
+    if (!sameInputs || !sameBaking)
+        inputHash = baking.precomputation->inputHash(*scene);
     if (!sameTechnique)
         makeLighting();
     driver.lightChanged();
@@ -116,16 +117,10 @@ void RelightJob::Worker::takeBake(BakedScene next) {
 /// Creates the lighting of the scene's technique; none if that lights bakes and there is no bake.
 void RelightJob::Worker::makeLighting() {
     const Technique* technique = scene ? findTechnique(scene->technique.technique) : nullptr;
-    illuminance = nullptr;
-    if (technique && technique->light) {
-        driver = LightingDriver(technique->light());
-    } else if (technique && baked.bake) {
-        auto made = std::make_unique<CpuIlluminance>(baked.bake, baked.scene);
-        illuminance = made.get();
-        driver = LightingDriver(std::move(made));
-    } else {
-        driver = LightingDriver();
-    }
+    lightsBake = technique && baked.bake && &baked.bake->technique() == technique;
+    const bool possible = technique && (lightsBake || !technique->precomputation);
+    driver = LightingDriver(possible ? technique->light(lightsBake ? baked.prepared() : Prepared{})
+                                     : nullptr);
 }
 
 void RelightJob::Worker::setLighting(bool here) {
@@ -135,7 +130,7 @@ void RelightJob::Worker::setLighting(bool here) {
 }
 
 void RelightJob::Worker::relight(const Progress& progress) {
-    const bool fresh = !illuminance || inputHash == baked.bake->sceneHash;
+    const bool fresh = !lightsBake || inputHash == baked.bake->inputHash();
     const Scene& shown = fresh ? *scene : relit.emplace(relitScene(*baked.scene, *scene));
     const LightingInput input{.scene = shown,
                               .trace = fresh ? trace.get() : baked.trace.get(),
@@ -156,13 +151,8 @@ std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
 }
 
 /// Null if nothing is lit here.
-std::shared_ptr<const LitBake> RelightJob::Worker::copyLit() const {
-    auto copy = std::make_shared<LitBake>();
-    if (illuminance && lighting) {
-        const Relighter& r = illuminance->relighter();
-        *copy = {r.radiosity(), r.cacheSh(), int(r.field().bands)};
-    }
-    return copy;
+std::shared_ptr<const LightSnapshot> RelightJob::Worker::copyLit() const {
+    return lights() ? driver.lighting()->snapshot() : nullptr;
 }
 
 void countUpdate(LightingStatus& status, const LightingDriver& driver,
@@ -251,7 +241,7 @@ void RelightJob::run() {
     for (;;) {
         m_changed.wait(lock, [&] {
             return m_stop || m_nextScene || m_nextBake || m_lighting != worker.lighting ||
-                   m_keepLit != (worker.lit != nullptr) || worker.hasWork();
+                   m_keepLit != worker.lit.has_value() || worker.hasWork();
         });
         if (m_stop)
             return;
@@ -271,13 +261,13 @@ void RelightJob::run() {
             field = worker.copyField();
         }
         if (!keepLit)
-            worker.lit = nullptr;
+            worker.lit.reset();
         else if (field || !worker.lit)
             worker.lit = worker.copyLit();
         lock.lock();
         if (field || !worker.lights())
             m_result.field = std::move(field);
-        m_result.lit = worker.lit;
+        m_result.lit = worker.lit.value_or(nullptr);
         m_result.trace = worker.trace;
         m_result.hashedScene = worker.scene;
         m_result.inputHash = worker.inputHash;

@@ -4,7 +4,6 @@
 #include "editor_ui/jobs/bake_job.h"
 #include "engine/lighting/lighting_driver.h"
 #include "engine/scene/camera.h"
-#include "engine/techniques/illuminance/overlay/overlay.h"
 
 #include <condition_variable>
 
@@ -13,10 +12,10 @@ namespace limn {
 /// Results of the relighting thread. Everything is immutable or a copy.
 struct Relit {
     std::shared_ptr<const IndirectField> field; ///< null: nothing is lit here
-    std::shared_ptr<const LitBake> lit;         ///< lit bake of `field`; null unless keepLit(true)
+    std::shared_ptr<const LightSnapshot> lit;   ///< of `field`; null unless keepLit(true)
     std::shared_ptr<const TraceScene> trace;    ///< of the newest scene, with a short delay
     std::shared_ptr<const Scene> hashedScene;   ///< scene of `inputHash`
-    std::uint64_t inputHash = 0;                ///< bakeInputHash(*hashedScene)
+    std::uint64_t inputHash = 0;                ///< Precomputation::inputHash(*hashedScene)
     LightingStatus status;
 };
 

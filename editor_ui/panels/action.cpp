@@ -4,11 +4,16 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace limn {
 
@@ -157,25 +162,18 @@ template <Tool tool>
 bool hasTool(const EditorState& s) {
     return s.view.tool == tool;
 }
-template <Overlay overlay>
-void showOverlay(EditorState& s) {
-    s.overlay.options.kind = overlay;
-}
-template <Overlay overlay>
-bool showsOverlay(const EditorState& s) {
-    return s.overlay.options.kind == overlay;
-}
-template <Overlay overlay>
-constexpr Action overlayAction(const char* id) {
-    return {id,
-            kOverlays[std::size_t(overlay)].label,
-            Menu::Overlay,
-            {},
-            {},
-            false,
-            always,
-            showOverlay<overlay>,
-            showsOverlay<overlay>};
+/// The action that shows an overlay; null: none. Its id is "overlay." and the overlay's name, with
+/// underscores.
+Action overlayAction(const OverlayKind* kind) {
+    const OverlayKind& text = kind ? *kind : kNoOverlay;
+    std::string id = std::string("overlay.") + text.name;
+    std::ranges::replace(id, '-', '_');
+    return {.id = std::move(id),
+            .label = text.label,
+            .menu = Menu::Overlay,
+            .enabled = always,
+            .run = [kind](EditorState& s) { s.overlay.options.kind = kind; },
+            .checked = [kind](const EditorState& s) { return s.overlay.options.kind == kind; }};
 }
 void toggleLights(EditorState& s) {
     s.view.showLights = !s.view.showLights;
@@ -239,7 +237,8 @@ constexpr Shortcut ctrlShift(int k) {
 }
 
 // clang-format off
-constexpr Action kActions[] = {
+std::vector<Action> fixedActions() {
+    return {
     {"file.new", "New from scene\u2026", Menu::File, ctrl('N'), kNoKey, false, always, newFromScene},
     {"file.open", "Open\u2026", Menu::File, ctrl('O'), kNoKey, false, always, open},
     {"file.save", "Save", Menu::File, ctrl('S'), kNoKey, true, always, save},
@@ -280,35 +279,34 @@ constexpr Action kActions[] = {
     {"view.rewind", "Rewind films", Menu::View, kNoKey, kNoKey, false, hasFilm, rewindFilms},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
-    overlayAction<Overlay::None>("overlay.none"),
-    overlayAction<Overlay::Surfels>("overlay.surfels"),
-    overlayAction<Overlay::SurfelNormals>("overlay.surfel_normals"),
-    overlayAction<Overlay::SurfelOwners>("overlay.surfel_owners"),
-    overlayAction<Overlay::Clusters>("overlay.clusters"),
-    overlayAction<Overlay::Links>("overlay.links"),
-    overlayAction<Overlay::Caches>("overlay.caches"),
-    overlayAction<Overlay::Charts>("overlay.charts"),
-    overlayAction<Overlay::Density>("overlay.density"),
-    overlayAction<Overlay::Overlap>("overlay.overlap"),
-    overlayAction<Overlay::LitSurfels>("overlay.lit_surfels"),
-    overlayAction<Overlay::LitClusters>("overlay.lit_clusters"),
-    overlayAction<Overlay::Lobes>("overlay.lobes"),
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
-};
+    };
+}
 // clang-format on
+
+/// Every action; those of overlays come before those of the bake.
+std::vector<Action> makeActions() {
+    std::vector<Action> all = fixedActions(), overlays = {overlayAction(nullptr)};
+    for (const OverlayKind* kind : overlayKinds())
+        overlays.push_back(overlayAction(kind));
+    const auto bake = std::ranges::find(all, Menu::Bake, &Action::menu);
+    all.insert(bake, std::make_move_iterator(overlays.begin()),
+               std::make_move_iterator(overlays.end()));
+    return all;
+}
 
 } // namespace
 
 std::span<const Action> actions() {
-    return kActions;
+    static const std::vector<Action> all = makeActions();
+    return all;
 }
 
 const Action& actionById(const char* id) {
-    const auto* found = std::ranges::find_if(
-        kActions, [&](const Action& action) { return std::strcmp(action.id, id) == 0; });
-    assert(found != std::end(kActions));
+    const auto found = std::ranges::find(actions(), id, &Action::id);
+    assert(found != actions().end());
     return *found;
 }
 
@@ -321,17 +319,17 @@ void runAction(EditorState& state, const Action& action) {
 
 std::string actionLabel(const EditorState& state, const Action& action) {
     const EditHistory& h = state.history;
-    if (action.run == undoAction && state.gesture)
+    if (action.id == "edit.undo" && state.gesture)
         return "Undo " + state.gesture->label;
-    if (action.run == undoAction && h.applied > 0)
+    if (action.id == "edit.undo" && h.applied > 0)
         return "Undo " + h.edits[h.applied - 1].label;
-    if (action.run == redoAction && h.applied < h.edits.size())
+    if (action.id == "edit.redo" && h.applied < h.edits.size())
         return "Redo " + h.edits[h.applied].label;
     return action.label;
 }
 
 bool runShortcut(EditorState& state, const Shortcut& pressed) {
-    for (const Action& action : kActions)
+    for (const Action& action : actions())
         if (action.shortcut == pressed || action.alternative == pressed) {
             runAction(state, action);
             return true;

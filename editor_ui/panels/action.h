@@ -3,6 +3,7 @@
 
 #include "editor_ui/panels/keys.h"
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -15,15 +16,15 @@ enum class Menu { File, Edit, Add, View, Overlay, Bake };
 
 /// One thing the user can do. Menus, shortcuts and the palette read the same table.
 struct Action {
-    const char* id;    ///< "edit.undo"
+    std::string id;    ///< "edit.undo"
     const char* label; ///< "Undo"
     Menu menu;
     Shortcut shortcut;
     Shortcut alternative; ///< a second key for the same thing
     bool separator;       ///< a line above it in its menu
     bool (*enabled)(const EditorState&);
-    void (*run)(EditorState&);
-    bool (*checked)(const EditorState&) = nullptr; ///< of a toggle or a choice
+    std::function<void(EditorState&)> run;
+    std::function<bool(const EditorState&)> checked = {}; ///< of a toggle or a choice; else empty
 };
 
 std::span<const Action> actions();

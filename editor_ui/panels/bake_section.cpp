@@ -26,18 +26,18 @@ static void lightmapSizeRow(FieldEdit& edit, BakeSettings& s) {
 }
 
 static void memoryLine(const EditorState& state) {
-    const BakePrediction& p = state.prediction;
-    const BakeBytes& b = p.bytes;
+    const Prediction& p = state.prediction;
     ImGui::Spacing();
-    ImGui::TextDisabled("About %s, %s while baking", byteText(b.total()).c_str(),
+    ImGui::TextDisabled("About %s, %s while baking",
+                        byteText(std::uint64_t(totalOf(p.bytes))).c_str(),
                         byteText(p.working).c_str());
-    wrappedTooltip(
-        ("What a bake with these settings takes in memory, and the most that baking takes "
-         "besides the scene; about " +
-         byteText(p.file) + " as a file. Links " + byteText(b.links) + ", surfels " +
-         byteText(b.surfels) + ", clusters " + byteText(b.clusters) + ", caches " +
-         byteText(b.caches) + ", of which there will be about " + groupedNumber(p.caches))
-            .c_str());
+    std::string tooltip = "What a bake with these settings takes in memory, and the most that "
+                          "baking takes besides the scene; about " +
+                          byteText(p.file) + " as a file.";
+    for (const LightingCounter& part : p.bytes)
+        tooltip += std::string(&part == &p.bytes.front() ? " " : ", ") + part.label + " " +
+                   byteText(std::uint64_t(part.value));
+    wrappedTooltip((tooltip + "; about " + groupedNumber(p.caches) + " caches").c_str());
     if (p.minTexels > 0) {
         ImGui::PushTextWrapPos(0);
         ImGui::TextDisabled("The objects need at least about %s texels: one for each way that an "
@@ -74,7 +74,7 @@ static void bakeStateLine(EditorState& state) {
                                "Bake needed: objects or settings changed since the last one.");
             break;
         }
-    for (const std::string& note : bake.notes)
+    for (const std::string& note : bake.last.notes)
         ImGui::TextDisabled("%s", note.c_str());
     if (!bake.error.empty())
         ImGui::TextColored(ImColor(color::kError), "Last bake: %s", bake.error.c_str());

@@ -5,6 +5,10 @@
 
 namespace limn {
 
+/// The entry for no overlay in lists of overlays.
+inline constexpr OverlayKind kNoOverlay = {
+    .name = "none", .label = "No overlay", .tooltip = "The picture alone"};
+
 /// The list of overlays, for the bar above the picture.
 void overlayCombo(EditorState& state);
 
@@ -14,10 +18,10 @@ void overlayPanel(EditorState& state);
 
 /// Sets the bake that the overlay shows. A picked cache is replaced by the nearest one of the same
 /// kind.
-void setOverlayBake(OverlayState& overlay, std::shared_ptr<const Bake> bake,
+void setOverlayBake(OverlayState& overlay, std::shared_ptr<const Precomputed> bake,
                     std::shared_ptr<const Scene> scene);
 
-/// Picks a cache for the link cut; an index out of range clears the pick.
+/// Picks a cache to show and to describe; an index out of range clears the pick.
 void pickCache(OverlayState& overlay, std::uint32_t cache);
 
 /// Picks the cache that lights the surface under the mouse; keeps the old one if there is none.

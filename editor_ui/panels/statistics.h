@@ -3,14 +3,12 @@
 
 #include "editor_ui/panels/time_history.h"
 #include "engine/lighting/lighting_report.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
-#include "engine/techniques/illuminance/relight/relight_choice.h"
+#include "engine/lighting/precomputed.h"
+#include "engine/lighting/relight_choice.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace limn {
 
@@ -32,14 +30,9 @@ struct BakeStatus {
     double elapsedSeconds = 0;
     double secondsLeft = -1; ///< < 0: not known yet
     BakeFreshness freshness = BakeFreshness::None;
-    /// Results of the last successful bake.
-    BakeCounts counts;
-    BakeBytes bytes;
-    std::vector<std::pair<std::string, double>> seconds; ///< per stage
-    double totalSeconds = 0;
-    std::vector<std::string> notes; ///< what was rebuilt and why
-    bool preview = false;           ///< it is a preview; the full bake is running
-    bool lightEdited = false;       ///< since the scene was opened
+    PrecomputedReport last;   ///< of the last successful bake
+    bool preview = false;     ///< it is a preview; the full bake is running
+    bool lightEdited = false; ///< since the scene was opened
     double secondsSinceLightEdit =
         0;             ///< spent baking since a light, material or sky was last edited
     std::string error; ///< why the last bake has no result; empty: it has one

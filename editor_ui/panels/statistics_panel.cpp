@@ -135,8 +135,15 @@ static std::string counterText(const LightingCounter& counter) {
         return ms(counter.value);
     case CounterUnit::Share:
         return counter.value > 0 ? fmt::format("{:.3f}", counter.value) : "\u2013";
+    case CounterUnit::Bytes:
+        return byteText(std::uint64_t(counter.value));
     }
     return {};
+}
+
+static void counterRows(const std::vector<LightingCounter>& counters) {
+    for (const LightingCounter& counter : counters)
+        row(counter.label, counterText(counter), counter.tooltip);
 }
 
 static void relightTable(EditorState& state) {
@@ -156,8 +163,7 @@ static void relightTable(EditorState& state) {
             "One update of one bounce with every light moved: what Auto compares");
     row("Bounces", std::to_string(r.bounces), "Since the last edit");
     row("Last update", ms(r.last.totalMs), "One call: a few bounces");
-    for (const LightingCounter& counter : r.last.counters)
-        row(counter.label, counterText(counter), counter.tooltip);
+    counterRows(r.last.counters);
     row("Updates", groupedNumber(r.calls), "Calls since the scene was opened");
     row("Since edit",
         state.bake.lightEdited ? durationText(state.bake.secondsSinceLightEdit) : "no edit yet",
@@ -185,28 +191,18 @@ static void windowTable(const EditorState& state) {
 }
 
 static void countTable(const EditorState& state) {
-    const BakeCounts& c = state.bake.counts;
     if (!beginTable("counts", "Counts"))
         return;
-    row("Triangles", groupedNumber(c.triangles), "Of the baked scene");
-    row("Surfels", groupedNumber(c.surfels), "");
-    row("Clusters", groupedNumber(c.clusters), "");
-    row("Caches", groupedNumber(c.caches), "Lightmap texels and grid cells");
-    row("  invalid", groupedNumber(c.invalidCaches), "Inside walls; filled from their neighbours");
-    row("Links", groupedNumber(c.links), "");
-    row("Rays", groupedNumber(c.rays), "Traced by the last bake");
+    counterRows(state.bake.last.counts);
     ImGui::EndTable();
 }
 
 static void byteTable(const EditorState& state) {
-    const BakeBytes& b = state.bake.bytes;
+    const std::vector<LightingCounter>& bytes = state.bake.last.bytes;
     if (!beginTable("bytes", "Memory"))
         return;
-    row("Surfels", byteText(b.surfels), "");
-    row("Clusters", byteText(b.clusters), "");
-    row("Links", byteText(b.links), "");
-    row("Caches", byteText(b.caches), "");
-    row("Bake, total", byteText(b.total()), "");
+    counterRows(bytes);
+    row("Bake, total", byteText(std::uint64_t(totalOf(bytes))), "");
     row("Graphics", byteText(state.frame.gpuBytes), "Buffers and images of the viewport");
     ImGui::EndTable();
 }
@@ -214,9 +210,10 @@ static void byteTable(const EditorState& state) {
 static void bakeTable(const EditorState& state) {
     if (!beginTable("bake", "Last bake"))
         return;
-    for (const auto& [stage, seconds] : state.bake.seconds)
+    const StageSeconds& all = state.bake.last.seconds;
+    for (const auto& [stage, seconds] : all)
         row(stage.c_str(), durationText(seconds), "");
-    row("total", durationText(state.bake.totalSeconds), "");
+    row("total", durationText(totalOf(all)), "");
     ImGui::EndTable();
 }
 

@@ -122,7 +122,8 @@ static void release(EditorState& state) {
     if (glm::length(mousePosition() - view.pressedAt) > kClickPixels)
         return;
     pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
-    if (hasCache(state.overlay.options.kind))
+    const OverlayKind* overlay = state.overlay.options.kind;
+    if (overlay && overlay->pick != OverlayPick::None)
         pickCacheAt(state, view.pressedAt);
 }
 

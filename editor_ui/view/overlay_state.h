@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/illuminance/overlay/link_cut.h"
-#include "engine/techniques/illuminance/overlay/overlay.h"
+#include "engine/lighting/precomputed.h"
 
 #include <memory>
-#include <optional>
+#include <vector>
 
 namespace limn {
 
 /// The overlay drawn over the picture, and the bake it shows.
 struct OverlayState {
-    OverlayOptions options;
-    std::shared_ptr<const Bake> bake;   ///< null: none yet
-    std::shared_ptr<const Scene> scene; ///< scene that was baked
-    std::uint32_t treeDepth = 0;        ///< of the bake's tree
-    std::optional<LinkCut> cut;         ///< of options.cache
-    OverlayLegend legend;               ///< of the picture on screen
+    OverlayRequest options;
+    std::shared_ptr<const Precomputed> bake; ///< null: none yet
+    std::shared_ptr<const Scene> scene;      ///< scene that was baked
+    std::uint32_t maxDepth = 0;              ///< of options.depth
+    std::vector<OverlayLine> picked;         ///< describes options.pick; empty: nothing is picked
+    OverlayLegend legend;                    ///< of the picture on screen
 };
 
 } // namespace limn

@@ -18,7 +18,7 @@
 
 namespace limn {
 
-struct Bake;
+class Precomputed;
 
 /// A scene with its converged bounced light: all that exporters read.
 struct ExportScene {
@@ -27,7 +27,7 @@ struct ExportScene {
     const TraceScene& trace;
     const LightmapLayout& layout; ///< of `field`
     const IndirectField& field;
-    const Bake* bake = nullptr; ///< that was lit; null if the technique needs none
+    const Precomputed* precomputed = nullptr; ///< null if the technique needs nothing of the kind
 };
 
 /// A file of an export, relative to the folder that is written to.

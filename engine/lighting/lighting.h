@@ -3,12 +3,14 @@
 
 #include "engine/core/progress.h"
 #include "engine/field/indirect_field.h"
+#include "engine/lighting/light_snapshot.h"
 #include "engine/lighting/lighting_report.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
+#include <memory>
 
 namespace limn {
 
@@ -34,6 +36,9 @@ public:
 
     /// The light on the CPU, valid until the next update; null if it exists on the device only.
     virtual const IndirectField* field() const = 0;
+
+    /// A copy of the light for the technique's overlays of light; null if it has none.
+    virtual std::shared_ptr<const LightSnapshot> snapshot() const { return nullptr; }
 };
 
 } // namespace limn

@@ -14,9 +14,9 @@ struct LightingStep {
     double ms = 0;
 };
 
-enum class CounterUnit : std::uint8_t { Count, Milliseconds, Share };
+enum class CounterUnit : std::uint8_t { Count, Milliseconds, Share, Bytes };
 
-/// A quantity that an update counted.
+/// A quantity that an update or a precomputation counted.
 struct LightingCounter {
     const char* id; ///< in JSON, snake case
     const char *label, *tooltip;
@@ -36,12 +36,15 @@ struct LightingReport {
     bool whole = true;     ///< all light is up to date, not only what the view shows
 };
 
-/// Value of the counter with that id; 0 if the report has none.
-inline double counterOf(const LightingReport& report, std::string_view id) {
-    for (const LightingCounter& counter : report.counters)
+/// Value of the counter with that id; 0 if there is none.
+inline double counterOf(const std::vector<LightingCounter>& counters, std::string_view id) {
+    for (const LightingCounter& counter : counters)
         if (counter.id == id)
             return counter.value;
     return 0;
+}
+inline double counterOf(const LightingReport& report, std::string_view id) {
+    return counterOf(report.counters, id);
 }
 
 } // namespace limn

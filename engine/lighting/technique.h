@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/memory_budget.h"
 #include "engine/lighting/lighting.h"
+#include "engine/lighting/precomputed.h"
 #include "engine/scene/setting.h"
 #include "engine/scene/technique_choice.h"
 
@@ -18,6 +20,35 @@ struct TechniqueSetting {
     bool whole = false; ///< a whole number; with range [0, 1], a switch
 };
 
+class StageStore;
+
+struct PrepareOptions {
+    const BakeSettings* settings = nullptr; ///< instead of the scene's; null: the scene's
+    StageStore* store = nullptr;            ///< keeps finished stages; null: nothing is kept
+    MemoryBudget memory;
+};
+
+/// How a technique computes its data in advance, and what is known of that beforehand.
+struct Precomputation {
+    /// Hash of everything that prepare() reads. Lights, albedo and the places of dynamic objects
+    /// are not part of it.
+    std::uint64_t (*inputHash)(const Scene& scene);
+    /// Estimates prepare(). `stored`: a StageStore will keep its stages.
+    Prediction (*predict)(const Scene& scene, bool stored);
+    /// Settings of a quick precomputation to look at until that with `settings` is done.
+    BakeSettings (*preview)(BakeSettings settings);
+    /// Computes the data. Fails on an empty scene, on settings out of range, where predict()
+    /// expects more than the memory allowed, and when cancelled ("cancelled").
+    Result<std::shared_ptr<const Precomputed>> (*prepare)(const TraceScene& trace,
+                                                          const PrepareOptions& options,
+                                                          const Progress& progress);
+    /// Reads what Precomputed::write() wrote. Fails on a file that is damaged, newer, or of another
+    /// technique, and on one that needs more than `memory`. Precomputed::defect() tells whether it
+    /// fits a scene.
+    Result<std::shared_ptr<const Precomputed>> (*read)(const std::string& path,
+                                                       const MemoryBudget& memory);
+};
+
 /// A technique of bounced light, as listed in documents, menus, --technique and tests.
 struct Technique {
     const char* name;    ///< in documents and on the command line
@@ -25,8 +56,11 @@ struct Technique {
     const char* summary; ///< what it does, in a sentence or two
     const char* source;  ///< authors, title, year
     std::span<const TechniqueSetting> settings;
-    /// Creates light that needs nothing precomputed; null if the technique lights a bake.
-    std::unique_ptr<Lighting> (*light)();
+    std::span<const OverlayKind> overlays; ///< of its precomputed data
+    const Precomputation* precomputation;  ///< null: nothing is precomputed
+    /// Creates light on the CPU. Precondition: `prepared` holds data of this technique, and none
+    /// where nothing is precomputed.
+    std::unique_ptr<Lighting> (*light)(const Prepared& prepared);
 };
 
 /// Value of a setting in a document, clamped to its range.

@@ -2,9 +2,11 @@
 #include "engine/techniques/technique_table.h"
 
 #include "engine/techniques/ambient/ambient.h"
-#include "engine/techniques/illuminance/relight/illuminance.h"
+#include "engine/techniques/illuminance/illuminance.h"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -21,6 +23,37 @@ const Technique* findTechnique(std::string_view name) {
         if (technique->name == name)
             return technique;
     return nullptr;
+}
+
+const Technique& precomputingTechnique(const TechniqueChoice& choice) {
+    const Technique* chosen = findTechnique(choice.technique);
+    if (chosen && chosen->precomputation)
+        return *chosen;
+    return **std::ranges::find_if(kTechniques,
+                                  [](const Technique* t) { return t->precomputation != nullptr; });
+}
+
+Result<std::shared_ptr<const Precomputed>> readPrecomputed(const std::string& path,
+                                                           const MemoryBudget& memory) {
+    std::optional<Error> first;
+    for (const Technique* technique : kTechniques) {
+        if (!technique->precomputation)
+            continue;
+        auto read = technique->precomputation->read(path, memory);
+        if (read)
+            return read;
+        if (!first)
+            first = read.error();
+    }
+    return tl::make_unexpected(*first);
+}
+
+std::vector<const OverlayKind*> overlayKinds() {
+    std::vector<const OverlayKind*> kinds;
+    for (const Technique* technique : kTechniques)
+        for (const OverlayKind& kind : technique->overlays)
+            kinds.push_back(&kind);
+    return kinds;
 }
 
 std::string techniqueNames() {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace limn {
 
@@ -14,6 +15,18 @@ std::span<const Technique* const> techniques();
 
 /// The technique of that name, or null.
 const Technique* findTechnique(std::string_view name);
+
+/// The technique whose data is precomputed for a document: the chosen one, or, where that needs
+/// none, the first that does, so that switching back finds its data.
+const Technique& precomputingTechnique(const TechniqueChoice& choice);
+
+/// Reads precomputed data of whichever technique wrote the file. Fails as the first technique's
+/// Precomputation::read() where none can.
+Result<std::shared_ptr<const Precomputed>> readPrecomputed(const std::string& path,
+                                                           const MemoryBudget& memory = {});
+
+/// The overlays of every technique, in the order of the techniques.
+std::vector<const OverlayKind*> overlayKinds();
 
 /// "illuminance or ambient", for messages and --help.
 std::string techniqueNames();

@@ -2,6 +2,8 @@
 // Pictures that light their bake themselves, one request after the other, without the thread.
 #include "app/editor/render_worker.h"
 
+#include "engine/techniques/illuminance/baked_illuminance.h"
+#include "engine/techniques/technique_table.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +14,11 @@ namespace {
 struct RenderWorkerTest : testing::Test {
     std::shared_ptr<const Scene> first = litRoom(500, 800), moved = lampMoved();
     std::shared_ptr<const TraceScene> trace = std::make_shared<const TraceScene>(*first);
-    std::shared_ptr<const Bake> made = std::make_shared<const Bake>(*bake(*trace));
+    std::shared_ptr<const Precomputed> made = precomputed(*trace);
+
+    static std::shared_ptr<const Precomputed> precomputed(const TraceScene& trace) {
+        return *precomputingTechnique({}).precomputation->prepare(trace, {}, {});
+    }
 
     std::shared_ptr<const Scene> lampMoved() const {
         Scene scene = *first;
@@ -24,7 +30,7 @@ struct RenderWorkerTest : testing::Test {
     PictureRequest looking(float z, std::shared_ptr<const Scene> scene) const {
         PictureRequest request;
         request.scene = std::move(scene);
-        request.layout = {made, &made->lightmap};
+        request.layout = {made, &made->layout()};
         request.options.view = View::Irradiance;
         request.options.camera.eye = {2, 1.5f, 2.5f};
         request.options.camera.target = {2, 1.5f, 2.5f + z};
@@ -54,7 +60,8 @@ TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {
     // The lamp moves while one looks forward and the other back; then both look back.
     turned.draw(looking(1, moved), hurry);
     still.draw(looking(-1, moved), hurry);
-    EXPECT_GT(counterOf(turned.relight.last, "caches_unseen"), made->caches.lightmapCount / 4);
+    EXPECT_GT(counterOf(turned.relight.last, "caches_unseen"),
+              bakeOf(*made)->caches.lightmapCount / 4);
     EXPECT_TRUE(turned.bouncing());
     const Image a = turned.draw(looking(-1, moved), hurry),
                 b = still.draw(looking(-1, moved), hurry);
@@ -97,7 +104,7 @@ std::shared_ptr<const Scene> withBlock(float x, bool dimming = true) {
 TEST_F(RenderWorkerTest, AMovedObjectTakesItsDimmingAlong) {
     first = withBlock(1);
     trace = std::make_shared<const TraceScene>(*first);
-    made = std::make_shared<const Bake>(*bake(*trace));
+    made = precomputed(*trace);
     RenderWorker worker(false);
     const Image before = drawn(worker, looking(-1, first));
     const double dimmed = counterOf(worker.relight.last, "links_occluded");

@@ -2,18 +2,36 @@
 #include "editor_ui/panels/overlay_panel.h"
 
 #include "editor_ui/panels/action.h"
+#include "engine/techniques/illuminance/baked_illuminance.h"
+#include "engine/techniques/technique_table.h"
 #include "tests/editor_ui/headless.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace limn {
 namespace {
 
-std::shared_ptr<const Bake> smallBake(const TraceScene& trace) {
-    Result<Bake> made = bake(trace);
+std::shared_ptr<const Precomputed> smallBake(const TraceScene& trace) {
+    const auto made = precomputingTechnique({}).precomputation->prepare(trace, {}, {});
     EXPECT_TRUE(made) << (made ? "" : made.error().message);
-    return made ? std::make_shared<const Bake>(std::move(*made)) : nullptr;
+    return made ? *made : nullptr;
+}
+
+/// The overlay of that name.
+const OverlayKind* kindNamed(const std::string& name) {
+    for (const OverlayKind* kind : overlayKinds())
+        if (kind->name == name)
+            return kind;
+    return nullptr;
+}
+
+/// The caches of the bake that an overlay shows, which its picks number.
+const Caches& cachesOf(const OverlayState& overlay) {
+    return bakeOf(*overlay.bake)->caches;
 }
 
 /// fullEditor() with a bake of a moment, looking at its two triangles.
@@ -39,36 +57,41 @@ struct BakedEditor {
 
 TEST(OverlayPanel, EveryOverlayIsAnActionUnderItsName) {
     EditorState state = emptyEditor();
+    std::vector<const OverlayKind*> kinds = overlayKinds();
+    kinds.insert(kinds.begin(), nullptr);
     std::size_t found = 0;
     for (const Action& action : actions()) {
         if (action.menu != Menu::Overlay)
             continue;
         runAction(state, action);
-        EXPECT_EQ(std::size_t(state.overlay.options.kind), found);
+        ASSERT_LT(found, kinds.size());
+        const OverlayKind* kind = kinds[found++];
+        EXPECT_EQ(state.overlay.options.kind, kind);
         EXPECT_TRUE(action.checked(state));
-        EXPECT_STREQ(action.label, kOverlays[found++].label);
+        EXPECT_STREQ(action.label, kind ? kind->label : "No overlay");
     }
-    EXPECT_EQ(found, kOverlays.size());
+    EXPECT_EQ(found, kinds.size());
+    EXPECT_TRUE(actionById("overlay.surfel_normals").run) << "ids have no hyphens";
 }
 
 TEST(OverlayPanel, EveryOverlayIsDrawnWithAndWithoutABakeAndForEveryCache) {
     HeadlessUi ui;
     EditorState none = fullEditor();
     BakedEditor baked;
-    for (std::size_t k = 0; k < kOverlays.size(); ++k) {
-        none.overlay.options.kind = baked.state.overlay.options.kind = Overlay(k);
+    for (const OverlayKind* kind : overlayKinds()) {
+        none.overlay.options.kind = baked.state.overlay.options.kind = kind;
         ui.frames(none);
         ui.frames(baked.state);
     }
-    baked.state.overlay.options.kind = Overlay::Links;
-    for (std::uint32_t c = 0; c < baked.state.overlay.bake->caches.size(); ++c) {
+    baked.state.overlay.options.kind = kindNamed("links");
+    for (std::uint32_t c = 0; c < baked.state.overlay.bake->pickCount(); ++c) {
         pickCache(baked.state.overlay, c);
-        ASSERT_TRUE(baked.state.overlay.cut);
-        EXPECT_EQ(baked.state.overlay.cut->cache, c);
+        EXPECT_FALSE(baked.state.overlay.picked.empty());
+        EXPECT_EQ(baked.state.overlay.options.pick, c);
         ui.frames(baked.state);
     }
     pickCache(baked.state.overlay, 1u << 30);
-    EXPECT_FALSE(baked.state.overlay.cut);
+    EXPECT_TRUE(baked.state.overlay.picked.empty());
     ui.frames(baked.state);
 }
 
@@ -90,38 +113,38 @@ TEST(OverlayPanel, AClickPicksTheCacheBeneathItAndSelectsAsEver) {
     };
     const glm::vec3 place(0.3f, 0.6f, 0); // on both, which lie in the same plane
     clickAt(place);
-    EXPECT_EQ(state.overlay.options.cache, ~0u) << "no link cut is shown";
+    EXPECT_EQ(state.overlay.options.pick, ~0u) << "no link cut is shown";
     state.selection.clear();
-    state.overlay.options.kind = Overlay::Links;
+    state.overlay.options.kind = kindNamed("links");
     ui.frames(state);
     clickAt(place);
     ASSERT_EQ(state.selection.size(), 1u);
     EXPECT_TRUE(state.selection[0] == node || state.selection[0] == idNamed(state, "Left"));
-    ASSERT_TRUE(state.overlay.cut);
-    const Caches& caches = state.overlay.bake->caches;
-    const std::uint32_t cache = state.overlay.cut->cache;
+    ASSERT_FALSE(state.overlay.picked.empty());
+    const Caches& caches = cachesOf(state.overlay);
+    const std::uint32_t cache = state.overlay.options.pick;
     EXPECT_LT(cache, caches.lightmapCount);
     EXPECT_LT(glm::distance(caches.position[cache], place), 1);
     clickAt({0, 30, 0}); // nothing there: the cache stays
-    EXPECT_EQ(state.overlay.options.cache, cache);
+    EXPECT_EQ(state.overlay.options.pick, cache);
 }
 
 TEST(OverlayPanel, AnotherBakeKeepsThePlaceThatWasPicked) {
     BakedEditor baked;
     OverlayState& overlay = baked.state.overlay;
-    pickCache(overlay, overlay.bake->caches.lightmapCount / 2);
-    const glm::vec3 place = overlay.bake->caches.position[overlay.options.cache];
+    pickCache(overlay, cachesOf(overlay).lightmapCount / 2);
+    const glm::vec3 place = cachesOf(overlay).position[overlay.options.pick];
     baked.scene->bake.lightmapCaches = 400;
     baked.rebake();
-    ASSERT_TRUE(overlay.cut);
-    const Caches& caches = overlay.bake->caches;
+    ASSERT_FALSE(overlay.picked.empty());
+    const Caches& caches = cachesOf(overlay);
     EXPECT_GT(caches.lightmapCount, 200u);
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
-        EXPECT_LE(glm::distance(caches.position[overlay.options.cache], place),
+        EXPECT_LE(glm::distance(caches.position[overlay.options.pick], place),
                   glm::distance(caches.position[c], place));
     setOverlayBake(overlay, nullptr, nullptr);
-    EXPECT_EQ(overlay.options.cache, ~0u);
-    EXPECT_FALSE(overlay.cut);
+    EXPECT_EQ(overlay.options.pick, ~0u);
+    EXPECT_TRUE(overlay.picked.empty());
 }
 
 } // namespace

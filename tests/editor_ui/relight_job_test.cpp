@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/relight_job.h"
 
+#include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
@@ -32,6 +33,7 @@ struct RelightJobTest : testing::Test {
     std::shared_ptr<const Scene> scene = litRoom(900, 1500);
     std::shared_ptr<const TraceScene> trace = std::make_shared<const TraceScene>(*scene);
     std::shared_ptr<const Bake> made = std::make_shared<const Bake>(*bake(*trace));
+    std::shared_ptr<const Precomputed> data = std::make_shared<const BakedIlluminance>(made);
     CacheFootprints footprints = cacheFootprints(*scene, *made);
     Viewpoint a = lookingTo({2, 1.5f, 5}), b = lookingTo({2, 1.5f, 0});
 
@@ -70,7 +72,7 @@ TEST_F(RelightJobTest, LightsWhatIsSeenWhileALightMovesAndAllAtRest) {
     RelightJob job([] {});
     job.setView(a);
     job.setScene(scene);
-    job.setBake({made, scene, trace});
+    job.setBake({data, scene, trace});
     ASSERT_TRUE(until([&] { return rests(job); }));
     const auto moved = lampAt(*scene, {3.2f, 1.8f, 4});
     job.setScene(moved);
@@ -104,7 +106,7 @@ TEST_F(RelightJobTest, WhatComesIntoViewIsRightWithTheNextField) {
     running = &job;
     job.setView(a);
     job.setScene(scene);
-    job.setBake({made, scene, trace});
+    job.setBake({data, scene, trace});
     ASSERT_TRUE(until([&] { return rests(job); }));
     looks = true;
     job.setScene(moved);
@@ -126,7 +128,7 @@ TEST_F(RelightJobTest, TakesNoMoreBouncesThanTheDocumentAsksFor) {
         const auto shown = std::make_shared<const Scene>(few), moved = lampAt(few, {3, 2, 4});
         RelightJob job([] {});
         job.setScene(shown);
-        job.setBake({made, scene, trace});
+        job.setBake({data, scene, trace});
         ASSERT_TRUE(until([&] { return rests(job); }));
         job.setScene(moved);
         ASSERT_TRUE(until([&] { return rests(job) && job.result().hashedScene == moved; }));
@@ -142,7 +144,7 @@ TEST_F(RelightJobTest, LightsAllForOverlaysOfLight) {
     job.setView(a);
     job.keepLit(true);
     job.setScene(scene);
-    job.setBake({made, scene, trace});
+    job.setBake({data, scene, trace});
     ASSERT_TRUE(until([&] { return rests(job); }));
     job.setScene(lampAt(*scene, {3.2f, 1.8f, 4}));
     ASSERT_TRUE(until([&] { return rests(job); }));

@@ -6,6 +6,7 @@
 #include "editor_ui/panels/action.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <atomic>
@@ -24,6 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+/// A count of the last bake.
+double counted(const Session& session, const char* id) {
+    return counterOf(session.state.bake.last.counts, id);
+}
 
 /// Cornell with a lamp and a bake of a fraction of a second.
 Document smallDocument() {
@@ -79,7 +85,7 @@ TEST_F(SessionTest, AnOpenedSceneIsBakedAndLitUntilItConverges) {
     session.open(project);
     ASSERT_TRUE(runUntilIdle(session));
     EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
-    EXPECT_GT(session.state.bake.counts.surfels, 0u);
+    EXPECT_GT(counted(session, "surfels"), 0);
     ASSERT_TRUE(session.layout());
     EXPECT_EQ(session.layout()->instances.size(), session.scene()->instances.size());
     ASSERT_TRUE(session.field());
@@ -139,13 +145,17 @@ TEST_F(SessionTest, AnOverlayOfLightGetsWhatTheFieldWasMadeOf) {
     session.open(project);
     ASSERT_TRUE(runUntilIdle(session));
     EXPECT_FALSE(session.lit());
-    session.state.overlay.options.kind = Overlay::LitSurfels;
+    const auto kinds = overlayKinds();
+    const auto ofLight = std::ranges::find(kinds, true, &OverlayKind::showsLight);
+    ASSERT_NE(ofLight, kinds.end());
+    session.state.overlay.options.kind = *ofLight;
     ASSERT_TRUE(runUntil(session, [&] { return session.lit() != nullptr; }));
-    EXPECT_EQ(session.lit()->radiosity.size(), session.baked().bake->tree.size());
-    EXPECT_EQ(session.lit()->cacheSh.size(),
-              session.baked().bake->caches.size() *
-                  std::size_t(session.lit()->bands * session.lit()->bands));
-    session.state.overlay.options.kind = Overlay::None;
+    const BakedScene& baked = session.baked();
+    const OverlayRequest request{.kind = *ofLight};
+    const OverlayData lit = baked.bake->overlay(request, *baked.scene, session.lit().get());
+    EXPECT_FALSE(lit.marks.empty());
+    EXPECT_TRUE(baked.bake->overlay(request, *baked.scene, nullptr).marks.empty());
+    session.state.overlay.options.kind = nullptr;
     session.update();
     ASSERT_TRUE(runUntil(session, [&] { return !session.lit(); }));
 }
@@ -334,7 +344,7 @@ TEST_F(SessionTest, ABakeUsesTheSettingsOfTheDocument) {
     runAction(session.state, actionById("bake.start"));
     ASSERT_TRUE(
         runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
-    EXPECT_NEAR(double(session.state.bake.counts.surfels), 500, 50);
+    EXPECT_NEAR(counted(session, "surfels"), 500, 50);
 }
 
 TEST_F(SessionTest, HidingAnObjectKeepsTheLightmapsOfTheOthers) {
@@ -444,7 +454,7 @@ TEST_F(SessionTest, AFirstLookOfFewRaysComesBeforeTheFullBake) {
     session.open(project);
     ASSERT_TRUE(runUntil(session, [&] { return session.state.bake.preview && session.field(); }));
     EXPECT_TRUE(session.state.bake.running);
-    const std::uint64_t first = session.state.bake.counts.rays;
+    const double first = counted(session, "rays");
     EXPECT_NE(session.state.bake.freshness, BakeFreshness::UpToDate);
     lamp(session).strength = 3; // light follows meanwhile
     const auto calls = session.state.relight.calls;
@@ -452,17 +462,17 @@ TEST_F(SessionTest, AFirstLookOfFewRaysComesBeforeTheFullBake) {
     ASSERT_TRUE(runUntilIdle(session));
     EXPECT_FALSE(session.state.bake.preview);
     EXPECT_EQ(session.state.bake.freshness, BakeFreshness::UpToDate);
-    EXPECT_GT(session.state.bake.counts.rays, 1024U * 1500);
+    EXPECT_GT(counted(session, "rays"), 1024U * 1500);
     // 64 rays of each cache instead of 1024; those that tell sides of walls are the same for both.
     EXPECT_GT(first, 0U);
-    EXPECT_GT(session.state.bake.counts.rays, 4 * first);
+    EXPECT_GT(counted(session, "rays"), 4 * first);
 }
 
 TEST_F(SessionTest, AnotherNumberOfLinksTracesNoRay) {
     Session session(options());
     session.open(project);
     ASSERT_TRUE(runUntilIdle(session));
-    EXPECT_GT(session.state.bake.counts.rays, 0U);
+    EXPECT_GT(counted(session, "rays"), 0);
     for (auto& [id, object] : session.state.document.objects)
         if (auto* settings = std::get_if<BakeSettings>(&object))
             settings->links = 24;
@@ -471,8 +481,8 @@ TEST_F(SessionTest, AnotherNumberOfLinksTracesNoRay) {
     runAction(session.state, actionById("bake.start"));
     ASSERT_TRUE(
         runUntil(session, [&] { return session.state.bake.freshness == BakeFreshness::UpToDate; }));
-    EXPECT_EQ(session.state.bake.counts.rays, 0U);
-    ASSERT_FALSE(session.state.bake.notes.empty());
+    EXPECT_EQ(counted(session, "rays"), 0);
+    ASSERT_FALSE(session.state.bake.last.notes.empty());
 }
 
 TEST(BakeEstimate, FollowsTheStagesPaceAndWhatLaterOnesTook) {
@@ -482,15 +492,6 @@ TEST(BakeEstimate, FollowsTheStagesPaceAndWhatLaterOnesTook) {
     EXPECT_NEAR(secondsLeft(expected, "trace", 0.5, 3), 3 + 2, 1e-9); // faster than expected
     EXPECT_NEAR(secondsLeft(expected, "cut", 1, 2), 0, 1e-9);
     EXPECT_NEAR(secondsLeft(expected, "a part of the cut", 0.5, 0.5), 1.5, 1e-9);
-    Bake before;
-    before.settings.rays = 64;
-    before.settings.surfels = 100;
-    before.seconds = {{"surfels", 1}, {"trace", 2}, {"cut", 3}};
-    BakeSettings wanted = before.settings;
-    wanted.rays = 1024;
-    wanted.surfels = 200;
-    EXPECT_EQ(expectedSeconds(before, wanted),
-              (StageSeconds{{"surfels", 2}, {"trace", 32}, {"cut", 12}}));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
+#include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 
 #include <gtest/gtest.h>
@@ -21,13 +22,14 @@ struct ExportedRoom {
     }
 
     ExportScene view() const {
-        return {document, scene, trace, baked->lightmap, relighter.field(), baked.get()};
+        return {document, scene, trace, baked->lightmap, relighter.field(), &data};
     }
 
     Document document;
     Scene scene;
     TraceScene trace;
     std::shared_ptr<const Bake> baked;
+    BakedIlluminance data{baked};
     Relighter relighter;
 
 private:

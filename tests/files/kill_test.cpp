@@ -2,9 +2,9 @@
 // Killed at any moment, each writer leaves one whole file, and nothing beside it.
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
+#include "engine/lighting/relight_choice.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/bake/bake_file.h"
-#include "engine/techniques/illuminance/relight/relight_choice.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/trace/simple_scene.h"
 

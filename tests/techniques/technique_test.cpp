@@ -4,7 +4,6 @@
 #include "engine/field/sample_field.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/texel_points.h"
-#include "engine/techniques/illuminance/relight/cpu_illuminance.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/trace/simple_scene.h"
 
@@ -28,14 +27,14 @@ struct Lit {
     Lit(const Technique& technique, const Scene& of) : scene(of) {
         scene.technique.technique = technique.name;
         trace = std::make_shared<const TraceScene>(scene);
-        if (technique.light) {
-            layout = layoutWithoutLightmap(scene);
-            lighting = technique.light();
-        } else {
-            const auto made = std::make_shared<const Bake>(*bake(*trace));
-            layout = made->lightmap;
-            lighting = std::make_unique<CpuIlluminance>(made, std::make_shared<const Scene>(scene));
+        Prepared prepared;
+        layout = layoutWithoutLightmap(scene);
+        if (technique.precomputation) {
+            prepared = {*technique.precomputation->prepare(*trace, {}, {}),
+                        std::make_shared<const Scene>(scene)};
+            layout = prepared.data->layout();
         }
+        lighting = technique.light(prepared);
     }
     LightingReport update(std::uint32_t bounces = 64) {
         return lighting->update({.scene = scene, .trace = trace.get(), .bounces = bounces}, {});
@@ -87,12 +86,105 @@ TEST(Techniques, AChoiceOfNoneOrOfUnknownSettingsIsADefect) {
               std::string::npos);
 }
 
+/// A room that every technique bakes in a moment.
+Scene smallRoom() {
+    Scene scene = *litRoom(300, 400);
+    scene.sky.radiance = glm::vec3(0.5f, 1, 2);
+    return scene;
+}
+
+TEST(Techniques, DataIsForWhoeverPrecomputesAndTheChosenComeFirst) {
+    for (const Technique* t : techniques()) {
+        const Technique& preparing = precomputingTechnique({t->name, {}});
+        EXPECT_TRUE(preparing.precomputation);
+        EXPECT_TRUE(&preparing == t || !t->precomputation);
+    }
+    EXPECT_TRUE(precomputingTechnique({"magic", {}}).precomputation);
+}
+
+TEST(Techniques, OverlaysAreNamedOnceAndFoundAgain) {
+    std::set<std::string> names;
+    for (const OverlayKind* kind : overlayKinds()) {
+        EXPECT_TRUE(names.insert(kind->name).second) << kind->name;
+        EXPECT_GT(std::string(kind->tooltip).size(), 10U) << kind->name;
+    }
+    EXPECT_FALSE(names.contains("none")) << "that is the program's own";
+}
+
+// What holds of all precomputed data.
+TEST(Techniques, PrecomputedDataIsReadAsItWasWrittenAndKnowsItsScene) {
+    const Scene scene = smallRoom();
+    const TraceScene trace(scene);
+    const std::string path = testing::TempDir() + "limn_technique_test.limnbake";
+    for (const Technique* technique : techniques()) {
+        const Precomputation* p = technique->precomputation;
+        if (!p)
+            continue;
+        SCOPED_TRACE(technique->name);
+        const auto made = p->prepare(trace, {}, {});
+        ASSERT_TRUE(made) << made.error().message;
+        const Precomputed& data = **made;
+        EXPECT_EQ(&data.technique(), technique);
+        EXPECT_EQ(data.settings(), scene.bake);
+        EXPECT_EQ(data.inputHash(), p->inputHash(scene));
+        EXPECT_EQ(data.defect(scene), "");
+        ASSERT_TRUE(data.write(path));
+        const auto read = readPrecomputed(path);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ((*read)->hash(), data.hash());
+        EXPECT_EQ((*read)->report().counts.size(), data.report().counts.size());
+        Scene other = scene;
+        other.instances[0].toWorld[3].x += 1;
+        EXPECT_NE(p->inputHash(other), data.inputHash());
+        BakeSettings fewer = scene.bake;
+        fewer.surfels /= 2;
+        const auto coarse = p->prepare(trace, {.settings = &fewer}, {});
+        ASSERT_TRUE(coarse) << coarse.error().message;
+        EXPECT_EQ((*coarse)->settings().surfels, fewer.surfels);
+        EXPECT_NE((*coarse)->hash(), data.hash());
+        const auto tooLarge = p->prepare(trace, {.memory = {.most = 1}}, {});
+        EXPECT_FALSE(tooLarge);
+        EXPECT_GT(p->predict(scene, false).working, 1U);
+    }
+}
+
+TEST(Techniques, EveryOverlayOfWhatWasPrecomputedHasALegendAndItsPicksAreDescribed) {
+    const Scene scene = smallRoom();
+    const auto trace = std::make_shared<const TraceScene>(scene);
+    for (const Technique* technique : techniques()) {
+        if (!technique->precomputation)
+            continue;
+        SCOPED_TRACE(technique->name);
+        const Prepared prepared{*technique->precomputation->prepare(*trace, {}, {}),
+                                std::make_shared<const Scene>(scene)};
+        const auto lighting = technique->light(prepared);
+        lighting->update({.scene = scene, .trace = trace.get()}, {});
+        const auto light = lighting->snapshot();
+        for (const OverlayKind& kind : technique->overlays) {
+            const bool picks = kind.pick != OverlayPick::None;
+            ASSERT_TRUE(!picks || prepared.data->pickCount() > 0) << kind.name;
+            const OverlayData data =
+                prepared.data->overlay({.kind = &kind, .pick = picks ? 0 : ~0U}, scene,
+                                       kind.showsLight ? light.get() : nullptr);
+            EXPECT_FALSE(data.legend.title.empty()) << kind.name;
+            EXPECT_FALSE(data.marks.empty() && data.texels.empty()) << kind.name;
+            if (!kind.describesPick)
+                continue;
+            const std::vector<OverlayLine> lines = prepared.data->describePick(scene, 0);
+            EXPECT_FALSE(lines.empty()) << kind.name;
+            for (const OverlayLine& line : lines)
+                EXPECT_EQ(line.text.empty(), line.style == OverlayLine::Style::Separator);
+        }
+        const std::uint32_t count = prepared.data->pickCount();
+        EXPECT_TRUE(count == 0 || prepared.data->nearestPick(*prepared.data, count / 2));
+    }
+}
+
 // What holds of every technique.
 TEST(Techniques, LightIsFiniteAndGrowsWithTheSkyAndIsKeptWhileNothingChanges) {
-    Scene scene = *litRoom(300, 400);
+    Scene scene = smallRoom();
     scene.lights.clear();
     scene.materials[0].baseColor = glm::vec4(glm::vec3(0.5f), 1);
-    scene.sky.radiance = glm::vec3(0.5f, 1, 2);
     for (const Technique* technique : techniques()) {
         SCOPED_TRACE(technique->name);
         Lit lit(*technique, scene);

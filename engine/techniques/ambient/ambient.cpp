@@ -94,6 +94,10 @@ constinit const Technique kAmbientTechnique = {
     .summary = "The sky's mean radiance, or a constant, from everywhere. Needs no bake",
     .source = "",
     .settings = kSettings,
-    .light = [] { return std::unique_ptr<Lighting>(std::make_unique<AmbientLighting>()); }};
+    .overlays = {},
+    .precomputation = nullptr,
+    .light = [](const Prepared&) {
+        return std::unique_ptr<Lighting>(std::make_unique<AmbientLighting>());
+    }};
 
 } // namespace limn

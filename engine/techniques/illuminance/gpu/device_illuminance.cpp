@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/gpu/device_illuminance.h"
 
+#include "engine/techniques/illuminance/baked_illuminance.h"
+#include "engine/techniques/illuminance/illuminance_snapshot.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
 
 namespace limn {
@@ -19,6 +21,21 @@ LightingReport DeviceIlluminance::update(const LightingInput& input, const Progr
     const Bake& bake = *m_relighter->gpu().bake();
     const CacheFlags* seen = input.view ? &seenFrom(m_seen, *m_baked, bake, *input.view) : nullptr;
     return reportOf(m_relighter->relight(m_viewport, input.scene, input.bounces, progress, seen));
+}
+
+std::shared_ptr<const LightSnapshot> DeviceIlluminance::snapshot() const {
+    const GpuRelighter& gpu = m_relighter->gpu();
+    LitBake lit;
+    for (const glm::vec3 b : gpu.readRadiosity())
+        lit.radiosity.emplace_back(b, 0);
+    lit.cacheSh = gpu.readCacheSh();
+    lit.bands = int(gpu.field()->bands);
+    return std::make_shared<const IlluminanceSnapshot>(std::move(lit));
+}
+
+Result<std::unique_ptr<Lighting>> lightIlluminanceOnDevice(gpu::Device& device, Viewport& viewport,
+                                                           const Prepared& prepared) {
+    return DeviceIlluminance::create(device, viewport, bakeOf(*prepared.data), prepared.scene);
 }
 
 } // namespace limn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/lighting/lighting.h"
+#include "engine/lighting/precomputed.h"
 #include "engine/techniques/illuminance/gpu/viewport_relighter.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 
@@ -23,7 +24,8 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
 
     const IndirectField* field() const override { return nullptr; }
-    ViewportRelighter& relighter() const { return *m_relighter; }
+    /// Waits for the device.
+    std::shared_ptr<const LightSnapshot> snapshot() const override;
 
 private:
     DeviceIlluminance(Viewport& viewport, std::unique_ptr<ViewportRelighter> relighter,
@@ -35,5 +37,9 @@ private:
     std::shared_ptr<const Scene> m_baked;
     SeenFrom m_seen;
 };
+
+/// DeviceIlluminance of data of kIlluminanceTechnique. Fails as GpuRelighter::create().
+Result<std::unique_ptr<Lighting>> lightIlluminanceOnDevice(gpu::Device& device, Viewport& viewport,
+                                                           const Prepared& prepared);
 
 } // namespace limn

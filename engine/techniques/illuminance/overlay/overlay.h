@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/overlay/overlay_data.h"
+#include "engine/overlay/overlay_kind.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 
 #include <array>
@@ -29,37 +30,43 @@ enum class Overlay : std::uint32_t {
     Lobes,         ///< the lit caches' spherical harmonics, colour: sign
 };
 
-/// Whether the kind shows light, so that makeOverlay() needs a LitBake.
-inline bool showsLight(Overlay kind) {
-    return kind >= Overlay::LitSurfels;
-}
-inline bool hasCache(Overlay kind) {
-    return kind == Overlay::Links || kind == Overlay::Lobes;
-}
-inline bool hasDepth(Overlay kind) {
-    return kind == Overlay::Clusters || kind == Overlay::LitClusters;
-}
-
-/// The names of Overlay, for the command line and for people.
-struct OverlayName {
-    const char *name, *label, *tooltip;
-};
-inline constexpr std::array<OverlayName, 13> kOverlays = {
+/// The overlays by their number in Overlay.
+inline constexpr std::array<OverlayKind, 13> kOverlays = {
     {{"none", "No overlay", "The picture alone"},
-     {"surfels", "Surfels", "Samples of the surfaces that send light, in their albedo"},
+     {.name = "surfels",
+      .label = "Surfels",
+      .tooltip = "Samples of the surfaces that send light, in their albedo",
+      .showsMaterials = true},
      {"surfel-normals", "Surfel normals", "Surfels in the colour of the side they stand for"},
      {"surfel-owners", "Surfel owners", "Surfels in one colour per instance"},
-     {"clusters", "Clusters", "Surfels in one colour per cluster at a depth of the tree"},
-     {"links", "Link cut", "The clusters that light one cache; click a surface to pick the cache"},
+     {.name = "clusters",
+      .label = "Clusters",
+      .tooltip = "Surfels in one colour per cluster at a depth of the tree",
+      .hasDepth = true},
+     {.name = "links",
+      .label = "Link cut",
+      .tooltip = "The clusters that light one cache; click a surface to pick the cache",
+      .pick = OverlayPick::Required,
+      .describesPick = true},
      {"caches", "Caches", "Where light is gathered; magenta: invalid, filled from others"},
      {"charts", "UV charts", "Pieces of surface that lie together in the lightmap"},
      {"density", "Texel density", "Lightmap texels per metre"},
      {"overlap", "UV overlap", "Lightmap texels that more than one piece of surface uses"},
-     {"lit-surfels", "Lit surfels", "What each surfel sends: its light times its albedo"},
-     {"lit-clusters", "Lit clusters", "What the clusters at a depth of the tree send"},
-     {"lobes", "SH lobes",
-      "Light that reaches the caches from each side, as its harmonics have it; "
-      "orange: below zero"}}};
+     {.name = "lit-surfels",
+      .label = "Lit surfels",
+      .tooltip = "What each surfel sends: its light times its albedo",
+      .showsLight = true},
+     {.name = "lit-clusters",
+      .label = "Lit clusters",
+      .tooltip = "What the clusters at a depth of the tree send",
+      .showsLight = true,
+      .hasDepth = true},
+     {.name = "lobes",
+      .label = "SH lobes",
+      .tooltip = "Light that reaches the caches from each side, as its harmonics have it; "
+                 "orange: below zero",
+      .showsLight = true,
+      .pick = OverlayPick::Optional}}};
 
 struct OverlayOptions {
     Overlay kind = Overlay::None;
@@ -77,7 +84,7 @@ struct LitBake {
 };
 
 /// Builds the overlay of a bake. `scene` is the one that was baked; its materials may be newer.
-/// Overlay::None gives nothing to draw; a kind for which showsLight() holds gives only a note
+/// Overlay::None gives nothing to draw; a kind with OverlayKind::showsLight gives only a note
 /// without `lit`.
 OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options,
                         const LitBake* lit = nullptr);

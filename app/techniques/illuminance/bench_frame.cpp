@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_bakes.h"
 #include "app/bench/moving_lights.h"
+#include "app/techniques/illuminance/bench_bakes.h"
+#include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/gpu/device.h"
+#include "engine/lighting/relight_choice.h"
 #include "engine/techniques/illuminance/gpu/viewport_relighter.h"
-#include "engine/techniques/illuminance/relight/relight_choice.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 
 #include <chrono>
@@ -170,7 +171,8 @@ Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Dev
                            const std::string& caches) {
     Scene lit = baked.scene;
     if (lights > 0)
-        lit.lights = pointsOver(lit, baked.bake->surfels, lights);
+        lit.lights =
+            pointsOver(lit, baked.bake->surfels.position, baked.bake->surfels.normal, lights);
     const Result<Camera> camera = chooseCamera(lit, o.camera);
     if (!camera)
         return tl::make_unexpected(camera.error());

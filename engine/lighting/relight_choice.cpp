@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/relight_choice.h"
+#include "engine/lighting/relight_choice.h"
 
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <thread>
@@ -50,10 +48,9 @@ RelightOn chooseRelight(RelightOn wanted, bool gpuCan, const std::optional<Relig
 }
 
 std::string relightTimesKey(const std::string& device, std::uint32_t driverVersion,
-                            const Bake& bake) {
-    const std::uint64_t bytes = bytesOf(bake).links;
-    return fmt::format("{}, driver {}, {} threads, links 4^{}", device, driverVersion,
-                       std::thread::hardware_concurrency(), std::bit_width(bytes) / 2);
+                            std::string_view sizeClass) {
+    return fmt::format("{}, driver {}, {} threads, {}", device, driverVersion,
+                       std::thread::hardware_concurrency(), sizeClass);
 }
 
 std::optional<RelightTimes> rememberedRelightTimes(const std::string& file,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/relight_choice.h"
+#include "engine/lighting/relight_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -32,18 +32,12 @@ TEST(RelightChoice, WithoutAGpuItIsTheCpu) {
         EXPECT_EQ(chooseRelight(wanted, false, kGpuFaster), RelightOn::Cpu);
 }
 
-Bake ofLinks(std::size_t links) {
-    Bake bake;
-    bake.caches.links.resize(links);
-    return bake;
-}
-
 TEST(RelightChoice, AnotherDeviceDriverOrSizeIsAnotherKey) {
-    const std::string key = relightTimesKey("device", 7, ofLinks(1000));
-    EXPECT_EQ(relightTimesKey("device", 7, ofLinks(1000)), key);
-    EXPECT_NE(relightTimesKey("other", 7, ofLinks(1000)), key);
-    EXPECT_NE(relightTimesKey("device", 8, ofLinks(1000)), key);
-    EXPECT_NE(relightTimesKey("device", 7, ofLinks(4000)), key);
+    const std::string key = relightTimesKey("device", 7, "links 4^6");
+    EXPECT_EQ(relightTimesKey("device", 7, "links 4^6"), key);
+    EXPECT_NE(relightTimesKey("other", 7, "links 4^6"), key);
+    EXPECT_NE(relightTimesKey("device", 8, "links 4^6"), key);
+    EXPECT_NE(relightTimesKey("device", 7, "links 4^7"), key);
 }
 
 class RelightTimesFile : public testing::Test {

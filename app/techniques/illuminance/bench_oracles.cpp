@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_oracles.h"
+#include "app/techniques/illuminance/bench_oracles.h"
 
 #include "app/commands/number_range.h"
 #ifdef LIMN_HAS_VIEWPORT
-#include "app/bench/device_oracle.h"
+#include "app/techniques/illuminance/device_oracle.h"
 #endif
 #include "engine/core/log.h"
 #include "engine/techniques/illuminance/stress/case_file.h"

@@ -4,6 +4,7 @@
 #include "app/bench/settings_sweep.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
+#include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas_stage.h"

@@ -5,7 +5,8 @@
 
 namespace limn {
 
-/// The technique that lights a bake, by the paper's method.
+/// The technique that lights a bake, by the paper's method. Its precomputed data is a
+/// BakedIlluminance.
 extern const Technique kIlluminanceTechnique;
 
 } // namespace limn

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/measure/bake_to_error.h"
+#include "engine/measure/bake_to_error.h"
 
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
 #include "engine/measure/seen_points.h"
 #include "engine/reference/direct_light.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
-#include "engine/techniques/illuminance/relight/relight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,24 +69,26 @@ bool isDark(const Truth& truth) {
     return std::ranges::all_of(truth.first.rgb, [](glm::vec3 e) { return e == glm::vec3(0); });
 }
 
-Result<Comparison> measure(const TraceScene& trace, const std::shared_ptr<const Bake>& bake,
-                           const Truth& truth, const Progress& progress) {
-    Relighter relighter(bake);
-    relighter.relight(trace.scene(), trace, trace.scene().bake.maxBounces, progress);
+Result<Comparison> measure(const TraceScene& trace, const Prepared& prepared, const Truth& truth,
+                           const Progress& progress) {
+    const Scene& scene = trace.scene();
+    const auto lighting = prepared.data->technique().light(prepared);
+    lighting->update({.scene = scene, .trace = &trace, .bounces = scene.bake.maxBounces}, progress);
     if (progress.cancelled())
         return fail("cancelled");
-    const Result<Comparison> error =
-        compareImages(sum(truth.direct, lookUpIrradiance(relighter.field(), bake->lightmap,
-                                                         trace.scene(), truth.points)),
-                      truth.first, truth.second);
+    const Result<Comparison> error = compareImages(
+        sum(truth.direct,
+            lookUpIrradiance(*lighting->field(), prepared.data->layout(), scene, truth.points)),
+        truth.first, truth.second);
     return error;
 }
 
-bool fits(const Scene& scene, const BakeSettings& settings, bool stored,
+bool fits(const Technique& technique, const Scene& scene, const BakeSettings& settings, bool stored,
           const MemoryBudget& memory) {
     Scene finer = scene;
     finer.bake = settings;
-    return residentMemory() + predictBake(finer, stored).working <= memory.most;
+    return residentMemory() + technique.precomputation->predict(finer, stored).working <=
+           memory.most;
 }
 
 } // namespace
@@ -104,26 +104,28 @@ BakeSettings finerSettings(const BakeSettings& settings) {
     return s;
 }
 
-Result<MeasuredBake> bakeToError(const TraceScene& trace, const ErrorGoal& goal,
-                                 const Progress& progress, StageStore* store,
+Result<MeasuredBake> bakeToError(const Technique& technique, const TraceScene& trace,
+                                 const ErrorGoal& goal, const Progress& progress, StageStore* store,
                                  const MemoryBudget& memory,
                                  const std::function<void(const MeasuredBake&)>& baked) {
     using End = MeasuredBake::End;
     BakeSettings settings = trace.scene().bake;
+    const auto scene = std::make_shared<const Scene>(trace.scene());
     std::optional<Truth> truth;
     MeasuredBake best;
     for (int inVain = 0;;) {
-        Result<Bake> made = bake(trace, progress, store, &settings, memory);
+        const auto made = technique.precomputation->prepare(
+            trace, {.settings = &settings, .store = store, .memory = memory}, progress);
         if (!made)
             return tl::make_unexpected(made.error());
-        MeasuredBake next{std::make_shared<const Bake>(std::move(*made)), {}, End::Held};
+        MeasuredBake next{*made, {}, End::Held};
         if (!truth)
             truth = findTruth(trace, goal.camera, progress);
         if (!truth)
             return fail("cancelled");
         if (isDark(*truth))
             return fail("the camera sees no light, so no error is known");
-        Result<Comparison> error = measure(trace, next.bake, *truth, progress);
+        Result<Comparison> error = measure(trace, {next.bake, scene}, *truth, progress);
         if (!error)
             return tl::make_unexpected(error.error());
         next.error = *error;
@@ -140,7 +142,7 @@ Result<MeasuredBake> bakeToError(const TraceScene& trace, const ErrorGoal& goal,
             best.end = End::NoBetter;
         else if (finer == settings)
             best.end = End::Finest;
-        else if (!fits(trace.scene(), finer, store != nullptr, memory))
+        else if (!fits(technique, trace.scene(), finer, store != nullptr, memory))
             best.end = End::Memory;
         if (best.end != End::Held)
             return best;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/bench/bench_bakes.h"
+#include "app/techniques/illuminance/bench_bakes.h"
 
 #include <cstdint>
 #include <string>

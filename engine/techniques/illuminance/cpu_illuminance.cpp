@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/cpu_illuminance.h"
+#include "engine/techniques/illuminance/cpu_illuminance.h"
 
+#include "engine/techniques/illuminance/illuminance_snapshot.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
 
 namespace limn {
@@ -9,6 +10,12 @@ LightingReport CpuIlluminance::update(const LightingInput& input, const Progress
     const CacheFlags* seen =
         input.view ? &seenFrom(m_seen, *m_baked, *m_bake, *input.view) : nullptr;
     return reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
+}
+
+std::shared_ptr<const LightSnapshot> CpuIlluminance::snapshot() const {
+    const Relighter& r = m_relighter;
+    return std::make_shared<const IlluminanceSnapshot>(
+        LitBake{r.radiosity(), r.cacheSh(), int(r.field().bands)});
 }
 
 } // namespace limn

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_bakes.h"
-#include "app/bench/bench_relight_gpu.h"
 #include "app/bench/moving_lights.h"
+#include "app/techniques/illuminance/bench_bakes.h"
+#include "app/techniques/illuminance/bench_relight_gpu.h"
+#include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/measure/read_bandwidth.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
@@ -207,7 +208,8 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
     for (const std::uint32_t lights : o.lights) {
         Scene lit = baked.scene;
         if (lights > 0)
-            lit.lights = pointsOver(lit, baked.bake->surfels, lights);
+            lit.lights =
+                pointsOver(lit, baked.bake->surfels.position, baked.bake->surfels.normal, lights);
         for (const std::string& wanted : o.devices) {
             const Result<std::vector<Measured>> measured = runsOn(wanted, o, lit, baked);
             if (!measured)

@@ -3,6 +3,7 @@
 #include "app/commands/number_range.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
+#include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/core/parallel.h"
 #include "engine/files/image_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/device_oracle.h"
+#include "app/techniques/illuminance/device_oracle.h"
 
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"

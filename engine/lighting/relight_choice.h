@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/techniques/illuminance/bake/bake.h"
 
 #include <array>
 #include <cstdint>
@@ -22,14 +21,14 @@ struct RelightTimes {
     bool operator==(const RelightTimes&) const = default;
 };
 
-/// Returns Cpu or Gpu: the one asked for where a GPU can light the bake, else Cpu. Auto gives the
+/// Returns Cpu or Gpu: the one asked for where a GPU can light the scene, else Cpu. Auto gives the
 /// faster one, and Cpu where both take the same or neither was measured.
 RelightOn chooseRelight(RelightOn wanted, bool gpuCan, const std::optional<RelightTimes>& times);
 
-/// Key under which times are stored: the Vulkan device, its driver, this machine's threads and the
-/// power of four that the links' bytes reach, since times do not carry over to other sizes.
+/// Key under which times are stored: the Vulkan device, its driver, this machine's threads and
+/// Precomputed::sizeClass(), since times do not carry over to other sizes.
 std::string relightTimesKey(const std::string& device, std::uint32_t driverVersion,
-                            const Bake& bake);
+                            std::string_view sizeClass);
 
 /// The times stored in the file under `key`; std::nullopt where there are none, or where the file
 /// is missing, damaged or of another version.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "engine/core/process_memory.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
-#include "engine/techniques/illuminance/measure/bake_to_error.h"
+#include "engine/measure/bake_to_error.h"
 
+#include "engine/core/process_memory.h"
+#include "engine/techniques/technique_table.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,8 @@
 namespace limn {
 namespace {
 
+const Technique& kBaking = precomputingTechnique({});
+
 ErrorGoal goal(const Scene& scene, double nrmse) {
     return {nrmse, chooseCamera(scene, {})};
 }
@@ -24,7 +26,7 @@ struct Way {
     std::vector<double> error;
 
     void operator()(const MeasuredBake& made) {
-        texels.push_back(made.bake->settings.lightmapCaches);
+        texels.push_back(made.bake->settings().lightmapCaches);
         error.push_back(made.error.nrmse);
     }
 };
@@ -33,19 +35,20 @@ TEST(BakeToError, GrowsUntilTheErrorIsHeld) {
     const Scene scene = *litRoom(100, 60);
     const TraceScene trace(scene);
     Way way;
-    const auto first = bakeToError(trace, goal(scene, 10), {}, nullptr, {}, std::ref(way));
+    const auto first = bakeToError(kBaking, trace, goal(scene, 10), {}, nullptr, {}, std::ref(way));
     ASSERT_TRUE(first) << first.error().message;
     ASSERT_EQ(way.texels, std::vector<std::uint32_t>{60}) << "any error will do";
     ASSERT_GT(first->error.nrmse, 0.01);
     way = {};
     const double half = first->error.nrmse / 2;
-    const auto held = bakeToError(trace, goal(scene, half), {}, nullptr, {}, std::ref(way));
+    const auto held =
+        bakeToError(kBaking, trace, goal(scene, half), {}, nullptr, {}, std::ref(way));
     ASSERT_TRUE(held) << held.error().message;
     EXPECT_EQ(held->end, MeasuredBake::End::Held);
     EXPECT_LE(held->error.nrmse, half);
     ASSERT_GE(way.texels.size(), 2U);
     EXPECT_EQ(way.texels[1], 120U);
-    EXPECT_EQ(held->bake->settings.lightmapCaches, way.texels.back());
+    EXPECT_EQ(held->bake->settings().lightmapCaches, way.texels.back());
     EXPECT_EQ(way.error.front(), first->error.nrmse) << "the same points";
 }
 
@@ -53,7 +56,7 @@ TEST(BakeToError, EndsWhereMoreTexelsAreOfNoUse) {
     Scene scene = *litRoom(400, 400);
     scene.bake.maxBounces = 1; // whatever the texels: the light of the other bounces is missing
     const TraceScene trace(scene);
-    const auto made = bakeToError(trace, goal(scene, 1e-3));
+    const auto made = bakeToError(kBaking, trace, goal(scene, 1e-3));
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->end, MeasuredBake::End::NoBetter);
     EXPECT_LT(made->error.bias, -0.01);
@@ -62,13 +65,14 @@ TEST(BakeToError, EndsWhereMoreTexelsAreOfNoUse) {
 TEST(BakeToError, EndsWhereMemoryDoes) {
     const Scene scene = *litRoom(4000, 4000);
     const TraceScene trace(scene);
-    MemoryBudget memory{.most = residentMemory() + predictBake(scene).working + (1 << 20)};
-    const auto made = bakeToError(trace, goal(scene, 1e-4), {}, nullptr, memory);
+    MemoryBudget memory{.most = residentMemory() +
+                                kBaking.precomputation->predict(scene, false).working + (1 << 20)};
+    const auto made = bakeToError(kBaking, trace, goal(scene, 1e-4), {}, nullptr, memory);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->end, MeasuredBake::End::Memory);
-    EXPECT_EQ(made->bake->settings.lightmapCaches, 4000U);
+    EXPECT_EQ(made->bake->settings().lightmapCaches, 4000U);
     memory.most = 1;
-    const auto none = bakeToError(trace, goal(scene, 1e-4), {}, nullptr, memory);
+    const auto none = bakeToError(kBaking, trace, goal(scene, 1e-4), {}, nullptr, memory);
     ASSERT_FALSE(none);
     EXPECT_NE(none.error().message.find("--memory"), std::string::npos) << none.error().message;
 }
@@ -76,12 +80,12 @@ TEST(BakeToError, EndsWhereMemoryDoes) {
 TEST(BakeToError, FailsInTheDarkAndWhenCancelled) {
     Scene scene = *litRoom(100, 60);
     std::atomic<bool> cancel = true;
-    EXPECT_FALSE(bakeToError(TraceScene(scene), goal(scene, 1), {.cancel = &cancel}));
+    EXPECT_FALSE(bakeToError(kBaking, TraceScene(scene), goal(scene, 1), {.cancel = &cancel}));
     scene.lights.clear();
     for (Material& m : scene.materials)
         m.emission = glm::vec3(0);
     scene.sky = {};
-    const auto dark = bakeToError(TraceScene(scene), goal(scene, 1));
+    const auto dark = bakeToError(kBaking, TraceScene(scene), goal(scene, 1));
     ASSERT_FALSE(dark);
     EXPECT_EQ(dark.error().message, "the camera sees no light, so no error is known");
 }

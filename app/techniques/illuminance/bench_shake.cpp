@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_shake.h"
+#include "app/techniques/illuminance/bench_shake.h"
 
 #include "app/bench/random_scene.h"
 #include "app/commands/number_range.h"

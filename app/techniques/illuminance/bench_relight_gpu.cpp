@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_relight_gpu.h"
+#include "app/techniques/illuminance/bench_relight_gpu.h"
 
 #include "engine/gpu/device.h"
 #include "engine/scene/surface/receiver_bands.h"

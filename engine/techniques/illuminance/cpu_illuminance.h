@@ -20,7 +20,7 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
 
     const IndirectField* field() const override { return &m_relighter.field(); }
-    const Relighter& relighter() const { return m_relighter; }
+    std::shared_ptr<const LightSnapshot> snapshot() const override;
 
 private:
     Relighter m_relighter;

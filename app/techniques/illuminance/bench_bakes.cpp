@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_bakes.h"
+#include "app/techniques/illuminance/bench_bakes.h"
 
 #include "app/commands/progress_line.h"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/bench_oracles.h"
+#include "app/techniques/illuminance/bench_oracles.h"
+#include "app/techniques/illuminance/illuminance_program.h"
 #ifdef LIMN_HAS_VIEWPORT
-#include "app/bench/bench_shake.h"
+#include "app/techniques/illuminance/bench_shake.h"
 #endif
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/lighting/technique.h"
 #include "engine/measure/compare.h"
-#include "engine/techniques/illuminance/bake/bake.h"
 
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,7 @@ namespace limn {
 
 /// A bake and the error of its light.
 struct MeasuredBake {
-    std::shared_ptr<const Bake> bake;
+    std::shared_ptr<const Precomputed> bake;
     Comparison error; ///< of the irradiance, direct and bounced, at 96 x 54 visible points
     enum class End : std::uint8_t {
         Held,     ///< the error is at most the goal
@@ -33,10 +33,11 @@ BakeSettings finerSettings(const BakeSettings& settings);
 
 /// Bakes with the scene's settings, then with ever finer ones until the error in the scene's light
 /// meets the goal. Returns the bake of the least error where none meets it. `baked` is called with
-/// each bake when it is done. Fails as bake() does, and where the camera sees no light.
-Result<MeasuredBake> bakeToError(const TraceScene& trace, const ErrorGoal& goal,
-                                 const Progress& progress = {}, StageStore* store = nullptr,
-                                 const MemoryBudget& memory = {},
+/// each bake when it is done. Fails as Precomputation::prepare() does, and where the camera sees no
+/// light. Precondition: `technique` precomputes.
+Result<MeasuredBake> bakeToError(const Technique& technique, const TraceScene& trace,
+                                 const ErrorGoal& goal, const Progress& progress = {},
+                                 StageStore* store = nullptr, const MemoryBudget& memory = {},
                                  const std::function<void(const MeasuredBake&)>& baked = {});
 
 } // namespace limn

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/lighting/light_snapshot.h"
+#include "engine/lighting/lighting_report.h"
+#include "engine/lightmap/lightmap_layout.h"
+#include "engine/overlay/overlay_data.h"
+#include "engine/overlay/overlay_kind.h"
+#include "engine/scene/scene.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limn {
+
+struct Technique;
+
+/// Duration of each stage of a precomputation in order [s].
+using StageSeconds = std::vector<std::pair<std::string, double>>;
+
+/// What a precomputation did and what it made, as printed by the statistics panel and --json.
+struct PrecomputedReport {
+    std::vector<LightingCounter> counts;
+    std::vector<LightingCounter> bytes; ///< memory that updates read, part by part [bytes]
+    StageSeconds seconds;
+    std::vector<std::string> notes; ///< what was recomputed and why
+};
+
+/// Sum of the counters' values.
+double totalOf(const std::vector<LightingCounter>& counters);
+/// Sum of the stages' durations [s].
+double totalOf(const StageSeconds& seconds);
+
+/// Estimate of a precomputation, made before it starts.
+struct Prediction {
+    std::uint64_t caches = 0;           ///< number of places that gather light
+    std::uint64_t minTexels = 0;        ///< needed, where more than were asked for; else 0
+    std::vector<LightingCounter> bytes; ///< as PrecomputedReport::bytes
+    std::uint64_t file = 0;             ///< size of its file [bytes]
+    std::uint64_t working = 0; ///< peak memory while it runs and is written, besides the scene
+                               ///< [bytes]
+};
+
+/// What a technique computed of a scene in advance, so that its light can follow changes of lights,
+/// materials, sky and dynamic objects. Immutable.
+class Precomputed {
+public:
+    virtual ~Precomputed() = default;
+
+    virtual const Technique& technique() const = 0;
+    /// The settings that it was made with.
+    virtual const BakeSettings& settings() const = 0;
+    /// Precomputation::inputHash() of the scene that it was made from.
+    virtual std::uint64_t inputHash() const = 0;
+    /// Hash of the content; equal for equal documents, whatever the stage store held.
+    virtual std::uint64_t hash() const = 0;
+    /// The lightmap that the light is computed for.
+    virtual const LightmapLayout& layout() const = 0;
+    virtual PrecomputedReport report() const = 0;
+
+    /// Names the size on which the time of an update depends, coarsely: "links 4^12". Measured
+    /// times are remembered by it.
+    virtual std::string sizeClass() const = 0;
+    /// Expected duration of each stage with other settings for the same scene [s].
+    virtual StageSeconds expectedSeconds(const BakeSettings& wanted) const = 0;
+
+    /// Describes the first defect that makes it unsafe to light `scene` with it; empty: none.
+    virtual std::string defect(const Scene& scene) const = 0;
+    /// Writes a file that Precomputation::read() reads.
+    virtual Result<void> write(const std::string& path) const = 0;
+
+    // Overlays, of the kinds in Technique::overlays. A technique without any keeps these.
+
+    /// Builds an overlay. `scene` is the one that this was made from; its materials may be newer.
+    /// `light` is read by kinds that show light and may be null.
+    virtual OverlayData overlay(const OverlayRequest& /*request*/, const Scene& /*scene*/,
+                                const LightSnapshot* /*light*/) const {
+        return {};
+    }
+    /// Largest OverlayRequest::depth.
+    virtual std::uint32_t maxOverlayDepth() const { return 0; }
+    /// Things are picked by their numbers below this.
+    virtual std::uint32_t pickCount() const { return 0; }
+    /// Number of the thing that lights the surface which was hit; std::nullopt: there is none.
+    /// `hit` names an instance of the baked scene, or one past its end for an unknown object.
+    virtual std::optional<std::uint32_t> pickAt(const Scene& /*scene*/, const Hit& /*hit*/) const {
+        return {};
+    }
+    /// Number of the thing here that lies nearest to number `pick` of `other`, which is of the same
+    /// technique.
+    virtual std::optional<std::uint32_t> nearestPick(const Precomputed& /*other*/,
+                                                     std::uint32_t /*pick*/) const {
+        return {};
+    }
+    /// Describes number `pick` for kinds with OverlayKind::describesPick. `scene` as for overlay().
+    virtual std::vector<OverlayLine> describePick(const Scene& /*scene*/,
+                                                  std::uint32_t /*pick*/) const {
+        return {};
+    }
+};
+
+/// Precomputed data with the scene that it was made from. Both are null where a technique
+/// precomputes nothing.
+struct Prepared {
+    std::shared_ptr<const Precomputed> data;
+    std::shared_ptr<const Scene> scene;
+};
+
+} // namespace limn

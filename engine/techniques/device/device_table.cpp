@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/device/device_table.h"
+
+#include "engine/techniques/illuminance/gpu/device_illuminance.h"
+#include "engine/techniques/illuminance/illuminance.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+struct Row {
+    const Technique* technique;
+    Result<std::unique_ptr<Lighting>> (*light)(gpu::Device&, Viewport&, const Prepared&);
+};
+
+constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice}};
+
+} // namespace
+
+Result<std::unique_ptr<Lighting>> lightOnDevice(const Technique& technique, gpu::Device& device,
+                                                Viewport& viewport, const Prepared& prepared) {
+    for (const Row& row : kRows)
+        if (row.technique == &technique)
+            return row.light(device, viewport, prepared);
+    return fail(fmt::format("the technique \"{}\" lights on the CPU only", technique.name));
+}
+
+} // namespace limn

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/lighting/light_snapshot.h"
+#include "engine/techniques/illuminance/overlay/overlay.h"
+
+#include <utility>
+
+namespace limn {
+
+/// The light of a lit bake, copied for overlays.
+class IlluminanceSnapshot : public LightSnapshot {
+public:
+    explicit IlluminanceSnapshot(LitBake of) : lit(std::move(of)) {}
+
+    const LitBake lit;
+};
+
+} // namespace limn
