@@ -64,7 +64,7 @@ float seenFromCell(const std::uint16_t* texels, glm::vec3 way, float reach) {
     for (std::size_t k = 0; k < 4; ++k)
         inverse += at.weight[k] * float(texels[at.texel[k]]);
     const float share = length * inverse * (kGridDepthScale / 65535 / reach);
-    return std::clamp((1.15f - share) * 10, 0.f, 1.f);
+    return std::clamp((float(GRID_HIDDEN) - share) * float(GRID_FALLOFF), 0.f, 1.f);
 }
 
 } // namespace limn

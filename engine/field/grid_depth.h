@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/mesh/bounds.h"
+#include "shaders/shared/grid_lookup.h"
 
 #include <array>
 #include <cstdint>
@@ -18,9 +19,10 @@ namespace limn {
 // Fields, 2019, would spread over the width of a texel. Texels are 16-bit unorms of reach / (64
 // depth). 0 means the sky; all ones mean that the cell lies in a solid. A cell takes 512 bytes.
 
-inline constexpr std::uint32_t kGridDepthSide = 16;
+inline constexpr std::uint32_t kGridDepthSide = GRID_DEPTH_SIDE;
 inline constexpr std::uint32_t kGridDepthTexels = kGridDepthSide * kGridDepthSide;
-inline constexpr float kGridDepthScale = 64; ///< the smallest representable depth is reach / this
+inline constexpr float kGridDepthScale =
+    float(GRID_DEPTH_SCALE); ///< the smallest representable depth is reach / this
 
 /// The four texels around a direction, with bilinear weights.
 struct GridDepthLookup {

@@ -26,12 +26,6 @@ Coefficients sampleLightmap(const IndirectField& field, const LightmapLayout& la
     return c;
 }
 
-// If none of the eight cells sees the point, all count as if they did.
-constexpr float kUnseen = 1e-5f;
-// Offset along the normal, relative to a cell's shortest side, so that a surface does not occlude
-// itself.
-constexpr float kDepthBias = 0.01f;
-
 /// Weights of the eight cells around `p`, with sum 1: trilinear, times the visibility of `p` from
 /// each.
 struct GridLookup {
@@ -46,7 +40,8 @@ GridLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
                    glm::vec3(0), cells - 1.f);
     const glm::uvec3 base = glm::min(glm::uvec3(x), glm::max(field.gridSize, glm::uvec3(2)) - 2U);
     const glm::vec3 f = x - glm::vec3(base);
-    const glm::vec3 clear = p + n * (kDepthBias * std::min({cellSize.x, cellSize.y, cellSize.z}));
+    const glm::vec3 clear =
+        p + n * (float(GRID_DEPTH_BIAS) * std::min({cellSize.x, cellSize.y, cellSize.z}));
     const float reach = gridReach(field.gridBounds, field.gridSize);
     GridLookup lookup;
     float sum = 0;
@@ -61,8 +56,8 @@ GridLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
         if (field.gridDepth) {
             const glm::vec3 centre = field.gridBounds.lower + (glm::vec3(at) + 0.5f) * cellSize;
             lookup.weight[corner] *=
-                kUnseen + seenFromCell(field.gridDepth->data() + cell * kGridDepthTexels,
-                                       clear - centre, reach);
+                float(GRID_UNSEEN) + seenFromCell(field.gridDepth->data() + cell * kGridDepthTexels,
+                                                  clear - centre, reach);
         }
         sum += lookup.weight[corner];
     }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Visibility of a point from the cells of the grid, as in engine/field/grid_depth.h. Needs gridDepth[] with two values
 // per word.
-#define GRID_DEPTH_SIDE 16
-#define GRID_DEPTH_SCALE 64.0
+#include "shaders/shared/grid_lookup.h"
 
 float unfolded(float v, float signOf) {
     return signOf < 0.0 ? -v : v;
@@ -40,5 +39,5 @@ float seenFromCell(uint cell, vec3 way, float reach) {
     if (length1 == 0.0)
         return inverse == 65535.0 ? 0.0 : 1.0;
     const float share = length1 * inverse * (GRID_DEPTH_SCALE / 65535.0 / reach);
-    return clamp((1.15 - share) * 10.0, 0.0, 1.0);
+    return clamp((GRID_HIDDEN - share) * GRID_FALLOFF, 0.0, 1.0);
 }

@@ -67,7 +67,7 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
     const ivec3 lower = min(ivec3(x), last);
     const vec3 f = x - vec3(lower);
     const vec3 cellSize = 1.0 / frame.gridScale; // from here on as sampleIrradiance() on the CPU
-    const vec3 clear = position + normal * (0.01 * min(cellSize.x, min(cellSize.y, cellSize.z)));
+    const vec3 clear = position + normal * (GRID_DEPTH_BIAS * min(cellSize.x, min(cellSize.y, cellSize.z)));
     float sum = 0.0;
     for (int k = 0; k < 8; ++k) {
         const ivec3 high = ivec3(k & 1, (k >> 1) & 1, k >> 2);
@@ -78,7 +78,7 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
         float weight = w.x * w.y * w.z;
         if (frame.gridReach > 0.0) {
             const vec3 centre = frame.gridLower + (vec3(cell) + 0.5) * cellSize;
-            weight *= 1e-5 + seenFromCell(index, clear - centre, frame.gridReach);
+            weight *= GRID_UNSEEN + seenFromCell(index, clear - centre, frame.gridReach);
         }
         sum += weight;
         [[unroll]] for (int layer = 0; layer < kLayers; ++layer) {
