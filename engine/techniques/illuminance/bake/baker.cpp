@@ -61,18 +61,39 @@ std::uint32_t raysForPatches(const BakeSettings& settings) {
     return settings.rays < 128 ? 0 : std::min(settings.rays / 16, 32U);
 }
 
+/// A bake in progress: what every stage reads, and what stages have made so far. `owners` refers to
+/// `scene` and `set`, so a BakeRun stays where it was made.
+struct BakeRun {
+    const TraceScene& trace;
+    const Scene scene; ///< with the settings of the bake
+    const Progress& progress;
+    StageStore* store;                       ///< may be null
+    const std::vector<std::uint64_t> meshes; ///< hashMeshes() of the scene
+    Bake bake;
+    StageClock clock{bake.seconds};
+    std::uint64_t rays = 0; ///< traced so far
+    PlacedAtlas placed{};
+    SurfelSet set{};
+    std::optional<OwnerTables> owners{}; ///< from placeReceivers() on
+    CachePoints points{};
+};
+
+tl::unexpected<Error> cancelled() {
+    return fail("cancelled");
+}
+
 /// Finds the cells of patches that walls separate from their surfels.
-PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
-                           const std::vector<std::uint64_t>& meshes, const Progress& progress,
-                           StageStore* store, std::uint64_t& rays) {
-    const std::uint64_t key = stageKey(
-        Stage::PatchSides, hashRecord(describeTrace(trace, set, owners, {}, {{0}}, 1, meshes)));
-    const Scene& scene = trace.scene();
+PatchSides patchSidesStage(BakeRun& run) {
+    const SurfelSet& set = run.set;
+    const OwnerTables& owners = *run.owners;
+    const std::uint64_t key =
+        stageKey(Stage::PatchSides,
+                 hashRecord(describeTrace(run.trace, set, owners, {}, {{0}}, 1, run.meshes)));
     return keptOrMade<PatchSides>(
-        store, key, progress,
+        run.store, key, run.progress,
         [&](auto& a, auto& s) {
             a("changed", s.changed, rule::noneOr(set.surfels.size()));
-            a.each("owner", s.owner, rule::noneOr(scene.instances.size()), [&](auto& of) {
+            a.each("owner", s.owner, rule::noneOr(run.scene.instances.size()), [&](auto& of) {
                 const auto i = std::uint32_t(&of - s.owner.data());
                 a("owner", of,
                   rule::holds("of another length",
@@ -83,25 +104,25 @@ PatchSides patchSidesStage(const TraceScene& trace, const SurfelSet& set, const 
             });
         },
         [&] {
-            PatchSides made = findPatchSides(trace, set, owners, progress);
-            rays += made.rays;
+            PatchSides made = findPatchSides(run.trace, set, owners, run.progress);
+            run.rays += made.rays;
             return made;
         });
 }
 
 /// Finds the surfels' places and own caches from what the surface's caches see.
-SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
-                             const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
-                             const CachePoints& points, std::uint32_t looks,
-                             const std::vector<std::uint64_t>& meshes, const Progress& progress,
-                             StageStore* store, std::uint64_t& rays) {
-    const std::uint64_t rayStarts =
-        hashRecord(describeTrace(trace, set, owners, caches, points, std::max(looks, 1U), meshes));
+SeenPatches seenPatchesStage(BakeRun& run) {
+    const SurfelSet& set = run.set;
+    const Scene& scene = run.scene;
+    const Atlas& atlas = run.placed.atlas;
+    const Caches& caches = run.bake.caches;
+    const std::uint32_t looks = raysForPatches(scene.bake);
+    const std::uint64_t rayStarts = hashRecord(describeTrace(
+        run.trace, set, *run.owners, caches, run.points, std::max(looks, 1U), run.meshes));
     const std::uint32_t texels = atlas.layout.width * atlas.layout.height;
     const std::uint64_t key = stageKey(Stage::SeenPatches, hashValue(texels, rayStarts));
-    const Scene& scene = trace.scene();
     return keptOrMade<SeenPatches>(
-        store, key, progress,
+        run.store, key, run.progress,
         [&](auto& a, auto& s) {
             const std::uint64_t n = set.surfels.size();
             a("place", s.place, rule::count(n),
@@ -118,16 +139,16 @@ SeenPatches seenPatchesStage(const TraceScene& trace, const SurfelSet& set,
             a("ownCache", s.ownCache, rule::count(n), rule::belowOr(s.own.size(), ~0U));
         },
         [&] {
-            SeenPatches made =
-                findSeenPatches(trace, set, owners, atlas, caches, points, looks, progress);
-            rays += made.rays;
+            SeenPatches made = findSeenPatches(run.trace, set, *run.owners, atlas, caches,
+                                               run.points, looks, run.progress);
+            run.rays += made.rays;
             return made;
         });
 }
 
 /// Traces the training lights' shadow rays, again only near what moved.
-TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, TraceReport& traced,
-                             const Progress& progress, StageStore* store) {
+TracedTraining trainingStage(const BakeRun& run, TraceReport& traced) {
+    const Surfels& surfels = run.set.surfels;
     const auto fields = [&surfels](auto& a, auto& t) {
         a("irradiance", t.irradiance, rule::count(surfels.size() * TracedTraining::kCount),
           rule::within(0, 1e15)); // its square stays within float
@@ -135,17 +156,17 @@ TracedTraining trainingStage(const TraceScene& trace, const Surfels& surfels, Tr
         a("position", t.position, rule::count(surfels.size()), rule::inReach());
     };
     const auto key = [](std::uint64_t of) { return stageKey(Stage::Training, of); };
-    return keptOrMade<TracedTraining>(store, key(traced.key), progress, fields, [&] {
+    return keptOrMade<TracedTraining>(run.store, key(traced.key), run.progress, fields, [&] {
         std::optional<EarlierTraining> earlier;
         if (traced.moved)
-            if (auto light = kept<TracedTraining>(*store, key(traced.moved->key), fields))
+            if (auto light = kept<TracedTraining>(*run.store, key(traced.moved->key), fields))
                 earlier = {std::move(*light), std::move(*traced.moved)};
-        return traceTraining(trace, surfels, earlier ? &*earlier : nullptr, progress);
+        return traceTraining(run.trace, surfels, earlier ? &*earlier : nullptr, run.progress);
     });
 }
 
 BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
-    BakeCounts counts;
+    BakeCounts counts = bake.counts; // the invalid caches are known already
     for (const Instance& i : scene.instances)
         counts.triangles += scene.meshOf(i).triangleCount();
     counts.surfels = bake.surfels.size();
@@ -156,6 +177,122 @@ BakeCounts countOf(const Scene& scene, const Bake& bake, std::uint64_t rays) {
     return counts;
 }
 
+/// Fails on settings out of range, on scenes too large, and where the bake needs too much memory.
+Result<void> checkBake(const Scene& scene, bool stored, const MemoryBudget& memory) {
+    if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
+        return fail(defect);
+    if (const std::string defect = reachDefect(scene); !defect.empty())
+        return fail(defect);
+    const BakePrediction predicted = predictBake(scene, stored);
+    if (const Result<void> fits =
+            memory.allow(fmt::format("a bake of {} caches with {} rays and {} links each",
+                                     predicted.caches, scene.bake.rays, scene.bake.links),
+                         predicted.working);
+        !fits)
+        return fail("bake settings: " + fits.error().message + ": lower rays, lightmap or grid");
+    return {};
+}
+
+/// Lays the charts out, places the surfels and joins them to a tree.
+Result<void> placeSenders(BakeRun& run) {
+    std::optional<PlacedAtlas> placed =
+        atlasStage(run.trace, run.scene, run.meshes, run.progress, run.store, run.rays);
+    if (!placed)
+        return cancelled();
+    run.placed = std::move(*placed);
+    run.clock.finish("charts");
+
+    run.progress.at("surfels", 0);
+    run.set = placeSurfels(run.scene, run.scene.bake.surfels, run.placed.surfels, run.progress,
+                           run.store);
+    if (run.progress.cancelled())
+        return cancelled();
+    if (run.set.surfels.size() == 0)
+        return fail("nothing to bake: the scene has no static triangles");
+    run.clock.finish("surfels");
+
+    run.progress.at("clusters", 0);
+    run.bake.tree = buildClusterTree(run.scene, run.set, run.progress, run.store);
+    if (run.progress.cancelled())
+        return cancelled();
+    run.clock.finish("clusters");
+    return {};
+}
+
+/// Places the caches, and says which surfel owns each place of the surfaces that they will see.
+Result<void> placeReceivers(BakeRun& run) {
+    const Scene& scene = run.scene;
+    const LightmapLayout& layout = run.placed.atlas.layout;
+    Bake& bake = run.bake;
+    bake.gridBounds = gridBoundsOf(scene);
+    bake.gridSize = chooseGridSize(scene, layout, scene.bake);
+    bake.caches = placeCaches(scene, run.placed.atlas, run.points);
+    OwnerTables& owners = run.owners.emplace(scene, run.set);
+    owners.stopWith(run.progress);
+    if (run.store)
+        owners.keep(*run.store, ownerKeys(run.set, run.meshes));
+    owners.part(patchSidesStage(run));
+    if (run.progress.cancelled())
+        return cancelled();
+    run.set.surfels.area = ownedAreas(scene, run.set, owners);
+    const SeenPatches seen = seenPatchesStage(run);
+    if (run.progress.cancelled())
+        return cancelled();
+    placeSeen(scene, seen, run.set);
+    addOwnCaches(scene, layout, seen, run.set.surfels, bake.caches, run.points);
+    addGridCaches(bake.gridSize, bake.gridBounds, bake.caches, run.points);
+    run.clock.finish("caches");
+    return {};
+}
+
+Result<TraceReport> traceCaches(BakeRun& run, GatherHits& hits) {
+    Bake& bake = run.bake;
+    Result<TraceReport> traced = traceHits(
+        {run.trace, run.set, *run.owners, bake.caches, run.points, run.scene.bake.linker,
+         raysPerCache(run.scene.bake), run.meshes, gridReach(bake.gridBounds, bake.gridSize)},
+        run.progress, run.store, hits);
+    if (!traced)
+        return traced;
+    bake.notes = std::move(traced->notes);
+    bake.gridDepth = std::move(traced->gridDepth);
+    run.rays += traced->rays;
+    run.clock.finish("trace");
+    return traced;
+}
+
+/// Chooses the links of each cache among the clusters that its rays met.
+Result<void> linkCaches(BakeRun& run, const GatherHits& hits, TraceReport& traced) {
+    const BakeSettings& settings = run.scene.bake;
+    Surfels& surfels = run.set.surfels;
+    Bake& bake = run.bake;
+    const std::vector<float> seen = seenByCaches(surfels, hits, run.points, bake.caches, bake.tree);
+    TrainingLight training; // read only by CutCriterion::Detail
+    if (settings.cut == CutCriterion::Detail) {
+        const TracedTraining light = trainingStage(run, traced);
+        if (run.progress.cancelled())
+            return cancelled();
+        bake.tree = splitByRoom(bake.tree, surfels, findRooms(light));
+        weighBySight(seen, bake.tree);
+        training = trainingLight(run.scene, surfels, bake.tree, seen, light);
+        run.rays += light.rays;
+    } else {
+        weighBySight(seen, bake.tree);
+    }
+    run.clock.finish("training");
+    std::vector<double> linked;
+    if (!buildLinks(surfels, bake.tree, hits, run.points, training,
+                    {settings.cut, settings.links, int(settings.bands), settings.storage},
+                    run.progress, bake.caches, &linked))
+        return cancelled();
+    releaseFreedMemory();
+    weighByLinks(seen, linked, bake.tree);
+    bake.counts.invalidCaches = fillInvalid(bake.caches, 1 / run.placed.atlas.texelsPerMetre);
+    shade(run.scene, surfels);
+    limitGain(bake.caches, int(settings.bands), surfels);
+    run.clock.finish("cut");
+    return {};
+}
+
 } // namespace
 
 Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore* store,
@@ -163,110 +300,29 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     Scene scene = trace.scene();
     if (settings)
         scene.bake = *settings;
-    if (const std::string defect = settingsDefect(scene.bake); !defect.empty())
-        return fail(defect);
-    if (const std::string defect = reachDefect(scene); !defect.empty())
-        return fail(defect);
-    const BakePrediction predicted = predictBake(scene, store != nullptr);
-    if (const Result<void> fits =
-            memory.allow(fmt::format("a bake of {} caches with {} rays and {} links each",
-                                     predicted.caches, scene.bake.rays, scene.bake.links),
-                         predicted.working);
-        !fits)
-        return fail("bake settings: " + fits.error().message + ": lower rays, lightmap or grid");
-    const auto cancelled = [] { return fail("cancelled"); };
-    Bake result;
-    result.settings = scene.bake;
-    result.sceneHash = bakeInputHash(scene);
-    StageClock clock(result.seconds);
-
-    const std::vector<std::uint64_t> meshes = hashMeshes(scene);
-    std::uint64_t rays = 0;
-    std::optional<PlacedAtlas> placed = atlasStage(trace, scene, meshes, progress, store, rays);
-    if (!placed)
-        return cancelled();
-    Atlas& atlas = placed->atlas;
-    clock.finish("charts");
-
-    progress.at("surfels", 0);
-    SurfelSet set = placeSurfels(scene, scene.bake.surfels, placed->surfels, progress, store);
-    if (progress.cancelled())
-        return cancelled();
-    if (set.surfels.size() == 0)
-        return fail("nothing to bake: the scene has no static triangles");
-    clock.finish("surfels");
-
-    progress.at("clusters", 0);
-    result.tree = buildClusterTree(scene, set, progress, store);
-    if (progress.cancelled())
-        return cancelled();
-    clock.finish("clusters");
-
-    result.gridBounds = gridBoundsOf(scene);
-    result.gridSize = chooseGridSize(scene, atlas.layout, scene.bake);
-    CachePoints points;
-    result.caches = placeCaches(scene, atlas, points);
-    OwnerTables owners(scene, set);
-    owners.stopWith(progress);
-    if (store)
-        owners.keep(*store, ownerKeys(set, meshes));
-    owners.part(patchSidesStage(trace, set, owners, meshes, progress, store, rays));
-    if (progress.cancelled())
-        return cancelled();
-    set.surfels.area = ownedAreas(scene, set, owners);
-    const SeenPatches seenPatches =
-        seenPatchesStage(trace, set, owners, atlas, result.caches, points,
-                         raysForPatches(scene.bake), meshes, progress, store, rays);
-    if (progress.cancelled())
-        return cancelled();
-    placeSeen(scene, seenPatches, set);
-    addOwnCaches(scene, atlas.layout, seenPatches, set.surfels, result.caches, points);
-    addGridCaches(result.gridSize, result.gridBounds, result.caches, points);
-    clock.finish("caches");
-
+    if (const Result<void> possible = checkBake(scene, store != nullptr, memory); !possible)
+        return tl::make_unexpected(possible.error());
+    BakeRun run{.trace = trace,
+                .scene = scene,
+                .progress = progress,
+                .store = store,
+                .meshes = hashMeshes(scene),
+                .bake = {.settings = scene.bake, .sceneHash = bakeInputHash(scene)}};
+    if (const Result<void> placed = placeSenders(run); !placed)
+        return tl::make_unexpected(placed.error());
+    if (const Result<void> placed = placeReceivers(run); !placed)
+        return tl::make_unexpected(placed.error());
     GatherHits hits;
-    Result<TraceReport> traced =
-        traceHits({trace, set, owners, result.caches, points, scene.bake.linker,
-                   raysPerCache(scene.bake), meshes, gridReach(result.gridBounds, result.gridSize)},
-                  progress, store, hits);
+    Result<TraceReport> traced = traceCaches(run, hits);
     if (!traced)
         return tl::make_unexpected(traced.error());
-    result.notes = std::move(traced->notes);
-    result.gridDepth = std::move(traced->gridDepth);
-    clock.finish("trace");
-    const std::vector<float> seen =
-        seenByCaches(set.surfels, hits, points, result.caches, result.tree);
-    rays += traced->rays;
-    TrainingLight training; // read only by CutCriterion::Detail
-    if (scene.bake.cut == CutCriterion::Detail) {
-        const TracedTraining light = trainingStage(trace, set.surfels, *traced, progress, store);
-        if (progress.cancelled())
-            return cancelled();
-        result.tree = splitByRoom(result.tree, set.surfels, findRooms(light));
-        weighBySight(seen, result.tree);
-        training = trainingLight(scene, set.surfels, result.tree, seen, light);
-        rays += light.rays;
-    } else {
-        weighBySight(seen, result.tree);
-    }
-    clock.finish("training");
-    std::vector<double> linked;
-    if (!buildLinks(set.surfels, result.tree, hits, points, training,
-                    {scene.bake.cut, scene.bake.links, int(scene.bake.bands), scene.bake.storage},
-                    progress, result.caches, &linked))
-        return cancelled();
-    releaseFreedMemory();
-    weighByLinks(seen, linked, result.tree);
-    const std::uint32_t invalid = fillInvalid(result.caches, 1 / atlas.texelsPerMetre);
-    shade(scene, set.surfels);
-    limitGain(result.caches, int(scene.bake.bands), set.surfels);
-    clock.finish("cut");
-
-    result.lightmap = std::move(atlas.layout);
-    result.surfels = std::move(set.surfels);
-    result.counts = countOf(scene, result, rays);
-    result.counts.invalidCaches = invalid;
-    return result;
+    if (const Result<void> linked = linkCaches(run, hits, *traced); !linked)
+        return tl::make_unexpected(linked.error());
+    Bake& result = run.bake;
+    result.lightmap = std::move(run.placed.atlas.layout);
+    result.surfels = std::move(run.set.surfels);
+    result.counts = countOf(scene, result, run.rays);
+    return std::move(result);
 }
 
 } // namespace limn
