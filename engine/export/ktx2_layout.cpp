@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/ktx2_layout.h"
+
+#include <bit>
+#include <vector>
+
+namespace limn {
+
+namespace {
+
+/// A sample of the basic descriptor block: bits of a texel that belong to one channel.
+struct Sample {
+    std::uint32_t bitOffset, bits;
+    std::uint32_t channel; ///< with its qualifiers in the upper four bits
+    std::uint32_t lower, upper;
+};
+
+constexpr std::uint32_t kAlpha = 15, kExponent = 0x20, kSigned = 0x40, kFloat = 0x80;
+
+std::vector<Sample> floatSamples(std::uint32_t bits) {
+    const auto minusOne = std::bit_cast<std::uint32_t>(-1.f);
+    const auto one = std::bit_cast<std::uint32_t>(1.f);
+    std::vector<Sample> samples;
+    for (const std::uint32_t channel : {0U, 1U, 2U, kAlpha})
+        samples.push_back({std::uint32_t(samples.size()) * bits, bits, channel | kSigned | kFloat,
+                           minusOne, one});
+    return samples;
+}
+
+/// Each channel has a sample of its mantissa and one of the exponent that all share. The limits are
+/// those of the table "E5B9G9R9" in section 10 of the Khronos Data Format Specification.
+std::vector<Sample> sharedExponentSamples() {
+    std::vector<Sample> samples;
+    for (const std::uint32_t channel : {0U, 1U, 2U}) {
+        samples.push_back({channel * 9, 9, channel, 0, 8448});
+        samples.push_back({27, 5, channel | kExponent, 15, 31});
+    }
+    return samples;
+}
+
+std::vector<Sample> samplesOf(Ktx2Format format) {
+    switch (format) {
+    case Ktx2Format::Rgba16f:
+        return floatSamples(16);
+    case Ktx2Format::Rgba32f:
+        return floatSamples(32);
+    case Ktx2Format::Rgb9e5:
+        return sharedExponentSamples();
+    }
+    return {};
+}
+
+void put(std::string& out, std::uint32_t word) {
+    for (int shift = 0; shift < 32; shift += 8)
+        out += char(word >> shift);
+}
+
+} // namespace
+
+std::uint32_t ktx2TexelBytes(Ktx2Format format) {
+    switch (format) {
+    case Ktx2Format::Rgba16f:
+        return 8;
+    case Ktx2Format::Rgba32f:
+        return 16;
+    case Ktx2Format::Rgb9e5:
+        return 4;
+    }
+    return 0;
+}
+
+std::uint32_t ktx2TypeSize(Ktx2Format format) {
+    return format == Ktx2Format::Rgba16f ? 2 : 4;
+}
+
+std::string ktx2Descriptor(Ktx2Format format, bool sized) {
+    constexpr std::uint32_t kVersion = 2, kRgbsda = 1, kBt709 = 1, kLinear = 1;
+    const std::vector<Sample> samples = samplesOf(format);
+    const auto block = std::uint32_t(24 + 16 * samples.size());
+    std::string out;
+    put(out, 4 + block);
+    put(out, 0); // vendor: Khronos; type: basic format
+    put(out, kVersion | block << 16);
+    put(out, kRgbsda | kBt709 << 8 | kLinear << 16);
+    put(out, 0); // blocks of 1 x 1 x 1 x 1 texels
+    put(out, sized ? ktx2TexelBytes(format) : 0);
+    put(out, 0);
+    for (const Sample& s : samples) {
+        put(out, s.bitOffset | (s.bits - 1) << 16 | s.channel << 24);
+        put(out, 0); // position within the texel
+        put(out, s.lower);
+        put(out, s.upper);
+    }
+    return out;
+}
+
+} // namespace limn
