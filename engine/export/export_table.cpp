@@ -2,6 +2,7 @@
 #include "engine/export/export_table.h"
 
 #include "engine/core/replace_file.h"
+#include "engine/export/engine_formats.h"
 #include "engine/export/gltf_format.h"
 #include "engine/export/lightmap_format.h"
 
@@ -12,7 +13,10 @@
 
 namespace limn {
 
-static constexpr std::array kFormats = {&kGltfFormat, &kLightmapFormat};
+static constexpr std::array kFormats = {&kGltfFormat,       &kLightmapFormat, &kGridFormat,
+                                        &kJsonFormat,       &kThreeFormat,    &kBabylonFormat,
+                                        &kPlaycanvasFormat, &kFilamentFormat, &kGodotFormat,
+                                        &kBlenderFormat,    &kIblFormat};
 
 std::span<const ExportFormat* const> exportFormats() {
     return kFormats;

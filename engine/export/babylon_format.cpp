@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/engine_formats.h"
+
+#include "engine/export/engine_scene.h"
+#include "engine/export/gltf_scene.h"
+#include "engine/export/grid_texture.h"
+
+#include <array>
+
+namespace limn {
+
+static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
+
+/// Babylon.js adds a PBR material's lightmap to what the lights do and knows no albedo for it.
+static ExportSettings ownSettings(ExportSettings settings) {
+    settings.encoding = TextureEncoding::Ktx2Half;
+    settings.compress = false; // its loader reads the file itself
+    settings.quantity = LightmapQuantity::Radiance;
+    settings.bands = 1;
+    return settings;
+}
+
+static Result<std::vector<ExportFile>> write(const ExportScene& scene,
+                                             const ExportSettings& settings,
+                                             const std::string& name, const Progress& progress) {
+    nlohmann::ordered_json extras = nlohmann::ordered_json::object();
+    if (!scene.field.grid.empty()) {
+        const Sh3 mean = meanProbe(scene.field);
+        extras["probe"] = {
+            {"leftHanded", shJson(babylonHarmonics(mean, BabylonWorld::LeftHanded))},
+            {"rightHanded", shJson(babylonHarmonics(mean, BabylonWorld::RightHanded))}};
+    }
+    Result<std::vector<ExportFile>> files =
+        litScene(scene, ownSettings(settings), extras, name, progress);
+    const std::string stem = stemOf(name);
+    if (files)
+        files->push_back(loaderFile(stem + "-babylon.js", stem, {"ktx2.js", "babylon.js"}));
+    return files;
+}
+
+static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    return litSceneForecast(scene, ownSettings(settings));
+}
+
+constinit const ExportFormat kBabylonFormat = {
+    .name = "babylon",
+    .label = "Babylon.js",
+    .summary = "glTF with a lightmap of reflected radiance, the mean probe for what moves, and a "
+               "module that loads them into Babylon.js",
+    .extensions = kExtensions,
+    .settings = kSettings,
+    .write = write,
+    .forecast = forecast};
+
+} // namespace limn

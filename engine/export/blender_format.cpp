@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/engine_formats.h"
+
+#include "engine/export/engine_scene.h"
+#include "engine/export/gltf_scene.h"
+
+#include <array>
+
+namespace limn {
+
+static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
+
+static ExportSettings ownSettings(ExportSettings settings) {
+    settings.encoding = TextureEncoding::Exr;
+    settings.quantity = LightmapQuantity::Irradiance;
+    settings.bands = 1;
+    return settings;
+}
+
+static Result<std::vector<ExportFile>> write(const ExportScene& scene,
+                                             const ExportSettings& settings,
+                                             const std::string& name, const Progress& progress) {
+    Result<std::vector<ExportFile>> files =
+        litScene(scene, ownSettings(settings), nlohmann::ordered_json::object(), name, progress);
+    const std::string stem = stemOf(name);
+    if (files)
+        files->push_back(loaderFile(stem + "-blender.py", stem, {"blender.py"}));
+    return files;
+}
+
+static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    return litSceneForecast(scene, ownSettings(settings));
+}
+
+constinit const ExportFormat kBlenderFormat = {
+    .name = "blender",
+    .label = "Blender",
+    .summary = "glTF with a lightmap of irradiance as EXR, and a script that shows it in Blender",
+    .extensions = kExtensions,
+    .settings = kSettings,
+    .write = write,
+    .forecast = forecast};
+
+} // namespace limn

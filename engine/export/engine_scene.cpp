@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/engine_scene.h"
+
+#include "engine/export/export_resource.h"
+#include "engine/export/gltf_format.h"
+#include "engine/export/gltf_scene.h"
+#include "engine/export/lightmap_file.h"
+
+namespace limn {
+
+Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
+                                         nlohmann::ordered_json extras, const std::string& name,
+                                         const Progress& progress) {
+    const Result<LightmapImage> image = lightmapImage(scene, settings, progress);
+    if (!image)
+        return tl::make_unexpected(image.error());
+    Result<ExportFile> lightmap = lightmapFile(*image, settings, stemOf(name) + "-lightmap");
+    if (!lightmap)
+        return tl::make_unexpected(lightmap.error());
+    GltfOptions options;
+    options.extras["lightmap"] = lightmapJson(*image, settings, lightmap->name);
+    options.extras.update(extras);
+    Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
+    if (files)
+        files->push_back(std::move(*lightmap));
+    return files;
+}
+
+ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings) {
+    return kGltfFormat.forecast(scene, settings);
+}
+
+ExportFile loaderFile(const std::string& fileName, std::string stem,
+                      std::initializer_list<std::string_view> resources) {
+    for (char& c : stem) // it stands in comments, which a line break would end
+        c = static_cast<unsigned char>(c) < ' ' ? '_' : c;
+    std::string text;
+    for (const std::string_view resource : resources)
+        text += exportResource(resource);
+    constexpr std::string_view kPlaceholder = "ROOM";
+    for (std::size_t at = 0; (at = text.find(kPlaceholder, at)) != std::string::npos;
+         at += stem.size())
+        text.replace(at, kPlaceholder.size(), stem);
+    return {fileName, std::move(text)};
+}
+
+} // namespace limn

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/export/export_format.h"
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// The scene as glTF with its lightmap beside it, "room-lightmap.ktx2" of "room.gltf", encoded and
+/// with the quantity that `settings` ask for, as what engines load. asset.extras.limn describes the
+/// lightmap and holds the members of `extras`.
+Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
+                                         nlohmann::ordered_json extras, const std::string& name,
+                                         const Progress& progress);
+
+/// About the size of its files.
+ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings);
+
+/// A file of the export made of texts in resources/export, one after the other. A text's "ROOM" is
+/// replaced by the export's stem.
+ExportFile loaderFile(const std::string& fileName, std::string stem,
+                      std::initializer_list<std::string_view> resources);
+
+} // namespace limn

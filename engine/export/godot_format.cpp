@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/engine_formats.h"
+
+#include "engine/export/engine_scene.h"
+#include "engine/export/gltf_format.h"
+#include "engine/export/gltf_scene.h"
+#include "engine/export/godot_probes.h"
+#include "engine/export/lightmap_image.h"
+#include "engine/math/packing.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+constexpr std::array<std::string_view, 4> kSettings = {"bands", "direct", "detail", "maxSize"};
+
+ExportSettings ownSettings(ExportSettings settings) {
+    settings.bands = std::min(settings.bands, 2U); // its directional lightmaps have two
+    settings.quantity =
+        settings.bands > 1 ? LightmapQuantity::Irradiance : LightmapQuantity::IrradianceOverPi;
+    return settings;
+}
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    out.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t at = 0; at < bytes.size(); at += 3) {
+        std::uint32_t word = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            word = word << 8 |
+                   (at + k < bytes.size() ? static_cast<unsigned char>(bytes[at + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            out += at + k > bytes.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63];
+    }
+    return out;
+}
+
+void putHalf(std::string& out, float v) {
+    const std::uint16_t half = floatToHalf(std::clamp(v, -65504.f, 65504.f));
+    out += char(half);
+    out += char(half >> 8);
+}
+
+/// Texels of the layers of Godot's lightmap, RGBA in half floats.
+std::vector<std::string> layersOf(const LightmapImage& image) {
+    const std::size_t texels = std::size_t(image.width) * image.height;
+    std::vector<std::string> layers(image.layers);
+    for (std::size_t t = 0; t < texels; ++t) {
+        std::array<glm::vec3, 4> values{};
+        for (std::size_t l = 0; l < image.layers; ++l)
+            values[l] = image.rgb[l * texels + t];
+        if (image.layers == 4)
+            values = godotDirectional(values);
+        for (std::size_t l = 0; l < image.layers; ++l) {
+            for (int c = 0; c < 3; ++c)
+                putHalf(layers[l], values[l][c]);
+            putHalf(layers[l], 1);
+        }
+    }
+    return layers;
+}
+
+/// "Name(1, 2, 3)"
+template <class Numbers>
+void putArray(std::string& out, const char* type, const Numbers& numbers) {
+    out += type;
+    out += '(';
+    bool first = true;
+    for (const auto& v : numbers) {
+        if (!std::exchange(first, false))
+            out += ", ";
+        fmt::format_to(std::back_inserter(out), "{}", v);
+    }
+    out += ')';
+}
+
+void putProbes(std::string& out, const GodotProbes& probes) {
+    std::vector<float> points, colors;
+    std::vector<std::int32_t> corners, tree;
+    for (const glm::vec3& p : probes.points)
+        points.insert(points.end(), {p.x, p.y, p.z});
+    for (const Sh3& sh : probes.harmonics)
+        for (const glm::vec3& c : sh)
+            colors.insert(colors.end(), {c.x, c.y, c.z, 1.f});
+    for (const auto& t : probes.tetrahedra)
+        for (const std::uint32_t p : t)
+            corners.push_back(std::int32_t(p));
+    for (const GodotProbes::Node& node : probes.nodes) {
+        for (const float v : node.plane)
+            tree.push_back(std::bit_cast<std::int32_t>(v));
+        tree.insert(tree.end(), {node.over, node.under});
+    }
+    const glm::vec3 l = probes.lower, s = probes.upper - probes.lower;
+    out +=
+        fmt::format("probe_data = {{\n\"baked_exposure\": 1.0,\n\"bounds\": AABB({}, {}, {}, {}, "
+                    "{}, {}),\n\"interior\": false,\n\"bsp\": ",
+                    l.x, l.y, l.z, s.x, s.y, s.z);
+    putArray(out, "PackedInt32Array", tree);
+    out += ",\n\"points\": ";
+    putArray(out, "PackedVector3Array", points);
+    out += ",\n\"sh\": ";
+    putArray(out, "PackedColorArray", colors);
+    out += ",\n\"tetrahedra\": ";
+    putArray(out, "PackedInt32Array", corners);
+    out += "\n}\n";
+}
+
+/// A LightmapGIData as Godot's text resource, format 4, which Godot reads from version 4.3 on.
+std::string lightmapData(const ExportScene& scene, const LightmapImage& image) {
+    std::string out = fmt::format(
+        "[gd_resource type=\"LightmapGIData\" load_steps={} format=4]\n\n", image.layers + 2);
+    std::string images;
+    std::size_t number = 0;
+    for (const std::string& layer : layersOf(image)) {
+        out += fmt::format("[sub_resource type=\"Image\" id=\"Image_{}\"]\ndata = {{\n\"data\": "
+                           "PackedByteArray(\"{}\"),\n\"format\": \"RGBAHalf\",\n\"height\": {},\n"
+                           "\"mipmaps\": false,\n\"width\": {}\n}}\n\n",
+                           number, base64(layer), image.height, image.width);
+        images += fmt::format("{}SubResource(\"Image_{}\")", number > 0 ? ", " : "", number);
+        ++number;
+    }
+    out += fmt::format("[sub_resource type=\"Texture2DArray\" id=\"Lightmap\"]\n_images = "
+                       "Array[Image]([{}])\n\n[resource]\n",
+                       images);
+    out += "lightmap_textures = Array[TextureLayered]([SubResource(\"Lightmap\")])\n";
+    out += fmt::format("uses_spherical_harmonics = {}\n", image.layers == 4);
+    out += "user_data = []\n";
+    if (!scene.field.grid.empty())
+        putProbes(out, godotProbes(scene.field, glm::vec3(scene.document.origin)));
+    if (image.layers == 4)
+        out += "_uses_packed_directional = true\n";
+    return out;
+}
+
+Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings& settings,
+                                      const std::string& name, const Progress& progress) {
+    const Result<LightmapImage> image = lightmapImage(scene, ownSettings(settings), progress);
+    if (!image)
+        return tl::make_unexpected(image.error());
+    Result<std::vector<ExportFile>> files = gltfFiles(scene, GltfOptions{}, name, progress);
+    if (!files)
+        return files;
+    const std::string stem = stemOf(name);
+    files->push_back({stem + ".tres", lightmapData(scene, *image)});
+    files->push_back(loaderFile(stem + "-godot.gd", stem, {"godot.gd"}));
+    return files;
+}
+
+ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    const ExportSettings own = ownSettings(settings);
+    ExportForecast f = kGltfFormat.forecast(scene, own);
+    const std::uint64_t layers = own.bands > 1 ? 4 : 1;
+    f.bytes += layers * f.width * f.height * 11; // 8 bytes in base64
+    const std::uint64_t cells =
+        std::uint64_t(scene.field.gridSize.x) * scene.field.gridSize.y * scene.field.gridSize.z;
+    f.bytes += std::min(cells, std::uint64_t(kMaxGodotProbes)) * 800; // a probe and its tetrahedra
+    return f;
+}
+
+} // namespace
+
+constinit const ExportFormat kGodotFormat = {
+    .name = "godot",
+    .label = "Godot 4",
+    .summary = "glTF, a LightmapGIData with the lightmap and the grid's probes, and a script that "
+               "shows them in Godot 4.3 or later",
+    .extensions = kExtensions,
+    .settings = kSettings,
+    .write = write,
+    .forecast = forecast};
+
+} // namespace limn

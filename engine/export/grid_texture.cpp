@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/grid_texture.h"
+
+#include "engine/export/gltf_scene.h"
+#include "engine/export/ktx2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::uint32_t kGroups = 7;
+
+std::size_t cellsOf(const IndirectField& field) {
+    return std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
+}
+
+Json listOf(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+} // namespace
+
+Sh3 gridCell(const IndirectField& field, std::size_t cell) {
+    const std::size_t cells = cellsOf(field), count = std::min(field.coefficients(), 9U);
+    Sh3 c{};
+    for (std::size_t i = 0; i < count; ++i)
+        c[i] = glm::vec3(field.grid[i * cells + cell]);
+    return c;
+}
+
+Sh3 meanProbe(const IndirectField& field) {
+    const std::size_t cells = cellsOf(field);
+    std::array<glm::dvec3, 9> sum{};
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        const Sh3 c = gridCell(field, cell);
+        for (std::size_t i = 0; i < 9; ++i)
+            sum[i] += glm::dvec3(c[i]);
+    }
+    Sh3 mean;
+    for (std::size_t i = 0; i < 9; ++i)
+        mean[i] = glm::vec3(sum[i] / double(cells));
+    return mean;
+}
+
+Result<std::string> gridKtx2(const IndirectField& field, bool zstd) {
+    const glm::uvec3 n = field.gridSize;
+    const std::size_t cells = cellsOf(field), plane = std::size_t(n.x) * n.y;
+    if (cells == 0)
+        return fail("the light has no grid");
+    Ktx2Shape shape{.width = n.x, .height = n.y, .depth = kGroups * (n.z + 2), .zstd = zstd};
+    std::vector<glm::vec4> texels(shape.texels());
+    float most = 0;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        const auto groups = threeGridCell(gridCell(field, cell));
+        for (std::size_t t = 0; t < kGroups; ++t) {
+            const std::size_t slice = t * (n.z + 2) + 1 + cell / plane;
+            texels[slice * plane + cell % plane] = groups[t];
+            for (int k = 0; k < 4; ++k)
+                most = std::max(most, std::abs(groups[t][k]));
+        }
+    }
+    const auto slice = [&](std::size_t z) { return texels.begin() + std::ptrdiff_t(z * plane); };
+    for (std::size_t t = 0; t < kGroups; ++t) {
+        const std::size_t first = t * (n.z + 2);
+        std::copy(slice(first + 1), slice(first + 2), slice(first));
+        std::copy(slice(first + n.z), slice(first + n.z + 1), slice(first + n.z + 1));
+    }
+    if (most > 65504 || (most > 0 && most < 0x1p-9f))
+        shape.format = Ktx2Format::Rgba32f;
+    return encodeKtx2(shape, texels);
+}
+
+std::uint64_t gridKtx2Bytes(const IndirectField& field) {
+    const glm::uvec3 n = field.gridSize;
+    return std::uint64_t(n.x) * n.y * kGroups * (n.z + 2) * 8 + 256;
+}
+
+Json shJson(const Sh3& c) {
+    Json list = Json::array();
+    for (const glm::vec3& v : c)
+        list.push_back(listOf(v));
+    return list;
+}
+
+Json gridJson(const ExportScene& scene, const std::string& texture) {
+    const IndirectField& field = scene.field;
+    const glm::uvec3 n = field.gridSize;
+    const glm::dvec3 origin = scene.document.origin;
+    return {
+        {"format", "limn-grid"},
+        {"version", 1},
+        {"texture", uriOf(texture)},
+        {"bounds",
+         {{"lower", listOf(field.gridBounds.lower)}, {"upper", listOf(field.gridBounds.upper)}}},
+        {"origin", {origin.x, origin.y, origin.z}},
+        {"size", {n.x, n.y, n.z}},
+        {"bands", 3},
+        {"unit", "W m^-2 sr^-1"},
+        {"colors", "linear Rec. 709"},
+        {"axes", "metres, right-handed, +Y up; bounds are relative to origin"},
+        {"cells", "centre = lower + (index + 0.5) / size * (upper - lower)"},
+        {"layout",
+         "number k of a cell, k = 3 i + channel, is component k % 4 of texel (x, y, (k / 4) "
+         "(size.z + 2) + 1 + z); i = l (l + 1) + m"},
+        {"harmonics", "radiance, real, orthonormal, without Condon-Shortley sign"},
+        {"irradiance", "E(n) = max(0, sum over i of A_l c_i Y_i(n)), A = pi, 2 pi / 3, pi / 4"},
+        {"outgoingRadiance", "L = albedo / pi * E"},
+        {"mean", shJson(meanProbe(field))}};
+}
+
+} // namespace limn

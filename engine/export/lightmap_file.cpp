@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/lightmap_file.h"
+
+#include "engine/export/gltf_scene.h"
+#include "engine/export/ktx2.h"
+#include "engine/files/image_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+/// Fails on values that the encoding would clamp.
+Result<void> checkRange(const LightmapImage& image, TextureEncoding encoding) {
+    float least = 0, most = 0;
+    for (const glm::vec3& v : image.rgb) {
+        least = std::min({least, v.x, v.y, v.z});
+        most = std::max({most, v.x, v.y, v.z});
+    }
+    const bool shared = encoding == TextureEncoding::Ktx2Rgb9e5;
+    if (shared && least < 0)
+        return fail("encoding: a shared exponent cannot hold the negative values of harmonics; use "
+                    "half floats");
+    const float limit = shared ? 65408.f : 65504.f;
+    if (std::max(most, -least) > limit)
+        return fail(fmt::format("encoding: a value of {:.6g} exceeds {}, the largest that it can "
+                                "hold; use EXR or dim the lights",
+                                std::max(most, -least), limit));
+    return {};
+}
+
+} // namespace
+
+const char* textureExtension(TextureEncoding encoding) {
+    return encoding == TextureEncoding::Exr ? ".exr" : ".ktx2";
+}
+
+Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings& settings,
+                                const std::string& stem) {
+    const std::string name = stem + textureExtension(settings.encoding);
+    Result<std::string> bytes;
+    if (settings.encoding == TextureEncoding::Exr) {
+        if (image.layers > 1)
+            return fail("encoding: EXR holds one layer; use KTX2 for harmonics");
+        bytes = encodeExr({image.width, image.height, image.rgb});
+    } else {
+        if (const Result<void> ok = checkRange(image, settings.encoding); !ok)
+            return tl::make_unexpected(ok.error());
+        const bool volume = settings.layers == ShLayers::Volume;
+        const std::uint32_t layers = image.layers > 1 ? image.layers : 0;
+        bytes = encodeKtx2({.format = settings.encoding == TextureEncoding::Ktx2Half
+                                          ? Ktx2Format::Rgba16f
+                                          : Ktx2Format::Rgb9e5,
+                            .width = image.width,
+                            .height = image.height,
+                            .layers = volume ? 0 : layers,
+                            .depth = volume ? layers : 0,
+                            .zstd = settings.compress},
+                           image.rgb);
+    }
+    if (!bytes)
+        return tl::make_unexpected(bytes.error());
+    return ExportFile{name, std::move(*bytes)};
+}
+
+nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
+                                    const std::string& fileName) {
+    constexpr std::array<const char*, 3> kUnits = {"W m^-2", "W m^-2 sr^-1", "W m^-2 sr^-1"};
+    constexpr std::array<const char*, 3> kEquations = {"L = albedo / pi * texel",
+                                                       "L = albedo * texel", "L = texel"};
+    const auto quantity = std::size_t(settings.quantity);
+    return {{"uri", uriOf(fileName)},
+            {"texCoord", 1},
+            {"width", image.width},
+            {"height", image.height},
+            {"firstRow", "top"},
+            {"colors", "linear Rec. 709"},
+            {"quantity", kLightmapQuantityNames[quantity]},
+            {"unit", kUnits[quantity]},
+            {"outgoingRadiance", kEquations[quantity]},
+            {"includesDirectLight", settings.direct}};
+}
+
+} // namespace limn

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/engine_formats.h"
+
+#include "engine/export/engine_scene.h"
+#include "engine/export/gltf_scene.h"
+#include "engine/export/grid_texture.h"
+
+#include <array>
+
+namespace limn {
+
+static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
+
+static ExportSettings ownSettings(ExportSettings settings) {
+    settings.encoding = TextureEncoding::Ktx2Half;
+    settings.compress = false; // its loader reads the file itself
+    settings.quantity = LightmapQuantity::IrradianceOverPi;
+    settings.bands = 1;
+    return settings;
+}
+
+static Result<std::vector<ExportFile>> write(const ExportScene& scene,
+                                             const ExportSettings& settings,
+                                             const std::string& name, const Progress& progress) {
+    nlohmann::ordered_json extras = nlohmann::ordered_json::object();
+    if (!scene.field.grid.empty())
+        extras["probe"]["ambientSH"] = shJson(playcanvasAmbient(meanProbe(scene.field)));
+    Result<std::vector<ExportFile>> files =
+        litScene(scene, ownSettings(settings), extras, name, progress);
+    const std::string stem = stemOf(name);
+    if (files)
+        files->push_back(loaderFile(stem + "-playcanvas.js", stem, {"ktx2.js", "playcanvas.js"}));
+    return files;
+}
+
+static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    return litSceneForecast(scene, ownSettings(settings));
+}
+
+constinit const ExportFormat kPlaycanvasFormat = {
+    .name = "playcanvas",
+    .label = "PlayCanvas",
+    .summary = "glTF with a lightmap of irradiance / pi, the mean probe for what moves, and a "
+               "module that loads them into PlayCanvas",
+    .extensions = kExtensions,
+    .settings = kSettings,
+    .write = write,
+    .forecast = forecast};
+
+} // namespace limn

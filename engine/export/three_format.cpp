@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/engine_formats.h"
+
+#include "engine/export/engine_scene.h"
+#include "engine/export/gltf_scene.h"
+#include "engine/export/grid_texture.h"
+
+#include <array>
+
+namespace limn {
+
+static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+static constexpr std::array<std::string_view, 5> kSettings = {"encoding", "compress", "direct",
+                                                              "detail", "maxSize"};
+
+static ExportSettings ownSettings(ExportSettings settings) {
+    settings.quantity = LightmapQuantity::Irradiance;
+    settings.bands = 1;
+    return settings;
+}
+
+static Result<std::vector<ExportFile>> write(const ExportScene& scene,
+                                             const ExportSettings& settings,
+                                             const std::string& name, const Progress& progress) {
+    const std::string stem = stemOf(name);
+    const bool hasGrid = !scene.field.grid.empty();
+    nlohmann::ordered_json extras = nlohmann::ordered_json::object();
+    if (hasGrid)
+        extras["grid"]["uri"] = uriOf(stem + "-grid.json");
+    Result<std::vector<ExportFile>> files =
+        litScene(scene, ownSettings(settings), extras, name, progress);
+    if (!files)
+        return files;
+    if (hasGrid) {
+        Result<std::string> texture = gridKtx2(scene.field, settings.compress);
+        if (!texture)
+            return tl::make_unexpected(texture.error());
+        const std::string textureName = stem + "-grid.ktx2";
+        files->push_back({stem + "-grid.json", gridJson(scene, textureName).dump(1) + "\n"});
+        files->push_back({textureName, std::move(*texture)});
+    }
+    files->push_back(loaderFile(stem + "-three.js", stem, {"three-grid.js", "three.js"}));
+    return files;
+}
+
+static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    ExportForecast f = litSceneForecast(scene, ownSettings(settings));
+    f.bytes += gridKtx2Bytes(scene.field);
+    return f;
+}
+
+constinit const ExportFormat kThreeFormat = {
+    .name = "three",
+    .label = "three.js",
+    .summary = "glTF with a lightmap of irradiance, the grid for what moves, and a module that "
+               "loads them into three.js",
+    .extensions = kExtensions,
+    .settings = kSettings,
+    .write = write,
+    .forecast = forecast};
+
+} // namespace limn

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Shows a scene that Limn exported for Babylon.js, in left- and right-handed scenes.
+//
+//     import { loadLimn } from './ROOM-babylon.js';
+//     await loadLimn(BABYLON, 'ROOM.gltf', scene);
+//
+// The lightmap holds the radiance that surfaces reflect, albedo included; Babylon.js adds it to what the lights do. Materials
+// without a lightmap get the mean light of the scene's grid as their environment.
+
+function lightmapTexture(BABYLON, file, scene) {
+    const { Constants, Texture } = BABYLON;
+    const type = file.half ? Constants.TEXTURETYPE_HALF_FLOAT : Constants.TEXTURETYPE_FLOAT;
+    const texture = new BABYLON.RawTexture(file.data, file.width, file.height, Constants.TEXTUREFORMAT_RGBA, scene, false, false,
+        Texture.BILINEAR_SAMPLINGMODE, type);
+    texture.coordinatesIndex = 1;
+    texture.gammaSpace = false;
+    texture.wrapU = texture.wrapV = Texture.CLAMP_ADDRESSMODE;
+    return texture;
+}
+
+/** A cube texture that carries only the probe's irradiance. `probe`: as written for the scene's handedness. */
+function environment(BABYLON, probe, scene) {
+    const black = Array.from({ length: 6 }, () => new Uint8Array(4));
+    const cube = new BABYLON.RawCubeTexture(scene, black, 1, BABYLON.Constants.TEXTUREFORMAT_RGBA,
+        BABYLON.Constants.TEXTURETYPE_UNSIGNED_BYTE, false);
+    const harmonics = BABYLON.SphericalHarmonics.FromArray(probe);
+    harmonics.convertIncidentRadianceToIrradiance();
+    harmonics.convertIrradianceToLambertianRadiance();
+    cube.sphericalPolynomial = BABYLON.SphericalPolynomial.FromHarmonics(harmonics);
+    return cube;
+}
+
+/** Imports the glTF file at `url` with its light; resolves to the importer's result, lightmap and environment. */
+export async function loadLimn(BABYLON, url, scene) {
+    const address = new URL(url, document.baseURI);
+    const limn = (await (await fetch(address)).json()).asset.extras.limn;
+    const beside = async (uri) => (await fetch(new URL(uri, address))).arrayBuffer();
+    const map = limn.lightmap ? lightmapTexture(BABYLON, readKtx2(await beside(limn.lightmap.uri)), scene) : null;
+    const probe = limn.probe && limn.probe[scene.useRightHandedSystem ? 'rightHanded' : 'leftHanded'];
+    const cube = probe ? environment(BABYLON, probe, scene) : null;
+    const imported = await BABYLON.SceneLoader.ImportMeshAsync('', new URL('.', address).href, address.pathname.split('/').pop(), scene);
+    const copies = new Map();
+    for (const mesh of imported.meshes) {
+        const material = mesh.material;
+        if (!material || material.lightmapTexture) continue;
+        if (map && mesh.isVerticesDataPresent(BABYLON.VertexBuffer.UV2Kind)) {
+            if (!copies.has(material)) {
+                const copy = material.clone(material.name);
+                copy.lightmapTexture = map;
+                copies.set(material, copy);
+            }
+            mesh.material = copies.get(material);
+        } else if (cube) {
+            material.reflectionTexture = cube;
+        }
+    }
+    return { ...imported, lightmap: map, environment: cube };
+}

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+# Shows a scene that Limn exported in Blender, 3.4 or later:
+#
+#     blender --python ROOM-blender.py
+#
+# or in the text editor, beside the exported files. The camera sees albedo / pi times the irradiance that the lightmap holds, on top of
+# what Blender's lamps do. The lightmap has all bounces and the light of emissive surfaces and of the sky, so these light nothing here.
+# Lamps are left out if the lightmap includes their light.
+import json
+import math
+import os
+import urllib.parse
+
+import bpy
+
+try:  # the glTF importer of Blender 3.4 needs a name that NumPy 1.24 dropped
+    import numpy
+    numpy.bool = bool
+except ImportError:
+    pass
+
+
+def times(tree, socket, factor):
+    node = tree.nodes.new('ShaderNodeMath')
+    node.operation = 'MULTIPLY'
+    tree.links.new(socket, node.inputs[0])
+    node.inputs[1].default_value = factor
+    return node.outputs[0]
+
+
+def emission_of(material, image, uv_map):
+    """A copy of the material that also sends albedo / pi * texel to the camera."""
+    copy = material.copy()
+    copy.use_nodes = True
+    tree = copy.node_tree
+    output = next(n for n in tree.nodes if n.type == 'OUTPUT_MATERIAL')
+    surface = next((n for n in tree.nodes if n.type == 'BSDF_PRINCIPLED'), None)
+
+    uv = tree.nodes.new('ShaderNodeUVMap')
+    uv.uv_map = uv_map
+    texture = tree.nodes.new('ShaderNodeTexImage')
+    texture.image = image
+    texture.interpolation = 'Linear'
+    texture.extension = 'EXTEND'
+    tree.links.new(uv.outputs[0], texture.inputs[0])
+
+    product = tree.nodes.new('ShaderNodeMixRGB')
+    product.blend_type = 'MULTIPLY'
+    product.inputs[0].default_value = 1
+    tree.links.new(texture.outputs[0], product.inputs[1])
+    product.inputs[2].default_value = (1, 1, 1, 1)
+    if surface:
+        base = surface.inputs['Base Color']
+        if base.is_linked:
+            tree.links.new(base.links[0].from_socket, product.inputs[2])
+        else:
+            product.inputs[2].default_value = base.default_value
+
+    camera_ray = tree.nodes.new('ShaderNodeLightPath').outputs['Is Camera Ray']
+    emission = tree.nodes.new('ShaderNodeEmission')
+    tree.links.new(times(tree, camera_ray, 1 / math.pi), emission.inputs['Strength'])
+    tree.links.new(product.outputs[0], emission.inputs[0])
+    shown = emission.outputs[0]
+    if surface:
+        strength = surface.inputs['Emission Strength']
+        if not strength.is_linked:
+            tree.links.new(times(tree, camera_ray, strength.default_value), strength)
+        add = tree.nodes.new('ShaderNodeAddShader')
+        tree.links.new(shown, add.inputs[0])
+        tree.links.new(surface.outputs[0], add.inputs[1])
+        shown = add.outputs[0]
+    tree.links.new(shown, output.inputs[0])
+    return copy
+
+
+def show(path):
+    """Imports the glTF file and wires its lightmap; returns the objects that have one."""
+    with open(path, encoding='utf-8') as file:
+        limn = json.load(file)['asset']['extras']['limn']
+    before = set(bpy.data.objects)
+    bpy.ops.import_scene.gltf(filepath=path)
+    imported = [o for o in bpy.data.objects if o not in before]
+    lightmap = limn.get('lightmap')
+    if not lightmap:
+        return []
+    image = bpy.data.images.load(os.path.join(os.path.dirname(path), urllib.parse.unquote(lightmap['uri'])))
+    names = [s.identifier for s in image.colorspace_settings.bl_rna.properties['name'].enum_items]
+    image.colorspace_settings.name = 'Linear Rec.709' if 'Linear Rec.709' in names else 'Linear'
+    copies, lit = {}, []
+    for thing in imported:
+        if thing.type == 'LIGHT' and lightmap['includesDirectLight']:
+            bpy.data.objects.remove(thing)
+            continue
+        if thing.type != 'MESH' or 'UVMap.001' not in thing.data.uv_layers:
+            continue
+        for slot in thing.material_slots:
+            if slot.material not in copies:
+                copies[slot.material] = emission_of(slot.material, image, 'UVMap.001')
+            slot.material = copies[slot.material]
+        lit.append(thing)
+    scene = bpy.context.scene
+    scene.view_settings.view_transform = 'Standard'
+    scene.cycles.max_bounces = 0
+    if scene.world:
+        scene.world.use_nodes = False
+        scene.world.color = (0, 0, 0)
+    return lit
+
+
+if __name__ == '__main__':
+    here = os.path.abspath(__file__) if '__file__' in globals() else bpy.context.space_data.text.filepath
+    show(here[:-len('-blender.py')] + '.gltf')

@@ -1,0 +1,52 @@
+// Shows a scene that Limn exported for three.js.
+//
+//     import { loadLimn } from './ROOM-three.js';
+//     const { scene: room, grid } = await loadLimn('ROOM.gltf', renderer);
+//     scene.add(room);
+//     if (grid) scene.add(grid); // lights what moves
+//
+// Surfaces with a lightmap keep their own bounced light, and the grid passes them by. The lights of the glTF file are live.
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+
+async function lightMap(url, renderer) {
+    if (!url.endsWith('.exr')) {
+        const texture = await ktx2(url, renderer);
+        texture.channel = 1;
+        return texture;
+    }
+    const texture = await new EXRLoader().setDataType(THREE.FloatType).loadAsync(url);
+    texture.flipY = true; // EXRLoader hands over the bottom row first
+    texture.minFilter = texture.magFilter = THREE.LinearFilter;
+    texture.channel = 1;
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** A copy of the material that is lit by the lightmap and not by grids. */
+function lit(material, map) {
+    const copy = material.clone();
+    copy.lightMap = map;
+    copy.lightMapIntensity = 1;
+    copy.onBeforeCompile = (shader) => {
+        const chunk = THREE.ShaderChunk.lights_fragment_begin.replace(/irradiance \+= getLightProbeGridIrradiance[^;]*;/, ';');
+        shader.fragmentShader = shader.fragmentShader.replace('#include <lights_fragment_begin>', chunk);
+    };
+    return copy;
+}
+
+/** The scene of a glTF file, with its lightmap, and the grid, which is null where there is none. */
+export async function loadLimn(url, renderer) {
+    const gltf = await new GLTFLoader().loadAsync(url);
+    const limn = gltf.asset.extras.limn;
+    const map = limn.lightmap ? await lightMap(beside(limn.lightmap.uri, url), renderer) : null;
+    const copies = new Map();
+    gltf.scene.traverse((object) => {
+        if (!object.isMesh || !object.geometry.attributes.uv1 || !map) return;
+        const material = object.material;
+        if (!copies.has(material)) copies.set(material, lit(material, map));
+        object.material = copies.get(material);
+    });
+    const grid = limn.grid ? await loadLimnGrid(beside(limn.grid.uri, url), renderer) : null;
+    return { scene: gltf.scene, gltf, lightMap: map, grid };
+}
