@@ -200,7 +200,7 @@ ExportSettings ownSettings(const ExportScene& scene) {
     ExportSettings settings;
     settings.bands = std::min(scene.field.bands, 3U);
     settings.detail = 1;
-    settings.maxSize = 1U << 30;
+    settings.maxSize = 16384;
     return settings;
 }
 
