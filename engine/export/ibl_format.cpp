@@ -16,18 +16,23 @@ using Json = nlohmann::ordered_json;
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 
-/// A picture of one texel, encoded as Babylon.js' RGBD: linear colour = (rgb / 255)^2.2 / alpha.
+/// Babylon.js takes powers of two from 2 on.
+static constexpr std::uint32_t kFaceSize = 4;
+
+/// A picture of one colour, encoded as Babylon.js' RGBD: linear colour = (rgb / 255)^2.2 / alpha.
 static Result<std::string> rgbdPng(const glm::vec3& color) {
     const float most = std::max({color.x, color.y, color.z, 1e-6f});
     const float divisor = std::clamp(std::floor(255 / std::max(most, 1.f)), 1.f, 255.f) / 255;
     Image image;
     image.name = "specular";
-    image.width = image.height = 1;
-    for (int c = 0; c < 3; ++c) {
-        const float v = std::pow(std::clamp(color[c] * divisor, 0.f, 1.f), 1 / 2.2f);
-        image.rgba.push_back(std::uint8_t(std::lround(255 * v)));
+    image.width = image.height = kFaceSize;
+    for (std::uint32_t texel = 0; texel < kFaceSize * kFaceSize; ++texel) {
+        for (int c = 0; c < 3; ++c) {
+            const float v = std::pow(std::clamp(color[c] * divisor, 0.f, 1.f), 1 / 2.2f);
+            image.rgba.push_back(std::uint8_t(std::lround(255 * v)));
+        }
+        image.rgba.push_back(std::uint8_t(std::lround(255 * divisor)));
     }
-    image.rgba.push_back(std::uint8_t(std::lround(255 * divisor)));
     return encodePng(image);
 }
 
@@ -44,7 +49,7 @@ static Json withLight(Json gltf, const Sh3& mean, BabylonWorld world, const std:
                   {"intensity", 1},
                   {"rotation", {0, 0, 0, 1}},
                   {"irradianceCoefficients", shJson(imageBasedLight(mean, world))},
-                  {"specularImageSize", 1},
+                  {"specularImageSize", kFaceSize},
                   {"specularImages", Json::array({std::move(faces)})}};
     gltf["extensionsUsed"].push_back("EXT_lights_image_based");
     gltf["extensions"]["EXT_lights_image_based"]["lights"] = Json::array({std::move(light)});

@@ -37,10 +37,10 @@ export async function openBrowser(flags = []) {
 }
 
 /** Opens a page and returns its window.result, or { error }. A picture is kept at `screenshot` if the result is not ok. */
-export async function visit(browser, url, screenshot, { timeout = 180000, keep = false, size = 512 } = {}) {
+export async function visit(browser, url, screenshot, { timeout = 180000, keep = false, width = 512, height = 512 } = {}) {
     const page = await browser.newPage();
     const log = [];
-    await page.setViewport({ width: size, height: size });
+    await page.setViewport({ width, height });
     page.on('console', (m) => { if (m.type() === 'error' || m.type() === 'log') log.push(m.text()); });
     page.on('pageerror', (e) => log.push(`error: ${e.message}`));
     page.on('response', (r) => { if (r.status() >= 400 && !/favicon/.test(r.url())) log.push(`${r.status()} ${r.url()}`); });

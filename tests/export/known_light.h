@@ -128,12 +128,16 @@ private:
     void setLightmap() {
         field.lightmapWidth = field.lightmapHeight = kTexels;
         field.lightmap.resize(field.coefficients() * kTexels * kTexels);
-        const float irradianceOfOne =
-            std::numbers::pi_v<float> * std::sqrt(1 / (4 * std::numbers::pi_v<float>));
+        // A quarter of it comes from harmonic (1, 0), whose axis is the quad's normal.
+        const float pi = std::numbers::pi_v<float>, k0 = std::sqrt(1 / (4 * pi)),
+                    k1 = std::sqrt(3 / (4 * pi));
         for (std::uint32_t y = 0; y < kTexels; ++y)
-            for (std::uint32_t x = 0; x < kTexels; ++x)
-                field.lightmap[y * kTexels + x] =
-                    glm::vec4(quadIrradiance(float(x), float(y)) / irradianceOfOne, 0);
+            for (std::uint32_t x = 0; x < kTexels; ++x) {
+                const glm::vec4 e(quadIrradiance(float(x), float(y)), 0);
+                const std::uint32_t texel = y * kTexels + x;
+                field.lightmap[texel] = 0.75f * e / (pi * k0);
+                field.lightmap[2 * kTexels * kTexels + texel] = 0.25f * e / (2 * pi / 3 * k1);
+            }
     }
 
     void setGrid(const Harmonics& harmonics, glm::uvec3 n) {

@@ -4,6 +4,7 @@
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { openBrowser, serve, visit } from './browser.mjs';
+import { pack } from './godot/pack.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const [out, ...chosen] = process.argv.slice(2);
@@ -12,6 +13,13 @@ const server = await serve({
     '/node_modules/': path.join(here, 'node_modules') + '/', '/known/': path.resolve(out, 'known') + '/',
     '/out/': path.resolve(out) + '/', '/': path.join(here, 'pages') + '/',
 });
+if (pages.includes('godot')) {
+    const files = Object.fromEntries(['project.godot', 'main.tscn', 'main.gd'].map((f) => [f, path.join(here, 'godot', f)]));
+    const exported = [...Array(9).keys()].map((i) => `probe-${i}/godot`).concat('probe-0/godot-directional');
+    for (const stem of exported) for (const end of ['.gltf', '-geometry.bin', '.tres', '-godot.gd'])
+        files[stem + end] = path.join(out, 'known', stem + end);
+    pack(path.join(out, 'godot.pck'), files);
+}
 const plain = await openBrowser(), address = `http://127.0.0.1:${server.address().port}`;
 let failed = 0;
 const number = (v) => (Math.abs(v) < 1e-3 ? v.toExponential(0) : v.toFixed(3));

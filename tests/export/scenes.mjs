@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js and Babylon.js, renders them in headless Chromium beside
+// `limn render` of the same camera, and prints the nRMSE. Pictures stay in OUT/scenes/SCENE.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { openBrowser, serve, visit } from './browser.mjs';
+import { encodeExr } from './exr.mjs';
+
+const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, '../..');
+const shared = path.join(root, '../shared/scenes'), width = 384, height = 288;
+const known = {
+    cornell: { file: 'cornell', bake: [] }, atrium: { file: 'atrium', bake: ['--preset', 'draft'] },
+    sponza: { file: path.join(shared, 'sponza-crytek'), bake: ['--preset', 'draft'], lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'] },
+};
+const [out, ...chosen] = process.argv.slice(2);
+const limn = (...args) => execFileSync(path.join(root, 'build/release/limn'), args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 26 });
+
+/** The scene's file, or null. */
+function find({ file }) {
+    if (!path.isAbsolute(file)) return file;
+    const list = fs.existsSync(file) ? fs.readdirSync(file).filter((f) => /\.(gltf|glb)$/.test(f)) : [];
+    return list.length > 0 ? path.join(file, list[0]) : null;
+}
+function compare(a, b) {
+    const { nrmse, nrmse_without_worst_percent: most } = JSON.parse(limn('compare', a, b, '--json'));
+    return { nrmse, most };
+}
+
+const server = await serve({ '/node_modules/': path.join(here, 'node_modules') + '/', '/scenes/': path.resolve(out, 'scenes') + '/', '/': path.join(here, 'pages') + '/' });
+const browser = await openBrowser(), address = `http://127.0.0.1:${server.address().port}`;
+let failed = 0;
+console.log('| scene | consumer | compared with | nRMSE | without the worst 1 % |\n|---|---|---|---|---|');
+for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
+    const file = find(known[name]);
+    if (!file) {
+        console.log(`${name}: skipped, ${known[name].file} is missing`);
+        continue;
+    }
+    const folder = path.resolve(out, 'scenes', name), scene = [file, ...(known[name].lights ?? [])];
+    fs.mkdirSync(folder, { recursive: true });
+    const bake = path.join(folder, 'light.limnbake');
+    if (!fs.existsSync(bake)) limn('bake', ...scene, ...known[name].bake, '-o', bake);
+    for (const view of ['irradiance', 'indirect']) for (const end of ['exr', 'png'])
+        limn('render', ...scene, '--bake', bake, '--view', view, '--width', width, '--height', height, '-o', path.join(folder, `limn-${view}.${end}`));
+    for (const [engine, view, options] of [['three', 'irradiance', ['--encoding', 'ktx2-half']], ['babylon', 'indirect', []]]) {
+        limn('export', ...scene, '--bake', bake, '--format', engine, ...options, '-o', path.join(folder, `${engine}.gltf`));
+        const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}`;
+        const result = await visit(browser, url, path.join(folder, `${engine}.png`), { timeout: 600000, keep: true, width, height });
+        if (!result.ok) {
+            ++failed;
+            console.error(`${name}, ${engine}: ${result.error}\n${result.log.join('\n')}`);
+            continue;
+        }
+        const bytes = Buffer.from(result.rgb, 'base64');
+        const rgb = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+        const picture = path.join(folder, `${engine}-${view}.exr`);
+        fs.writeFileSync(picture, encodeExr(width, height, rgb));
+        const { nrmse, most } = compare(picture, path.join(folder, `limn-${view}.exr`));
+        console.log(`| ${name} | ${engine} | limn render --view ${view} | ${nrmse.toFixed(4)} | ${most.toFixed(4)} |`);
+    }
+}
+await browser.close();
+server.close();
+process.exit(failed > 0 ? 1 : 0);
