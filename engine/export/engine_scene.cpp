@@ -8,6 +8,11 @@
 
 namespace limn {
 
+static void replaceAll(std::string& text, std::string_view what, std::string_view by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+        text.replace(at, what.size(), by);
+}
+
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
                                          nlohmann::ordered_json extras, const std::string& name,
                                          const Progress& progress) {
@@ -37,10 +42,8 @@ ExportFile loaderFile(const std::string& fileName, std::string stem,
     std::string text;
     for (const std::string_view resource : resources)
         text += exportResource(resource);
-    constexpr std::string_view kPlaceholder = "ROOM";
-    for (std::size_t at = 0; (at = text.find(kPlaceholder, at)) != std::string::npos;
-         at += stem.size())
-        text.replace(at, kPlaceholder.size(), stem);
+    replaceAll(text, "ROOM", stem);
+    replaceAll(text, "#include \"sh-lightmap.glsl\"", exportResource("sh-lightmap.glsl"));
     return {fileName, std::move(text)};
 }
 

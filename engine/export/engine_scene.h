@@ -24,7 +24,7 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings);
 
 /// A file of the export made of texts in resources/export, one after the other. A text's "ROOM" is
-/// replaced by the export's stem.
+/// replaced by the export's stem, and a line that includes sh-lightmap.glsl by that file.
 ExportFile loaderFile(const std::string& fileName, std::string stem,
                       std::initializer_list<std::string_view> resources);
 

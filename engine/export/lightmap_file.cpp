@@ -73,16 +73,27 @@ nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSett
     constexpr std::array<const char*, 3> kEquations = {"L = albedo / pi * texel",
                                                        "L = albedo * texel", "L = texel"};
     const auto quantity = std::size_t(settings.quantity);
-    return {{"uri", uriOf(fileName)},
-            {"texCoord", 1},
-            {"width", image.width},
-            {"height", image.height},
-            {"firstRow", "top"},
-            {"colors", "linear Rec. 709"},
-            {"quantity", kLightmapQuantityNames[quantity]},
-            {"unit", kUnits[quantity]},
-            {"outgoingRadiance", kEquations[quantity]},
-            {"includesDirectLight", settings.direct}};
+    const bool harmonics = image.layers > 1;
+    nlohmann::ordered_json json = {
+        {"uri", uriOf(fileName)},
+        {"texCoord", 1},
+        {"width", image.width},
+        {"height", image.height},
+        {"firstRow", "top"},
+        {"colors", "linear Rec. 709"},
+        {"quantity", harmonics ? "harmonics" : kLightmapQuantityNames[quantity]},
+        {"unit", harmonics ? kUnits[2] : kUnits[quantity]},
+        {"outgoingRadiance", harmonics ? "L = albedo / pi * E(n)" : kEquations[quantity]},
+        {"includesDirectLight", settings.direct}};
+    if (harmonics) {
+        json["bands"] = image.layers == 4 ? 2 : 3;
+        json["stackedAs"] = kShLayersNames[std::size_t(settings.layers)];
+        json["harmonics"] = "radiance, real, orthonormal, without Condon-Shortley sign; layer "
+                            "i = l (l + 1) + m";
+        json["irradiance"] = "E(n) = max(0, sum over i of A_l c_i Y_i(n)), A = pi, 2 pi / 3, "
+                             "pi / 4";
+    }
+    return json;
 }
 
 } // namespace limn

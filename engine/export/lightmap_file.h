@@ -20,7 +20,7 @@ Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings
 /// ".exr" or ".ktx2".
 const char* textureExtension(TextureEncoding encoding);
 
-/// What a lightmap of one layer means, for asset.extras.limn.lightmap of a glTF file.
+/// What a lightmap means, for asset.extras.limn.lightmap of a glTF file.
 nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
                                     const std::string& fileName);
 

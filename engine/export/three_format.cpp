@@ -10,12 +10,15 @@
 namespace limn {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 5> kSettings = {"encoding", "compress", "direct",
-                                                              "detail", "maxSize"};
+static constexpr std::array<std::string_view, 6> kSettings = {"encoding", "compress", "direct",
+                                                              "bands",    "detail",   "maxSize"};
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.quantity = LightmapQuantity::Irradiance;
-    settings.bands = 1;
+    if (settings.bands > 1) { // its KTX2Loader reads only the first layer of an array
+        settings.encoding = TextureEncoding::Ktx2Half;
+        settings.layers = ShLayers::Volume;
+    }
     return settings;
 }
 

@@ -23,15 +23,41 @@ async function lightMap(url, renderer) {
     return texture;
 }
 
+const shLightmap = `
+#include "sh-lightmap.glsl"
+`;
+
+/** Shines a lightmap of harmonics on a material. A black lightMap makes three.js hand the texture coordinates to the shader. */
+function addHarmonics(shader, map, bands) {
+    shader.uniforms.limnLightmap = { value: map };
+    shader.fragmentShader = shader.fragmentShader
+        .replace('#include <common>', `#include <common>
+uniform highp sampler3D limnLightmap;
+#define LIMN_BANDS ${bands}
+#define LIMN_SH(uv, i) texture(limnLightmap, vec3(uv, (float(i) + 0.5) / ${bands * bands}.0)).rgb
+${shLightmap}`)
+        .replace('#include <lights_fragment_maps>', `#include <lights_fragment_maps>
+irradiance += limnIrradiance(vLightMapUv, normalize((vec4(geometryNormal, 0.0) * viewMatrix).xyz));`);
+}
+
+function black() {
+    const texture = new THREE.DataTexture(new Uint8Array([0, 0, 0, 255]), 1, 1);
+    texture.channel = 1;
+    texture.needsUpdate = true;
+    return texture;
+}
+
 /** A copy of the material that is lit by the lightmap and not by grids. */
-function lit(material, map) {
+function lit(material, map, bands) {
     const copy = material.clone();
-    copy.lightMap = map;
+    copy.lightMap = bands > 1 ? black() : map;
     copy.lightMapIntensity = 1;
     copy.onBeforeCompile = (shader) => {
         const chunk = THREE.ShaderChunk.lights_fragment_begin.replace(/irradiance \+= getLightProbeGridIrradiance[^;]*;/, ';');
         shader.fragmentShader = shader.fragmentShader.replace('#include <lights_fragment_begin>', chunk);
+        if (bands > 1) addHarmonics(shader, map, bands);
     };
+    copy.customProgramCacheKey = () => `limn ${bands}`; // three.js cannot see what the function closes over
     return copy;
 }
 
@@ -44,7 +70,7 @@ export async function loadLimn(url, renderer) {
     gltf.scene.traverse((object) => {
         if (!object.isMesh || !object.geometry.attributes.uv1 || !map) return;
         const material = object.material;
-        if (!copies.has(material)) copies.set(material, lit(material, map));
+        if (!copies.has(material)) copies.set(material, lit(material, map, limn.lightmap.bands ?? 1));
         object.material = copies.get(material);
     });
     const grid = limn.grid ? await loadLimnGrid(beside(limn.grid.uri, url), renderer) : null;

@@ -46,6 +46,13 @@ struct KnownLight {
         setGrid(harmonics, size);
     }
 
+    /// Makes the quad's lightmap hold the same harmonics everywhere.
+    void setLightmap(const std::array<glm::vec3, 9>& harmonics) {
+        for (std::size_t i = 0; i < 9; ++i)
+            for (std::size_t texel = 0; texel < kTexels * kTexels; ++texel)
+                field.lightmap[i * kTexels * kTexels + texel] = glm::vec4(harmonics[i], 0);
+    }
+
     ExportScene view() const { return {document, scene, trace, layout, field}; }
 
     Document document;

@@ -12,7 +12,8 @@ const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here
 const shared = path.join(root, '../shared/scenes'), width = 384, height = 288;
 const known = {
     cornell: { file: 'cornell', bake: [] }, atrium: { file: 'atrium', bake: ['--preset', 'draft'] },
-    sponza: { file: path.join(shared, 'sponza-crytek'), bake: ['--preset', 'draft'], lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'] },
+    sponza: { file: path.join(shared, 'sponza-crytek'), bake: ['--preset', 'draft'], lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'],
+        view: { eye: [-9, 2, -0.3], target: [5, 3, -0.3], fov: 60 } },
 };
 const [out, ...chosen] = process.argv.slice(2);
 const limn = (...args) => execFileSync(path.join(root, 'build/release/limn'), args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 26 });
@@ -42,11 +43,15 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
     fs.mkdirSync(folder, { recursive: true });
     const bake = path.join(folder, 'light.limnbake');
     if (!fs.existsSync(bake)) limn('bake', ...scene, ...known[name].bake, '-o', bake);
+    const { view: from } = known[name];
+    const eye = from ? ['--eye', from.eye.join(), '--target', from.target.join(), '--fov', from.fov] : [];
     for (const view of ['irradiance', 'indirect']) for (const end of ['exr', 'png'])
-        limn('render', ...scene, '--bake', bake, '--view', view, '--width', width, '--height', height, '-o', path.join(folder, `limn-${view}.${end}`));
-    for (const [engine, view, options] of [['three', 'irradiance', ['--encoding', 'ktx2-half']], ['babylon', 'indirect', []]]) {
+        limn('render', ...scene, '--bake', bake, '--view', view, '--width', width, '--height', height, ...eye,
+            ...(end === 'png' ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${view}.${end}`));
+    for (const [engine, view, options] of [
+        ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []]]) {
         limn('export', ...scene, '--bake', bake, '--format', engine, ...options, '-o', path.join(folder, `${engine}.gltf`));
-        const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}`;
+        const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}${from ? `&from=${JSON.stringify(from)}` : ''}`;
         const result = await visit(browser, url, path.join(folder, `${engine}.png`), { timeout: 600000, keep: true, width, height });
         if (!result.ok) {
             ++failed;
@@ -58,7 +63,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         const picture = path.join(folder, `${engine}-${view}.exr`);
         fs.writeFileSync(picture, encodeExr(width, height, rgb));
         const { nrmse, most } = compare(picture, path.join(folder, `limn-${view}.exr`));
-        console.log(`| ${name} | ${engine} | limn render --view ${view} | ${nrmse.toFixed(4)} | ${most.toFixed(4)} |`);
+        console.log(`| ${name} | ${engine} ${options.join(' ')} | limn render --view ${view} | ${nrmse.toFixed(4)} | ${most.toFixed(4)} |`);
     }
 }
 await browser.close();

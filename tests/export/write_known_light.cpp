@@ -62,6 +62,17 @@ bool writeAll(const KnownLight& light, const std::string& folder) {
     return ok;
 }
 
+/// Lightmaps of harmonics, each of which is the same everywhere.
+bool writeHarmonics(KnownLight& light, const std::string& folder, std::size_t probe) {
+    light.setLightmap(KnownLight::probe(probe));
+    bool ok = true;
+    for (const std::uint32_t bands : {2U, 3U})
+        ok = write(light, folder, *findExportFormat("three"), "three-sh" + std::to_string(bands),
+                   {.bands = bands}) &&
+             ok;
+    return ok;
+}
+
 } // namespace
 
 int main(int count, char** arguments) {
@@ -70,8 +81,10 @@ int main(int count, char** arguments) {
     const std::string folder = arguments[1];
     bool ok = true;
     for (std::size_t i = 0; i < 9; ++i) {
-        const KnownLight light([i](glm::vec3) { return KnownLight::probe(i); });
-        ok = writeAll(light, folder + "/probe-" + std::to_string(i)) && ok;
+        KnownLight light([i](glm::vec3) { return KnownLight::probe(i); });
+        const std::string probe = folder + "/probe-" + std::to_string(i);
+        ok = writeAll(light, probe) && ok;
+        ok = writeHarmonics(light, probe, i) && ok;
     }
     return writeAll(KnownLight(linearLight), folder + "/linear") && ok ? 0 : 1;
 }
