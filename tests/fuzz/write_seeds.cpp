@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // write_seeds FOLDER: writes the valid examples from which fuzzing starts, FOLDER/TARGET/NAME.
+#include "engine/export/ktx2.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "tests/fuzz/project_files.h"
@@ -275,6 +276,21 @@ void writeStageChanges(const TemporaryFolder&, const auto& write) {
                   change(stage, kind, stage, 1));
 }
 
+void writeTextures(const TemporaryFolder&, const auto& write) {
+    for (const Ktx2Format format : {Ktx2Format::Rgba16f, Ktx2Format::Rgba32f, Ktx2Format::Rgb9e5})
+        for (const bool zstd : {false, true}) {
+            const std::string name = std::to_string(std::uint32_t(format)) + (zstd ? "_zstd" : "");
+            for (const auto& [layers, depth] : {std::pair(0U, 0U), {2, 0}, {0, 2}}) {
+                const Ktx2Shape shape{format, 3, 2, layers, depth, zstd};
+                std::vector<glm::vec4> texels(shape.texels());
+                for (std::size_t i = 0; i < texels.size(); ++i)
+                    texels[i] = glm::vec4(i, 1, 0.5f, 1);
+                write(name + "_" + std::to_string(layers) + std::to_string(depth),
+                      encodeKtx2(shape, texels).value());
+            }
+        }
+}
+
 void writeOptions(const TemporaryFolder&, const auto& write) {
     write("lights", "scene\n--light\nsun dir=1,-1,0 lux=3 color=1,0.5,0\n--light\npoint pos=0,1,2 "
                     "cd=5 range=4\n--light\nspot pos=0,1,0 dir=0,-1,0 cd=2 inner=10 "
@@ -307,6 +323,7 @@ int main(int argc, char** argv) {
     writeProjects(temporary, into("project"));
     writeChanges(temporary, into("bake"));
     writeStageChanges(temporary, into("stage"));
+    writeTextures(temporary, into("ktx2"));
     writeOptions(temporary, into("option"));
     return 0;
 }
