@@ -117,6 +117,8 @@ Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
         for (glm::vec2& p : uv)
             p.y += backOffset(in.layout, instance);
     json["attributes"]["TEXCOORD_1"] = buffer.add(uv);
+    if (!json["attributes"].contains("TEXCOORD_0")) // sets of coordinates are numbered without gaps
+        json["attributes"]["TEXCOORD_0"] = json["attributes"]["TEXCOORD_1"];
     return json;
 }
 

@@ -114,6 +114,10 @@ private:
             if (name == "POSITION")
                 checkBounds(accessor);
         }
+        for (int set = 1; set < 4; ++set)
+            require(!primitive["attributes"].contains(fmt::format("TEXCOORD_{}", set)) ||
+                        primitive["attributes"].contains(fmt::format("TEXCOORD_{}", set - 1)),
+                    "sets of texture coordinates are not numbered without gaps");
         require(counts.size() == 1, "attributes of a primitive differ in length");
         require(primitive["attributes"].contains("POSITION"), "a primitive without positions");
         index(primitive["indices"], "accessors");

@@ -67,7 +67,6 @@ private:
         m.name = "quad";
         m.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
         m.normals.assign(4, {0, 0, 1});
-        m.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
         m.indices = {0, 1, 2, 0, 2, 3};
         return m;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js and Babylon.js, renders them in headless Chromium beside
+// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js, Babylon.js and Blender, renders them there beside
 // `limn render` of the same camera, and prints the nRMSE. Pictures stay in OUT/scenes/SCENE.
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -27,6 +27,9 @@ function find({ file }) {
 function compare(a, b) {
     const { nrmse, nrmse_without_worst_percent: most } = JSON.parse(limn('compare', a, b, '--json'));
     return { nrmse, most };
+}
+function report(scene, consumer, view, { nrmse, most }) {
+    console.log(`| ${scene} | ${consumer.trim()} | limn render --view ${view} | ${nrmse.toFixed(4)} | ${most.toFixed(4)} |`);
 }
 
 const server = await serve({ '/node_modules/': path.join(here, 'node_modules') + '/', '/scenes/': path.resolve(out, 'scenes') + '/', '/': path.join(here, 'pages') + '/' });
@@ -62,9 +65,23 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         const rgb = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
         const picture = path.join(folder, `${engine}-${view}.exr`);
         fs.writeFileSync(picture, encodeExr(width, height, rgb));
-        const { nrmse, most } = compare(picture, path.join(folder, `limn-${view}.exr`));
-        console.log(`| ${name} | ${engine} ${options.join(' ')} | limn render --view ${view} | ${nrmse.toFixed(4)} | ${most.toFixed(4)} |`);
+        report(name, `${engine} ${options.join(' ')}`, view, compare(picture, path.join(folder, `limn-${view}.exr`)));
     }
+    limn('export', ...scene, '--bake', bake, '--format', 'blender', '-o', path.join(folder, 'blender.gltf'));
+    try {
+        console.log(`${name}: ${execFileSync('node', [path.join(here, 'validate.mjs'), path.join(folder, 'three.gltf')], { encoding: 'utf8' }).trim()}`);
+    } catch (e) {
+        ++failed;
+        console.error(e.stdout);
+    }
+    const picture = path.join(folder, 'blender-indirect.exr');
+    const rendered = spawnSync('blender', ['-b', '-noaudio', '--python', path.join(here, 'blender_scene.py'), '--', path.join(folder, 'blender'),
+        picture, width, height, ...(from ? [JSON.stringify(from)] : [])], { encoding: 'utf8' });
+    if (rendered.error) console.log(`${name}, Blender: ${rendered.error.message}`);
+    else if (!fs.existsSync(picture)) {
+        ++failed;
+        console.error(`${name}, Blender:\n${rendered.stdout.slice(-2000)}${rendered.stderr.slice(-2000)}`);
+    } else report(name, 'blender', 'indirect', compare(picture, path.join(folder, 'limn-indirect.exr')));
 }
 await browser.close();
 server.close();
