@@ -10,13 +10,12 @@
 namespace limn {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 4> kSettings = {"quantity", "direct", "detail",
+                                                              "maxSize"};
 
-/// Babylon.js adds a PBR material's lightmap to what the lights do and knows no albedo for it.
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Ktx2Half;
     settings.compress = false; // its loader reads the file itself
-    settings.quantity = LightmapQuantity::Radiance;
     settings.bands = 1;
     return settings;
 }
@@ -46,8 +45,8 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
 constinit const ExportFormat kBabylonFormat = {
     .name = "babylon",
     .label = "Babylon.js",
-    .summary = "glTF with a lightmap of reflected radiance, the mean probe for what moves, and a "
-               "module that loads them into Babylon.js",
+    .summary = "glTF with a lightmap, the mean probe for what moves, and a module that loads them "
+               "into Babylon.js",
     .extensions = kExtensions,
     .settings = kSettings,
     .write = write,

@@ -4,8 +4,9 @@
 //     import { loadLimn } from './ROOM-babylon.js';
 //     await loadLimn(BABYLON, 'ROOM.gltf', scene);
 //
-// The lightmap holds the radiance that surfaces reflect, albedo included; Babylon.js adds it to what the lights do. Materials
-// without a lightmap get the mean light of the scene's grid as their environment.
+// Babylon.js adds a lightmap to what the lights do, without the albedo. A lightmap of irradiance is therefore multiplied by a change to the
+// shader; one of radiance, exported with "--quantity radiance", includes the albedo and needs no change, but is as coarse as its texels.
+// Materials without a lightmap get the mean light of the scene's grid as their environment.
 
 function lightmapTexture(BABYLON, file, scene) {
     const { Constants, Texture } = BABYLON;
@@ -16,6 +17,26 @@ function lightmapTexture(BABYLON, file, scene) {
     texture.gammaSpace = false;
     texture.wrapU = texture.wrapV = Texture.CLAMP_ADDRESSMODE;
     return texture;
+}
+
+/** Makes the material multiply its lightmap by its albedo and `factor`. */
+function multiplyByAlbedo(BABYLON, material, factor) {
+    class LimnLightmap extends BABYLON.MaterialPluginBase {
+        constructor() {
+            super(material, 'LimnLightmap', 200, {}, true, true);
+        }
+        getClassName() {
+            return 'LimnLightmap';
+        }
+        isCompatible() { // the replaced line is the same in GLSL and WGSL
+            return true;
+        }
+        getCustomCode(type) {
+            const sum = `finalColor.rgb+=lightmapColor.rgb*surfaceAlbedo.rgb*${factor.toFixed(9)};`;
+            return type === 'fragment' ? { '!finalColor\\.rgb\\s*\\+=\\s*lightmapColor\\.rgb\\s*;': sum } : null;
+        }
+    }
+    return new LimnLightmap();
 }
 
 /** A cube texture that carries only the probe's irradiance. `probe`: as written for the scene's handedness. */
@@ -39,6 +60,7 @@ export async function loadLimn(BABYLON, url, scene) {
     const probe = limn.probe && limn.probe[scene.useRightHandedSystem ? 'rightHanded' : 'leftHanded'];
     const cube = probe ? environment(BABYLON, probe, scene) : null;
     const imported = await BABYLON.SceneLoader.ImportMeshAsync('', new URL('.', address).href, address.pathname.split('/').pop(), scene);
+    const factor = map && { irradiance: 1 / Math.PI, 'irradiance-over-pi': 1 }[limn.lightmap.quantity];
     const copies = new Map();
     for (const mesh of imported.meshes) {
         const material = mesh.material;
@@ -47,6 +69,7 @@ export async function loadLimn(BABYLON, url, scene) {
             if (!copies.has(material)) {
                 const copy = material.clone(material.name);
                 copy.lightmapTexture = map;
+                if (factor) multiplyByAlbedo(BABYLON, copy, factor);
                 copies.set(material, copy);
             }
             mesh.material = copies.get(material);

@@ -110,6 +110,7 @@ TEST(EngineFormats, LightmapsHoldTheQuantityOfTheirEngine) {
     for (const auto& [format, factor] : {std::pair(&kBabylonFormat, KnownLight::kAlbedo / pi),
                                          std::pair(&kPlaycanvasFormat, 1 / pi)}) {
         ExportSettings settings;
+        settings.quantity = LightmapQuantity::Radiance; // PlayCanvas knows no other than its own
         settings.detail = 1;
         const auto files = exported(light, *format, settings);
         const auto texture = decodeKtx2(span(bytesOf(files, "room-lightmap.ktx2")));

@@ -49,6 +49,10 @@ bool writeAll(const KnownLight& light, const std::string& folder) {
         ok = write(light, folder, *format, name, {}) && ok;
         if (name == "godot")
             ok = write(light, folder, *format, name + "-directional", {.bands = 2}) && ok;
+        if (name == "babylon")
+            ok = write(light, folder, *format, name + "-radiance",
+                       {.quantity = LightmapQuantity::Radiance}) &&
+                 ok;
         if (name != "three")
             continue;
         for (const auto& [suffix, encoding, zstd] :
