@@ -11,7 +11,7 @@ import { encodeExr } from './exr.mjs';
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, '../..');
 const shared = path.join(root, '../shared/scenes'), width = 384, height = 288;
 const known = {
-    cornell: { file: 'cornell', bake: [] }, atrium: { file: 'atrium', bake: ['--preset', 'draft'] },
+    cornell: { file: 'cornell', bake: [] }, atrium: { file: 'atrium', bake: [] },
     sponza: { file: path.join(shared, 'sponza-crytek'), bake: ['--preset', 'draft'], lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'],
         view: { eye: [-9, 2, -0.3], target: [5, 3, -0.3], fov: 60 } },
 };
