@@ -69,8 +69,26 @@ def emission_of(material, image, uv_map):
         tree.links.new(shown, add.inputs[0])
         tree.links.new(surface.outputs[0], add.inputs[1])
         shown = add.outputs[0]
+    if material.use_backface_culling:  # Cycles shows backs: a two-sided sheet was exported as two surfaces in one place
+        facing = tree.nodes.new('ShaderNodeMixShader')
+        tree.links.new(tree.nodes.new('ShaderNodeNewGeometry').outputs['Backfacing'], facing.inputs[0])
+        tree.links.new(shown, facing.inputs[1])
+        tree.links.new(tree.nodes.new('ShaderNodeBsdfTransparent').outputs[0], facing.inputs[2])
+        shown = facing.outputs[0]
     tree.links.new(shown, output.inputs[0])
     return copy
+
+
+def part_sides(mesh):
+    """Moves the two surfaces that a two-sided sheet was exported as apart, so that rays meet the right one first."""
+    middles = {tuple(round(c, 5) for c in polygon.center) for polygon in mesh.polygons}
+    if len(middles) == len(mesh.polygons):
+        return
+    corners = [v.co.copy() for v in mesh.vertices]
+    size = max(max(c[a] for c in corners) - min(c[a] for c in corners) for a in range(3))
+    normals = [v.normal.copy() for v in mesh.vertices]
+    for vertex, normal in zip(mesh.vertices, normals):
+        vertex.co += normal * (2e-4 * size)
 
 
 def show(path):
@@ -86,7 +104,7 @@ def show(path):
     image = bpy.data.images.load(os.path.join(os.path.dirname(path), urllib.parse.unquote(lightmap['uri'])))
     names = [s.identifier for s in image.colorspace_settings.bl_rna.properties['name'].enum_items]
     image.colorspace_settings.name = 'Linear Rec.709' if 'Linear Rec.709' in names else 'Linear'
-    copies, lit = {}, []
+    copies, lit, parted = {}, [], []
     for thing in imported:
         if thing.type == 'LIGHT' and lightmap['includesDirectLight']:
             bpy.data.objects.remove(thing)
@@ -97,6 +115,9 @@ def show(path):
             if slot.material not in copies:
                 copies[slot.material] = emission_of(slot.material, image, 'UVMap.001')
             slot.material = copies[slot.material]
+        if thing.data not in parted:
+            part_sides(thing.data)
+            parted.append(thing.data)
         lit.append(thing)
     scene = bpy.context.scene
     scene.view_settings.view_transform = 'Standard'
