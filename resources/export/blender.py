@@ -28,6 +28,14 @@ def times(tree, socket, factor):
     return node.outputs[0]
 
 
+def connect(tree, source, target):
+    """Gives the input `target` what the input `source` has."""
+    if source.is_linked:
+        tree.links.new(source.links[0].from_socket, target)
+    else:
+        target.default_value = source.default_value
+
+
 def emission_of(material, image, uv_map):
     """A copy of the material that also sends albedo / pi * texel to the camera."""
     copy = material.copy()
@@ -50,15 +58,22 @@ def emission_of(material, image, uv_map):
     tree.links.new(texture.outputs[0], product.inputs[1])
     product.inputs[2].default_value = (1, 1, 1, 1)
     if surface:
-        base = surface.inputs['Base Color']
-        if base.is_linked:
-            tree.links.new(base.links[0].from_socket, product.inputs[2])
-        else:
-            product.inputs[2].default_value = base.default_value
+        connect(tree, surface.inputs['Base Color'], product.inputs[2])
 
     camera_ray = tree.nodes.new('ShaderNodeLightPath').outputs['Is Camera Ray']
     emission = tree.nodes.new('ShaderNodeEmission')
-    tree.links.new(times(tree, camera_ray, 1 / math.pi), emission.inputs['Strength'])
+    strength = times(tree, camera_ray, 1 / math.pi)
+    if surface:  # metals have no diffuse albedo
+        dielectric = tree.nodes.new('ShaderNodeMath')
+        dielectric.operation = 'SUBTRACT'
+        dielectric.inputs[0].default_value = 1
+        connect(tree, surface.inputs['Metallic'], dielectric.inputs[1])
+        product_of = tree.nodes.new('ShaderNodeMath')
+        product_of.operation = 'MULTIPLY'
+        tree.links.new(strength, product_of.inputs[0])
+        tree.links.new(dielectric.outputs[0], product_of.inputs[1])
+        strength = product_of.outputs[0]
+    tree.links.new(strength, emission.inputs['Strength'])
     tree.links.new(product.outputs[0], emission.inputs[0])
     shown = emission.outputs[0]
     if surface:
