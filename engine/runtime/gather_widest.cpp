@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "engine/runtime/gather.h"
+
+#include <utility>
+
+#if LIMNRT_WIDE_VECTORS
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma"))),        \
+                             apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx2,fma")
+#endif
+#define LIMNRT_LANES 16
+#include "engine/runtime/gather_sums.h"
+
+namespace limn::runtime {
+
+void gatherWidest(const Gather& gather, std::uint32_t begin, std::uint32_t end) {
+    gatherRange(gather, begin, end);
+}
+
+} // namespace limn::runtime
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif

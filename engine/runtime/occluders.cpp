@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "engine/runtime/occluders.h"
+
+#include <algorithm>
+
+namespace limn::runtime {
+
+namespace {
+
+struct TracedRay {
+    F4 origin, direction, inverse;
+    float distance;
+};
+
+/// Three components; the fourth of the file's boxes is an index.
+F4 corner(const float* p) {
+    typedef int I4 __attribute__((vector_size(16)));
+    I4 bits;
+    std::memcpy(&bits, p, sizeof bits);
+    bits &= I4{-1, -1, -1, 0};
+    F4 v;
+    std::memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+float most(F4 v) {
+    return std::max(std::max(v[0], v[1]), v[2]);
+}
+float least(F4 v) {
+    return std::min(std::min(v[0], v[1]), v[2]);
+}
+
+/// Where the ray enters the box, or a negative number where it misses it.
+float enter(const TracedRay& ray, const Box& box) {
+    constexpr float kRounding = 1 + 4e-7f;
+    const F4 a = (corner(box.lower) - ray.origin) * ray.inverse,
+             b = (corner(box.upper) - ray.origin) * ray.inverse;
+    const float in = std::max(most(a < b ? a : b), 0.f);
+    const float out = std::min(least(a < b ? b : a) * kRounding, ray.distance);
+    return in <= out ? in : -1;
+}
+
+F4 crossed(F4 a, F4 b) {
+    return F4{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0};
+}
+float dotted(F4 a, F4 b) {
+    const F4 p = a * b;
+    return p[0] + p[1] + p[2];
+}
+
+bool meets(const TracedRay& ray, const float* triangle) {
+    // An edge belongs to both triangles that share it, so that no ray slips through between them.
+    constexpr float kEdge = 1e-6f;
+    const F4 a = load3(triangle), ab = load3(triangle + 3) - a, ac = load3(triangle + 6) - a;
+    const F4 p = crossed(ray.direction, ac);
+    const float determinant = dotted(ab, p);
+    if (determinant == 0)
+        return false;
+    const float inverse = 1 / determinant;
+    const F4 from = ray.origin - a;
+    const float u = dotted(from, p) * inverse;
+    if (!(u >= -kEdge && u <= 1 + kEdge))
+        return false;
+    const F4 q = crossed(from, ab);
+    const float v = dotted(ray.direction, q) * inverse;
+    if (!(v >= -kEdge && u + v <= 1 + kEdge))
+        return false;
+    const float t = dotted(ac, q) * inverse;
+    return t > 0 && t < ray.distance;
+}
+
+bool meetsAny(const TransportView& view, const TracedRay& ray, const Box& leaf) {
+    for (std::uint32_t k = 0; k < leaf.count; ++k)
+        if (meets(ray, view.triangles + 9 * (std::size_t(leaf.first) + k)))
+            return true;
+    return false;
+}
+
+} // namespace
+
+bool occluded(const TransportView& view, F4 origin, F4 direction, float distance) {
+    if (view.dims.boxes == 0)
+        return false;
+    TracedRay ray{origin, direction, {}, distance};
+    for (int k = 0; k < 3; ++k) // never infinite, which times 0 would be NaN
+        ray.inverse[k] = 1 / std::copysign(std::max(std::fabs(direction[k]), 1e-20f), direction[k]);
+    std::uint32_t waiting[kMaxBoxDepth + 2];
+    std::uint32_t count = 0, at = 0;
+    if (enter(ray, view.boxes[0]) < 0)
+        return false;
+    for (;;) {
+        const Box& box = view.boxes[at];
+        if (box.count == 0) {
+            const float left = enter(ray, view.boxes[box.first]),
+                        right = enter(ray, view.boxes[box.first + 1]);
+            const bool rightFirst = left < 0 || (right >= 0 && right < left);
+            if (left >= 0 && right >= 0)
+                waiting[count++] = box.first + (rightFirst ? 0 : 1);
+            if (left >= 0 || right >= 0) {
+                at = box.first + (rightFirst ? 1 : 0);
+                continue;
+            }
+        } else if (meetsAny(view, ray, box)) {
+            return true;
+        }
+        if (count == 0)
+            return false;
+        at = waiting[--count];
+    }
+}
+
+float rayOffset(const TransportView& view, const float* p) {
+    const float coordinate = std::max(std::max(std::fabs(p[0]), std::fabs(p[1])), std::fabs(p[2]));
+    return 0x1p-19f * coordinate + 0x1p-20f * view.space->magnitude;
+}
+
+} // namespace limn::runtime

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// A bake that is written to a transport file and lit by the runtime has the light of the Relighter.
+#include "engine/techniques/illuminance/transport/transport_file.h"
+#include "tests/runtime/open_file.h"
+#include "tests/techniques/illuminance/relight/lit_room.h"
+#include "tests/techniques/illuminance/relight/relit.h"
+
+namespace limn {
+namespace {
+
+/// Errors of the runtime's radiosity and lightmap against the Relighter's.
+struct Errors {
+    double radiosity, lightmap, grid;
+};
+
+/// Both lit by the scene's light until it converges.
+Errors errorsOf(const OpenFile& file, const Scene& scene, const TraceScene& trace,
+                const std::shared_ptr<const Bake>& baked) {
+    Relighter relighter(baked, LitBands::All);
+    EXPECT_TRUE(relighter.relight(scene, trace, 1000).converged);
+    std::vector<limnrt_light> lights;
+    for (const Light& light : scene.lights)
+        lights.push_back(runtimeLight(light));
+    EXPECT_EQ(limnrt_set_lights(file, lights.data(), std::uint32_t(lights.size())), 1);
+    limnrt_reset(file); // bounces then end where the other's do
+    limnrt_converge(file, 1000);
+    EXPECT_EQ(limnrt_converged(file), 1);
+    Errors errors{};
+    errors.radiosity =
+        nrmse(limnrt_radiosity(file), relighter.radiosity().data(), relighter.radiosity().size());
+    const IndirectField& field = relighter.field();
+    const std::vector<float> lightmap = file.lightmapSh();
+    EXPECT_EQ(lightmap.size(), 4 * field.lightmap.size());
+    errors.lightmap = nrmse(lightmap.data(), field.lightmap.data(), field.lightmap.size());
+    if (!field.grid.empty()) {
+        std::vector<float> grid(4 * field.grid.size());
+        limnrt_grid_sh(file, grid.data());
+        errors.grid = nrmse(grid.data(), field.grid.data(), field.grid.size());
+    }
+    return errors;
+}
+
+void expectSame(const Errors& errors) {
+    // Rounding, and rays along edges of triangles, which the two tracers decide differently.
+    constexpr double kRounding = 5e-5;
+    EXPECT_LT(errors.radiosity, kRounding);
+    EXPECT_LT(errors.lightmap, kRounding);
+    EXPECT_LT(errors.grid, kRounding);
+}
+
+Light lightOf(LightKind kind) {
+    Light light;
+    light.kind = kind;
+    light.position = {2.3f, 2.6f, 2.9f};
+    light.direction = glm::normalize(glm::vec3(0.3f, -1, -0.2f));
+    light.color = {1, 0.6f, 0.3f};
+    light.strength = 7;
+    light.range = 4;
+    light.innerAngle = 0.3f;
+    light.outerAngle = 0.9f;
+    light.size = {0.8f, 0.5f};
+    light.roll = 0.4f;
+    return light;
+}
+
+TEST(TransportFile, RelightsEveryKindOfLightAsTheRelighterDoes) {
+    Scene scene = *litRoom(900, 800);
+    scene.instances.push_back(scene.instances[1]); // a dynamic copy, which the grid lights
+    scene.instances.back().dynamic = true;
+    scene.instances.back().toWorld[3] = glm::vec4(40, 0, 0, 1);
+    const TraceScene trace(scene);
+    const auto baked = bakeOf(trace);
+    const OpenFile file(fileOf(*baked, scene));
+    ASSERT_TRUE(file) << file.message;
+    for (const LightKind kind :
+         {LightKind::Point, LightKind::Spot, LightKind::Rectangle, LightKind::Directional}) {
+        scene.lights = {lightOf(kind), lightOf(kind)};
+        scene.lights[1].position.x = 3.3f;
+        SCOPED_TRACE(int(kind));
+        expectSame(errorsOf(file, scene, trace, baked));
+    }
+}
+
+Scene quickHall(LinkStorage storage, std::uint32_t bands = 3, bool window = false) {
+    Scene scene = hall(storage, bands, window);
+    scene.bake.rays = 64;
+    scene.bake.lightmapCaches = 400;
+    return scene;
+}
+
+TEST(TransportFile, RelightsThroughAWindowInEveryNumberOfBands) {
+    for (std::uint32_t bands = 2; bands <= 8; ++bands)
+        for (const std::uint32_t chroma : {0U, 1U, 2U}) {
+            Scene scene = quickHall(LinkStorage::Rtp, bands, true);
+            scene.bake.chromaBands = chroma;
+            scene.sky.radiance = {1, 2, 3};
+            scene.lights = {lightOf(LightKind::Directional)};
+            const TraceScene trace(scene);
+            const auto baked = bakeOf(trace);
+            const OpenFile file(fileOf(*baked, scene));
+            ASSERT_TRUE(file) << file.message;
+            SCOPED_TRACE(bands * 10 + chroma);
+            expectSame(errorsOf(file, scene, trace, baked));
+        }
+}
+
+TEST(TransportFile, RefusesWhatItCannotHold) {
+    const Scene scene = quickHall(LinkStorage::Sh);
+    const auto baked = bakeOf(TraceScene(scene));
+    const Result<std::string> file = transportFile({*baked, scene, nullptr, "test"});
+    ASSERT_FALSE(file);
+    EXPECT_NE(file.error().message.find("--storage rtp"), std::string::npos);
+
+    const Scene room = quickHall(LinkStorage::Rtp), other = quickHall(LinkStorage::Rtp, 3, true);
+    const auto fits = bakeOf(TraceScene(room));
+    EXPECT_FALSE(transportFile({*fits, other, nullptr, "test"}));
+    const std::vector<glm::uvec4> texel(1, glm::uvec4(1 << 30));
+    const std::vector<glm::vec4> weight(1, glm::vec4(1, 0, 0, 0)),
+        half(1, glm::vec4(0.5f, 0, 0, 0));
+    const TransportLightmap unknown{1, 1, texel, weight}, dark{1, 1, texel, half},
+        empty{2, 1, texel, weight};
+    for (const TransportLightmap* map : {&unknown, &dark, &empty})
+        EXPECT_FALSE(transportFile({*fits, room, map, "test"}));
+}
+
+TEST(TransportFile, IsTheSameForTheSameInput) {
+    const Scene scene = quickHall(LinkStorage::Rtp);
+    EXPECT_EQ(fileOf(*bakeOf(TraceScene(scene)), scene), fileOf(*bakeOf(TraceScene(scene)), scene));
+}
+
+} // namespace
+} // namespace limn
