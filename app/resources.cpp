@@ -6,16 +6,26 @@
 
 namespace limn {
 
-std::string dataFolder(const std::string& name) {
+/// The folder beside an installed program, else the one in the source tree.
+static std::string folderOf(const std::string& installedName, const std::string& sourceName) {
     namespace fs = std::filesystem;
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     if (!error) {
-        const fs::path installed = program.parent_path().parent_path() / "share" / "limn" / name;
+        const fs::path installed =
+            program.parent_path().parent_path() / "share" / "limn" / installedName;
         if (fs::is_directory(installed, error))
             return installed.string();
     }
-    return std::string(LIMN_SOURCE_DIR "/") + name;
+    return std::string(LIMN_SOURCE_DIR "/") + sourceName;
+}
+
+std::string dataFolder(const std::string& name) {
+    return folderOf(name, name);
+}
+
+std::string webRuntimeFolder() {
+    return folderOf("web", "build/web");
 }
 
 } // namespace limn

@@ -10,4 +10,8 @@ namespace limn {
 /// that the program was built from. It need not exist.
 std::string dataFolder(const std::string& name);
 
+/// Folder of the runtime for the web: share/limn/web of an installed program, else build/web in the
+/// source tree. It need not exist.
+std::string webRuntimeFolder();
+
 } // namespace limn

@@ -6,6 +6,7 @@
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
 #include "app/commands/setting_type_name.h"
+#include "app/resources.h"
 
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
@@ -31,6 +32,7 @@ struct Options {
     ExportSettings settings;
     std::vector<std::string> given; ///< keys of the settings on the command line
     std::string format, bakeFile, output;
+    ExportFolders folders{.three = "node_modules/three", .webRuntime = webRuntimeFolder()};
     bool list = false, json = false;
 };
 
@@ -94,6 +96,12 @@ Result<const ExportFormat*> chooseFormat(const Options& options) {
     return format;
 }
 
+/// The last part of a path, also of a folder's "path/".
+std::string nameOf(const std::string& path) {
+    const std::filesystem::path p = std::filesystem::path(path).lexically_normal();
+    return (p.has_filename() ? p : p.parent_path()).filename().string();
+}
+
 nlohmann::ordered_json forecastJson(const ExportForecast& forecast) {
     return {{"bytes", forecast.bytes},
             {"width", forecast.width},
@@ -124,7 +132,8 @@ Exit runExport(const Options& options) {
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     const ExportScene in{imported->document, *lit->scene,  *lit->trace,
-                         *lit->layout,       lit->field(), lit->prepared.data.get()};
+                         *lit->layout,       lit->field(), lit->prepared.data.get(),
+                         options.folders};
     const ExportForecast forecast = (*format)->forecast(in, options.settings);
     if (forecast.detail > 0 && forecast.detail < options.settings.detail)
         logWarning(fmt::format("{} texels per cache a side instead of {}: the lightmap would be "
@@ -133,9 +142,8 @@ Exit runExport(const Options& options) {
     if (!options.json)
         fmt::print("About {}, lightmap of {} x {} texels\n", bytesText(forecast.bytes),
                    forecast.width, forecast.height);
-    const Result<std::vector<ExportFile>> files = (*format)->write(
-        in, options.settings, std::filesystem::path(options.output).filename().string(),
-        progressOnStderr());
+    const Result<std::vector<ExportFile>> files =
+        (*format)->write(in, options.settings, nameOf(options.output), progressOnStderr());
     endProgressLine();
     if (!files)
         return failed(fmt::format("{}: {}", options.output, files.error().message));
@@ -205,6 +213,10 @@ void addExportCommand(CLI::App& app, Run& run) {
     command->add_option("--bake", o->bakeFile, "Bake of the scene, .limnbake; default: bakes");
     command->add_option("-o,--output", o->output, "File to write, or a folder");
     addSettingOptions(*command, *o);
+    command->add_option("--three", o->folders.three,
+                        "Folder of the npm package three, for web; default node_modules/three");
+    command->add_option("--web-runtime", o->folders.webRuntime,
+                        "Folder of limn_runtime.wasm, for web; ./run --web makes it");
     command->add_flag("--json", o->json, "One JSON object on stdout");
     command->callback([o, &run, list, format] {
         if (!*list && (o->scene.scene.empty() || !*format || o->output.empty()))

@@ -20,6 +20,12 @@ namespace limn {
 
 class Precomputed;
 
+/// Where exporters find what is not part of the program.
+struct ExportFolders {
+    std::string three;      ///< the npm package three
+    std::string webRuntime; ///< limn_runtime.wasm
+};
+
 /// A scene with its converged bounced light: all that exporters read.
 struct ExportScene {
     const Document& document;
@@ -28,6 +34,7 @@ struct ExportScene {
     const LightmapLayout& layout; ///< of `field`
     const IndirectField& field;
     const Precomputed* precomputed = nullptr; ///< null if the technique needs nothing of the kind
+    ExportFolders folders = {};
 };
 
 /// A file of an export, relative to the folder that is written to.

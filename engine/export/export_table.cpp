@@ -5,6 +5,8 @@
 #include "engine/export/engine_formats.h"
 #include "engine/export/gltf_format.h"
 #include "engine/export/lightmap_format.h"
+#include "engine/export/limnrt_format.h"
+#include "engine/export/web_format.h"
 
 #include <array>
 #include <filesystem>
@@ -13,10 +15,10 @@
 
 namespace limn {
 
-static constexpr std::array kFormats = {&kGltfFormat,       &kLightmapFormat, &kGridFormat,
-                                        &kJsonFormat,       &kThreeFormat,    &kBabylonFormat,
-                                        &kPlaycanvasFormat, &kFilamentFormat, &kGodotFormat,
-                                        &kBlenderFormat,    &kIblFormat};
+static constexpr std::array kFormats = {
+    &kGltfFormat,    &kLightmapFormat,   &kGridFormat,     &kJsonFormat,  &kThreeFormat,
+    &kBabylonFormat, &kPlaycanvasFormat, &kFilamentFormat, &kGodotFormat, &kBlenderFormat,
+    &kIblFormat,     &kLimnrtFormat,     &kWebFormat};
 
 std::span<const ExportFormat* const> exportFormats() {
     return kFormats;

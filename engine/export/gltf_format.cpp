@@ -52,13 +52,9 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
     return files;
 }
 
-/// The lightmap, and vertices and textures as they will be stored; PNG compresses the latter.
 ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
     ExportForecast f = forecastLightmap(scene.layout, settings);
-    for (const Mesh& mesh : scene.scene.assets->meshes)
-        f.bytes += mesh.positions.size() * 48 + mesh.indices.size() * 4;
-    for (const Image& image : scene.scene.assets->images)
-        f.bytes += image.rgba.size() / 2;
+    f.bytes += gltfBytes(scene);
     return f;
 }
 

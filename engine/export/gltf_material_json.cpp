@@ -95,6 +95,7 @@ std::size_t GltfMaterials::index(const Material& source, std::uint32_t number, b
         json["alphaMode"] = "BLEND";
     }
     json["doubleSided"] = source.doubleSided && !oneSided;
+    json["extras"]["limn"]["material"] = number;
     materials.push_back(std::move(json));
     return known->second;
 }

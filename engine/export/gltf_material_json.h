@@ -29,7 +29,8 @@ struct GltfMaterials {
     std::set<std::string> extensions; ///< that they use
 
     /// Index of the exported material: `source`, which has that index in Scene::materials, or a
-    /// one-sided version of it. Animated textures show their first frame.
+    /// one-sided version of it, with `number` in extras.limn.material. Animated textures show their
+    /// first frame.
     std::size_t index(const Material& source, std::uint32_t number, bool oneSided);
 
 private:

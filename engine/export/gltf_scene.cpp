@@ -230,6 +230,15 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName,
 
 } // namespace
 
+std::uint64_t gltfBytes(const ExportScene& scene) {
+    std::uint64_t bytes = 0;
+    for (const Mesh& mesh : scene.scene.assets->meshes)
+        bytes += mesh.positions.size() * 48 + mesh.indices.size() * 4;
+    for (const Image& image : scene.scene.assets->images)
+        bytes += image.rgba.size() / 2;
+    return bytes;
+}
+
 std::string uriOf(const std::string& fileName) {
     std::string uri;
     for (const char c : fileName) {

@@ -17,9 +17,11 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kNobody = ~0U;
+/// Weights up to this are roundings at the border of a chart, beyond which lies another's texel.
+constexpr float kRounding = 1e-4f;
 
 /// A triangle of one side of an instance, in texels of some lightmap.
-struct FlatTriangle {
+struct SideTriangle {
     std::array<glm::vec2, 3> corner;
     std::uint32_t instance, triangle;
     bool back;
@@ -30,7 +32,7 @@ struct Closest {
     float u, v, distance2;
 };
 
-Closest closestOnEdge(const FlatTriangle& t, std::size_t from, std::size_t to, glm::vec2 p) {
+Closest closestOnEdge(const SideTriangle& t, std::size_t from, std::size_t to, glm::vec2 p) {
     const glm::vec2 edge = t.corner[to] - t.corner[from], d = p - t.corner[from];
     const float length2 = glm::dot(edge, edge);
     const float s = length2 > 0 ? std::clamp(glm::dot(d, edge) / length2, 0.f, 1.f) : 0.f;
@@ -41,7 +43,7 @@ Closest closestOnEdge(const FlatTriangle& t, std::size_t from, std::size_t to, g
     return {weight[1], weight[2], glm::dot(off, off)};
 }
 
-Closest closestPoint(const FlatTriangle& t, glm::vec2 p) {
+Closest closestPoint(const SideTriangle& t, glm::vec2 p) {
     const glm::vec2 a = t.corner[1] - t.corner[0], b = t.corner[2] - t.corner[0],
                     d = p - t.corner[0];
     const float area = a.x * b.y - a.y * b.x;
@@ -73,7 +75,7 @@ void forEachTriangle(const Scene& scene, const LightmapLayout& layout, glm::uvec
                 continue;
             const glm::vec2 offset(0, back ? backOffset(layout, i) : 0.f);
             for (std::uint32_t t = 0; t < charts.chartOfTriangle.size(); ++t) {
-                FlatTriangle flat{.instance = i, .triangle = t, .back = back};
+                SideTriangle flat{.instance = i, .triangle = t, .back = back};
                 for (std::size_t k = 0; k < 3; ++k)
                     flat.corner[k] =
                         (place.uv[charts.indices[3 * t + k]] + offset) * glm::vec2(size);
@@ -84,10 +86,30 @@ void forEachTriangle(const Scene& scene, const LightmapLayout& layout, glm::uvec
     }
 }
 
+/// Whether a bilinear lookup somewhere in the triangle reads the texel centred at `c`: whether the
+/// triangle meets the square of two texels a side around it. Two convex shapes are apart where
+/// their projections along the normal of one of their edges are.
+bool reads(const SideTriangle& t, glm::vec2 c) {
+    const auto apart = [&](glm::vec2 axis) {
+        const float a = glm::dot(t.corner[0] - c, axis), b = glm::dot(t.corner[1] - c, axis),
+                    d = glm::dot(t.corner[2] - c, axis);
+        const float reach = (1 - kRounding) * (std::abs(axis.x) + std::abs(axis.y));
+        return std::min({a, b, d}) > reach || std::max({a, b, d}) < -reach;
+    };
+    if (apart({1, 0}) || apart({0, 1}))
+        return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec2 edge = t.corner[(k + 1) % 3] - t.corner[k];
+        if (apart({-edge.y, edge.x}))
+            return false;
+    }
+    return true;
+}
+
 /// Calls visit(texel, closest point) for every texel that a bilinear lookup somewhere in the
-/// triangle may read.
+/// triangle reads.
 template <class Visit>
-void forEachTexel(const FlatTriangle& t, glm::uvec2 size, const Visit& visit) {
+void forEachTexel(const SideTriangle& t, glm::uvec2 size, const Visit& visit) {
     const glm::vec2 lower = glm::min(glm::min(t.corner[0], t.corner[1]), t.corner[2]);
     const glm::vec2 upper = glm::max(glm::max(t.corner[0], t.corner[1]), t.corner[2]);
     const glm::ivec2 last = glm::ivec2(size) - 1;
@@ -95,9 +117,9 @@ void forEachTexel(const FlatTriangle& t, glm::uvec2 size, const Visit& visit) {
     const glm::ivec2 end = glm::clamp(glm::ivec2(glm::ceil(upper - 0.5f)), glm::ivec2(0), last);
     for (int y = begin.y; y <= end.y; ++y)
         for (int x = begin.x; x <= end.x; ++x) {
-            const Closest near = closestPoint(t, glm::vec2(x, y) + 0.5f);
-            if (near.distance2 < 2) // the diagonal of a texel
-                visit(std::uint32_t(y) * size.x + std::uint32_t(x), near);
+            const glm::vec2 centre = glm::vec2(x, y) + 0.5f;
+            if (reads(t, centre))
+                visit(std::uint32_t(y) * size.x + std::uint32_t(x), closestPoint(t, centre));
         }
 }
 
@@ -105,23 +127,23 @@ void forEachTexel(const FlatTriangle& t, glm::uvec2 size, const Visit& visit) {
 struct Claims {
     std::vector<PlainTexel> texels;
     std::vector<std::uint32_t> chart, texelAt;
+    std::vector<float> distance2; ///< from the texel's centre, in texels, squared
 };
 
 Claims claimTexels(const Scene& scene, const LightmapLayout& layout, glm::uvec2 size) {
     Claims claims;
     claims.texelAt.assign(std::size_t(size.x) * size.y, kNobody);
-    std::vector<float> distance2;
-    forEachTriangle(scene, layout, size, [&](const FlatTriangle& t, std::uint32_t chart) {
+    forEachTriangle(scene, layout, size, [&](const SideTriangle& t, std::uint32_t chart) {
         forEachTexel(t, size, [&](std::uint32_t at, const Closest& near) {
             std::uint32_t& index = claims.texelAt[at];
             if (index == kNobody) {
                 index = std::uint32_t(claims.texels.size());
                 claims.texels.emplace_back();
                 claims.chart.push_back(chart);
-                distance2.push_back(std::numeric_limits<float>::infinity());
+                claims.distance2.push_back(std::numeric_limits<float>::infinity());
             }
-            if (near.distance2 < distance2[index]) {
-                distance2[index] = near.distance2;
+            if (near.distance2 < claims.distance2[index]) {
+                claims.distance2[index] = near.distance2;
                 claims.chart[index] = chart;
                 claims.texels[index] = {.instance = t.instance,
                                         .triangle = t.triangle,
@@ -139,7 +161,7 @@ bool readsOnly(const LightmapLayout& layout, const Claims& own, glm::vec2 uv, st
     const Bilinear lookup = bilinearAt(layout, uv);
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t index = own.texelAt[lookup.texel[k]];
-        if (lookup.weight[k] > 1e-4f && (index == kNobody || own.chart[index] != chart))
+        if (lookup.weight[k] > kRounding && (index == kNobody || own.chart[index] != chart))
             return false;
     }
     return true;
@@ -176,7 +198,10 @@ void dilate(std::vector<std::uint32_t>& texelAt, glm::uvec2 size) {
 PlainLightmap plainLightmap(const Scene& scene, const LightmapLayout& layout,
                             std::uint32_t factor) {
     const glm::uvec2 size(layout.width * factor, layout.height * factor);
-    const Claims own = claimTexels(scene, layout, {layout.width, layout.height});
+    // With snaps, only the lookups of surface points are known to read texels that hold light.
+    Claims own;
+    if (layout.snaps.empty())
+        own = claimTexels(scene, layout, {layout.width, layout.height});
     Claims claims = claimTexels(scene, layout, size);
     if (claims.texels.empty())
         return {};
@@ -188,16 +213,19 @@ PlainLightmap plainLightmap(const Scene& scene, const LightmapLayout& layout,
         for (std::size_t i = begin; i < end; ++i) {
             PlainTexel& texel = claims.texels[i];
             const glm::uvec2 at(placeOf[i] % size.x, placeOf[i] / size.x);
-            // Outside its chart the layout's lookup would read another chart.
             glm::vec2 uv = (glm::vec2(at) + 0.5f) / glm::vec2(size);
-            if (!readsOnly(layout, own, uv, claims.chart[i]))
+            const bool mayLookUp =
+                claims.distance2[i] == 0 ||
+                (layout.snaps.empty() && readsOnly(layout, own, uv, claims.chart[i]));
+            if (!mayLookUp)
                 uv = unsnappedUv(layout, texel.instance, scene.instances[texel.instance].mesh,
                                  texel.triangle, texel.u, texel.v, texel.back);
             const Bilinear lookup = bilinearAt(layout, snapLookup(layout, uv));
             for (int k = 0; k < 4; ++k) {
                 texel.texel[k] = lookup.texel[k];
-                texel.weight[k] = lookup.weight[k];
+                texel.weight[k] = lookup.weight[k] > kRounding ? lookup.weight[k] : 0;
             }
+            texel.weight /= glm::dot(texel.weight, glm::vec4(1));
         }
     });
     dilate(claims.texelAt, size);

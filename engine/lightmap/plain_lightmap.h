@@ -22,9 +22,10 @@ struct PlainTexel {
 };
 
 /// The lightmap of a layout in a form for programs that look textures up bilinearly and know
-/// nothing of LightmapLayout::snaps: texel t holds what the layout's own lookup returns at the
-/// texel's centre. The texture coordinates are those of the layout, before snapping. Texels that no
-/// lookup reads repeat their nearest neighbour, so that mips and compressed blocks show no seams.
+/// nothing of LightmapLayout::snaps: each texel holds what the layout's own lookup returns at the
+/// surface point closest to the texel's centre. The texture coordinates are those of the layout,
+/// before snapping. Texels that no lookup reads repeat their nearest neighbour, so that mips and
+/// compressed blocks show no seams.
 struct PlainLightmap {
     std::uint32_t width = 0, height = 0;
     std::vector<PlainTexel> texels;     ///< those that a lookup can read

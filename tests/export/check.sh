@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 .ci/install build export
 # Debian's npm and another nodejs exclude each other: any that is there will do.
-command -v npm >/dev/null || .ci/install export-node
+command -v npm >/dev/null || .ci/install node
 (cd tests/export && npm install --ignore-scripts --no-audit --no-fund --silent)
 .ci/build release write_known_light
 out=$PWD/build/export

@@ -122,6 +122,19 @@ TEST(PlainLightmap, IsEmptyWithoutLightmap) {
     EXPECT_TRUE(plainLightmap(scene, layoutWithoutLightmap(scene), 3).texels.empty());
 }
 
+TEST(PlainLightmap, ReadsOnlyTexelsThatHaveACache) {
+    const Scene scene = partedHall(0, 600);
+    const TraceScene trace(scene);
+    const std::shared_ptr<const Bake> bake = bakeOf(trace);
+    std::vector<char> hasCache(std::size_t(bake->lightmap.width) * bake->lightmap.height, 0);
+    for (std::uint32_t c = 0; c < bake->caches.lightmapCount; ++c)
+        hasCache[bake->caches.texel[c]] = 1;
+    for (const std::uint32_t factor : {1U, 3U, 5U})
+        for (const PlainTexel& texel : plainLightmap(scene, bake->lightmap, factor).texels)
+            for (int k = 0; k < 4; ++k)
+                ASSERT_TRUE(texel.weight[k] == 0 || hasCache[texel.texel[k]]) << factor;
+}
+
 /// Mean irradiance that plain lookups bring through a closed wall into the dark part of a hall.
 double leakOf(const Scene& scene, const Relit& lit, std::uint32_t factor) {
     const LightmapLayout& layout = lit.baked->lightmap;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The relighting runtime, compiled to WebAssembly, behind a few functions. The interface is that of limn_runtime.h, which states
+// units and ranges.
+
+export const LightKind = { directional: 0, point: 1, spot: 2, rectangle: 3 };
+const kLightWords = 20, kLightOff = 1;
+
+/** Opens the transport file in `file`, an ArrayBuffer, with the runtime in `wasm`, another. Throws an Error that says why not. */
+export async function openTransport(wasm, file) {
+  let memory;
+  const { instance } = await WebAssembly.instantiate(wasm, { env: { emscripten_notify_memory_growth() {} } });
+  const rt = instance.exports;
+  rt._initialize?.();
+  const bytesAt = (at, size) => new Uint8Array(rt.memory.buffer, at, size);
+  const wordsAt = (at, count) => new Uint32Array(rt.memory.buffer, at, count);
+  const floatsAt = (at, count) => new Float32Array(rt.memory.buffer, at, count);
+  const textAt = (at) => {
+    const bytes = bytesAt(at, rt.memory.buffer.byteLength - at);
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+  };
+  const allocate = (size) => {
+    const at = rt.malloc(size);
+    if (!at) throw new Error(`There is no memory for ${size} bytes`);
+    return at;
+  };
+
+  const base = (allocate(file.byteLength + 16) + 15) & ~15;
+  bytesAt(base, file.byteLength).set(new Uint8Array(file));
+  const error = allocate(512), options = allocate(24);
+  wordsAt(options, 6).set([0, 32, 0, 0, 0, 0]); // at most 32 lights
+  const scene = rt.limnrt_open(base, file.byteLength, options, error, 512);
+  if (!scene) throw new Error(textAt(error));
+
+  const countsAt = allocate(104);
+  rt.limnrt_get_counts(scene, countsAt);
+  const names = ['surfels', 'skyCells', 'nodes', 'caches', 'lightmapCaches', 'materials', 'lights', 'maxLights', 'triangles', 'bands',
+    'chromaBands', 'width', 'height'];
+  const counts = Object.fromEntries(names.map((name, k) => [name, wordsAt(countsAt, 16)[k]]));
+  const sizeAt = allocate(8), metaAt = rt.limnrt_meta(scene, sizeAt);
+  const meta = JSON.parse(new TextDecoder().decode(bytesAt(metaAt, wordsAt(sizeAt, 1)[0]).slice()));
+
+  const lightsAt = allocate(4 * kLightWords * counts.maxLights), rgbAt = allocate(12), pointAt = allocate(24), shAt = allocate(16 * 64);
+  const skyAt = allocate(Math.max(12 * counts.skyCells, 4));
+  const mapAt = allocate(16 * counts.width * counts.height);
+  const fileSky = counts.skyCells ? floatsAt(rt.limnrt_file_sky(scene), 3 * counts.skyCells).slice() : new Float32Array();
+  const check = (ok, what) => { if (!ok) throw new Error(`The runtime refuses ${what}`); };
+
+  return {
+    counts, meta, fileSky,
+
+    /** The lights that the file holds, as setLights() takes them. */
+    fileLights() {
+      const at = rt.limnrt_file_lights(scene), lights = [];
+      for (let k = 0; k < counts.lights; ++k) {
+        const words = wordsAt(at + 4 * kLightWords * k, kLightWords), f = floatsAt(at + 4 * kLightWords * k, kLightWords);
+        lights.push({ kind: words[0], on: !(words[1] & kLightOff), position: [...f.slice(2, 5)], direction: [...f.slice(5, 8)],
+          color: [...f.slice(8, 11)], strength: f[11], range: f[12], innerAngle: f[13], outerAngle: f[14], width: f[15], height: f[16],
+          roll: f[17], source: words[18] });
+      }
+      return lights;
+    },
+
+    setLights(lights) {
+      lights.forEach((l, k) => {
+        const at = lightsAt + 4 * kLightWords * k;
+        floatsAt(at, kLightWords).set([0, 0, ...l.position, ...l.direction, ...l.color, l.strength, l.range, l.innerAngle, l.outerAngle,
+          l.width, l.height, l.roll, 0, 0]);
+        wordsAt(at, 2).set([l.kind, l.on ? 0 : kLightOff]);
+        wordsAt(at, kLightWords)[18] = l.source;
+      });
+      check(rt.limnrt_set_lights(scene, lightsAt, lights.length), 'a light');
+    },
+
+    /** Radiance of each sky cell, 3 numbers each [nits]. */
+    setSky(rgb) {
+      if (counts.skyCells === 0) return;
+      floatsAt(skyAt, rgb.length).set(rgb);
+      check(rt.limnrt_set_sky(scene, skyAt), 'a sky');
+    },
+
+    /** What a material emits, as a factor of what it emits in the file. */
+    scaleEmission(material, rgb) {
+      floatsAt(rgbAt, 3).set(rgb);
+      check(rt.limnrt_scale_material_emission(scene, material, rgbAt), 'an emission');
+    },
+
+    /** One bounce. Whether another one would change anything to speak of is what converged() says. */
+    step() { return rt.limnrt_converge(scene, 1); },
+    converged() { return rt.limnrt_converged(scene) === 1; },
+
+    /** Irradiance [W m^-2], RGBA, the upper row first: a view that the next call makes invalid. */
+    lightmap() {
+      rt.limnrt_lightmap_irradiance(scene, 0, mapAt);
+      return floatsAt(mapAt, 4 * counts.width * counts.height);
+    },
+
+    /** Radiance harmonics of three bands at a point of a moving object, 9 times RGB; null without grid. */
+    gridHarmonics(position) {
+      floatsAt(pointAt, 6).set([...position, 0, 1, 0]);
+      if (!rt.limnrt_sample_grid_sh(scene, pointAt, pointAt + 12, shAt)) return null;
+      const rgba = floatsAt(shAt, 36), rgb = [];
+      for (let i = 0; i < 9; ++i) rgb.push([rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]]);
+      return rgb;
+    },
+
+    /** Mean irradiance on the surfaces, by area, direct and bounced [W m^-2]. */
+    meanIrradiance() {
+      const areas = floatsAt(rt.limnrt_surfel_areas(scene), counts.surfels), direct = floatsAt(rt.limnrt_direct(scene), 4 * counts.surfels);
+      let sum = 0, area = 0;
+      for (let k = 0; k < counts.surfels; ++k) {
+        sum += areas[k] * (direct[4 * k] + direct[4 * k + 1] + direct[4 * k + 2]) / 3;
+        area += areas[k];
+      }
+      const map = this.lightmap();
+      let bounced = 0, texels = 0;
+      for (let t = 0; t < map.length; t += 4 * 7, ++texels) bounced += (map[t] + map[t + 1] + map[t + 2]) / 3;
+      return sum / Math.max(area, 1e-30) + bounced / Math.max(texels, 1);
+    },
+  };
+}
