@@ -151,7 +151,7 @@ async function start() {
   controlsElement.append(lampRows);
   const bySource = new Map();
   for (const light of transport.fileLights()) bySource.set(light.source, [...(bySource.get(light.source) ?? []), light]);
-  for (const [source, lights] of bySource) addLamp(transport.meta.lights?.[source]?.name ?? `Lamp ${source + 1}`, lights);
+  for (const [source, lights] of bySource) addLamp(transport.meta.lights?.[source] || `Lamp ${source + 1}`, lights);
   sendLights();
 
   // Exposure that shows the mean of what surfaces of albedo 1/2 send as a middle grey.
