@@ -1,71 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The harmonics of links, one link per lane. See gather_sums.h.
+// The harmonics of links, one link per lane. See gather_range.h.
 #pragma once
 
-#include "engine/runtime/gather.h"
-
-#include <cstring>
-#include <utility>
-
-#ifndef LIMNRT_LANES
-#define LIMNRT_LANES 4
-#endif
+#include "engine/runtime/lanes.h"
 
 namespace limn::runtime {
 namespace {
-
-constexpr int kLanes = LIMNRT_LANES;
-typedef float Floats __attribute__((vector_size(4 * kLanes)));
-typedef std::int32_t Ints __attribute__((vector_size(4 * kLanes)));
-
-#define LIMNRT_INLINE inline __attribute__((always_inline))
-
-template <class To, class From>
-LIMNRT_INLINE To bitsAs(From v) {
-    static_assert(sizeof(To) == sizeof(From));
-    To to;
-    std::memcpy(&to, &v, sizeof to);
-    return to;
-}
-LIMNRT_INLINE Floats all(float v) {
-    return v - Floats{};
-}
-LIMNRT_INLINE Floats toFloats(Ints v) {
-    return __builtin_convertvector(v, Floats);
-}
-
-constexpr std::int32_t kSign = std::int32_t(0x80000000U);
-LIMNRT_INLINE Floats magnitude(Floats v) {
-    return bitsAs<Floats>(bitsAs<Ints>(v) & ~kSign);
-}
-/// `v` >= 0 with the sign of another.
-LIMNRT_INLINE Floats withSignOf(Floats v, Floats of) {
-    return bitsAs<Floats>(bitsAs<Ints>(v) | (bitsAs<Ints>(of) & kSign));
-}
-/// 1 / sqrt(v) within some roundings: an estimate from the exponent, three steps of Newton's.
-LIMNRT_INLINE Floats inverseRoot(Floats v) {
-    Floats r = bitsAs<Floats>(0x5f375a86 - (bitsAs<Ints>(v) >> 1));
-    const Floats half = v * 0.5f;
-    r *= 1.5f - half * r * r;
-    r *= 1.5f - half * r * r;
-    return r * (1.5f - half * r * r);
-}
-
-/// Every third word of three vectors in a row, from the word `At` on.
-template <int At, std::size_t... K>
-LIMNRT_INLINE Ints everyThird(Ints a, Ints b, Ints c, std::index_sequence<K...>) {
-    const Ints low =
-        __builtin_shufflevector(a, b, (3 * int(K) + At < 2 * kLanes ? 3 * int(K) + At : 0)...);
-    return __builtin_shufflevector(
-        low, c, (3 * int(K) + At < 2 * kLanes ? int(K) : kLanes + 3 * int(K) + At - 2 * kLanes)...);
-}
-
-/// Values of halfs in the lower 16 bits, which are finite and >= 0.
-LIMNRT_INLINE Floats halfsToFloats(Ints half) {
-    const Floats normal = bitsAs<Floats>((half << 13) + (112 << 23)),
-                 denormal = toFloats(half) * 0x1p-24f;
-    return half < 0x400 ? denormal : normal;
-}
 
 /// (l-1-m)(l-1+m) / ((2l-1)(2l-3)): q_l = z q_{l-1} - beta q_{l-2} are the associated Legendre
 /// polynomials of order m without (1-z^2)^{m/2} and with leading coefficients of 1.
@@ -79,13 +19,11 @@ struct Cones {
     Floats x, y, z, factor[Bands];
 };
 
+/// Links from `count` on get no transport.
 template <int Bands>
-LIMNRT_INLINE void readCones(const Link* links, Cones<Bands>& cones) {
-    Ints words[3];
-    std::memcpy(words, links, sizeof words);
-    const auto lanes = std::make_index_sequence<kLanes>();
-    const Ints oct = everyThird<1>(words[0], words[1], words[2], lanes),
-               cone = everyThird<2>(words[0], words[1], words[2], lanes);
+LIMNRT_INLINE void readCones(const Link* links, std::uint32_t count, Cones<Bands>& cones) {
+    Ints oct, cone;
+    readWords(links, oct, cone);
     Floats x = toFloats((oct << 16) >> 16), y = toFloats(oct >> 16);
     const Floats z = 32767.f - magnitude(x) - magnitude(y);
     const Floats fold = z < 0.f ? -z : Floats{};
@@ -93,7 +31,10 @@ LIMNRT_INLINE void readCones(const Link* links, Cones<Bands>& cones) {
     y -= withSignOf(fold, y);
     const Floats inverse = inverseRoot(x * x + y * y + z * z);
     cones.x = x * inverse, cones.y = y * inverse, cones.z = z * inverse;
-    const Floats u = halfsToFloats(cone & 0xffff), transport = halfsToFloats((cone >> 16) & 0xffff);
+    const Floats u = halfsToFloats(cone & 0xffff);
+    Floats transport = halfsToFloats((cone >> 16) & 0xffff);
+    if (count < std::uint32_t(kLanes))
+        transport = kLaneNumbers < int(count) ? transport : Floats{};
     const Floats cosine = 1.f - u;
     cones.factor[0] = transport;
     cones.factor[1] = (2.f - u) * transport;

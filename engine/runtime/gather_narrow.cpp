@@ -2,7 +2,7 @@
 #include "engine/runtime/gather.h"
 
 #define LIMNRT_LANES 4
-#include "engine/runtime/gather_sums.h"
+#include "engine/runtime/gather_range.h"
 
 namespace limn::runtime {
 

@@ -1,43 +1,47 @@
 // SPDX-License-Identifier: MIT
-// The sums over links. Included once by each source that defines LIMNRT_LANES, within the
-// instructions that these lanes need.
+// Sums of harmonics times light. See gather_range.h.
 #pragma once
 
 #include "engine/runtime/gather_kernel.h"
-#include "engine/runtime/monic_scale.h"
 
 namespace limn::runtime {
 namespace {
 
 /// Writes red, green, blue and luma of the nodes of kLanes links.
 LIMNRT_INLINE void writeLight(const Link* links, const F4* radiosity, Floats* light) {
-    for (int k = 0; k < kLanes; k += 4) {
-        const F4 a = radiosity[links[k].node], b = radiosity[links[k + 1].node],
-                 c = radiosity[links[k + 2].node], d = radiosity[links[k + 3].node];
+    F4 rows[4][kLanes / 4];
+#pragma GCC unroll 4
+    for (int k = 0; k < kLanes / 4; ++k, links += 4) {
+        const F4 a = radiosity[links[0].node], b = radiosity[links[1].node],
+                 c = radiosity[links[2].node], d = radiosity[links[3].node];
         const F4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
                  abHigh = __builtin_shufflevector(a, b, 2, 6, 3, 7),
                  cd = __builtin_shufflevector(c, d, 0, 4, 1, 5),
                  cdHigh = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-        const F4 rows[4] = {__builtin_shufflevector(ab, cd, 0, 1, 4, 5),
-                            __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
-                            __builtin_shufflevector(abHigh, cdHigh, 0, 1, 4, 5),
-                            __builtin_shufflevector(abHigh, cdHigh, 2, 3, 6, 7)};
-        for (int i = 0; i < 4; ++i)
-            std::memcpy(reinterpret_cast<float*>(&light[i]) + k, &rows[i], sizeof rows[i]);
+        rows[0][k] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+        rows[1][k] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+        rows[2][k] = __builtin_shufflevector(abHigh, cdHigh, 0, 1, 4, 5);
+        rows[3][k] = __builtin_shufflevector(abHigh, cdHigh, 2, 3, 6, 7);
     }
+    for (int i = 0; i < 4; ++i)
+        light[i] = joined(rows[i]);
 }
 
 /// sums[i * Colours + k] += basis i times light k, lane by lane, over `vectors`.
 template <int Count, int Colours>
 LIMNRT_INLINE void addBlock(const Floats* basis, std::size_t stride, const Floats* light,
                             std::size_t vectors, Floats* sums) {
-    Floats sum[Count * Colours];
+    Floats sum[Count * Colours]; // in registers, once all loops over it are unrolled
+#pragma GCC unroll 32
     for (int i = 0; i < Count * Colours; ++i)
         sum[i] = sums[i];
     for (std::size_t n = 0; n < vectors; ++n, basis += stride, light += 4)
+#pragma GCC unroll 32
         for (int i = 0; i < Count; ++i)
+#pragma GCC unroll 4
             for (int k = 0; k < Colours; ++k)
                 sum[i * Colours + k] += basis[i] * light[k];
+#pragma GCC unroll 32
     for (int i = 0; i < Count * Colours; ++i)
         sums[i] = sum[i];
 }
@@ -80,9 +84,9 @@ struct Block {
     Floats basis[kVectors * kCount], light[4 * kVectors];
     std::size_t vectors = 0;
 
-    LIMNRT_INLINE void add(const Link* links, const F4* radiosity) {
+    LIMNRT_INLINE void add(const Link* links, std::uint32_t count, const F4* radiosity) {
         Cones<Bands> cones;
-        readCones(links, cones);
+        readCones(links, count, cones);
         writeBasis(cones, basis + vectors * kCount);
         writeLight(links, radiosity, light + 4 * vectors);
         ++vectors;
@@ -94,57 +98,6 @@ struct Block {
         vectors = 0;
     }
 };
-
-template <int Bands>
-void gatherBands(const Gather& g, std::uint32_t begin, std::uint32_t end) {
-    constexpr int kCount = Bands * Bands;
-    const int coloured = int(g.chroma * g.chroma);
-    const MonicScale scale;
-    Block<Bands> block;
-    for (std::uint32_t c = begin; c < end; ++c) {
-        Floats sums[3 * kCount + 2] = {}; // grey ones are read in threes
-        const Link* links = g.view.links + g.view.linkBegin[c];
-        std::uint32_t count = g.linkEnd[c] - g.view.linkBegin[c];
-        for (; count >= std::uint32_t(kLanes); links += kLanes, count -= kLanes) {
-            block.add(links, g.radiosity);
-            if (block.vectors == Block<Bands>::kVectors)
-                block.addTo(sums, coloured);
-        }
-        if (count > 0) {
-            Link rest[kLanes] = {}; // without transport
-            std::memcpy(rest, links, count * sizeof(Link));
-            block.add(rest, g.radiosity);
-        }
-        block.addTo(sums, coloured);
-        F4* out = g.sh + std::size_t(c) * g.stride;
-        const float unscaled = __builtin_ldexpf(1, -g.view.linkExponent[c]);
-        for (int i = 0; i < coloured; ++i)
-            out[i] = sumLanes(sums + 3 * i) * (scale.at[i] * unscaled);
-        for (int i = coloured; i < kCount; ++i) {
-            const F4 grey = sumLanes(sums + 2 * coloured + i) * (scale.at[i] * unscaled);
-            out[i] = F4{grey[0], grey[0], grey[0], 0};
-        }
-    }
-}
-
-void gatherRange(const Gather& g, std::uint32_t begin, std::uint32_t end) {
-    switch (g.bands) {
-    case 2:
-        return gatherBands<2>(g, begin, end);
-    case 3:
-        return gatherBands<3>(g, begin, end);
-    case 4:
-        return gatherBands<4>(g, begin, end);
-    case 5:
-        return gatherBands<5>(g, begin, end);
-    case 6:
-        return gatherBands<6>(g, begin, end);
-    case 7:
-        return gatherBands<7>(g, begin, end);
-    default:
-        return gatherBands<8>(g, begin, end);
-    }
-}
 
 } // namespace
 } // namespace limn::runtime

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/runtime/gather.h"
 
-#include <utility>
-
 #if LIMNRT_WIDE_VECTORS
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
@@ -11,7 +9,7 @@
 #pragma GCC target("avx2,fma")
 #endif
 #define LIMNRT_LANES 8
-#include "engine/runtime/gather_sums.h"
+#include "engine/runtime/gather_range.h"
 
 namespace limn::runtime {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/runtime/gather.h"
 
-#include <utility>
-
 #if LIMNRT_WIDE_VECTORS
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma"))),        \
@@ -12,7 +10,7 @@
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx2,fma")
 #endif
 #define LIMNRT_LANES 16
-#include "engine/runtime/gather_sums.h"
+#include "engine/runtime/gather_range.h"
 
 namespace limn::runtime {
 

@@ -66,7 +66,7 @@ bool meets(const TracedRay& ray, const float* triangle) {
     if (!(v >= -kEdge && u + v <= 1 + kEdge))
         return false;
     const float t = dotted(ac, q) * inverse;
-    return t > 0 && t < ray.distance;
+    return t >= 0 && t <= ray.distance;
 }
 
 bool meetsAny(const TransportView& view, const TracedRay& ray, const Box& leaf) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace limn {
 
@@ -145,20 +146,58 @@ bool isFinite(const OccluderTriangle& t) {
     });
 }
 
-/// Whether at least half of a triangle is there, by 64 points evenly spread over it.
-bool mostlyThere(const Scene& scene, const Instance& instance, std::uint32_t triangle) {
-    if (!isCutout(scene.materialOf(instance)))
-        return true;
-    constexpr int kSide = 8; // of the grid of smaller triangles, of which each has its middle
-    int there = 0;
-    for (int j = 0; j < kSide; ++j)
-        for (int i = 0; i < 2 * (kSide - j) - 1; ++i) {
-            const float third = i % 2 == 0 ? 1 / 3.f : 2 / 3.f;
-            const float u = (float(i / 2) + third) / kSide, v = (float(j) + third) / kSide;
-            there += surfaceAlpha(scene, instance, triangle, u, v) > 0;
+/// Divides a triangle of a cutout into pieces and keeps those that are there.
+class CutoutDivider {
+public:
+    CutoutDivider(const Scene& scene, const Instance& instance, std::uint32_t triangle,
+                  const OccluderTriangle& world, float finest)
+        : m_scene(scene), m_instance(instance), m_triangle(triangle), m_world(world) {
+        const float longest =
+            std::max({glm::length(world[1] - world[0]), glm::length(world[2] - world[1]),
+                      glm::length(world[0] - world[2])});
+        while (m_levels < kMaxLevels && longest > finest * float(1 << m_levels))
+            ++m_levels;
+    }
+    void addTo(std::vector<OccluderTriangle>& pieces) {
+        if (add({{{0, 0}, {1, 0}, {0, 1}}}, m_levels, pieces))
+            pieces.push_back(m_world);
+    }
+
+private:
+    using Piece = std::array<glm::vec2, 3>; ///< corners as barycentrics (u, v)
+    static constexpr int kMaxLevels = 5;
+
+    /// Adds what is there of a piece; true, having added nothing, where all of it is.
+    bool add(const Piece& p, int levels, std::vector<OccluderTriangle>& pieces) {
+        if (levels == 0) {
+            const glm::vec2 middle = (p[0] + p[1] + p[2]) / 3.f;
+            return surfaceAlpha(m_scene, m_instance, m_triangle, middle.x, middle.y) > 0;
         }
-    return 2 * there >= kSide * kSide;
-}
+        const glm::vec2 ab = (p[0] + p[1]) / 2.f, bc = (p[1] + p[2]) / 2.f,
+                        ca = (p[2] + p[0]) / 2.f;
+        const std::array<Piece, 4> quarters = {
+            {{p[0], ab, ca}, {ab, p[1], bc}, {ca, bc, p[2]}, {ab, bc, ca}}};
+        std::array<bool, 4> whole;
+        for (std::size_t k = 0; k < 4; ++k)
+            whole[k] = add(quarters[k], levels - 1, pieces);
+        if (std::ranges::count(whole, true) == 4)
+            return true;
+        for (std::size_t k = 0; k < 4; ++k)
+            if (whole[k])
+                pieces.push_back(
+                    {place(quarters[k][0]), place(quarters[k][1]), place(quarters[k][2])});
+        return false;
+    }
+    glm::vec3 place(glm::vec2 b) const {
+        return m_world[0] * (1 - b.x - b.y) + m_world[1] * b.x + m_world[2] * b.y;
+    }
+
+    const Scene& m_scene;
+    const Instance& m_instance;
+    std::uint32_t m_triangle;
+    const OccluderTriangle& m_world;
+    int m_levels = 0;
+};
 
 } // namespace
 
@@ -187,8 +226,9 @@ OccluderTree buildOccluderTree(std::vector<OccluderTriangle> triangles) {
 }
 
 OccluderTree occluderTree(const Scene& scene) {
+    constexpr float kFinest = 1 / 2048.f; // of the scene, as the longest edge of a cutout's piece
+    const float finest = kFinest * glm::length(staticBounds(scene).size());
     std::vector<OccluderTriangle> triangles;
-    std::uint32_t thin = 0;
     for (const Instance& instance : scene.instances) {
         if (instance.dynamic)
             continue;
@@ -200,15 +240,13 @@ OccluderTree occluderTree(const Scene& scene) {
                 world[k] = glm::vec3(instance.toWorld * glm::vec4(mesh.positions[corner[k]], 1));
             if (!isFinite(world))
                 continue;
-            if (mostlyThere(scene, instance, t))
-                triangles.push_back(world);
+            if (isCutout(scene.materialOf(instance)))
+                CutoutDivider(scene, instance, t, world, finest).addTo(triangles);
             else
-                ++thin;
+                triangles.push_back(world);
         }
     }
-    OccluderTree tree = buildOccluderTree(std::move(triangles));
-    tree.thinTriangles = thin;
-    return tree;
+    return buildOccluderTree(std::move(triangles));
 }
 
 } // namespace limn

@@ -28,14 +28,14 @@ static_assert(sizeof(OccluderTriangle) == 36);
 struct OccluderTree {
     std::vector<OccluderBox> boxes;
     std::vector<OccluderTriangle> triangles;
-    std::uint32_t thinTriangles = 0; ///< cutouts that are mostly holes, left out
 };
 
 /// Maximum number of levels below the root.
 inline constexpr std::uint32_t kMaxOccluderDepth = 60;
 
-/// All static triangles with finite corners. Of cutouts those of which at least half is there, by
-/// samples; they then occlude as a whole.
+/// All static triangles with finite corners. Those of cutouts are divided up to five times into
+/// quarters, until an edge is shorter than 1/2048 of the scene, and the pieces whose middle is a
+/// hole are left out.
 OccluderTree occluderTree(const Scene& scene);
 
 /// A tree of boxes over triangles, split where the surface area heuristic over 16 bins is lowest.

@@ -75,9 +75,7 @@ std::string transportMeta(const TransportInput& input, const OccluderTree& occlu
                        {"lights", lights},
                        {"instances", instances},
                        {"dynamicInstances", dynamic},
-                       {"occluders",
-                        {{"triangles", occluders.triangles.size()},
-                         {"cutoutTrianglesLeftOut", occluders.thinTriangles}}},
+                       {"occluders", {{"triangles", occluders.triangles.size()}}},
                        {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
                        {"receipt", receiptOf(input)}};
     // Names may hold bytes that are not UTF-8; they are replaced.

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""read_transport.py FILE.limnrt EXPECTED.f32 ...: relights transport files, written from docs/transport-format.md alone.
+
+Prints the error of each file's lightmap, lit by the file's own lights and sky until it converges, against the expected one
+(f32, layer by layer, RGBA), and fails where it exceeds 1e-3. The standard library is enough."""
+import array
+import math
+import struct
+import sys
+from operator import mul
+
+MASK = (1 << 64) - 1
+P1, P2, P3, P4, P5 = (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5)
+
+def rotate(v, n):
+    return (v << n | v >> (64 - n)) & MASK
+
+def mix(lane, value):
+    return rotate((lane + value * P2) & MASK, 31) * P1 & MASK
+
+def xxh64(data):
+    at, n, h = 0, len(data), P5
+    if n >= 32:
+        a, b, c, d = (P1 + P2) & MASK, P2, 0, -P1 & MASK
+        for w, x, y, z in struct.iter_unpack("<4Q", data[:n // 32 * 32]):
+            a, b, c, d = mix(a, w), mix(b, x), mix(c, y), mix(d, z)
+        h, at = (rotate(a, 1) + rotate(b, 7) + rotate(c, 12) + rotate(d, 18)) & MASK, n // 32 * 32
+        for lane in (a, b, c, d):
+            h = ((h ^ mix(0, lane)) * P1 + P4) & MASK
+    h = (h + n) & MASK
+    while n - at >= 8:
+        h = (rotate(h ^ mix(0, struct.unpack_from("<Q", data, at)[0]), 27) * P1 + P4) & MASK
+        at += 8
+    if n - at >= 4:
+        h = (rotate(h ^ struct.unpack_from("<I", data, at)[0] * P1 & MASK, 23) * P2 + P3) & MASK
+        at += 4
+    for byte in data[at:]:
+        h = rotate(h ^ byte * P5 & MASK, 11) * P1 & MASK
+    h = (h ^ h >> 33) * P2 & MASK
+    h = (h ^ h >> 29) * P3 & MASK
+    return h ^ h >> 32
+
+def sections(data):
+    magic, major, _, count, _, size, table_hash = struct.unpack_from("<8sIIIIQQ", data)
+    assert magic == b"LIMNRT\r\n" and major == 1 and size == len(data), "not a transport file of version 1"
+    assert xxh64(data[64:64 + 32 * count]) == table_hash, "the table is damaged"
+    result = {}
+    for k in range(count):
+        tag, _, offset, length, digest = struct.unpack_from("<4sIQQQ", data, 64 + 32 * k)
+        result[tag.decode()] = data[offset:offset + length]
+        assert xxh64(result[tag.decode()]) == digest, f"{tag} is damaged"
+    return result
+
+def dot(a, b):
+    return sum(map(mul, a, b))
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+def along(a, d, t):
+    return (a[0] + d[0] * t, a[1] + d[1] * t, a[2] + d[2] * t)
+
+def unit(a):
+    return along((0, 0, 0), a, 1 / math.sqrt(dot(a, a)))
+
+def harmonics(x, y, z):
+    return (0.2820948, 0.4886025 * y, 0.4886025 * z, 0.4886025 * x, 1.0925484 * x * y, 1.0925484 * y * z,
+            0.3153916 * (3 * z * z - 1), 1.0925484 * x * z, 0.5462742 * (x * x - y * y))
+
+class Transport:
+    def __init__(self, data):
+        s = sections(data)
+        words = lambda tag, kind="I": array.array(kind, s[tag])
+        threes = lambda tag: list(struct.iter_unpack("<3f", s[tag]))
+        self.dims = words("DIMS")
+        self.position, self.normal, self.albedo = threes("SPOS"), threes("SNRM"), threes("SALB")
+        self.emission, self.sky = threes("SEMI"), threes("SKYL")
+        self.reads = [[(c, w) for c, w in zip(v[:4], v[4:]) if w > 0] for v in
+                      (c + w for c, w in zip(struct.iter_unpack("<4I", s["SCAC"]), struct.iter_unpack("<4f", s["SCWT"])))]
+        self.inner = [(a, b, w) for (a, b), w in zip(struct.iter_unpack("<2I", s["TCHI"]), words("TWGT", "f"))]
+        self.links = self.read_links(s, words)
+        begin, source, weight = words("FBEG"), words("FSRC"), words("FWGT", "f")
+        self.fills = [[(source[k], weight[k]) for k in range(begin[c], begin[c + 1])] for c in range(self.dims[3])]
+        begin, source, weight = words("LMBG"), words("LMSR"), words("LMWT", "H")
+        self.texels = [[(source[k], weight[k] / 65535) for k in range(begin[t], begin[t + 1])]
+                       for t in range(self.dims[11] * self.dims[12])]
+        self.magnitude = words("SPAC", "f")[6]
+        self.boxes = list(struct.iter_unpack("<3fI3fI", s["OBOX"]))
+        self.triangles = [(v[:3], v[3:6], v[6:]) for v in struct.iter_unpack("<9f", s["OTRI"])]
+        self.lights = list(struct.iter_unpack("<2I16f2I", s["LGHT"]))
+
+    def read_links(self, s, words):
+        """Per lightmap cache: node and what a radiosity of 1 there adds to the nine coefficients."""
+        begin, exponent, result = words("LBEG"), words("LEXP", "b"), []
+        all_links = list(struct.iter_unpack("<Ihhee", s["LINK"]))
+        for c in range(self.dims[4]):
+            result.append([])
+            for node, ox, oy, u, t in all_links[begin[c]:begin[c + 1]]:
+                x, y = ox / 32767, oy / 32767
+                z = 1 - abs(x) - abs(y)
+                fold = max(-z, 0)
+                x, y = x - math.copysign(fold, x), y - math.copysign(fold, y)
+                transport = t * 2.0 ** -exponent[c]
+                g1, g2 = (2 - u) / 2, (2 - u) * 3 * (1 - u) / 6
+                factors = (1, g1, g1, g1, g2, g2, g2, g2, g2)
+                result[-1].append((node, [transport * g * v for g, v in zip(factors, harmonics(*unit((x, y, z))))]))
+        return result
+
+    def epsilon(self, p):
+        return max(map(abs, p)) * 2.0 ** -19 + self.magnitude * 2.0 ** -20
+
+    def occluded(self, origin, way, distance):
+        inverse = [1 / (math.copysign(max(abs(d), 1e-20), d)) for d in way]
+        waiting = [0] if self.boxes else []
+        while waiting:
+            box = self.boxes[waiting.pop()]
+            spans = [sorted(((box[k] - origin[k]) * inverse[k], (box[4 + k] - origin[k]) * inverse[k])) for k in range(3)]
+            if max(0, *(a for a, _ in spans)) > min(distance, *(b * (1 + 1e-6) for _, b in spans)):
+                continue
+            if box[7] == 0:
+                waiting += [box[3], box[3] + 1]
+            elif any(self.meets(origin, way, distance, t) for t in self.triangles[box[3]:box[3] + box[7]]):
+                return True
+        return False
+
+    @staticmethod
+    def meets(origin, way, distance, triangle):
+        a = triangle[0]
+        ab, ac, o = along(triangle[1], a, -1), along(triangle[2], a, -1), along(origin, a, -1)
+        p, q = cross(way, ac), cross(o, ab)
+        determinant = dot(ab, p)
+        if determinant == 0:
+            return False
+        u, v, t = dot(o, p) / determinant, dot(way, q) / determinant, dot(ac, q) / determinant
+        return u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= distance
+
+    def irradiance(self, light, p, n):
+        """Of a directional, point or spot light of colour 1, with its shadow."""
+        kind, flags, x, y, z, *rest = light
+        direction, strength, reach, inner, outer = rest[:3], *rest[6:10]
+        distance, window, way = math.inf, 1, along((0, 0, 0), direction, -1)
+        assert kind < 3, "this reader has no rectangles"
+        if kind > 0:
+            way = along((x, y, z), p, -1)
+            distance = max(math.sqrt(dot(way, way)), 1e-8)
+            way = along((0, 0, 0), way, 1 / distance)
+            window = min(max(1 - (distance / reach) ** 4 if reach > 0 else 1, 0), 1) / distance ** 2
+        if kind == 2:
+            end = math.cos(outer)
+            edge = (-dot(way, direction) - end) / (max(math.cos(inner), end + 1e-4) - end)
+            window *= min(max(edge, 0), 1) ** 2
+        cosine, e = dot(n, way), self.epsilon(p)
+        if flags & 1 or cosine <= 0 or window <= 0 or (not flags & 2 and self.occluded(along(p, n, e), way, distance - e)):
+            return 0
+        return strength * window * cosine
+
+    def relight(self, bounces=200):
+        n, direct = self.dims[0], [[0, 0, 0] for _ in range(self.dims[0])]
+        for light in self.lights:
+            for k in range(n):
+                e = self.irradiance(light, self.position[k], self.normal[k])
+                direct[k] = [direct[k][i] + light[8 + i] * e for i in range(3)]
+        factor = [math.pi] + [2 * math.pi / 3] * 3 + [math.pi / 4] * 5
+        basis = [[a * y for a, y in zip(factor, harmonics(*m))] for m in self.normal]
+        read = {c for reads in self.reads for c, _ in reads}
+        read |= {source for c in read for source, _ in self.fills[c]}
+        channels = []
+        for i in range(3):  # colours do not mix in a file that keeps colour in all bands
+            indirect = [0.0] * n
+            for _ in range(bounces):
+                b = [self.albedo[k][i] * (direct[k][i] + indirect[k]) + math.pi * self.emission[k][i] for k in range(n)]
+                b += [math.pi * l[i] for l in self.sky]
+                for left, right, w in self.inner:
+                    b.append(w * b[left] + (1 - w) * b[right])
+                sh = self.gather(b, read)
+                was, indirect = indirect, [max(0, sum(w * sum(map(mul, basis[k], sh[c])) for c, w in self.reads[k])) for k in range(n)]
+                if max(abs(x - y) for x, y in zip(was, indirect)) <= 1e-5 * max(indirect):
+                    break
+            channels.append(self.gather(b, range(self.dims[4])))
+        return [[sum(w * channels[i][c][l] for c, w in parts) for parts in self.texels] for l in range(9) for i in range(3)]
+
+    def gather(self, b, which):
+        sh = {c: [sum(b[node] * v[l] for node, v in self.links[c]) for l in range(9)] for c in which}
+        for c in which:
+            if self.fills[c]:
+                sh[c] = [sum(w * sh[source][l] for source, w in self.fills[c]) for l in range(9)]
+        return sh
+
+def main(names):
+    errors = []
+    for name, expected in zip(names[::2], names[1::2]):
+        got, want = Transport(open(name, "rb").read()).relight(), array.array("f", open(expected, "rb").read())
+        texels = len(want) // 36
+        pairs = [(got[3 * l + i][t], want[4 * (l * texels + t) + i]) for l in range(9) for i in range(3) for t in range(texels)]
+        errors.append(math.sqrt(sum((g - w) ** 2 for g, w in pairs) / sum(w * w for _, w in pairs)))
+        print(f"{name}: nRMSE {errors[-1]:.2e}")
+    return max(errors) > 1e-3
+
+sys.exit(main(sys.argv[1:]))
