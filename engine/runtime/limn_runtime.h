@@ -134,6 +134,9 @@ void limnrt_lightmap_sh_half(limnrt_scene*, float scale, uint16_t* rgba);
 /* Writes the lightmap's irradiance [W m^-2], >= 0, in one layer of the same form, for `normals`
    (unit, 3 a texel) or, with 0, for the caches' own, which are the surface's. */
 void limnrt_lightmap_irradiance(limnrt_scene*, const float* normals, float* rgba);
+/* The same as halfs, times `scale`, as limnrt_lightmap_sh_half() writes them. */
+void limnrt_lightmap_irradiance_half(limnrt_scene*, const float* normals, float scale,
+                                     uint16_t* rgba);
 /* Writes the grid: layer i holds coefficient i, cell (x, y, z) at (z * ny + y) * nx + x, 4 floats
  * each. */
 void limnrt_grid_sh(limnrt_scene*, float* rgba);

@@ -46,6 +46,30 @@ void forTexels(const limnrt_scene& s, const Write& write) {
     }
 }
 
+/// Calls write(texel, irradiance) for each texel, with its coverage in the fourth place.
+template <class Write>
+void forIrradiance(limnrt_scene& s, const float* normals, const Write& write) {
+    lightResults(s, false);
+    const TransportView& v = s.view;
+    if (normals) {
+        forTexels(s, [&](std::size_t t, const F4* sh, float coverage) {
+            F4 irradiance = irradianceOf(s, sh, normals + 3 * t);
+            irradiance[3] = coverage;
+            write(t, irradiance);
+        });
+        return;
+    }
+    for (std::size_t c = 0; c < v.dims.lightmapCaches; ++c)
+        s.cacheIrradiance[c] = irradianceOf(s, s.sh + c * s.coefficients(), v.cacheNormal + 3 * c);
+    for (std::size_t t = 0; t < v.dims.texels(); ++t) {
+        F4 sum{};
+        for (std::uint32_t k = v.partBegin[t]; k < v.partBegin[t + 1]; ++k)
+            sum += s.cacheIrradiance[v.partCache[k]] * splat(float(v.partWeight[k]) * kUnorm);
+        sum[3] = v.partBegin[t] < v.partBegin[t + 1] ? 1.f : 0.f;
+        write(t, sum);
+    }
+}
+
 bool canSample(const limnrt_scene& s, const float* position, const float* normal) {
     bool fine = s.view.dims.cells() > 0;
     for (int k = 0; k < 3; ++k)
@@ -166,26 +190,18 @@ void limnrt_lightmap_sh_half(limnrt_scene* s, float scale, uint16_t* rgba) {
 }
 
 void limnrt_lightmap_irradiance(limnrt_scene* s, const float* normals, float* rgba) {
-    lightResults(*s, false);
-    const TransportView& v = s->view;
-    if (normals) {
-        forTexels(*s, [&](std::size_t t, const F4* sh, float coverage) {
-            F4 irradiance = irradianceOf(*s, sh, normals + 3 * t);
-            irradiance[3] = coverage;
-            std::memcpy(rgba + 4 * t, &irradiance, sizeof irradiance);
-        });
-        return;
-    }
-    for (std::size_t c = 0; c < v.dims.lightmapCaches; ++c)
-        s->cacheIrradiance[c] =
-            irradianceOf(*s, s->sh + c * s->coefficients(), v.cacheNormal + 3 * c);
-    for (std::size_t t = 0; t < v.dims.texels(); ++t) {
-        F4 sum{};
-        for (std::uint32_t k = v.partBegin[t]; k < v.partBegin[t + 1]; ++k)
-            sum += s->cacheIrradiance[v.partCache[k]] * splat(float(v.partWeight[k]) * kUnorm);
-        sum[3] = v.partBegin[t] < v.partBegin[t + 1] ? 1.f : 0.f;
-        std::memcpy(rgba + 4 * t, &sum, sizeof sum);
-    }
+    forIrradiance(*s, normals,
+                  [&](std::size_t t, F4 e) { std::memcpy(rgba + 4 * t, &e, sizeof e); });
+}
+
+void limnrt_lightmap_irradiance_half(limnrt_scene* s, const float* normals, float scale,
+                                     uint16_t* rgba) {
+    forIrradiance(*s, normals, [&](std::size_t t, F4 e) {
+        std::uint16_t* out = rgba + 4 * t;
+        for (int k = 0; k < 3; ++k)
+            out[k] = halfOf(e[k] * scale);
+        out[3] = halfOf(e[3]);
+    });
 }
 
 void limnrt_grid_sh(limnrt_scene* s, float* rgba) {

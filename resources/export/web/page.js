@@ -158,6 +158,9 @@ async function start() {
   let settled = 0;
   while (!transport.converged() && settled++ < 200) transport.step();
   const mean = transport.meanIrradiance(), base = mean > 0 ? 0.18 * 2 * Math.PI / mean : 1;
+  // Half floats hold 2^-14 to 2^16 times the mean.
+  const scale = mean > 0 ? 2 ** -Math.round(Math.log2(mean)) : 1;
+  for (const m of materials) m.lightMapIntensity = 1 / scale;
 
   const camera = new THREE.PerspectiveCamera(45, 1, extent * 1e-3, extent * 8);
   const shown = gltf.cameras[0];
@@ -228,8 +231,7 @@ async function start() {
     do bounces += transport.step(); while (!transport.converged() && performance.now() - begin < kFrameMs);
     state.lightMs = (performance.now() - begin) / Math.max(bounces, 1);
     state.bounces = bounces;
-    const floats = transport.lightmap();
-    for (let k = 0; k < floats.length; ++k) halfs[k] = THREE.DataUtils.toHalfFloat(Math.min(floats[k], 65504));
+    halfs.set(transport.lightmap(scale));
     lightmap.needsUpdate = true;
     gridLit.forEach((update) => update());
     lightDirty = !transport.converged();
@@ -247,7 +249,7 @@ async function start() {
     if (now - fps.since > 500) {
       state.framesPerSecond = fps.frames * 1000 / (now - fps.since);
       fps = { frames: 0, since: now };
-      status.textContent = `${short(state.lightMs)} ms per bounce · ${Math.round(state.framesPerSecond)} frames/s`;
+      status.textContent = `${state.bounces > 0 ? short(state.lightMs) : '–'} ms per bounce · ${Math.round(state.framesPerSecond)} frames/s`;
     }
     requestAnimationFrame(frame);
   }

@@ -88,10 +88,10 @@ export async function openTransport(wasm, file) {
     step() { return rt.limnrt_converge(scene, 1); },
     converged() { return rt.limnrt_converged(scene) === 1; },
 
-    /** Irradiance [W m^-2], RGBA, the upper row first: a view that the next call makes invalid. */
-    lightmap() {
-      rt.limnrt_lightmap_irradiance(scene, 0, mapAt);
-      return floatsAt(mapAt, 4 * counts.width * counts.height);
+    /** Irradiance [W m^-2] times `scale`, RGBA in half floats, the upper row first: a view that the next call makes invalid. */
+    lightmap(scale) {
+      rt.limnrt_lightmap_irradiance_half(scene, 0, scale, mapAt);
+      return new Uint16Array(rt.memory.buffer, mapAt, 4 * counts.width * counts.height);
     },
 
     /** Radiance harmonics of three bands at a point of a moving object, 9 times RGB; null without grid. */
@@ -103,7 +103,7 @@ export async function openTransport(wasm, file) {
       return rgb;
     },
 
-    /** Mean irradiance on the surfaces, by area, direct and bounced [W m^-2]. */
+    /** Mean irradiance on the surfaces, by area, direct and bounced, sampled at every seventh texel [W m^-2]. */
     meanIrradiance() {
       const areas = floatsAt(rt.limnrt_surfel_areas(scene), counts.surfels), direct = floatsAt(rt.limnrt_direct(scene), 4 * counts.surfels);
       let sum = 0, area = 0;
@@ -111,9 +111,10 @@ export async function openTransport(wasm, file) {
         sum += areas[k] * (direct[4 * k] + direct[4 * k + 1] + direct[4 * k + 2]) / 3;
         area += areas[k];
       }
-      const map = this.lightmap();
+      rt.limnrt_lightmap_irradiance(scene, 0, mapAt);
+      const map = floatsAt(mapAt, 4 * counts.width * counts.height), kStep = 7; // texels
       let bounced = 0, texels = 0;
-      for (let t = 0; t < map.length; t += 4 * 7, ++texels) bounced += (map[t] + map[t + 1] + map[t + 2]) / 3;
+      for (let t = 0; t < map.length; t += 4 * kStep, ++texels) bounced += (map[t] + map[t + 1] + map[t + 2]) / 3;
       return sum / Math.max(area, 1e-30) + bounced / Math.max(texels, 1);
     },
   };
