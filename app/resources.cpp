@@ -24,8 +24,11 @@ std::string dataFolder(const std::string& name) {
     return folderOf(name, name);
 }
 
-std::string webRuntimeFolder() {
-    return folderOf("web", "build/web");
+ExportFolders exportFolders() {
+    const std::string web = folderOf("web", "build/web"), own = "node_modules/three";
+    std::error_code error;
+    const bool here = std::filesystem::is_directory(own, error);
+    return {.three = here ? own : web + "/" + own, .webRuntime = web};
 }
 
 } // namespace limn

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/export/export_format.h"
+
 #include <string>
 
 namespace limn {
@@ -10,8 +12,9 @@ namespace limn {
 /// that the program was built from. It need not exist.
 std::string dataFolder(const std::string& name);
 
-/// Folder of the runtime for the web: share/limn/web of an installed program, else build/web in the
-/// source tree. It need not exist.
-std::string webRuntimeFolder();
+/// Where exports find three.js and the runtime for the web: three.js in node_modules of the working
+/// directory, else where ./run --web puts it; the runtime in share/limn/web of an installed
+/// program, else in build/web of the source tree. Neither need exist.
+ExportFolders exportFolders();
 
 } // namespace limn

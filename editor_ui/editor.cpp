@@ -169,7 +169,7 @@ static void panels(EditorState& state, float menuHeight) {
 static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
     const bool typing = ImGui::GetIO().WantTextInput;
     const bool flying = state.view.navigation == Navigation::Fly; // W, Q, ... steer
-    const bool modal = state.fileBrowser || state.confirm;
+    const bool modal = state.fileBrowser || state.confirm || state.exportDialog;
     for (const Shortcut& shortcut : pressed)
         if (!modal && !typing && !(flying && shortcut.mods == kNoMods))
             runShortcut(state, shortcut);
@@ -183,6 +183,7 @@ void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {
     panels(state, ImGui::GetFrameHeight());
     palettePopup(state);
     fileBrowserDialog(state);
+    exportDialog(state);
     confirmDialog(state);
     if (!ImGui::IsAnyItemActive() && !state.view.drag)
         commitGesture(state);

@@ -3,9 +3,11 @@
 
 #include "editor_ui/document/edit_history.h"
 #include "editor_ui/document/gesture.h"
+#include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/keys.h"
 #include "editor_ui/panels/statistics.h"
+#include "editor_ui/request.h"
 #include "editor_ui/view/gizmo_math.h"
 #include "editor_ui/view/overlay_state.h"
 #include "engine/scene/scene.h"
@@ -19,21 +21,6 @@
 #include <vector>
 
 namespace limn {
-
-/// Something a panel or an action wants done outside the UI: files, jobs, the window.
-struct Request {
-    enum class Kind {
-        NewFromScene,
-        Open,
-        OpenSkyImage,
-        Save,
-        Bake,
-        CancelBake,
-        Screenshot,
-        Quit
-    } kind;
-    std::string path; ///< of NewFromScene, Open, OpenSkyImage, Save
-};
 
 enum class Tool { Select, Move };
 
@@ -111,6 +98,8 @@ struct EditorState {
     OutlinerState outliner;
     EulerEdit euler;
     std::optional<FileBrowser> fileBrowser;
+    std::optional<ExportDialog> exportDialog;
+    ExportStatus exporting;
     std::optional<Request> confirm; ///< waits for "discard changes?"
     bool paletteOpen = false;
     std::string paletteFilter;

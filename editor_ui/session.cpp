@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -55,7 +56,7 @@ Session::Session(SessionOptions options)
     : m_options(std::move(options)),
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
-      m_relightJob(m_options.wake) {
+      m_relightJob(m_options.wake), m_exportJob(m_options.wake) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
@@ -103,6 +104,12 @@ void Session::handle(const Request& request) {
     case Request::Kind::CancelBake:
         m_bakeSoon = false;
         m_bakeJob.cancel();
+        break;
+    case Request::Kind::Export:
+        startExport(request.path);
+        break;
+    case Request::Kind::CancelExport:
+        m_exportJob.cancel();
         break;
     case Request::Kind::Quit:
         m_quit = true;
@@ -238,6 +245,74 @@ void Session::takeBaked() {
     }
 }
 
+void Session::startExport(const std::string& path) {
+    state.exporting.error.clear();
+    state.exporting.written.clear();
+    const ExportSettings settings = singleton<ExportSettings>(state.document);
+    if (!m_exportJob.start({.document = state.document,
+                            .scene = m_scene,
+                            .prepared = lightsBake() ? m_baked.prepared() : Prepared{},
+                            .settings = settings,
+                            .folders = m_options.exportFolders,
+                            .path = path}))
+        log(LogLine::Level::Warning, "Busy with another export; try again in a moment");
+    m_exportingTo = path;
+}
+
+void Session::takeExported() {
+    auto result = m_exportJob.takeResult();
+    if (!result)
+        return;
+    if (!*result) {
+        state.exporting.error = result->error().message;
+        log(LogLine::Level::Warning, "Export: " + state.exporting.error);
+        return;
+    }
+    std::uint64_t bytes = 0;
+    for (const ExportedFile& file : **result)
+        bytes += file.bytes;
+    state.exporting.written = fmt::format("Wrote {} file{}, {}", (*result)->size(),
+                                          (*result)->size() == 1 ? "" : "s", bytesText(bytes));
+    log(LogLine::Level::Info, fmt::format("{} to {}", state.exporting.written, m_exportingTo));
+}
+
+/// Why the light cannot be exported now; empty: it can.
+static std::string exportRefusal(const BakeStatus& bake) {
+    switch (bake.freshness) {
+    case BakeFreshness::NotUsed:
+    case BakeFreshness::UpToDate:
+        return bake.preview ? "The picture shows a preview; the full bake is running" : "";
+    case BakeFreshness::None:
+        return "Nothing is baked yet: bake first";
+    case BakeFreshness::Checking:
+        return "The bake is being checked";
+    case BakeFreshness::Needed:
+        return "The bake is older than the scene: bake first";
+    }
+    return "";
+}
+
+void Session::showExport() {
+    ExportStatus& status = state.exporting;
+    m_exportJob.report(status);
+    if (!state.exportDialog)
+        return;
+    status.refusal = exportRefusal(state.bake);
+    status.forecast = {};
+    const ExportFormat* format = findExportFormat(state.exportDialog->settings.format);
+    if (!format || !status.refusal.empty() || !m_layout || !m_relit.trace)
+        return;
+    const IndirectField none;
+    const ExportScene in{state.document,
+                         *m_scene,
+                         *m_relit.trace,
+                         *m_layout,
+                         none,
+                         lightsBake() ? m_baked.bake.get() : nullptr,
+                         m_options.exportFolders};
+    status.forecast = format->forecast(in, state.exportDialog->settings);
+}
+
 void Session::followDocument() {
     if (state.document.objects == m_followed)
         return;
@@ -319,14 +394,16 @@ void Session::update() {
     takeSky();
     takeSaved();
     takeBaked();
+    takeExported();
     followDocument();
     followTime();
     showStatus();
+    showExport();
 }
 
 bool Session::idle() const {
-    return !m_files.busy() && !m_bakeJob.busy() && !m_bakeSoon && !state.relight.running &&
-           !m_relit.status.running && state.loading.empty();
+    return !m_files.busy() && !m_bakeJob.busy() && !m_exportJob.busy() && !m_bakeSoon &&
+           !state.relight.running && !m_relit.status.running && state.loading.empty();
 }
 
 double Session::bakeSeconds() const {

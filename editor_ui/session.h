@@ -4,6 +4,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/jobs/background_priority.h"
 #include "editor_ui/jobs/bake_job.h"
+#include "editor_ui/jobs/export_job.h"
 #include "editor_ui/jobs/file_job.h"
 #include "editor_ui/jobs/relight_job.h"
 
@@ -16,6 +17,7 @@ struct SessionOptions {
     std::string bakeFolder;     ///< for finished stages of bakes; empty: they are kept in memory
     ImportOptions
         import; ///< for every scene that is opened; its memory limit is also that of bakes
+    ExportFolders exportFolders = {};
 };
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No
@@ -56,7 +58,7 @@ public:
     const std::shared_ptr<const LightSnapshot>& lit() const { return m_relit.lit; }
 
     bool wantsQuit() const { return m_quit; }
-    /// True if nothing is being opened, saved, baked or relit.
+    /// True if nothing is being opened, saved, baked, exported or relit.
     bool idle() const;
     /// Seconds of baking since the start, finished, cancelled or running.
     double bakeSeconds() const;
@@ -67,6 +69,9 @@ private:
     void takeSky();
     void takeSaved();
     void takeBaked();
+    void takeExported();
+    void startExport(const std::string& path);
+    void showExport();
     void followDocument();
     void followTime();
     void showStatus();
@@ -81,6 +86,7 @@ private:
     FileJob m_files;
     BakeJob m_bakeJob;
     RelightJob m_relightJob;
+    ExportJob m_exportJob;
     double m_shownSeconds = 0; ///< time of animated textures in m_scene
     ObjectsById m_followed;    ///< the document's objects as m_scene shows them
     std::shared_ptr<const Scene> m_scene;
@@ -89,7 +95,7 @@ private:
     Relit m_relit;
     bool m_bakeSoon = false; ///< start once the trace scene exists
     bool m_quit = false;
-    std::string m_savingTo;
+    std::string m_savingTo, m_exportingTo;
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
     bool m_lightEdited = false; ///< since the scene was opened
 };

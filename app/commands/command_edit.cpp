@@ -2,6 +2,7 @@
 #include "app/commands/command.h"
 #include "app/commands/scene_options.h"
 #include "app/editor/editor_app.h"
+#include "app/resources.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -52,6 +53,7 @@ void addEditCommand(CLI::App& app, Run& run) {
     command->callback([options, &run] {
         run = [options] {
             options->projectsFolder = projectsFolder();
+            options->exportFolders = exportFolders();
             const Result<void> done = runEditor(*options);
             return done ? Exit::Done : failed(done.error().message);
         };

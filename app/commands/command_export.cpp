@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/bake_options.h"
 #include "app/commands/command.h"
-#include "app/commands/lit_scene.h"
 #include "app/commands/output_file.h"
 #include "app/commands/progress_line.h"
+#include "app/commands/read_bake_of.h"
 #include "app/commands/scene_options.h"
 #include "app/commands/setting_type_name.h"
 #include "app/resources.h"
@@ -11,7 +11,9 @@
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/export/export_table.h"
+#include "engine/lighting/lit_scene.h"
 #include "engine/scene/setting_text.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <chrono>
@@ -29,10 +31,10 @@ namespace {
 struct Options {
     SceneOptions scene;
     BakeOptions bake;
-    ExportSettings settings;
-    std::vector<std::string> given; ///< keys of the settings on the command line
+    /// Keys of settings and their values as text, already checked; they replace the document's.
+    std::vector<std::pair<std::string, std::string>> given;
     std::string format, bakeFile, output;
-    ExportFolders folders{.three = "node_modules/three", .webRuntime = webRuntimeFolder()};
+    ExportFolders folders = exportFolders();
     bool list = false, json = false;
 };
 
@@ -68,27 +70,27 @@ Exit listFormats(const Options& options) {
     return Exit::Done;
 }
 
+/// The document's settings, where nothing else is given.
+ExportSettings settingsOf(const Options& options, const Document& document) {
+    ExportSettings settings = singleton<ExportSettings>(document);
+    for (const auto& [key, text] : options.given)
+        setExportSetting(settings, key, text);
+    settings.format = options.format;
+    return settings;
+}
+
 /// Checks everything that can be checked before the scene is read.
 Result<const ExportFormat*> chooseFormat(const Options& options) {
     const ExportFormat* format = findExportFormat(options.format);
-    Result<void> checked;
-    if (const std::string defect = settingsDefect(options.settings); !defect.empty())
-        checked = fail(defect);
-    visitExportSettings(options.settings, [&](const Setting& setting, const auto&, const auto&...) {
-        if (checked && std::ranges::find(options.given, setting.key) != options.given.end() &&
-            !reads(*format, setting.key))
-            checked =
-                fail(fmt::format("{}: the format {} does not use it", setting.flag, format->name));
-    });
-    if (!checked)
-        return tl::make_unexpected(checked.error());
-    if (format->extensions.empty()) {
-        std::error_code error;
-        if (std::filesystem::exists(options.output, error) &&
-            !std::filesystem::is_directory(options.output, error))
-            return fail(fmt::format("{}: is not a folder", options.output));
+    for (const auto& [key, text] : options.given)
+        if (!reads(*format, key))
+            return fail(fmt::format("{}: the format {} does not use it", key, format->name));
+    if (const std::string defect = settingsDefect(settingsOf(options, {})); !defect.empty())
+        return fail(defect);
+    if (const Result<void> possible = checkExportPath(options.output, *format); !possible)
+        return tl::make_unexpected(possible.error());
+    if (format->extensions.empty())
         return format;
-    }
     if (const Result<void> writable = checkOutputFile(options.output, format->extensions,
                                                       {options.scene.scene, options.bakeFile});
         !writable)
@@ -96,17 +98,47 @@ Result<const ExportFormat*> chooseFormat(const Options& options) {
     return format;
 }
 
-/// The last part of a path, also of a folder's "path/".
-std::string nameOf(const std::string& path) {
-    const std::filesystem::path p = std::filesystem::path(path).lexically_normal();
-    return (p.has_filename() ? p : p.parent_path()).filename().string();
-}
-
 nlohmann::ordered_json forecastJson(const ExportForecast& forecast) {
     return {{"bytes", forecast.bytes},
             {"width", forecast.width},
             {"height", forecast.height},
             {"detail", forecast.detail}};
+}
+
+/// {"format", "seconds", "bytes", "forecast", "files": [{"name", "bytes"}]}.
+nlohmann::ordered_json reportJson(const ExportFormat& format, const ExportForecast& forecast,
+                                  const std::vector<ExportedFile>& files, double seconds) {
+    std::uint64_t bytes = 0;
+    auto list = nlohmann::ordered_json::array();
+    for (const ExportedFile& file : files) {
+        bytes += file.bytes;
+        list.push_back({{"name", file.name}, {"bytes", file.bytes}});
+    }
+    return {{"format", format.name},
+            {"seconds", seconds},
+            {"bytes", bytes},
+            {"forecast", forecastJson(forecast)},
+            {"files", list}};
+}
+
+/// Lights the scene from its bake, which is read or made.
+Result<LitScene> lightOnCpu(const Options& options, Scene scene, const Progress& progress) {
+    const Technique& technique = *findTechnique(scene.technique.technique);
+    const Precomputation* precomputation = technique.precomputation;
+    const MemoryBudget& memory = options.scene.import.memory;
+    Result<std::shared_ptr<const Precomputed>> data;
+    if (!options.bakeFile.empty()) {
+        if (!precomputation)
+            return fail(fmt::format("--bake: the technique \"{}\" needs none", technique.name));
+        data = readBakeOf(scene, options.scene.scene, *precomputation, options.bakeFile, memory);
+    }
+    const auto shared = std::make_shared<const Scene>(std::move(scene));
+    const auto trace = std::make_shared<const TraceScene>(*shared);
+    if (precomputation && options.bakeFile.empty())
+        data = precomputation->prepare(*trace, {.memory = memory}, progress);
+    if (!data)
+        return tl::make_unexpected(data.error());
+    return lightScene(shared, trace, technique, {*data, shared}, progress);
 }
 
 Exit runExport(const Options& options) {
@@ -126,77 +158,58 @@ Exit runExport(const Options& options) {
         return failed(fmt::format("{}: is the scene itself", options.output));
     Scene scene = flatten(imported->document, imported->assets);
     applyBakeOptions(options.bake, scene.bake);
-    const Result<LitScene> lit = lightScene(std::move(scene), options.bakeFile,
-                                            options.scene.import.memory, progressOnStderr());
+    const ExportSettings settings = settingsOf(options, imported->document);
+    const Result<LitScene> lit = lightOnCpu(options, std::move(scene), progressOnStderr());
     endProgressLine();
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     const ExportScene in{imported->document, *lit->scene,  *lit->trace,
                          *lit->layout,       lit->field(), lit->prepared.data.get(),
                          options.folders};
-    const ExportForecast forecast = (*format)->forecast(in, options.settings);
-    if (forecast.detail > 0 && forecast.detail < options.settings.detail)
+    const ExportForecast forecast = (*format)->forecast(in, settings);
+    if (forecast.detail > 0 && forecast.detail < settings.detail)
         logWarning(fmt::format("{} texels per cache a side instead of {}: the lightmap would be "
                                "larger than --max-size",
-                               forecast.detail, options.settings.detail));
+                               forecast.detail, settings.detail));
     if (!options.json)
         fmt::print("About {}, lightmap of {} x {} texels\n", bytesText(forecast.bytes),
                    forecast.width, forecast.height);
-    const Result<std::vector<ExportFile>> files =
-        (*format)->write(in, options.settings, nameOf(options.output), progressOnStderr());
+    const Result<std::vector<ExportedFile>> files =
+        exportLight(options.output, **format, in, settings, progressOnStderr());
     endProgressLine();
     if (!files)
-        return failed(fmt::format("{}: {}", options.output, files.error().message));
-    if (const Result<void> written = writeExport(options.output, **format, *files); !written)
-        return failed(written.error().message);
+        return failed(files.error().message);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    std::uint64_t bytes = 0;
-    auto list = nlohmann::ordered_json::array();
-    for (const ExportFile& file : *files) {
-        bytes += file.bytes.size();
-        list.push_back({{"name", file.name}, {"bytes", file.bytes.size()}});
-    }
     if (options.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"format", (*format)->name},
-                                                  {"seconds", seconds},
-                                                  {"bytes", bytes},
-                                                  {"forecast", forecastJson(forecast)},
-                                                  {"files", list}}
-                               .dump());
+        fmt::print("{}\n", reportJson(**format, forecast, *files, seconds).dump());
     else
-        for (const ExportFile& file : *files)
-            fmt::print("{:<40} {}\n", file.name, bytesText(file.bytes.size()));
+        for (const ExportedFile& file : *files)
+            fmt::print("{:<40} {}\n", file.name, bytesText(file.bytes));
     return Exit::Done;
 }
 
 void addSettingOptions(CLI::App& command, Options& options) {
-    visitExportSettings(
-        options.settings, [&](const Setting& setting, auto& value, const auto&... limits) {
-            const std::string key = setting.key;
-            if constexpr (sizeof...(limits) == 0) {
-                command.add_flag_callback(
+    const ExportSettings defaults;
+    visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
+        const std::string key = setting.key;
+        if constexpr (sizeof...(limits) == 0)
+            command.add_flag_callback(
+                setting.flag, [&options, key] { options.given.emplace_back(key, "true"); },
+                setting.help);
+        else
+            command
+                .add_option_function<std::string>(
                     setting.flag,
-                    [&options, &value, key] {
-                        value = true;
-                        options.given.push_back(key);
+                    [&options, key](const std::string& text) {
+                        options.given.emplace_back(key, text);
                     },
-                    setting.help);
-            } else {
-                command
-                    .add_option_function<std::string>(
-                        setting.flag,
-                        [&options, &value, key, limits...](const std::string& text) {
-                            readValue(text, value, limits...);
-                            options.given.push_back(key);
-                        },
-                        setting.help)
-                    ->type_name(typeName(limits...))
-                    ->check([limits...](const std::string& text) {
-                        std::decay_t<decltype(value)> scratch{};
-                        return readValue(text, scratch, limits...);
-                    });
-            }
-        });
+                    setting.help)
+                ->type_name(typeName(limits...))
+                ->check([key](const std::string& text) {
+                    ExportSettings scratch;
+                    return setExportSetting(scratch, key, text);
+                });
+    });
 }
 
 } // namespace
@@ -213,8 +226,7 @@ void addExportCommand(CLI::App& app, Run& run) {
     command->add_option("--bake", o->bakeFile, "Bake of the scene, .limnbake; default: bakes");
     command->add_option("-o,--output", o->output, "File to write, or a folder");
     addSettingOptions(*command, *o);
-    command->add_option("--three", o->folders.three,
-                        "Folder of the npm package three, for web; default node_modules/three");
+    command->add_option("--three", o->folders.three, "Folder of the npm package three, for web");
     command->add_option("--web-runtime", o->folders.webRuntime,
                         "Folder of limn_runtime.wasm, for web; ./run --web makes it");
     command->add_flag("--json", o->json, "One JSON object on stdout");

@@ -4,6 +4,7 @@
 #include "app/commands/output_file.h"
 #include "app/commands/overlay_options.h"
 #include "app/commands/progress_line.h"
+#include "app/commands/read_bake_of.h"
 #include "app/commands/render_image.h"
 #include "app/commands/scene_options.h"
 
@@ -85,19 +86,8 @@ Result<std::shared_ptr<const Precomputed>> obtainBake(const Options& options,
         endProgressLine();
         return made;
     }
-    auto read = precomputation.read(options.bake, options.scene.import.memory);
-    if (!read)
-        return read;
-    const bool dimming = scene.bake.dimming; // the document's, not that of the time of the bake
-    scene.bake = (*read)->settings();
-    scene.bake.dimming = dimming;
-    if ((*read)->inputHash() != precomputation.inputHash(scene))
-        return fail(
-            fmt::format("{}: is the bake of another scene than {}, or of an older state of it",
-                        options.bake, options.scene.scene));
-    if (const std::string defect = (*read)->defect(scene); !defect.empty())
-        return fail(fmt::format("{}: {}", options.bake, defect));
-    return read;
+    return readBakeOf(scene, options.scene.scene, precomputation, options.bake,
+                      options.scene.import.memory);
 }
 
 CpuLight relight(const Scene& scene, Baked& baked) {

@@ -54,7 +54,7 @@ public:
           m_swapchain(*m_device, surface), m_imgui(*m_window), m_renderer(*m_device, m_swapchain),
           m_picture(*m_device, options.validate, [this] { m_window->wake(); }),
           m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake,
-                     defaultStageFolder(), options.import}) {}
+                     defaultStageFolder(), options.import, options.exportFolders}) {}
 
     void run();
     void writeStats() const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/export/export_format.h"
 #include "engine/gltf/gltf_import.h"
 #include "engine/lighting/relight_choice.h"
 
@@ -13,6 +14,7 @@ namespace limn {
 struct EditorAppOptions {
     std::string scene = "cornell";
     std::string projectsFolder;
+    ExportFolders exportFolders;
     ImportOptions import;
     std::uint32_t width = 1440, height = 900;
     std::string statsPath; ///< empty: none

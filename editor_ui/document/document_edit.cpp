@@ -56,6 +56,19 @@ void setSkyImage(EditorState& state, const Sky& image) {
     applyEdit(state, {"Sky image", {{id, before, sky}}});
 }
 
+void setExportSettings(EditorState& state, const ExportSettings& settings) {
+    commitGesture(state);
+    ObjectId id = state.document.nextId;
+    std::optional<Object> before;
+    for (const auto& [known, object] : state.document.objects)
+        if (std::holds_alternative<ExportSettings>(object)) {
+            id = known;
+            before = object;
+        }
+    if (!before || std::get<ExportSettings>(*before) != settings)
+        applyEdit(state, {"Export settings", {{id, before, settings}}});
+}
+
 static bool isBelow(const Document& document, ObjectId id, ObjectId ancestor) {
     for (std::size_t depth = 0; id != 0 && depth <= document.objects.size(); ++depth) {
         if (id == ancestor)

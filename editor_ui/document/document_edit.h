@@ -18,6 +18,9 @@ ObjectId addLight(EditorState& state, Light light);
 /// Gives the sky the kind, the image and the panorama of `image`.
 void setSkyImage(EditorState& state, const Sky& image);
 
+/// Makes `settings` those of the document. Records nothing where they are already.
+void setExportSettings(EditorState& state, const ExportSettings& settings);
+
 /// Deletes the selected nodes (with everything below them), lights and cameras.
 void deleteSelection(EditorState& state);
 

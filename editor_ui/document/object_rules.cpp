@@ -82,6 +82,10 @@ static bool valid(const TechniqueChoice& c) {
     return std::ranges::all_of(c.settings, [](const auto& s) { return std::isfinite(s.second); });
 }
 
+static bool valid(const ExportSettings& e) {
+    return settingsDefect(e).empty();
+}
+
 bool isValid(const Object& object) {
     return std::visit([](const auto& o) { return valid(o); }, object);
 }
@@ -130,6 +134,8 @@ const char* kindName(const Object& object) {
         return "Sky";
     if (std::holds_alternative<TechniqueChoice>(object))
         return "Technique of bounced light";
+    if (std::holds_alternative<ExportSettings>(object))
+        return "Export";
     return "Bake settings";
 }
 

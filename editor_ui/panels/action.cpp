@@ -34,6 +34,9 @@ bool baking(const EditorState& s) {
 bool canBake(const EditorState& s) {
     return !s.bake.running && s.loading.empty();
 }
+bool hasScene(const EditorState& s) {
+    return !s.assets->meshes.empty() && s.loading.empty();
+}
 bool hasSelection(const EditorState& s) {
     return !s.selection.empty();
 }
@@ -82,6 +85,9 @@ void save(EditorState& s) {
         saveAs(s);
     else
         request(s, Request::Kind::Save, s.projectPath);
+}
+void exportLightAction(EditorState& s) {
+    openExportDialog(s);
 }
 void quit(EditorState& s) {
     request(s, Request::Kind::Quit);
@@ -243,6 +249,7 @@ std::vector<Action> fixedActions() {
     {"file.open", "Open\u2026", Menu::File, ctrl('O'), kNoKey, false, always, open},
     {"file.save", "Save", Menu::File, ctrl('S'), kNoKey, true, always, save},
     {"file.save_as", "Save as\u2026", Menu::File, ctrlShift('S'), kNoKey, false, always, saveAs},
+    {"file.export", "Export light\u2026", Menu::File, ctrl('E'), kNoKey, true, hasScene, exportLightAction},
     {"file.screenshot", "Screenshot", Menu::File, plain(key::kF12), kNoKey, true, always, screenshot},
     {"file.quit", "Quit", Menu::File, ctrl('Q'), kNoKey, true, always, quit},
     {"edit.undo", "Undo", Menu::Edit, ctrl('Z'), kNoKey, false, canUndo, undoAction},

@@ -26,6 +26,8 @@ static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
         return extension == ".limn";
     case FileBrowser::Purpose::SkyImage:
         return extension == ".hdr" || extension == ".exr";
+    case FileBrowser::Purpose::ExportTo:
+        return true;
     }
     return false;
 }
@@ -62,9 +64,13 @@ void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
     FileBrowser browser;
     browser.purpose = purpose;
     const std::string image = singleton<Sky>(state.document).image;
+    const bool exporting = purpose == FileBrowser::Purpose::ExportTo && state.exportDialog;
     const fs::path current = purpose == FileBrowser::Purpose::SkyImage && !image.empty() ? image
+                             : exporting                 ? state.exportDialog->path
                              : state.projectPath.empty() ? state.document.scenePath
                                                          : state.projectPath;
+    if (exporting)
+        browser.name = current.filename().string();
     if (purpose == FileBrowser::Purpose::SaveAs)
         browser.name = current.empty() ? "untitled.limn" : current.stem().string() + ".limn";
     std::error_code error;
@@ -83,6 +89,22 @@ static const char* title(FileBrowser::Purpose purpose) {
         return "Save as";
     case FileBrowser::Purpose::SkyImage:
         return "Sky image";
+    case FileBrowser::Purpose::ExportTo:
+        return "Export to";
+    }
+    return "";
+}
+
+static const char* acceptLabel(FileBrowser::Purpose purpose) {
+    switch (purpose) {
+    case FileBrowser::Purpose::NewFromScene:
+    case FileBrowser::Purpose::Open:
+    case FileBrowser::Purpose::SkyImage:
+        return "Open";
+    case FileBrowser::Purpose::SaveAs:
+        return "Save";
+    case FileBrowser::Purpose::ExportTo:
+        return "Choose";
     }
     return "";
 }
@@ -151,6 +173,8 @@ static std::optional<Request> accepted(FileBrowser& browser) {
         }
         return Request{Request::Kind::Save, path.string()};
     }
+    if (browser.purpose == FileBrowser::Purpose::ExportTo)
+        return Request{Request::Kind::Export, path.string()};
     if (!fs::exists(path, error)) {
         browser.error = "There is no " + path.string();
         return {};
@@ -183,14 +207,16 @@ void fileBrowserDialog(EditorState& state) {
     ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
     elidedText(browser.error.empty() ? " " : browser.error, ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
-    accept |= ImGui::Button(browser.purpose == FileBrowser::Purpose::SaveAs ? "Save" : "Open");
+    accept |= ImGui::Button(acceptLabel(browser.purpose));
     ImGui::SameLine();
     const bool cancel = ImGui::Button("Cancel") || ImGui::IsKeyPressed(key::kEscape);
     const auto request = accept ? accepted(browser) : std::nullopt;
     if (request || cancel)
         ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
-    if (request)
+    if (request && browser.purpose == FileBrowser::Purpose::ExportTo)
+        setExportPath(*state.exportDialog, request->path); // the dialog goes on
+    else if (request)
         state.requests.push_back(*request);
     if (request || cancel)
         state.fileBrowser.reset();

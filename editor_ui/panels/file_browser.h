@@ -10,7 +10,7 @@ struct EditorState;
 
 /// The dialog's state. `entries` is read from disk when `folder` changes, not each frame.
 struct FileBrowser {
-    enum class Purpose { NewFromScene, Open, SaveAs, SkyImage } purpose = Purpose::Open;
+    enum class Purpose { NewFromScene, Open, SaveAs, SkyImage, ExportTo } purpose = Purpose::Open;
     struct Entry {
         std::string name;
         bool isFolder = false;

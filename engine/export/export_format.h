@@ -3,10 +3,10 @@
 
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
-#include "engine/export/export_settings.h"
 #include "engine/field/indirect_field.h"
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/document.h"
+#include "engine/scene/export_settings.h"
 #include "engine/scene/scene.h"
 #include "engine/trace/trace_scene.h"
 

@@ -8,10 +8,12 @@
 #include "engine/export/limnrt_format.h"
 #include "engine/export/web_format.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace limn {
 
@@ -57,6 +59,46 @@ Result<void> writeExport(const std::string& path, const ExportFormat& format,
             made.push_back(file);
     }
     return {};
+}
+
+Result<void> checkExportPath(const std::string& path, const ExportFormat& format) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (format.extensions.empty()) {
+        if (fs::exists(path, error) && !fs::is_directory(path, error))
+            return fail(fmt::format("{}: is not a folder", path));
+        return {};
+    }
+    const std::string extension = fs::path(path).extension().string();
+    if (std::ranges::find(format.extensions, extension) == format.extensions.end())
+        return fail(fmt::format("{}: must end in {}", path, fmt::join(format.extensions, " or ")));
+    return {};
+}
+
+/// The last part of a path, also of a folder's "path/".
+static std::string nameOf(const std::string& path) {
+    const std::filesystem::path p = std::filesystem::path(path).lexically_normal();
+    return (p.has_filename() ? p : p.parent_path()).filename().string();
+}
+
+Result<std::vector<ExportedFile>> exportLight(const std::string& path, const ExportFormat& format,
+                                              const ExportScene& scene,
+                                              const ExportSettings& settings,
+                                              const Progress& progress) {
+    if (const Result<void> possible = checkExportPath(path, format); !possible)
+        return tl::make_unexpected(possible.error());
+    const Result<std::vector<ExportFile>> files =
+        format.write(scene, settings, nameOf(path), progress);
+    if (!files)
+        return fail(fmt::format("{}: {}", path, files.error().message));
+    if (progress.cancelled())
+        return fail("cancelled");
+    if (const Result<void> written = writeExport(path, format, *files); !written)
+        return tl::make_unexpected(written.error());
+    std::vector<ExportedFile> written;
+    for (const ExportFile& file : *files)
+        written.push_back({file.name, file.bytes.size()});
+    return written;
 }
 
 } // namespace limn

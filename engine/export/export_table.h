@@ -22,4 +22,20 @@ const ExportFormat* findExportFormat(std::string_view name);
 Result<void> writeExport(const std::string& path, const ExportFormat& format,
                          const std::vector<ExportFile>& files);
 
+/// Checks that `path` has one of the format's extensions, or for a format without extension that it
+/// is a folder or nothing.
+Result<void> checkExportPath(const std::string& path, const ExportFormat& format);
+
+/// A written file.
+struct ExportedFile {
+    std::string name; ///< relative to the folder of the export
+    std::uint64_t bytes = 0;
+};
+
+/// Exports to `path` and returns the files written, the main file first.
+Result<std::vector<ExportedFile>> exportLight(const std::string& path, const ExportFormat& format,
+                                              const ExportScene& scene,
+                                              const ExportSettings& settings,
+                                              const Progress& progress);
+
 } // namespace limn

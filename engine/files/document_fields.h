@@ -90,6 +90,14 @@ void describeTechniqueChoice(Fields& fields, T& t) {
     fields("settings", t.settings);
 }
 
+template <class Fields, class T>
+void describeExportSettings(Fields& fields, T& e) {
+    fields("format", e.format);
+    visitExportSettings(e, [&](const Setting& setting, auto& value, const auto&... limits) {
+        fields(setting.key, value, fieldLimits(limits)...);
+    });
+}
+
 /// Calls use(name, object, describe) with the name that files use for the object's kind.
 template <class Use>
 void describeObject(const Object& object, const Use& use) {
@@ -108,8 +116,10 @@ void describeObject(const Object& object, const Use& use) {
                 use("sky", o, [](auto& f, auto& s) { describeSky(f, s); });
             else if constexpr (std::is_same_v<T, BakeSettings>)
                 use("bakeSettings", o, [](auto& f, auto& b) { describeBakeSettings(f, b); });
-            else
+            else if constexpr (std::is_same_v<T, TechniqueChoice>)
                 use("technique", o, [](auto& f, auto& t) { describeTechniqueChoice(f, t); });
+            else
+                use("export", o, [](auto& f, auto& e) { describeExportSettings(f, e); });
         },
         object);
 }

@@ -252,6 +252,9 @@ static std::string invariantOf(const Object& object) {
             return ".up: not of unit length";
         if (camera->eye == camera->target)
             return ".target: may not be the eye";
+    } else if (const auto* settings = std::get_if<ExportSettings>(&object)) {
+        if (const std::string defect = settingsDefect(*settings); !defect.empty())
+            return ": " + defect;
     }
     return {};
 }
@@ -259,10 +262,11 @@ static std::string invariantOf(const Object& object) {
 /// Reads the object from the field that names its kind.
 static Result<Object> readObject(const Json& json, const std::string& path,
                                  const glm::dvec3& origin) {
-    static const std::array<Object, 7> kinds = {Node{}, Material{},     Light{},          Camera{},
-                                                Sky{},  BakeSettings{}, TechniqueChoice{}};
+    static const std::array<Object, 8> kinds = {
+        Node{}, Material{},     Light{},           Camera{},
+        Sky{},  BakeSettings{}, TechniqueChoice{}, ExportSettings{}};
     Result<Object> result =
-        fail(path + ": no node, material, light, camera, sky, bakeSettings or technique");
+        fail(path + ": no node, material, light, camera, sky, bakeSettings, technique or export");
     for (const Object& kind : kinds)
         describeObject(kind, [&](const char* name, auto object, const auto& describe) {
             const auto found = json.find(name);

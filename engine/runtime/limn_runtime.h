@@ -56,9 +56,8 @@ typedef struct limnrt_counts {
         triangles;
     uint32_t bands, chroma_bands; /* of the results; the bands from chroma_bands on are grey */
     uint32_t lightmap_width, lightmap_height, grid[3];
-    float grid_lower[3],
-        grid_upper[3];      /* cell c's centre is lower + (c + 0.5) / grid * (upper - lower) */
-    uint64_t links, memory; /* memory: bytes allocated by limnrt_open() */
+    float grid_lower[3], grid_upper[3]; /* centres: lower + (c + 0.5) / grid * (upper - lower) */
+    uint64_t links, memory;             /* memory: bytes allocated by limnrt_open() */
 } limnrt_counts;
 
 /* Opens a file that lies uncompressed in memory. `bytes` is aligned to 16 bytes and outlives the
@@ -80,12 +79,11 @@ const float* limnrt_surfel_normals(const limnrt_scene*);   /* 3 each, unit */
 const float* limnrt_surfel_areas(const limnrt_scene*);     /* [m^2] */
 const uint32_t* limnrt_surfel_materials(const limnrt_scene*);
 const uint32_t* limnrt_surfel_instances(const limnrt_scene*);
-const float*
-limnrt_cache_positions(const limnrt_scene*); /* 3 each; lightmap caches, then the grid's cells */
-const float* limnrt_cache_normals(const limnrt_scene*); /* 3 each, unit; 0 for the grid's cells */
-const float*
-limnrt_sky_directions(const limnrt_scene*);        /* 3 each, unit, towards the cell's middle */
-const float* limnrt_file_sky(const limnrt_scene*); /* 3 each [nits] */
+/* 3 each, lightmap caches, then the grid's cells, which have no normals; normals are unit. */
+const float* limnrt_cache_positions(const limnrt_scene*);
+const float* limnrt_cache_normals(const limnrt_scene*);
+const float* limnrt_sky_directions(const limnrt_scene*); /* 3 each, unit, to the cell's middle */
+const float* limnrt_file_sky(const limnrt_scene*);       /* 3 each [nits] */
 const limnrt_light* limnrt_file_lights(const limnrt_scene*);
 
 /* Lights, of which at most max_lights. Each one's shadows are kept as long as its place and shape
@@ -137,8 +135,8 @@ void limnrt_lightmap_irradiance(limnrt_scene*, const float* normals, float* rgba
 /* The same as halfs, times `scale`, as limnrt_lightmap_sh_half() writes them. */
 void limnrt_lightmap_irradiance_half(limnrt_scene*, const float* normals, float scale,
                                      uint16_t* rgba);
-/* Writes the grid: layer i holds coefficient i, cell (x, y, z) at (z * ny + y) * nx + x, 4 floats
- * each. */
+/* Writes the grid: layer i holds coefficient i; cell (x, y, z) at (z * ny + y) * nx + x, 4 floats.
+ */
 void limnrt_grid_sh(limnrt_scene*, float* rgba);
 /* Light of the grid at a point of a dynamic object: the eight cells around it, weighted by distance
    and by whether they see the point. `normal` is unit. Writes irradiance [W m^-2], 3 floats, or

@@ -3,6 +3,7 @@
 
 #include "engine/scene/bake_settings.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/export_settings.h"
 #include "engine/scene/light/light.h"
 #include "engine/scene/sky.h"
 #include "engine/scene/surface/material.h"
@@ -50,7 +51,8 @@ struct Node {
 /// Any object of a document. Mesh::material counts the Material objects in the order of their ids.
 /// (Material itself is declared in material.h.)
 
-using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings, TechniqueChoice>;
+using Object =
+    std::variant<Node, Material, Light, Camera, Sky, BakeSettings, TechniqueChoice, ExportSettings>;
 
 /// Everything a user can edit, as a plain value; heavy, immutable data is in Assets. Node
 /// transforms are in the file's coordinates. Lights and cameras are in world space, whose origin is
@@ -68,8 +70,8 @@ struct Document {
 /// Adds `object` under a new id and returns the id.
 ObjectId addObject(Document& document, Object object);
 
-/// The single object of type T (Sky, BakeSettings, TechniqueChoice), or a default T if the document
-/// has none.
+/// The single object of type T (Sky, BakeSettings, TechniqueChoice, ExportSettings), or a default T
+/// if the document has none.
 template <class T>
 T singleton(const Document& document) {
     for (const auto& [id, object] : document.objects)
@@ -78,7 +80,8 @@ T singleton(const Document& document) {
     return {};
 }
 
-/// Display name of an object; "Sky", "Bake settings" and "Technique" for objects without a name.
+/// Display name of an object; "Sky", "Bake settings", "Technique" and "Export" for objects without
+/// a name.
 std::string objectName(const Object& object);
 
 } // namespace limn

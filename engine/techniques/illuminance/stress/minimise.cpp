@@ -152,6 +152,7 @@ private:
     }
     bool makePlain(ObjectId, const Camera&) { return false; }
     bool makePlain(ObjectId, const TechniqueChoice&) { return false; }
+    bool makePlain(ObjectId, const ExportSettings&) { return false; }
     bool makePlain(ObjectId id, const Sky&) {
         return tryAll<Sky>(id, {[](Sky& s) { s = {}; },
                                 [](Sky& s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/export/export_settings.h"
+#include "engine/scene/export_settings.h"
 
 #include "engine/scene/setting_text.h"
 
@@ -17,6 +17,16 @@ std::string settingsDefect(const ExportSettings& settings) {
                         });
     if (defect.empty() && settings.detail % 2 == 0)
         defect = fmt::format("--detail: {} is not odd", settings.detail);
+    return defect;
+}
+
+std::string setExportSetting(ExportSettings& settings, std::string_view key,
+                             const std::string& text) {
+    std::string defect;
+    visitExportSettings(settings, [&](const Setting& setting, auto& value, const auto&... limits) {
+        if (setting.key == key)
+            defect = readValue(text, value, limits...);
+    });
     return defect;
 }
 

@@ -37,8 +37,10 @@ enum class ShLayers : std::uint8_t { Array, Volume };
 inline constexpr std::array<std::string_view, 2> kShLayersNames = {"array", "volume"};
 inline constexpr std::array<const char*, 2> kShLayersLabels = {"Texture array", "3D texture"};
 
-/// Settings of an export. Each format reads some of them: ExportFormat::settings.
+/// How a document's light is exported. Each format reads some of the settings:
+/// ExportFormat::settings.
 struct ExportSettings {
+    std::string format = "gltf"; ///< ExportFormat::name
     TextureEncoding encoding = TextureEncoding::Exr;
     bool compress = false;
     LightmapQuantity quantity = LightmapQuantity::Irradiance;
@@ -55,8 +57,13 @@ struct ExportSettings {
 /// cache. Empty: nothing.
 std::string settingsDefect(const ExportSettings& settings);
 
+/// Parses a value of the setting of that key, as setting_text.h does. Returns what is wrong with
+/// the text; empty: nothing.
+std::string setExportSetting(ExportSettings& settings, std::string_view key,
+                             const std::string& text);
+
 /// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
-/// other setting. `s` is an ExportSettings, const or not.
+/// other setting; the format is not one. `s` is an ExportSettings, const or not.
 template <class S, class Visit>
 void visitExportSettings(S& s, const Visit& visit) {
     visit(Setting{.key = "encoding",

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace limn {
+
+/// Something a panel or an action wants done outside the UI: files, jobs, the window.
+struct Request {
+    enum class Kind {
+        NewFromScene,
+        Open,
+        OpenSkyImage,
+        Save,
+        Bake,
+        CancelBake,
+        Export,
+        CancelExport,
+        Screenshot,
+        Quit
+    } kind;
+    std::string path; ///< of NewFromScene, Open, OpenSkyImage, Save, Export
+};
+
+} // namespace limn

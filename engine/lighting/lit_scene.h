@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/result.h"
+#include "engine/lighting/technique.h"
+
+#include <memory>
+
+namespace limn {
+
+/// A scene lit to convergence on the CPU.
+struct LitScene {
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const TraceScene> trace; ///< of `scene`
+    Prepared prepared;                       ///< by the technique, where it precomputes
+    std::shared_ptr<const LightmapLayout> layout;
+    std::unique_ptr<Lighting> lighting;
+    LightingReport report;
+
+    const IndirectField& field() const { return *lighting->field(); }
+};
+
+/// Lights `scene` until bounces change next to nothing, at most its maxBounces. `prepared` holds
+/// what `technique` precomputed for it, and nothing where it precomputes nothing. Fails when
+/// cancelled.
+Result<LitScene> lightScene(std::shared_ptr<const Scene> scene,
+                            std::shared_ptr<const TraceScene> trace, const Technique& technique,
+                            Prepared prepared, const Progress& progress);
+
+} // namespace limn

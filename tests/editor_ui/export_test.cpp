@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Exporting from the editor: the dialog, the job beside it, and what the document remembers.
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/panels/action.h"
+#include "editor_ui/session.h"
+#include "engine/files/document_json.h"
+#include "engine/files/image_file.h"
+#include "engine/files/project_file.h"
+#include "tests/core/temporary_folder.h"
+#include "tests/editor_ui/headless.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+namespace limn {
+namespace {
+
+/// Cornell with a bake of a fraction of a second.
+Document smallDocument() {
+    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
+    for (auto& [id, object] : document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object)) {
+            settings->surfels = 256;
+            settings->lightmapCaches = 300;
+            settings->rays = 32;
+            settings->links = 16;
+        }
+    return document;
+}
+
+struct Exporting : testing::Test {
+    TemporaryFolder folder;
+    std::string project = folder.file("small.limn");
+
+    void SetUp() override {
+        setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+        ASSERT_TRUE(saveProject(project, smallDocument()));
+    }
+    static SessionOptions options(bool bakes = true) {
+        return {LIMN_SOURCE_DIR "/projects", [] {}, bakes};
+    }
+    static bool runUntil(Session& session, const std::function<bool()>& done) {
+        for (int i = 0; i < 12000; ++i) {
+            session.update();
+            if (done())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return false;
+    }
+    void openBaked(Session& session) {
+        session.open(project);
+        ASSERT_TRUE(runUntil(session, [&] {
+            return session.idle() && session.state.bake.freshness == BakeFreshness::UpToDate;
+        }));
+    }
+    static void order(Session& session, const ExportSettings& settings, const std::string& path) {
+        setExportSettings(session.state, settings);
+        session.state.requests.push_back({Request::Kind::Export, path});
+        session.update();
+    }
+};
+
+TEST_F(Exporting, WritesTheLightThatTheDocumentAsksForAndSaysSo) {
+    Session session(options());
+    openBaked(session);
+    const std::string path = folder.file("light.exr");
+    order(session, {.format = "lightmap", .detail = 1}, path);
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_TRUE(session.state.exporting.error.empty()) << session.state.exporting.error;
+    EXPECT_NE(session.state.exporting.written.find("1 file"), std::string::npos);
+    const Result<ImageF> image = readFloatImage(path);
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_EQ(image->width, session.layout()->width);
+    EXPECT_TRUE(std::ranges::all_of(image->rgb, [](glm::vec3 e) { return e.y > 0; }));
+}
+
+TEST_F(Exporting, ReportsWhyItFailed) {
+    Session session(options());
+    openBaked(session);
+    order(session, {.format = "lightmap"}, folder.file("no/such/light.png"));
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_NE(session.state.exporting.error.find("must end in"), std::string::npos);
+    EXPECT_TRUE(session.state.exporting.written.empty());
+}
+
+TEST_F(Exporting, ACancelledOneLeavesNoFile) {
+    Session session(options());
+    openBaked(session);
+    const std::string path = folder.file("light.exr");
+    order(session, {.format = "lightmap", .direct = true, .detail = 9}, path);
+    session.state.requests.push_back({Request::Kind::CancelExport, {}});
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_EQ(session.state.exporting.error, "cancelled");
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST_F(Exporting, IsRefusedWithoutABake) {
+    Session session(options(false));
+    session.open(project);
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle() && session.state.trace; }));
+    openExportDialog(session.state);
+    session.update();
+    EXPECT_NE(session.state.exporting.refusal.find("bake"), std::string::npos);
+}
+
+TEST_F(Exporting, ItsSettingsAreSavedInTheProjectAndUndone) {
+    Session session(options(false));
+    session.open(project);
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    const Document before = session.state.document;
+    const ExportSettings settings{.format = "lightmap", .direct = true, .detail = 5};
+    setExportSettings(session.state, settings);
+    setExportSettings(session.state, settings);
+    EXPECT_EQ(session.state.history.applied, 1U);
+    const std::string saved = folder.file("saved.limn");
+    ASSERT_TRUE(saveProject(saved, session.state.document));
+    EXPECT_EQ(singleton<ExportSettings>(loadProject(saved)->document), settings);
+    ASSERT_TRUE(undoEdit(session.state));
+    EXPECT_EQ(session.state.document, before);
+}
+
+TEST_F(Exporting, TheDialogStartsBesideTheProjectAndFollowsTheFormat) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    state.projectPath = folder.file("room.limn");
+    openExportDialog(state);
+    EXPECT_EQ(state.exportDialog->path, folder.file("room-gltf.gltf"));
+    ui.frames(state);
+    ui.tap(key::kEscape);
+    ui.frames(state);
+    EXPECT_FALSE(state.exportDialog);
+}
+
+TEST_F(Exporting, TheDialogIsDrawnAtEverySizeAndInEveryState) {
+    for (const float width : {120.f, 640.f, 1280.f}) {
+        HeadlessUi ui(width, width * 0.6f);
+        EditorState state = fullEditor();
+        state.projectPath = folder.file(std::string(200, 'x') + ".limn");
+        const Document before = state.document;
+        openExportDialog(state);
+        ui.frames(state);
+        state.exporting.running = true;
+        state.exporting.stage = "lightmap";
+        ui.frames(state);
+        state.exporting.running = false;
+        state.exporting.error = std::string(300, 'e');
+        ui.frames(state);
+        EXPECT_EQ(state.document, before);
+    }
+}
+
+} // namespace
+} // namespace limn
