@@ -291,6 +291,21 @@ void writeTextures(const TemporaryFolder&, const auto& write) {
         }
 }
 
+/// Words written into sections, as transport_target.cpp reads them.
+void writeTransports(const TemporaryFolder&, const auto& write) {
+    write("unchanged", "");
+    write("header", "LIMNRT\r\n" + std::string(120, '\1'));
+    for (const std::uint32_t value : {0U, 0x7fc00000U, 0xffffffffU}) {
+        std::string all;
+        for (int section = 0; section < 31; ++section) {
+            const std::string one = {char(section), 3, char(section), 0};
+            all += one + std::string(reinterpret_cast<const char*>(&value), sizeof value);
+            write("section" + std::to_string(section) + "_" + std::to_string(value >> 24),
+                  all.substr(all.size() - 8));
+        }
+    }
+}
+
 void writeOptions(const TemporaryFolder&, const auto& write) {
     write("lights", "scene\n--light\nsun dir=1,-1,0 lux=3 color=1,0.5,0\n--light\npoint pos=0,1,2 "
                     "cd=5 range=4\n--light\nspot pos=0,1,0 dir=0,-1,0 cd=2 inner=10 "
@@ -325,5 +340,6 @@ int main(int argc, char** argv) {
     writeStageChanges(temporary, into("stage"));
     writeTextures(temporary, into("ktx2"));
     writeOptions(temporary, into("option"));
+    writeTransports(temporary, into("transport"));
     return 0;
 }
