@@ -135,8 +135,7 @@ void limnrt_lightmap_irradiance(limnrt_scene*, const float* normals, float* rgba
 /* The same as halfs, times `scale`, as limnrt_lightmap_sh_half() writes them. */
 void limnrt_lightmap_irradiance_half(limnrt_scene*, const float* normals, float scale,
                                      uint16_t* rgba);
-/* Writes the grid: layer i holds coefficient i; cell (x, y, z) at (z * ny + y) * nx + x, 4 floats.
- */
+/* Writes the grid: layer i is coefficient i, cells (z * ny + y) * nx + x of 4 floats each. */
 void limnrt_grid_sh(limnrt_scene*, float* rgba);
 /* Light of the grid at a point of a dynamic object: the eight cells around it, weighted by distance
    and by whether they see the point. `normal` is unit. Writes irradiance [W m^-2], 3 floats, or
