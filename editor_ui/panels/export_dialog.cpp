@@ -20,7 +20,7 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
-/// Beside the project or the scene, and never the scene's own file.
+/// Beside the project; in the working directory where there is none yet.
 static std::string defaultPath(const EditorState& state, const ExportFormat& format) {
     const fs::path document =
         state.projectPath.empty() ? state.document.scenePath : state.projectPath;
@@ -28,7 +28,10 @@ static std::string defaultPath(const EditorState& state, const ExportFormat& for
     const std::string name =
         fmt::format("{}-{}{}", stem, format.name,
                     format.extensions.empty() ? std::string_view() : format.extensions.front());
-    return (document.parent_path() / name).string();
+    std::error_code error;
+    const fs::path folder =
+        state.projectPath.empty() ? fs::current_path(error) : document.parent_path();
+    return (folder / name).string();
 }
 
 /// The dialog's format; the first one where the document names one that is unknown.
