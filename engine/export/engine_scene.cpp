@@ -2,7 +2,6 @@
 #include "engine/export/engine_scene.h"
 
 #include "engine/export/export_resource.h"
-#include "engine/export/gltf_format.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
 
@@ -24,7 +23,8 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
         return tl::make_unexpected(lightmap.error());
     GltfOptions options;
     options.extras["lightmap"] = lightmapJson(*image, settings, lightmap->name);
-    options.extras.update(extras);
+    if (!extras.is_null())
+        options.extras.update(extras);
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
     if (files)
         files->push_back(std::move(*lightmap));
@@ -32,7 +32,9 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
 }
 
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings) {
-    return kGltfFormat.forecast(scene, settings);
+    ExportForecast f = forecastLightmap(scene.layout, settings);
+    f.bytes += gltfBytes(scene);
+    return f;
 }
 
 ExportFile loaderFile(const std::string& fileName, std::string stem,

@@ -28,7 +28,7 @@ static std::string filamentText(const Sh3& c) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings&,
                                              const std::string& name, const Progress&) {
     if (scene.field.grid.empty())
-        return fail("the light has no grid");
+        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
     const std::string stem = stemOf(name);
     return std::vector<ExportFile>{{name, filamentText(meanProbe(scene.field))},
                                    loaderFile(stem + "-filament.js", stem, {"filament.js"})};

@@ -52,7 +52,7 @@ Result<std::string> gridKtx2(const IndirectField& field, bool zstd) {
     const glm::uvec3 n = field.gridSize;
     const std::size_t cells = cellsOf(field), plane = std::size_t(n.x) * n.y;
     if (cells == 0)
-        return fail("the light has no grid");
+        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
     Ktx2Shape shape{.width = n.x, .height = n.y, .depth = kGroups * (n.z + 2), .zstd = zstd};
     std::vector<glm::vec4> texels(shape.texels());
     float most = 0;

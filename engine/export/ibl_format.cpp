@@ -60,7 +60,7 @@ static Json withLight(Json gltf, const Sh3& mean, BabylonWorld world, const std:
 static Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings&,
                                              const std::string& name, const Progress& progress) {
     if (scene.field.grid.empty())
-        return fail("the light has no grid");
+        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
     Result<std::vector<ExportFile>> files =
         gltfFiles(scene, GltfOptions{.lightmap = false, .extras = {}}, name, progress);
     if (!files)

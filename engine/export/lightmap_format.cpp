@@ -1,27 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/lightmap_format.h"
 
-#include "engine/export/lightmap_image.h"
-#include "engine/files/image_file.h"
+#include "engine/export/gltf_scene.h"
+#include "engine/export/lightmap_file.h"
 
 #include <array>
 
+#include <fmt/format.h>
+
 namespace limn {
 
-static constexpr std::array<std::string_view, 1> kExtensions = {".exr"};
-static constexpr std::array<std::string_view, 4> kSettings = {"quantity", "direct", "detail",
-                                                              "maxSize"};
+static constexpr std::array<std::string_view, 2> kExtensions = {".exr", ".ktx2"};
+static constexpr std::array<std::string_view, 8> kSettings = {
+    "encoding", "compress", "quantity", "direct", "bands", "layers", "detail", "maxSize"};
 
-static Result<std::vector<ExportFile>> write(const ExportScene& scene,
-                                             const ExportSettings& settings,
+/// The settings with an encoding that the file's extension allows: half floats where it asks for
+/// KTX2 and the settings do not.
+static Result<ExportSettings> settingsFor(ExportSettings settings, const std::string& name) {
+    if (name.ends_with(".ktx2") && settings.encoding == TextureEncoding::Exr)
+        settings.encoding = TextureEncoding::Ktx2Half;
+    if (!name.ends_with(textureExtension(settings.encoding)))
+        return fail(fmt::format("encoding: {} is written to {} files",
+                                kTextureEncodingNames[std::size_t(settings.encoding)],
+                                textureExtension(settings.encoding)));
+    return settings;
+}
+
+static Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings& wanted,
                                              const std::string& name, const Progress& progress) {
-    const Result<LightmapImage> image = lightmapImage(scene, settings, progress);
+    const Result<ExportSettings> settings = settingsFor(wanted, name);
+    if (!settings)
+        return tl::make_unexpected(settings.error());
+    const Result<LightmapImage> image = lightmapImage(scene, *settings, progress);
     if (!image)
         return tl::make_unexpected(image.error());
-    Result<std::string> bytes = encodeExr({image->width, image->height, image->rgb});
-    if (!bytes)
-        return tl::make_unexpected(bytes.error());
-    return std::vector<ExportFile>{{name, std::move(*bytes)}};
+    Result<ExportFile> file = lightmapFile(*image, *settings, stemOf(name));
+    if (!file)
+        return tl::make_unexpected(file.error());
+    return std::vector<ExportFile>{std::move(*file)};
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
@@ -31,7 +47,8 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
 constinit const ExportFormat kLightmapFormat = {
     .name = "lightmap",
     .label = "Lightmap",
-    .summary = "A texture of irradiance for the texture coordinates that the glTF export writes",
+    .summary = "A texture of irradiance, or of spherical harmonics, for the texture coordinates "
+               "that the glTF export writes",
     .extensions = kExtensions,
     .settings = kSettings,
     .write = write,

@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// The lightmap alone, as EXR of irradiance.
+/// The lightmap alone, as EXR or KTX2.
 extern const ExportFormat kLightmapFormat;
 
 } // namespace limn

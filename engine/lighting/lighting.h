@@ -22,6 +22,8 @@ struct LightingInput {
     /// Light must be up to date where this view shows it and may be older elsewhere; null:
     /// everywhere.
     const Viewpoint* view = nullptr;
+    /// Light also what nothing in the scene looks up, such as a grid without dynamic objects.
+    bool unread = false;
 };
 
 /// Bounced light of a scene by one technique on one device. Not thread-safe.

@@ -20,9 +20,11 @@ Result<LitScene> lightScene(std::shared_ptr<const Scene> scene,
     else
         lit.layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(*lit.scene));
     lit.lighting = technique.light(lit.prepared);
-    lit.report = lit.lighting->update(
-        {.scene = *lit.scene, .trace = lit.trace.get(), .bounces = lit.scene->bake.maxBounces},
-        progress);
+    lit.report = lit.lighting->update({.scene = *lit.scene,
+                                       .trace = lit.trace.get(),
+                                       .bounces = lit.scene->bake.maxBounces,
+                                       .unread = true},
+                                      progress);
     if (progress.cancelled())
         return fail("cancelled");
     return lit;

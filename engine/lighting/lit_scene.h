@@ -21,7 +21,8 @@ struct LitScene {
     const IndirectField& field() const { return *lighting->field(); }
 };
 
-/// Lights `scene` until bounces change next to nothing, at most its maxBounces. `prepared` holds
+/// Lights `scene` until bounces change next to nothing, at most its maxBounces, and the grid too
+/// where nothing in the scene reads it. `prepared` holds
 /// what `technique` precomputed for it, and nothing where it precomputes nothing. Fails when
 /// cancelled.
 Result<LitScene> lightScene(std::shared_ptr<const Scene> scene,

@@ -33,7 +33,7 @@ TEST_F(CommandLine, ExportRefusesBeforeTheWorkWhatItCannotWrite) {
     expectRefusal("export cornell --format gltf -o " + path("no/such/folder/x.gltf"), "x.gltf");
     expectRefusal("export cornell --format gltf -o " + path("x.png"), ".gltf");
     expectRefusal("export cornell --format gltf --detail 2 -o " + path("x.gltf"), "--detail");
-    expectRefusal("export cornell --format lightmap --compress -o " + path("x.exr"),
+    expectRefusal("export cornell --format limnrt --compress -o " + path("x.limnrt"),
                   "does not use it");
     EXPECT_EQ(limn("export cornell --format nothing -o x.gltf").exit, 2);
     EXPECT_EQ(limn("export cornell").exit, 2);

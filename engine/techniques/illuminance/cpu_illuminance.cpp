@@ -9,6 +9,7 @@ namespace limn {
 LightingReport CpuIlluminance::update(const LightingInput& input, const Progress& progress) {
     const CacheFlags* seen =
         input.view ? &seenFrom(m_seen, *m_baked, *m_bake, *input.view) : nullptr;
+    m_relighter.lightUnreadGrid(input.unread);
     return reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
 }
 

@@ -71,6 +71,7 @@ struct Relighter::State {
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
     std::vector<glm::vec3> innerSh;   ///< of lightmap caches, in innerBands; see inner()
     IndirectField field;
+    bool unreadGrid = false;  ///< it is lit in any case
     bool gridLit = false;     ///< the field has a grid
     bool gridMissing = false; ///< and has had it since this call
 
@@ -121,6 +122,9 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
 }
 
 Relighter::~Relighter() = default;
+void Relighter::lightUnreadGrid(bool light) {
+    m_state->unreadGrid = light;
+}
 const IndirectField& Relighter::field() const {
     return m_state->field;
 }
@@ -304,7 +308,7 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     const bool dimmingChanged = moved && !dimming.hidden.changed.empty();
     const Caches& caches = bake->caches;
     const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
-    const bool grid = gridCaches > 0 && needsGrid(scene, bake->lightmap);
+    const bool grid = gridCaches > 0 && (unreadGrid || needsGrid(scene, bake->lightmap));
     stats.gridCachesSkipped = grid ? 0 : gridCaches;
     gridMissing = grid && !gridLit;
     gridLit = grid;

@@ -74,6 +74,9 @@ public:
     RelightStats relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
                          const Progress& progress = {}, const CacheFlags* seen = nullptr);
 
+    /// Whether the grid is lit even where no instance is lit from it; initially false.
+    void lightUnreadGrid(bool light);
+
     /// The relit field. It holds the light of the last relight() in all but
     /// RelightStats::cachesUnseen.
     const IndirectField& field() const;

@@ -131,5 +131,27 @@ TEST(GridNeed, CellsThatNothingReadsAreNeitherLitNorShown) {
     EXPECT_GT(onBall(other.field(), scene), 0);
 }
 
+TEST(GridNeed, CellsThatNothingReadsAreLitWhereAskedFor) {
+    Scene scene = rooms(0.2f);
+    scene.bake.dimming = false; // the ball takes no light from the cells
+    const TraceScene trace(scene);
+    Result<Bake> made = bake(trace);
+    ASSERT_TRUE(made);
+    const auto baked = std::make_shared<const Bake>(std::move(*made));
+    Relighter read(baked);
+    read.relight(scene, trace, 64);
+
+    Scene alone = scene;
+    alone.instances.pop_back(); // the ball is hidden, and so is its shadow of the lamp
+    const TraceScene without(alone);
+    Relighter unread(baked);
+    unread.relight(alone, without, 64);
+    unread.lightUnreadGrid(true);
+    EXPECT_EQ(unread.relight(alone, without, 64).gridCachesSkipped, 0U);
+    ASSERT_EQ(unread.field().grid.size(), read.field().grid.size());
+    EXPECT_TRUE(unread.field().gridDepth);
+    EXPECT_GT(onBall(unread.field(), scene), 0);
+}
+
 } // namespace
 } // namespace limn
