@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # tests/export/check.sh [--scenes]: installs the consumers of exported light, shows each what the exporters write, and compares its
-# pixels with the truth; with --scenes also whole scenes, beside pictures of `limn render`. Prints tables; 1 if anything failed.
+# pixels with the truth; with --scenes also whole scenes, beside pictures of `limn render`, and the live page. Prints tables; 1 if anything failed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -27,5 +27,8 @@ node tests/export/validate.mjs "$out"/known/probe-0/*.gltf || failed=1
 if [ "${1:-}" = --scenes ]; then
     .ci/build release limn
     node tests/export/scenes.mjs "$out" || failed=1
+    .ci/install web
+    .ci/wasm build/web
+    node tests/export/live.mjs "$out" || failed=1
 fi
 exit $failed
