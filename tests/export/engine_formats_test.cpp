@@ -56,7 +56,7 @@ std::span<const std::uint8_t> span(const std::string& bytes) {
 
 TEST(EngineFormats, EveryFormatWritesTheSameBytesTwiceUnderNamesOfOneStem) {
     const KnownLight light(distinctLight);
-    for (const ExportFormat* format : exportFormats()) {
+    for (const ExportFormat* format : formatsOfLight()) {
         const auto once = exported(light, *format), twice = exported(light, *format);
         ASSERT_EQ(once.size(), twice.size());
         EXPECT_EQ(once.front().name, nameFor(*format));
@@ -72,7 +72,7 @@ TEST(EngineFormats, EveryFormatWritesTheSameBytesTwiceUnderNamesOfOneStem) {
 TEST(EngineFormats, EveryGltfFileKeepsTheRules) {
     const KnownLight light(distinctLight);
     int checked = 0;
-    for (const ExportFormat* format : exportFormats()) {
+    for (const ExportFormat* format : formatsOfLight()) {
         const auto files = exported(light, *format);
         for (const ExportFile& file : files)
             if (file.name.ends_with(".gltf")) {
@@ -234,7 +234,7 @@ TEST(EngineFormats, WithoutAGridThereIsNoProbe) {
     for (const ExportFormat* format : {&kGridFormat, &kFilamentFormat, &kIblFormat}) {
         const auto files = format->write(light.view(), {}, nameFor(*format), {});
         ASSERT_FALSE(files) << format->name;
-        EXPECT_EQ(files.error().message, "the light has no grid");
+        EXPECT_TRUE(files.error().message.starts_with("the light has no grid"));
     }
     for (const ExportFormat* format :
          {&kThreeFormat, &kBabylonFormat, &kPlaycanvasFormat, &kGodotFormat, &kJsonFormat})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/export/export_format.h"
+#include "engine/export/export_table.h"
 #include "engine/lightmap/atlas.h"
 
 #include <array>
@@ -160,5 +160,15 @@ private:
         }
     }
 };
+
+/// All formats but those with the transport of a bake, which known light does not have;
+/// transport_formats_test.cpp has them.
+inline std::vector<const ExportFormat*> formatsOfLight() {
+    std::vector<const ExportFormat*> formats;
+    for (const ExportFormat* format : exportFormats())
+        if (const std::string_view name = format->name; name != "limnrt" && name != "web")
+            formats.push_back(format);
+    return formats;
+}
 
 } // namespace limn

@@ -44,7 +44,7 @@ bool write(const KnownLight& light, const std::string& folder, const ExportForma
 
 bool writeAll(const KnownLight& light, const std::string& folder) {
     bool ok = true;
-    for (const ExportFormat* format : exportFormats()) {
+    for (const ExportFormat* format : formatsOfLight()) {
         const std::string name = format->name;
         ok = write(light, folder, *format, name, {}) && ok;
         if (name == "godot")
