@@ -11,7 +11,7 @@
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/export/export_table.h"
-#include "engine/lighting/lit_scene.h"
+#include "engine/lighting/converged_light.h"
 #include "engine/scene/setting_text.h"
 #include "engine/techniques/technique_table.h"
 
@@ -122,7 +122,7 @@ nlohmann::ordered_json reportJson(const ExportFormat& format, const ExportForeca
 }
 
 /// Lights the scene from its bake, which is read or made.
-Result<LitScene> lightOnCpu(const Options& options, Scene scene, const Progress& progress) {
+Result<ConvergedLight> lightOnCpu(const Options& options, Scene scene, const Progress& progress) {
     const Technique& technique = *findTechnique(scene.technique.technique);
     const Precomputation* precomputation = technique.precomputation;
     const MemoryBudget& memory = options.scene.import.memory;
@@ -138,7 +138,7 @@ Result<LitScene> lightOnCpu(const Options& options, Scene scene, const Progress&
         data = precomputation->prepare(*trace, {.memory = memory}, progress);
     if (!data)
         return tl::make_unexpected(data.error());
-    return lightScene(shared, trace, technique, {*data, shared}, progress);
+    return convergeLight(shared, trace, technique, {*data, shared}, progress);
 }
 
 Exit runExport(const Options& options) {
@@ -159,7 +159,7 @@ Exit runExport(const Options& options) {
     Scene scene = flatten(imported->document, imported->assets);
     applyBakeOptions(options.bake, scene.bake);
     const ExportSettings settings = settingsOf(options, imported->document);
-    const Result<LitScene> lit = lightOnCpu(options, std::move(scene), progressOnStderr());
+    const Result<ConvergedLight> lit = lightOnCpu(options, std::move(scene), progressOnStderr());
     endProgressLine();
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));

@@ -2,7 +2,7 @@
 #include "editor_ui/jobs/export_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
-#include "engine/lighting/lit_scene.h"
+#include "engine/lighting/converged_light.h"
 #include "engine/techniques/technique_table.h"
 
 #include <chrono>
@@ -42,9 +42,9 @@ static Result<std::vector<ExportedFile>> exportedFiles(const ExportOrder& order,
     if (!format || !technique)
         return fail(format ? "the technique is unknown" : "the format is unknown");
     progress.at("light", 0);
-    const Result<LitScene> lit =
-        lightScene(order.scene, std::make_shared<const TraceScene>(*order.scene), *technique,
-                   order.prepared, progress);
+    const Result<ConvergedLight> lit =
+        convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene), *technique,
+                      order.prepared, progress);
     if (!lit)
         return tl::make_unexpected(lit.error());
     const ExportScene in{order.document, *lit->scene,  *lit->trace,

@@ -151,6 +151,21 @@ techniques_are_known_by_their_tables() {
         xargs grep -nE '^ *# *include *"(engine|app)/techniques/[a-z_]+/' | grep -v '"engine/techniques/device/'
 }
 
+# Two types of one name in one namespace are undefined behaviour where both reach a program, and no linker says so.
+types_have_one_definition() {
+    files '^(engine|editor_ui|app)/.*\.h$' | xargs awk '
+        FNR == 1 { space = "" }
+        /^namespace [a-z:]+ \{/ { space = $2 }
+        /^(struct|class) [A-Z][A-Za-z0-9]* *(final *)?(:|\{)/ {
+            name = $2
+            sub(/[:{].*/, "", name)
+            key = space "::" name
+            if (key in where && where[key] != FILENAME) { print FILENAME ": " key " is also in " where[key]; bad = 1 }
+            where[key] = FILENAME
+        }
+        END { exit bad }'
+}
+
 files_have_a_licence_line() {
     local bad=0
     while read -r file; do

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/lighting/lit_scene.h"
+#include "engine/lighting/converged_light.h"
 
 #include "engine/lightmap/atlas.h"
 
@@ -7,13 +7,14 @@
 
 namespace limn {
 
-Result<LitScene> lightScene(std::shared_ptr<const Scene> scene,
-                            std::shared_ptr<const TraceScene> trace, const Technique& technique,
-                            Prepared prepared, const Progress& progress) {
-    LitScene lit{.scene = std::move(scene),
-                 .trace = std::move(trace),
-                 .prepared = std::move(prepared),
-                 .lighting = nullptr};
+Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
+                                     std::shared_ptr<const TraceScene> trace,
+                                     const Technique& technique, Prepared prepared,
+                                     const Progress& progress) {
+    ConvergedLight lit{.scene = std::move(scene),
+                       .trace = std::move(trace),
+                       .prepared = std::move(prepared),
+                       .lighting = nullptr};
     const auto& data = lit.prepared.data;
     if (data)
         lit.layout = {data, &data->layout()}; // lives as long as the data

@@ -10,7 +10,7 @@
 namespace limn {
 
 /// A scene lit to convergence on the CPU.
-struct LitScene {
+struct ConvergedLight {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const TraceScene> trace; ///< of `scene`
     Prepared prepared;                       ///< by the technique, where it precomputes
@@ -22,11 +22,11 @@ struct LitScene {
 };
 
 /// Lights `scene` until bounces change next to nothing, at most its maxBounces, and the grid too
-/// where nothing in the scene reads it. `prepared` holds
-/// what `technique` precomputed for it, and nothing where it precomputes nothing. Fails when
-/// cancelled.
-Result<LitScene> lightScene(std::shared_ptr<const Scene> scene,
-                            std::shared_ptr<const TraceScene> trace, const Technique& technique,
-                            Prepared prepared, const Progress& progress);
+/// where nothing in the scene reads it. `prepared` holds what `technique` precomputed for it, and
+/// nothing where it precomputes nothing. Fails when cancelled.
+Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
+                                     std::shared_ptr<const TraceScene> trace,
+                                     const Technique& technique, Prepared prepared,
+                                     const Progress& progress);
 
 } // namespace limn
