@@ -39,34 +39,29 @@ ObjectId addLight(EditorState& state, Light light) {
     return id;
 }
 
+/// The change that makes `after` the document's only object of its type, which it may lack yet.
+template <class T>
+static Change changeOfSingle(const Document& document, const T& after) {
+    for (const auto& [id, object] : document.objects)
+        if (std::holds_alternative<T>(object))
+            return {id, object, after};
+    return {document.nextId, {}, after};
+}
+
 void setSkyImage(EditorState& state, const Sky& image) {
     commitGesture(state);
-    ObjectId id = state.document.nextId; // a document without sky gets one
-    std::optional<Object> before;
-    Sky sky;
-    for (const auto& [known, object] : state.document.objects)
-        if (const Sky* s = std::get_if<Sky>(&object)) {
-            id = known;
-            before = object;
-            sky = *s;
-        }
+    Sky sky = singleton<Sky>(state.document);
     sky.kind = image.kind;
     sky.image = image.image;
     sky.panorama = image.panorama;
-    applyEdit(state, {"Sky image", {{id, before, sky}}});
+    applyEdit(state, {"Sky image", {changeOfSingle(state.document, sky)}});
 }
 
 void setExportSettings(EditorState& state, const ExportSettings& settings) {
     commitGesture(state);
-    ObjectId id = state.document.nextId;
-    std::optional<Object> before;
-    for (const auto& [known, object] : state.document.objects)
-        if (std::holds_alternative<ExportSettings>(object)) {
-            id = known;
-            before = object;
-        }
-    if (!before || std::get<ExportSettings>(*before) != settings)
-        applyEdit(state, {"Export settings", {{id, before, settings}}});
+    const Change change = changeOfSingle(state.document, settings);
+    if (change.before != change.after)
+        applyEdit(state, {"Export settings", {change}});
 }
 
 static bool isBelow(const Document& document, ObjectId id, ObjectId ancestor) {

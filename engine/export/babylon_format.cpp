@@ -2,10 +2,10 @@
 #include "engine/export/engine_formats.h"
 
 #include "engine/export/engine_scene.h"
-#include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
 
 #include <array>
+#include <utility>
 
 namespace limn {
 
@@ -30,12 +30,8 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
             {"leftHanded", shJson(babylonHarmonics(mean, BabylonWorld::LeftHanded))},
             {"rightHanded", shJson(babylonHarmonics(mean, BabylonWorld::RightHanded))}};
     }
-    Result<std::vector<ExportFile>> files =
-        litScene(scene, ownSettings(settings), extras, name, progress);
-    const std::string stem = stemOf(name);
-    if (files)
-        files->push_back(loaderFile(stem + "-babylon.js", stem, {"ktx2.js", "babylon.js"}));
-    return files;
+    return litScene(scene, ownSettings(settings), std::move(extras),
+                    {"-babylon.js", {"ktx2.js", "babylon.js"}}, name, progress);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {

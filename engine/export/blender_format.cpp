@@ -2,7 +2,6 @@
 #include "engine/export/engine_formats.h"
 
 #include "engine/export/engine_scene.h"
-#include "engine/export/gltf_scene.h"
 
 #include <array>
 
@@ -21,12 +20,8 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    Result<std::vector<ExportFile>> files =
-        litScene(scene, ownSettings(settings), nlohmann::ordered_json::object(), name, progress);
-    const std::string stem = stemOf(name);
-    if (files)
-        files->push_back(loaderFile(stem + "-blender.py", stem, {"blender.py"}));
-    return files;
+    return litScene(scene, ownSettings(settings), nlohmann::ordered_json::object(),
+                    {"-blender.py", {"blender.py"}}, name, progress);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {

@@ -5,6 +5,8 @@
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
 
+#include <utility>
+
 namespace limn {
 
 static void replaceAll(std::string& text, std::string_view what, std::string_view by) {
@@ -28,6 +30,16 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
     if (files)
         files->push_back(std::move(*lightmap));
+    return files;
+}
+
+Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
+                                         nlohmann::ordered_json extras, const Loader& loader,
+                                         const std::string& name, const Progress& progress) {
+    auto files = litScene(scene, settings, std::move(extras), name, progress);
+    const std::string stem = stemOf(name);
+    if (files)
+        files->push_back(loaderFile(stem + loader.suffix, stem, loader.resources));
     return files;
 }
 

@@ -20,6 +20,17 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
                                          nlohmann::ordered_json extras, const std::string& name,
                                          const Progress& progress);
 
+/// The program that loads an export.
+struct Loader {
+    const char* suffix;                                ///< of its file's name: "-three.js"
+    std::initializer_list<std::string_view> resources; ///< as for loaderFile()
+};
+
+/// The same with that program beside it.
+Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
+                                         nlohmann::ordered_json extras, const Loader& loader,
+                                         const std::string& name, const Progress& progress);
+
 /// About the size of its files.
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings);
 

@@ -27,8 +27,8 @@ static std::string filamentText(const Sh3& c) {
 
 static Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings&,
                                              const std::string& name, const Progress&) {
-    if (scene.field.grid.empty())
-        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
+    if (const Result<void> exists = checkGrid(scene.field); !exists)
+        return tl::make_unexpected(exists.error());
     const std::string stem = stemOf(name);
     return std::vector<ExportFile>{{name, filamentText(meanProbe(scene.field))},
                                    loaderFile(stem + "-filament.js", stem, {"filament.js"})};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/gltf_buffer.h"
 
+#include "engine/export/vector_json.h"
+
 #include <vector>
 
 #include <glm/common.hpp>
@@ -54,8 +56,8 @@ std::size_t GltfBuffer::addPositions(std::span<const glm::vec3> values) {
         lower = glm::min(lower, p);
         upper = glm::max(upper, p);
     }
-    accessors[accessor]["min"] = {lower.x, lower.y, lower.z};
-    accessors[accessor]["max"] = {upper.x, upper.y, upper.z};
+    accessors[accessor]["min"] = vectorJson(lower);
+    accessors[accessor]["max"] = vectorJson(upper);
     return accessor;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/gltf_light_json.h"
 
+#include "engine/export/vector_json.h"
 #include "engine/scene/light/rectangle_light.h"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ Json rectangleNode(const Light& light) {
                                              glm::normalize(rectangle.halfWidth)))}};
     node["extras"]["limn"] = {{"light", "rectangle"},
                               {"size", {light.size.x, light.size.y}},
-                              {"radiance", {radiance.x, radiance.y, radiance.z}}};
+                              {"radiance", vectorJson(radiance)}};
     return node;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/export/gltf_buffer.h"
 #include "engine/export/gltf_light_json.h"
 #include "engine/export/gltf_material_json.h"
+#include "engine/export/vector_json.h"
 #include "engine/files/image_file.h"
 #include "engine/lightmap/atlas.h"
 
@@ -197,7 +198,7 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName,
         children.push_back(n);
     Json root = {{"name", "Limn"}, {"children", std::move(children)}};
     if (origin != glm::dvec3(0))
-        root["translation"] = {origin.x, origin.y, origin.z};
+        root["translation"] = vectorJson(origin);
     gltf.nodes.push_back(std::move(root));
 
     Json json = {{"asset", {{"version", "2.0"}, {"generator", "Limn"}}}};

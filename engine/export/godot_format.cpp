@@ -2,7 +2,6 @@
 #include "engine/export/engine_formats.h"
 
 #include "engine/export/engine_scene.h"
-#include "engine/export/gltf_format.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/godot_probes.h"
 #include "engine/export/lightmap_image.h"
@@ -160,7 +159,7 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
 
 ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
     const ExportSettings own = ownSettings(settings);
-    ExportForecast f = kGltfFormat.forecast(scene, own);
+    ExportForecast f = litSceneForecast(scene, own);
     const std::uint64_t layers = own.bands > 1 ? 4 : 1;
     f.bytes += layers * f.width * f.height * 11; // 8 bytes in base64
     const std::uint64_t cells =

@@ -3,6 +3,7 @@
 
 #include "engine/export/gltf_scene.h"
 #include "engine/export/ktx2.h"
+#include "engine/export/vector_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +21,13 @@ std::size_t cellsOf(const IndirectField& field) {
     return std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
 }
 
-Json listOf(const glm::vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 } // namespace
+
+Result<void> checkGrid(const IndirectField& field) {
+    if (field.grid.empty() || cellsOf(field) == 0)
+        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
+    return {};
+}
 
 Sh3 gridCell(const IndirectField& field, std::size_t cell) {
     const std::size_t cells = cellsOf(field), count = std::min(field.coefficients(), 9U);
@@ -51,8 +54,8 @@ Sh3 meanProbe(const IndirectField& field) {
 Result<std::string> gridKtx2(const IndirectField& field, bool zstd) {
     const glm::uvec3 n = field.gridSize;
     const std::size_t cells = cellsOf(field), plane = std::size_t(n.x) * n.y;
-    if (cells == 0)
-        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
+    if (const Result<void> exists = checkGrid(field); !exists)
+        return tl::make_unexpected(exists.error());
     Ktx2Shape shape{.width = n.x, .height = n.y, .depth = kGroups * (n.z + 2), .zstd = zstd};
     std::vector<glm::vec4> texels(shape.texels());
     float most = 0;
@@ -84,34 +87,32 @@ std::uint64_t gridKtx2Bytes(const IndirectField& field) {
 Json shJson(const Sh3& c) {
     Json list = Json::array();
     for (const glm::vec3& v : c)
-        list.push_back(listOf(v));
+        list.push_back(vectorJson(v));
     return list;
 }
 
 Json gridJson(const ExportScene& scene, const std::string& texture) {
     const IndirectField& field = scene.field;
-    const glm::uvec3 n = field.gridSize;
-    const glm::dvec3 origin = scene.document.origin;
-    return {
-        {"format", "limn-grid"},
-        {"version", 1},
-        {"texture", uriOf(texture)},
-        {"bounds",
-         {{"lower", listOf(field.gridBounds.lower)}, {"upper", listOf(field.gridBounds.upper)}}},
-        {"origin", {origin.x, origin.y, origin.z}},
-        {"size", {n.x, n.y, n.z}},
-        {"bands", 3},
-        {"unit", "W m^-2 sr^-1"},
-        {"colors", "linear Rec. 709"},
-        {"axes", "metres, right-handed, +Y up; bounds are relative to origin"},
-        {"cells", "centre = lower + (index + 0.5) / size * (upper - lower)"},
-        {"layout",
-         "number k of a cell, k = 3 i + channel, is component k % 4 of texel (x, y, (k / 4) "
-         "(size.z + 2) + 1 + z); i = l (l + 1) + m"},
-        {"harmonics", "radiance, real, orthonormal, without Condon-Shortley sign"},
-        {"irradiance", "E(n) = max(0, sum over i of A_l c_i Y_i(n)), A = pi, 2 pi / 3, pi / 4"},
-        {"outgoingRadiance", "L = albedo / pi * E"},
-        {"mean", shJson(meanProbe(field))}};
+    return {{"format", "limn-grid"},
+            {"version", 1},
+            {"texture", uriOf(texture)},
+            {"bounds",
+             {{"lower", vectorJson(field.gridBounds.lower)},
+              {"upper", vectorJson(field.gridBounds.upper)}}},
+            {"origin", vectorJson(scene.document.origin)},
+            {"size", vectorJson(field.gridSize)},
+            {"bands", 3},
+            {"unit", "W m^-2 sr^-1"},
+            {"colors", "linear Rec. 709"},
+            {"axes", "metres, right-handed, +Y up; bounds are relative to origin"},
+            {"cells", "centre = lower + (index + 0.5) / size * (upper - lower)"},
+            {"layout",
+             "number k of a cell, k = 3 i + channel, is component k % 4 of texel (x, y, (k / 4) "
+             "(size.z + 2) + 1 + z); i = l (l + 1) + m"},
+            {"harmonics", "radiance, real, orthonormal, without Condon-Shortley sign"},
+            {"irradiance", "E(n) = max(0, sum over i of A_l c_i Y_i(n)), A = pi, 2 pi / 3, pi / 4"},
+            {"outgoingRadiance", "L = albedo / pi * E"},
+            {"mean", shJson(meanProbe(field))}};
 }
 
 } // namespace limn

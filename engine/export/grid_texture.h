@@ -13,6 +13,9 @@
 
 namespace limn {
 
+/// Fails, and says how to bake one, if the field has no grid.
+Result<void> checkGrid(const IndirectField& field);
+
 /// The first three bands of grid cell `cell`, counted as in IndirectField::grid; bands that the
 /// field lacks are 0.
 Sh3 gridCell(const IndirectField& field, std::size_t cell);

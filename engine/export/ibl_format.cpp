@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/engine_formats.h"
 
-#include "engine/export/gltf_format.h"
+#include "engine/export/engine_scene.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
 #include "engine/files/image_file.h"
@@ -59,8 +59,8 @@ static Json withLight(Json gltf, const Sh3& mean, BabylonWorld world, const std:
 
 static Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings&,
                                              const std::string& name, const Progress& progress) {
-    if (scene.field.grid.empty())
-        return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
+    if (const Result<void> exists = checkGrid(scene.field); !exists)
+        return tl::make_unexpected(exists.error());
     Result<std::vector<ExportFile>> files =
         gltfFiles(scene, GltfOptions{.lightmap = false, .extras = {}}, name, progress);
     if (!files)
@@ -81,7 +81,7 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene, const Exp
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    return {.bytes = kGltfFormat.forecast(scene, settings).bytes};
+    return {.bytes = litSceneForecast(scene, settings).bytes};
 }
 
 constinit const ExportFormat kIblFormat = {

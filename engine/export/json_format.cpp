@@ -7,6 +7,7 @@
 #include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
 #include "engine/export/lightmap_image.h"
+#include "engine/export/vector_json.h"
 
 #include <algorithm>
 #include <array>
@@ -56,12 +57,8 @@ struct ObjectWriter {
     void end() { out += "\n}"; }
 };
 
-Json listOf(const glm::vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 Json boundsOf(const Bounds& b) {
-    return {{"lower", listOf(b.lower)}, {"upper", listOf(b.upper)}};
+    return {{"lower", vectorJson(b.lower)}, {"upper", vectorJson(b.upper)}};
 }
 
 Json conventions() {
@@ -87,9 +84,9 @@ Json lightOf(const Light& light) {
     return {{"name", light.name},
             {"kind", kKinds[std::size_t(light.kind)]},
             {"enabled", light.enabled},
-            {"position", listOf(light.position)},
-            {"direction", listOf(light.direction)},
-            {"color", listOf(light.color)},
+            {"position", vectorJson(light.position)},
+            {"direction", vectorJson(light.direction)},
+            {"color", vectorJson(light.color)},
             {"strength", light.strength},
             {"range", light.range},
             {"innerAngle", light.innerAngle},
@@ -100,9 +97,9 @@ Json lightOf(const Light& light) {
 
 Json cameraOf(const Camera& camera) {
     return {{"name", camera.name},
-            {"eye", listOf(camera.eye)},
-            {"target", listOf(camera.target)},
-            {"up", listOf(camera.up)},
+            {"eye", vectorJson(camera.eye)},
+            {"target", vectorJson(camera.target)},
+            {"up", vectorJson(camera.up)},
             {"fovY", camera.fovY}};
 }
 
@@ -167,7 +164,7 @@ void putGrid(ObjectWriter& json, const IndirectField& field) {
     const std::size_t coefficients = std::min(field.coefficients(), 9U);
     json.begin("grid");
     json.member("bounds", boundsOf(field.gridBounds));
-    json.member("size", {field.gridSize.x, field.gridSize.y, field.gridSize.z});
+    json.member("size", vectorJson(field.gridSize));
     json.member("coefficients", coefficients);
     json.numbers("sh", cells * coefficients * 3,
                  [&](std::size_t i) { return field.grid[i / 3][int(i % 3)]; });
@@ -186,10 +183,9 @@ void putScene(ObjectWriter& json, const ExportScene& in) {
              {"baseColor", {m.baseColor.x, m.baseColor.y, m.baseColor.z, m.baseColor.w}},
              {"metallic", m.metallic},
              {"roughness", m.roughness},
-             {"emission", listOf(m.emission)},
+             {"emission", vectorJson(m.emission)},
              {"doubleSided", m.doubleSided}});
-    const glm::dvec3 origin = in.document.origin;
-    json.member("origin", {origin.x, origin.y, origin.z});
+    json.member("origin", vectorJson(in.document.origin));
     json.member("bounds", boundsOf(in.scene.bounds));
     json.member("lights", lights);
     json.member("cameras", cameras);

@@ -2,10 +2,10 @@
 #include "engine/export/engine_formats.h"
 
 #include "engine/export/engine_scene.h"
-#include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
 
 #include <array>
+#include <utility>
 
 namespace limn {
 
@@ -26,12 +26,8 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
     nlohmann::ordered_json extras = nlohmann::ordered_json::object();
     if (!scene.field.grid.empty())
         extras["probe"]["ambientSH"] = shJson(playcanvasAmbient(meanProbe(scene.field)));
-    Result<std::vector<ExportFile>> files =
-        litScene(scene, ownSettings(settings), extras, name, progress);
-    const std::string stem = stemOf(name);
-    if (files)
-        files->push_back(loaderFile(stem + "-playcanvas.js", stem, {"ktx2.js", "playcanvas.js"}));
-    return files;
+    return litScene(scene, ownSettings(settings), std::move(extras),
+                    {"-playcanvas.js", {"ktx2.js", "playcanvas.js"}}, name, progress);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {

@@ -2,12 +2,12 @@
 // Exporting from the editor: the dialog, the job beside it, and what the document remembers.
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/action.h"
-#include "editor_ui/session.h"
 #include "engine/files/document_json.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
+#include "tests/editor_ui/small_session.h"
 
 #include <gtest/gtest.h>
 
@@ -20,19 +20,6 @@
 namespace limn {
 namespace {
 
-/// Cornell with a bake of a fraction of a second.
-Document smallDocument() {
-    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
-    for (auto& [id, object] : document.objects)
-        if (auto* settings = std::get_if<BakeSettings>(&object)) {
-            settings->surfels = 256;
-            settings->lightmapCaches = 300;
-            settings->rays = 32;
-            settings->links = 16;
-        }
-    return document;
-}
-
 struct Exporting : testing::Test {
     TemporaryFolder folder;
     std::string project = folder.file("small.limn");
@@ -43,15 +30,6 @@ struct Exporting : testing::Test {
     }
     static SessionOptions options(bool bakes = true) {
         return {LIMN_SOURCE_DIR "/projects", [] {}, bakes};
-    }
-    static bool runUntil(Session& session, const std::function<bool()>& done) {
-        for (int i = 0; i < 12000; ++i) {
-            session.update();
-            if (done())
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        return false;
     }
     void openBaked(Session& session) {
         session.open(project);

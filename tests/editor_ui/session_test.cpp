@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The document with its jobs beside it: opening, baking, relighting, saving. No window, no GPU.
-#include "editor_ui/session.h"
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/action.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/techniques/technique_table.h"
+#include "tests/editor_ui/small_session.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,20 +31,6 @@ double counted(const Session& session, const char* id) {
     return counterOf(session.state.bake.last.counts, id);
 }
 
-/// Cornell with a lamp and a bake of a fraction of a second.
-Document smallDocument() {
-    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
-    for (auto& [id, object] : document.objects)
-        if (auto* settings = std::get_if<BakeSettings>(&object)) {
-            settings->surfels = 256;
-            settings->lightmapCaches = 300;
-            settings->rays = 32;
-            settings->links = 16;
-        }
-    addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = 1});
-    return document;
-}
-
 struct SessionTest : testing::Test {
     fs::path folder = fs::temp_directory_path() / fmt::format("limn-session-{}", getpid());
     std::string project = (folder / "small.limn").string();
@@ -58,16 +44,6 @@ struct SessionTest : testing::Test {
 
     static SessionOptions options() {
         return {LIMN_SOURCE_DIR "/projects", [] {}, true};
-    }
-
-    static bool runUntil(Session& session, const std::function<bool()>& done) {
-        for (int i = 0; i < 12000; ++i) {
-            session.update();
-            if (done())
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        return false;
     }
     static bool runUntilIdle(Session& session) {
         return runUntil(session, [&] { return session.idle() && session.state.relight.converged; });
