@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -17,7 +16,6 @@ namespace limn {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr std::uint32_t kMaxLobes = 500;                 // when no cache is picked
 constexpr std::uint32_t kDots = 192, kPickedDots = 1536; // of a lobe
 constexpr float kPickedScale = 3;                        // a picked lobe may reach into others
