@@ -43,6 +43,7 @@ struct ViewState {
     glm::vec2 origin{0}, size{1}; ///< [px]
     Tool tool = Tool::Move;
     Navigation navigation = Navigation::None;
+    glm::vec3 pivot{0}; ///< about which the view turns while it is Navigation::Orbit
     std::optional<GizmoDrag> drag;
     glm::vec2 pressedAt{0};
     bool pressed = false; ///< left button went down in the picture and may become a pick

@@ -6,6 +6,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/pivot.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -150,6 +151,7 @@ void sceneCamera(EditorState& s) {
 }
 template <Side side>
 void lookFromSide(EditorState& s) {
+    aimAtMiddle(s);
     lookFrom(s.view.camera, side);
 }
 template <View view>

@@ -8,6 +8,7 @@
 #include "editor_ui/view/camera_control.h"
 #include "editor_ui/view/gizmo.h"
 #include "editor_ui/view/picking.h"
+#include "editor_ui/view/pivot.h"
 #include "engine/scene/light/rectangle_light.h"
 
 #include <imgui.h>
@@ -50,6 +51,10 @@ static void startNavigation(EditorState& state) {
         navigation = Navigation::Orbit;
     else if (ImGui::IsMouseClicked(kRight))
         navigation = Navigation::Fly;
+    if (navigation != Navigation::Orbit && navigation != Navigation::Pan)
+        return;
+    state.view.pivot = pivotUnder(state, mousePosition());
+    setTargetDepth(state.view.camera, state.view.pivot);
 }
 
 static void flyKeys(EditorState& state) {
@@ -81,7 +86,7 @@ static void navigate(EditorState& state) {
         break;
     case Navigation::Orbit:
         if (d != glm::vec2(0))
-            orbit(view.camera, -d.x * kRadiansPerPixel, d.y * kRadiansPerPixel);
+            orbit(view.camera, view.pivot, -d.x * kRadiansPerPixel, d.y * kRadiansPerPixel);
         break;
     case Navigation::Pan:
         if (d != glm::vec2(0))
@@ -102,7 +107,7 @@ static void wheel(EditorState& state) {
     if (state.view.navigation == Navigation::Fly)
         state.view.flySpeed = std::clamp(state.view.flySpeed * std::pow(1.2f, steps), 1e-3f, 1e4f);
     else
-        zoom(state.view.camera, steps);
+        zoom(state.view.camera, pivotUnder(state, mousePosition()), steps);
 }
 
 static void press(EditorState& state) {

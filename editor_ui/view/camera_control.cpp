@@ -39,12 +39,29 @@ static glm::mat3 axes(const Camera& camera) {
     return glm::transpose(glm::mat3(viewMatrix(camera)));
 }
 
-void orbit(Camera& camera, float yaw, float pitch) {
+glm::vec3 forward(const Camera& camera) {
+    const glm::vec3 ahead = camera.target - camera.eye;
+    const float length = glm::length(ahead);
+    return length > 0 ? ahead / length : glm::vec3(0, 0, -1);
+}
+
+void setTargetDepth(Camera& camera, glm::vec3 point) {
+    const glm::vec3 ahead = forward(camera);
+    if (const float depth = glm::dot(point - camera.eye, ahead); depth > 0)
+        camera.target = camera.eye + ahead * depth;
+}
+
+void orbit(Camera& camera, glm::vec3 pivot, float yaw, float pitch) {
+    camera.up = {0, 1, 0};
     Polar p = polar(camera.eye - camera.target);
+    const glm::vec3 inCamera = glm::transpose(axes(camera)) * (camera.eye - pivot);
     p.yaw += yaw;
     p.pitch += pitch;
-    camera.up = {0, 1, 0};
-    camera.eye = camera.target + offset(p);
+    // The offset alone decides how the turned camera's axes lie.
+    const glm::vec3 back = offset(p);
+    Camera turned{.eye = back, .target = {}, .up = camera.up};
+    camera.eye = pivot + axes(turned) * inCamera;
+    camera.target = camera.eye - back;
 }
 
 void pan(Camera& camera, float right, float up) {
@@ -55,11 +72,13 @@ void pan(Camera& camera, float right, float up) {
     camera.target += shift;
 }
 
-void zoom(Camera& camera, float steps) {
-    const glm::vec3 back = camera.eye - camera.target;
+void zoom(Camera& camera, glm::vec3 point, float steps) {
+    const glm::vec3 back = camera.eye - point, ahead = forward(camera);
     const float length = std::max(glm::length(back), 1e-6f);
-    const float wanted = std::clamp(length * std::pow(0.9f, steps), 1e-3f, 1e6f);
-    camera.eye = camera.target + back * (wanted / length);
+    const float factor = std::clamp(length * std::pow(0.9f, steps), 1e-3f, 1e6f) / length;
+    const float depth = std::clamp(glm::length(camera.target - camera.eye) * factor, 1e-3f, 1e6f);
+    camera.eye = point + back * factor;
+    camera.target = camera.eye + ahead * depth;
 }
 
 void look(Camera& camera, float yaw, float pitch) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/gizmo_math.h"
 
 #include <cmath>
 
@@ -22,7 +23,7 @@ Camera atDistanceFour() {
 
 TEST(CameraControl, OrbitByAQuarterMovesTheEyeToTheRightSide) {
     Camera c = atDistanceFour();
-    orbit(c, glm::half_pi<float>(), 0);
+    orbit(c, c.target, glm::half_pi<float>(), 0);
     expectNear(c.eye, {5, 2, 3});
     expectNear(c.target, {1, 2, 3});
 }
@@ -30,7 +31,7 @@ TEST(CameraControl, OrbitByAQuarterMovesTheEyeToTheRightSide) {
 TEST(CameraControl, OrbitKeepsTheDistanceAndStopsBeforeThePoles) {
     Camera c = atDistanceFour();
     for (int i = 0; i < 100; ++i)
-        orbit(c, 0.1f, 0.1f);
+        orbit(c, c.target, 0.1f, 0.1f);
     EXPECT_NEAR(glm::length(c.eye - c.target), 4, 1e-3f);
     const float elevation = std::asin((c.eye.y - c.target.y) / 4);
     EXPECT_NEAR(elevation, 89 * glm::pi<float>() / 180, 1e-3f);
@@ -49,10 +50,47 @@ TEST(CameraControl, PanByThePicturesHeightShiftsByItsHeightAtTheTarget) {
 
 TEST(CameraControl, ZoomMultipliesTheDistanceByNineTenthsPerStep) {
     Camera c = atDistanceFour();
-    zoom(c, 2);
+    zoom(c, c.target, 2);
     expectNear(c.eye, {1, 2, 3 + 4 * 0.81f});
-    zoom(c, 1000);
+    zoom(c, c.target, 1000);
     EXPECT_NEAR(glm::length(c.eye - c.target), 1e-3f, 1e-5f);
+}
+
+TEST(CameraControl, ThePointThatTheViewTurnsAboutStaysAtItsPixelAndDistance) {
+    const glm::vec3 pivot(2.5f, 2.8f, -4);
+    Picture picture{atDistanceFour(), {100, 50}, {640, 480}};
+    const glm::vec2 pixel = *toPixel(picture, pivot);
+    const float distance = glm::length(pivot - picture.camera.eye);
+    const glm::vec3 before = forward(picture.camera);
+    orbit(picture.camera, pivot, 0.8f, 0.3f);
+    const glm::vec2 now = *toPixel(picture, pivot);
+    EXPECT_NEAR(now.x, pixel.x, 0.01f);
+    EXPECT_NEAR(now.y, pixel.y, 0.01f);
+    EXPECT_NEAR(glm::length(pivot - picture.camera.eye), distance, 1e-4f);
+    EXPECT_NEAR(glm::dot(before, forward(picture.camera)), std::cos(0.8f) * std::cos(0.3f), 1e-5f);
+}
+
+TEST(CameraControl, ThePointThatTheViewZoomsTowardsStaysAtItsPixel) {
+    const glm::vec3 point(2.5f, 2.8f, -4);
+    Picture picture{atDistanceFour(), {100, 50}, {640, 480}};
+    const glm::vec2 pixel = *toPixel(picture, point);
+    const glm::vec3 ahead = forward(picture.camera);
+    const float distance = glm::length(point - picture.camera.eye);
+    zoom(picture.camera, point, 3);
+    const glm::vec2 now = *toPixel(picture, point);
+    EXPECT_NEAR(now.x, pixel.x, 0.01f);
+    EXPECT_NEAR(now.y, pixel.y, 0.01f);
+    EXPECT_NEAR(glm::length(point - picture.camera.eye), 0.729f * distance, 1e-4f);
+    expectNear(forward(picture.camera), ahead);
+}
+
+TEST(CameraControl, TheTargetTakesThePointsDepthAndThePictureStays) {
+    Camera c = atDistanceFour();
+    setTargetDepth(c, {9, 9, -3});
+    expectNear(c.target, {1, 2, -3});
+    expectNear(c.eye, {1, 2, 7});
+    setTargetDepth(c, {0, 0, 8}); // behind the eye
+    expectNear(c.target, {1, 2, -3});
 }
 
 TEST(CameraControl, LookTurnsAboutTheEyeToTheRight) {
@@ -83,7 +121,7 @@ TEST(CameraControl, NumpadViewsStandOnTheirAxes) {
         {Side::Left, {-1, 0, 0}}, {Side::Top, {0, 1, 0}},   {Side::Bottom, {0, -1, 0}}};
     for (const auto& [side, axis] : sides) {
         Camera c = atDistanceFour();
-        orbit(c, 0.7f, 0.4f);
+        orbit(c, c.target, 0.7f, 0.4f);
         lookFrom(c, side);
         // A degree short of the pole keeps +Y up in the picture.
         EXPECT_GT(glm::dot(glm::normalize(c.eye - c.target), axis), std::cos(0.018f));
@@ -93,9 +131,9 @@ TEST(CameraControl, NumpadViewsStandOnTheirAxes) {
 
 TEST(CameraControl, ACameraThatStandsOnItsTargetStaysFinite) {
     Camera c{.eye = {1, 1, 1}, .target = {1, 1, 1}};
-    orbit(c, 0.1f, 0.1f);
+    orbit(c, c.target, 0.1f, 0.1f);
     look(c, 0.1f, 0.1f);
-    zoom(c, 3);
+    zoom(c, c.target, 3);
     focus(c, {});
     EXPECT_TRUE(std::isfinite(c.eye.x + c.eye.y + c.eye.z + c.target.x + c.target.y + c.target.z));
     EXPECT_NE(c.eye, c.target);
