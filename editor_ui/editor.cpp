@@ -7,11 +7,13 @@
 #include "editor_ui/panels/inspector_panel.h"
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/statistics_panel.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/viewport_panel.h"
 
 #include <imgui.h>
+#include <imgui_internal.h> // ClearActiveID, ClosePopupToLevel
 
 #include <algorithm>
 #include <cmath>
@@ -166,12 +168,30 @@ static void panels(EditorState& state, float menuHeight) {
     splitters(state.layout, p);
 }
 
+/// Esc ends what is nearest to the user: a drag, which it takes back, else the topmost menu or
+/// popup. Returns false if there is neither.
+static bool escape(EditorState& state) {
+    if (state.view.drag || (state.gesture && ImGui::IsMouseDown(0))) {
+        state.view.drag.reset();
+        ImGui::ClearActiveID();
+        cancelGesture(state);
+        return true;
+    }
+    const int popups = ImGui::GetCurrentContext()->OpenPopupStack.Size;
+    if (popups > 0)
+        ImGui::ClosePopupToLevel(popups - 1, true);
+    return popups > 0;
+}
+
 static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
+    constexpr Shortcut kEsc{key::kEscape, kNoMods};
     const bool typing = ImGui::GetIO().WantTextInput;
     const bool flying = state.view.navigation == Navigation::Fly; // W, Q, ... steer
     const bool modal = state.fileBrowser || state.confirm || state.exportDialog;
     for (const Shortcut& shortcut : pressed)
-        if (!modal && !typing && !(flying && shortcut.mods == kNoMods))
+        if (!modal && shortcut == kEsc && escape(state))
+            continue;
+        else if (!modal && !typing && !(flying && shortcut.mods == kNoMods))
             runShortcut(state, shortcut);
 }
 

@@ -6,6 +6,7 @@
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/keys.h"
+#include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/statistics.h"
 #include "editor_ui/request.h"
 #include "editor_ui/view/gizmo_math.h"
@@ -102,8 +103,7 @@ struct EditorState {
     std::optional<ExportDialog> exportDialog;
     ExportStatus exporting;
     std::optional<Request> confirm; ///< waits for "discard changes?"
-    bool paletteOpen = false;
-    std::string paletteFilter;
+    Palette palette;
     bool autoBake = false;
     double seconds = 0;                      ///< since the start of animated textures
     bool playing = false;                    ///< `seconds` advances

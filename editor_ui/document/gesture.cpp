@@ -59,4 +59,12 @@ void commitGesture(EditorState& state) {
     commit(state, now);
 }
 
+void cancelGesture(EditorState& state) {
+    if (!state.gesture)
+        return;
+    for (const auto& [id, before] : state.gesture->before)
+        state.document.objects.at(id) = before;
+    state.gesture.reset();
+}
+
 } // namespace limn

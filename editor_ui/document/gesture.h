@@ -32,4 +32,7 @@ void trackEdits(EditorState& state, ObjectsById& seen, const char* label);
 /// and before undo, redo, save and every other action.
 void commitGesture(EditorState& state);
 
+/// Ends the gesture, if any, as though it had never begun.
+void cancelGesture(EditorState& state);
+
 } // namespace limn

@@ -195,9 +195,8 @@ void resetLayout(EditorState& s) {
 void screenshot(EditorState& s) {
     request(s, Request::Kind::Screenshot);
 }
-void palette(EditorState& s) {
-    s.paletteOpen = true;
-    s.paletteFilter.clear();
+void openPalette(EditorState& s) {
+    s.palette.open = true;
 }
 void startBake(EditorState& s) {
     request(s, Request::Kind::Bake);
@@ -263,7 +262,7 @@ std::vector<Action> fixedActions() {
     {"edit.show_all", "Show all", Menu::Edit, alt('H'), kNoKey, false, always, showAll},
     {"edit.select_all", "Select all", Menu::Edit, ctrl('A'), kNoKey, true, always, selectAll},
     {"edit.select_none", "Select nothing", Menu::Edit, plain(key::kEscape), kNoKey, false, hasSelection, selectNone},
-    {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, palette},
+    {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
     {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
     {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, addPoint},
     {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, addSpot},

@@ -8,10 +8,8 @@
 #include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -219,62 +217,6 @@ void statusBar(EditorState& state) {
     } else {
         idleWords(state);
     }
-}
-
-static bool matches(const std::string& filter, const Action& action) {
-    const auto lower = [](std::string s) {
-        std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-        return s;
-    };
-    return lower(action.label).find(lower(filter)) != std::string::npos ||
-           lower(action.id).find(lower(filter)) != std::string::npos;
-}
-
-static const Action* paletteList(EditorState& state, bool enter) {
-    const Action* chosen = nullptr;
-    bool first = true;
-    for (const Action& action : actions()) {
-        if (!matches(state.paletteFilter, action) || !action.enabled(state))
-            continue;
-        if (ImGui::Selectable((std::string(action.label) + "###" + action.id).c_str(), first))
-            chosen = &action;
-        const std::string keys = shortcutText(action.shortcut);
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x);
-        ImGui::TextDisabled("%s", keys.c_str());
-        if (first && enter)
-            chosen = &action;
-        first = false;
-    }
-    if (first)
-        ImGui::TextDisabled("No action matches");
-    return chosen;
-}
-
-void palettePopup(EditorState& state) {
-    if (state.paletteOpen) {
-        ImGui::OpenPopup("All actions");
-        state.paletteOpen = false;
-    }
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({display.x / 2, display.y * 0.15f}, ImGuiCond_Always, {0.5f, 0});
-    ImGui::SetNextWindowSize({std::min(420.f, display.x), std::min(420.f, display.y * 0.7f)});
-    if (!ImGui::BeginPopup("All actions"))
-        return;
-    if (ImGui::IsWindowAppearing())
-        ImGui::SetKeyboardFocusHere();
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    const bool enter =
-        ImGui::InputTextWithHint("##filter", "Type to find an action", &state.paletteFilter,
-                                 ImGuiInputTextFlags_EnterReturnsTrue);
-    const Action* chosen = nullptr;
-    if (ImGui::BeginChild("list"))
-        chosen = paletteList(state, enter);
-    ImGui::EndChild();
-    if (chosen)
-        ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-    if (chosen)
-        runAction(state, *chosen);
 }
 
 void confirmDialog(EditorState& state) {

@@ -15,9 +15,6 @@ void viewBar(EditorState& state);
 /// else the state in words. Draws into the current window.
 void statusBar(EditorState& state);
 
-/// The list of all actions with a filter (Ctrl-P).
-void palettePopup(EditorState& state);
-
 /// "Discard changes?" while state.confirm is set.
 void confirmDialog(EditorState& state);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor_ui/document/light_angles.h"
 #include "editor_ui/document/photometry.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/field.h"
@@ -7,7 +8,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -55,26 +55,17 @@ static void strengthRows(FieldEdit& edit, Light& light) {
 
 /// Where the light comes from: height above the horizon and compass direction.
 static void directionRows(FieldEdit& edit, Light& light) {
-    const glm::vec3 from = -light.direction;
-    float elevation = glm::degrees(std::asin(std::clamp(from.y, -1.f, 1.f)));
-    float azimuth = glm::degrees(std::atan2(from.x, from.z));
+    LightAngles angles = lightAngles(light.direction);
     fieldLabel("Elevation (\u00b0)",
                "Height above the horizon of where the light comes from [degrees]");
-    bool changed = ImGui::SliderFloat("##elevation", &elevation, -89.9f, 89.9f, "%.1f\u00b0",
-                                      ImGuiSliderFlags_AlwaysClamp);
-    const auto set = [&] {
-        const float e = glm::radians(elevation), a = glm::radians(azimuth);
-        light.direction =
-            -glm::vec3(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a));
-    };
-    if (changed)
-        set();
+    if (ImGui::SliderFloat("##elevation", &angles.elevation, -kMaxElevation, kMaxElevation,
+                           "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
+        light.direction = lightDirection(angles);
     fieldEdited(edit, "Light elevation");
     fieldLabel("Azimuth (\u00b0)", "Direction the light comes from, from +Z towards +X [degrees]");
-    changed = ImGui::SliderFloat("##azimuth", &azimuth, -180, 180, "%.1f\u00b0",
-                                 ImGuiSliderFlags_AlwaysClamp);
-    if (changed)
-        set();
+    if (ImGui::SliderFloat("##azimuth", &angles.azimuth, -180, 180, "%.1f\u00b0",
+                           ImGuiSliderFlags_AlwaysClamp))
+        light.direction = lightDirection(angles);
     fieldEdited(edit, "Light azimuth");
 }
 

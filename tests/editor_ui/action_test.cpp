@@ -98,24 +98,49 @@ TEST(Actions, RenameTakesTheTypedName) {
     EXPECT_EQ(state.history.edits[0].label, "Rename Lamp");
 }
 
-TEST(Actions, ThePaletteRunsTheFirstActionThatMatchesOnEnter) {
+struct PaletteTest : testing::Test {
     HeadlessUi ui;
     EditorState state = fullEditor();
-    ui.mouse(600, 300);
-    ui.frames(state);
-    ui.tap(key::of('P'), kCtrl);
-    for (int i = 0; i < 4; ++i)
-        ui.frames(state);
-    for (char c : std::string("point")) {
-        ui.tap(key::of(char(c - 32)));
-        ui.input.events.push_back({.kind = InputEvent::Kind::Character, .code = c});
+
+    PaletteTest() {
+        ui.mouse(600, 300);
         ui.frames(state);
     }
+
+    /// Opens the palette and types its filter.
+    void openAndType(const std::string& filter) {
+        ui.tap(key::of('P'), kCtrl);
+        settle();
+        for (char c : filter) {
+            ui.tap(c == ' ' ? key::kSpace : key::of(char(c - 32)));
+            ui.input.events.push_back({.kind = InputEvent::Kind::Character, .code = c});
+            ui.frames(state);
+        }
+    }
+
+    void settle() {
+        for (int i = 0; i < 4; ++i)
+            ui.frames(state);
+    }
+};
+
+TEST_F(PaletteTest, RunsTheFirstActionThatMatchesOnEnter) {
+    openAndType("point");
     ui.tap(key::kEnter);
-    for (int i = 0; i < 4; ++i)
-        ui.frames(state);
+    settle();
     ASSERT_EQ(state.history.edits.size(), 1u);
     EXPECT_EQ(state.history.edits[0].label, "Add Point light");
+}
+
+TEST_F(PaletteTest, ArrowKeysChooseTheAction) {
+    openAndType("from the"); // front, back, right, left, top
+    for (int k : {key::kUp, key::kDown, key::kDown, key::kDown, key::kUp})
+        ui.tap(k);
+    ui.tap(key::kEnter);
+    settle();
+    const glm::vec3 toEye = state.view.camera.eye - state.view.camera.target;
+    EXPECT_GT(toEye.x, 1); // "From the right"
+    EXPECT_NEAR(toEye.z, 0, 1e-3f);
 }
 
 TEST(Actions, UndoNamesWhatItWouldUndo) {

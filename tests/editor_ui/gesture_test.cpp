@@ -37,6 +37,16 @@ TEST_F(GestureTest, ReturningToTheStartIsNoEdit) {
     EXPECT_TRUE(state.history.edits.empty());
 }
 
+TEST_F(GestureTest, CancellingBringsTheStartBackWithoutAnEdit) {
+    const Document before = state.document;
+    setStrength(2, "Strength");
+    setStrength(3, "Strength");
+    cancelGesture(state);
+    EXPECT_EQ(state.document, before);
+    EXPECT_FALSE(state.gesture);
+    EXPECT_TRUE(state.history.edits.empty());
+}
+
 TEST_F(GestureTest, AnotherWidgetEndsTheGesture) {
     setStrength(2, "Strength");
     setStrength(3, "Flux");
