@@ -169,7 +169,7 @@ static void panels(EditorState& state, float menuHeight) {
 }
 
 /// Esc ends what is nearest to the user: a drag, which it takes back, else the topmost menu or
-/// popup. Returns false if there is neither.
+/// popup, else the placing of a light. Returns false if there is none of these.
 static bool escape(EditorState& state) {
     if (state.view.drag || (state.gesture && ImGui::IsMouseDown(0))) {
         state.view.drag.reset();
@@ -180,7 +180,11 @@ static bool escape(EditorState& state) {
     const int popups = ImGui::GetCurrentContext()->OpenPopupStack.Size;
     if (popups > 0)
         ImGui::ClosePopupToLevel(popups - 1, true);
-    return popups > 0;
+    else if (!state.view.placing)
+        return false;
+    else
+        state.view.placing.reset();
+    return true;
 }
 
 static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {

@@ -46,6 +46,7 @@ struct ViewState {
     Navigation navigation = Navigation::None;
     glm::vec3 pivot{0}; ///< about which the view turns while it is Navigation::Orbit
     std::optional<GizmoDrag> drag;
+    std::optional<LightKind> placing; ///< the light that the next click in the picture adds
     glm::vec2 pressedAt{0};
     bool pressed = false; ///< left button went down in the picture and may become a pick
     bool showLights = true;

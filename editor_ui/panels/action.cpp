@@ -6,6 +6,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/light_placement.h"
 #include "editor_ui/view/pivot.h"
 #include "engine/techniques/technique_table.h"
 
@@ -117,27 +118,23 @@ void startRename(EditorState& s) {
     s.outliner.focusName = true;
 }
 
-void addOfKind(EditorState& s, LightKind kind, const char* name, float strength) {
-    Light light;
-    light.kind = kind;
-    light.name = name;
-    light.strength = strength;
-    light.position = s.view.camera.target;
-    if (kind == LightKind::Directional)
-        light.direction = {-0.48f, -0.8f, -0.36f}; // unit: 0.48^2 + 0.8^2 + 0.36^2 = 1
-    addLight(s, light);
-}
 void addSun(EditorState& s) {
-    addOfKind(s, LightKind::Directional, "Sun", 10);
+    addLight(s, lightBeforeCamera(s, LightKind::Directional));
 }
-void addPoint(EditorState& s) {
-    addOfKind(s, LightKind::Point, "Point light", 100);
+template <LightKind kind>
+void startPlacing(EditorState& s) {
+    s.view.placing = kind;
 }
-void addSpot(EditorState& s) {
-    addOfKind(s, LightKind::Spot, "Spot light", 300);
+template <LightKind kind>
+bool isPlacing(const EditorState& s) {
+    return s.view.placing == kind;
 }
-void addRectangle(EditorState& s) {
-    addOfKind(s, LightKind::Rectangle, "Rectangle light", 30);
+bool placing(const EditorState& s) {
+    return s.view.placing.has_value();
+}
+void placeBeforeCamera(EditorState& s) {
+    addLight(s, lightBeforeCamera(s, *s.view.placing));
+    s.view.placing.reset();
 }
 
 void focusSelection(EditorState& s) {
@@ -264,9 +261,10 @@ std::vector<Action> fixedActions() {
     {"edit.select_none", "Select nothing", Menu::Edit, plain(key::kEscape), kNoKey, false, hasSelection, selectNone},
     {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
     {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
-    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, addPoint},
-    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, addSpot},
-    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, addRectangle},
+    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Point>, isPlacing<LightKind::Point>},
+    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Spot>, isPlacing<LightKind::Spot>},
+    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Rectangle>, isPlacing<LightKind::Rectangle>},
+    {"add.place", "Place it before the camera", Menu::Add, plain(key::kEnter), plain(key::kPadEnter), true, placing, placeBeforeCamera},
     {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, showView<View::Lit>, showsView<View::Lit>},
     {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Direct>, showsView<View::Direct>},
     {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Indirect>, showsView<View::Indirect>},

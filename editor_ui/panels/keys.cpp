@@ -14,6 +14,8 @@ static std::string keyText(int k) {
         return "Del";
     if (k == key::kEscape)
         return "Esc";
+    if (k == key::kEnter)
+        return "Enter";
     return std::string(1, char(k));
 }
 

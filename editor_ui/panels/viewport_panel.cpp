@@ -7,6 +7,7 @@
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/view/camera_control.h"
 #include "editor_ui/view/gizmo.h"
+#include "editor_ui/view/light_placement.h"
 #include "editor_ui/view/picking.h"
 #include "editor_ui/view/pivot.h"
 #include "engine/scene/light/rectangle_light.h"
@@ -126,14 +127,19 @@ static void release(EditorState& state) {
     const ImGuiIO& io = ImGui::GetIO();
     if (glm::length(mousePosition() - view.pressedAt) > kClickPixels)
         return;
+    if (view.placing) {
+        addLight(state, lightAtPixel(state, *view.placing, view.pressedAt));
+        view.placing.reset();
+        return;
+    }
     pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
     const OverlayKind* overlay = state.overlay.options.kind;
     if (overlay && overlay->pick != OverlayPick::None)
         pickCacheAt(state, view.pressedAt);
 }
 
-static Icon lightIcon(const Light& light) {
-    switch (light.kind) {
+static Icon lightIcon(LightKind kind) {
+    switch (kind) {
     case LightKind::Directional:
         return Icon::Sun;
     case LightKind::Point:
@@ -186,7 +192,7 @@ static void lightIcons(const EditorState& state) {
             list.AddCircle(centre, 12.5f, ink, 0, 1.5f);
         if (selected && light->kind != LightKind::Point)
             directionLine(list, picture, *light, ink);
-        drawIcon(list, lightIcon(*light), centre, 15, ink);
+        drawIcon(list, lightIcon(light->kind), centre, 15, ink);
     }
 }
 
@@ -218,17 +224,45 @@ static void selectionBoxes(const EditorState& state) {
     }
 }
 
+/// Text on a dark ground in the middle of the picture's width, wrapped to it, at height `y` [px].
+static void pictureText(const EditorState& state, const char* text, float y, ImU32 ink) {
+    const float wrap = std::max(state.view.size.x - 32, 50.f);
+    const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, wrap);
+    const ImVec2 at(state.view.origin.x + (state.view.size.x - size.x) / 2,
+                    state.view.origin.y + y);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({at.x - 8, at.y - 4}, {at.x + size.x + 8, at.y + size.y + 4},
+                       IM_COL32(20, 22, 26, 200), 4);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text, nullptr, wrap);
+}
+
 static void emptyHint(const EditorState& state) {
     const bool anything = std::ranges::any_of(state.document.objects, [](const auto& entry) {
         return std::holds_alternative<Node>(entry.second);
     });
-    if (anything || !state.loading.empty())
+    if (!anything && state.loading.empty())
+        pictureText(state, "Drop a .gltf, .glb or .limn here, or press Ctrl-O",
+                    state.view.size.y / 2, color::kDim);
+}
+
+/// Where the light would stand if one clicked now.
+static void placingHint(const EditorState& state, bool hovered) {
+    if (!state.view.placing)
         return;
-    const char* hint = "Drop a .gltf, .glb or .limn here, or press Ctrl-O";
-    const ImVec2 size = ImGui::CalcTextSize(hint);
-    ImGui::GetWindowDrawList()->AddText({state.view.origin.x + (state.view.size.x - size.x) / 2,
-                                         state.view.origin.y + (state.view.size.y - size.y) / 2},
-                                        color::kDim, hint);
+    const LightKind kind = *state.view.placing;
+    pictureText(state, "Click where the light goes. Enter: before the camera. Esc: none", 12,
+                IM_COL32_WHITE);
+    const auto pixel =
+        hovered ? toPixel(state.view.picture(), lightAtPixel(state, kind, mousePosition()).position)
+                : std::nullopt;
+    if (!pixel)
+        return;
+    const glm::vec2 mouse = mousePosition();
+    const ImVec2 centre(pixel->x, pixel->y);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddLine({mouse.x, mouse.y}, centre, color::kHandleLit, 1.5f);
+    list.AddCircleFilled(centre, 12, IM_COL32(20, 22, 26, 170));
+    drawIcon(list, lightIcon(kind), centre, 15, color::kHandleLit);
 }
 
 void viewportPanel(EditorState& state) {
@@ -245,8 +279,9 @@ void viewportPanel(EditorState& state) {
     selectionBoxes(state);
     if (state.view.showLights)
         lightIcons(state);
-    moveGizmo(state, hovered && state.view.navigation == Navigation::None);
+    moveGizmo(state, hovered && state.view.navigation == Navigation::None && !state.view.placing);
     emptyHint(state);
+    placingHint(state, hovered && state.view.navigation == Navigation::None);
     ImGui::PopClipRect();
     if (hovered)
         press(state);

@@ -125,11 +125,11 @@ struct PaletteTest : testing::Test {
 };
 
 TEST_F(PaletteTest, RunsTheFirstActionThatMatchesOnEnter) {
-    openAndType("point");
+    openAndType("sun");
     ui.tap(key::kEnter);
     settle();
     ASSERT_EQ(state.history.edits.size(), 1u);
-    EXPECT_EQ(state.history.edits[0].label, "Add Point light");
+    EXPECT_EQ(state.history.edits[0].label, "Add Sun 2");
 }
 
 TEST_F(PaletteTest, ArrowKeysChooseTheAction) {
@@ -146,10 +146,10 @@ TEST_F(PaletteTest, ArrowKeysChooseTheAction) {
 TEST(Actions, UndoNamesWhatItWouldUndo) {
     EditorState state = fullEditor();
     EXPECT_EQ(actionLabel(state, actionById("edit.undo")), "Undo");
-    runAction(state, actionById("add.point"));
-    EXPECT_EQ(actionLabel(state, actionById("edit.undo")), "Undo Add Point light");
+    runAction(state, actionById("add.sun"));
+    EXPECT_EQ(actionLabel(state, actionById("edit.undo")), "Undo Add Sun 2");
     runAction(state, actionById("edit.undo"));
-    EXPECT_EQ(actionLabel(state, actionById("edit.redo")), "Redo Add Point light");
+    EXPECT_EQ(actionLabel(state, actionById("edit.redo")), "Redo Add Sun 2");
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/panels/action.h"
 #include "editor_ui/view/pivot.h"
-#include "engine/files/project_file.h"
-#include "tests/editor_ui/headless.h"
+#include "tests/editor_ui/cornell_view.h"
 
 #include <cmath>
 
@@ -11,41 +10,6 @@
 
 namespace limn {
 namespace {
-
-/// Cornell as it is after opening, seen by a camera as importers make them: it aims 1 m ahead, in
-/// front of the box, which begins 5.2 m ahead.
-struct CornellView {
-    HeadlessUi ui;
-    EditorState state = emptyEditor();
-
-    CornellView() {
-        const auto project = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn");
-        state.document = project->document;
-        state.assets = project->assets;
-        auto scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
-        state.sceneBounds = scene->bounds;
-        state.trace = std::make_shared<const TraceScene>(*scene);
-        const glm::vec3 centre = scene->bounds.centre();
-        state.view.camera = {.eye = centre + glm::vec3(0.1f, 0.05f, 8),
-                             .target = centre + glm::vec3(0.1f, 0.05f, 7)};
-        ui.frames(state);
-    }
-
-    glm::vec2 at(float x, float y) const {
-        return state.view.origin + state.view.size * glm::vec2(x, y);
-    }
-
-    void drag(glm::vec2 from, glm::vec2 to) {
-        ui.mouse(from.x, from.y);
-        ui.frames(state);
-        ui.button(true, 2);
-        ui.frames(state);
-        ui.mouse(to.x, to.y);
-        ui.frames(state);
-        ui.button(false, 2);
-        ui.frames(state);
-    }
-};
 
 TEST(Pivot, IsTheSurfaceUnderTheMouse) {
     CornellView v;
