@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/edit_history.h"
 #include "editor_ui/document/gesture.h"
+#include "editor_ui/document/selection.h"
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/keys.h"
@@ -32,7 +33,8 @@ struct GizmoDrag {
     Handle handle = Handle::None;
     glm::vec3 origin{0};
     glm::vec2 start{0};
-    ObjectsById objects; ///< as they were at the start
+    ObjectsById objects;  ///< as they were at the start
+    glm::vec3 surface{0}; ///< PickedSurface::position at the start
 };
 
 /// The centre of the window, where the picture is.
@@ -50,8 +52,10 @@ struct ViewState {
     glm::vec2 pressedAt{0};
     bool pressed = false; ///< left button went down in the picture and may become a pick
     bool showLights = true;
-    float flySpeed = 2;     ///< [m/s]
-    bool animating = false; ///< wants another frame although no event came
+    GizmoPlace gizmoPlace = GizmoPlace::Middle;
+    std::optional<PickedSurface> picked; ///< by the last click; see pickedSurface()
+    float flySpeed = 2;                  ///< [m/s]
+    bool animating = false;              ///< wants another frame although no event came
 
     Picture picture() const { return {camera, origin, size}; }
 };

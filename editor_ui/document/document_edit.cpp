@@ -2,6 +2,7 @@
 #include "editor_ui/document/document_edit.h"
 
 #include "editor_ui/document/object_rules.h"
+#include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
 #include "engine/scene/placement.h"
 
@@ -62,32 +63,6 @@ void setExportSettings(EditorState& state, const ExportSettings& settings) {
     const Change change = changeOfSingle(state.document, settings);
     if (change.before != change.after)
         applyEdit(state, {"Export settings", {change}});
-}
-
-static bool isBelow(const Document& document, ObjectId id, ObjectId ancestor) {
-    for (std::size_t depth = 0; id != 0 && depth <= document.objects.size(); ++depth) {
-        if (id == ancestor)
-            return true;
-        const auto it = document.objects.find(id);
-        const Node* node = it == document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
-        id = node ? node->parent : 0;
-    }
-    return false;
-}
-
-/// The selected deletable objects and the nodes below them, parents before children.
-static std::vector<ObjectId> selectionWithChildren(const EditorState& state) {
-    std::vector<ObjectId> ids;
-    for (const auto& [id, object] : state.document.objects) {
-        if (!canDelete(object))
-            continue;
-        const bool in = std::ranges::any_of(state.selection, [&, objectId = id](ObjectId selected) {
-            return isBelow(state.document, objectId, selected);
-        });
-        if (in)
-            ids.push_back(id);
-    }
-    return ids;
 }
 
 static std::string labelFor(const EditorState& state, const char* verb,
@@ -201,38 +176,8 @@ bool redoEdit(EditorState& state) {
     return done;
 }
 
-void pruneSelection(EditorState& state) {
-    std::erase_if(state.selection,
-                  [&](ObjectId id) { return !state.document.objects.contains(id); });
-}
-
 glm::mat4 worldMatrix(const Document& document, ObjectId node) {
     return glm::mat4(Placements(document).of(node).toWorld);
-}
-
-static bool placeOf(const Document& document, ObjectId id, glm::vec3& place) {
-    const Object& object = document.objects.at(id);
-    if (const auto* light = std::get_if<Light>(&object))
-        place = light->position;
-    else if (const auto* camera = std::get_if<Camera>(&object))
-        place = camera->eye;
-    else if (std::holds_alternative<Node>(object))
-        place = worldMatrix(document, id)[3];
-    else
-        return false;
-    return true;
-}
-
-bool selectionOrigin(const EditorState& state, glm::vec3& origin) {
-    glm::vec3 sum(0);
-    int count = 0;
-    for (const auto& [id, object] : movableSelection(state))
-        if (glm::vec3 p; placeOf(state.document, id, p))
-            sum += p, ++count;
-    if (count == 0)
-        return false;
-    origin = sum / float(count);
-    return true;
 }
 
 Object displaced(const Document& document, const Object& object, glm::vec3 d) {
@@ -248,58 +193,6 @@ Object displaced(const Document& document, const Object& object, glm::vec3 d) {
         node->transform.translation += glm::dvec3(d);
     }
     return moved;
-}
-
-std::map<ObjectId, Object> movableSelection(const EditorState& state) {
-    std::map<ObjectId, Object> objects;
-    for (ObjectId id : state.selection) {
-        const auto it = state.document.objects.find(id);
-        if (it == state.document.objects.end() || !canDelete(it->second))
-            continue;
-        const bool carried = std::ranges::any_of(state.selection, [&](ObjectId other) {
-            return other != id && isBelow(state.document, id, other);
-        });
-        if (!carried)
-            objects.emplace(id, it->second);
-    }
-    return objects;
-}
-
-static void grow(Bounds& bounds, bool& any, glm::vec3 p) {
-    bounds.lower = any ? glm::min(bounds.lower, p) : p;
-    bounds.upper = any ? glm::max(bounds.upper, p) : p;
-    any = true;
-}
-
-static void growByNode(const EditorState& state, ObjectId id, const Node& node, Bounds& bounds,
-                       bool& any) {
-    const glm::mat4 m = worldMatrix(state.document, id);
-    if (node.meshes.empty())
-        grow(bounds, any, m[3]);
-    for (std::uint32_t mesh : node.meshes) {
-        if (mesh >= state.meshBounds.size())
-            continue;
-        const Bounds& b = state.meshBounds[mesh];
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 p(corner & 1 ? b.upper.x : b.lower.x,
-                              corner & 2 ? b.upper.y : b.lower.y,
-                              corner & 4 ? b.upper.z : b.lower.z);
-            grow(bounds, any, m * glm::vec4(p, 1));
-        }
-    }
-}
-
-Bounds selectionBounds(const EditorState& state) {
-    Bounds bounds;
-    bool any = false;
-    for (ObjectId id : selectionWithChildren(state)) {
-        const Object& object = state.document.objects.at(id);
-        if (const auto* node = std::get_if<Node>(&object))
-            growByNode(state, id, *node, bounds, any);
-        else if (glm::vec3 p; placeOf(state.document, id, p))
-            grow(bounds, any, p);
-    }
-    return any ? bounds : state.sceneBounds;
 }
 
 } // namespace limn

@@ -38,25 +38,10 @@ void rename(EditorState& state, ObjectId id, const std::string& name);
 bool undoEdit(EditorState& state);
 bool redoEdit(EditorState& state);
 
-/// Drops ids from the selection that the document no longer has.
-void pruneSelection(EditorState& state);
-
 /// Object-to-world matrix of a node, including its parents, as in the flattened scene.
 glm::mat4 worldMatrix(const Document& document, ObjectId node);
 
-/// Sets `origin` to the gizmo's position: the mean position of the selected nodes, lights and
-/// cameras. Returns false if there is nothing to move.
-bool selectionOrigin(const EditorState& state, glm::vec3& origin);
-
 /// Copy of `object` displaced in world space by `d`. Nodes are moved in their parent's space.
 Object displaced(const Document& document, const Object& object, glm::vec3 d);
-
-/// The selected objects the gizmo moves: a node whose ancestor is selected moves with it and is
-/// left out.
-std::map<ObjectId, Object> movableSelection(const EditorState& state);
-
-/// World-space bounding box of the selection, or of the scene if nothing with a position is
-/// selected. A light counts as a point.
-Bounds selectionBounds(const EditorState& state);
 
 } // namespace limn

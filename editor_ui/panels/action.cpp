@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/object_rules.h"
+#include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
@@ -167,6 +168,14 @@ template <Tool tool>
 bool hasTool(const EditorState& s) {
     return s.view.tool == tool;
 }
+template <GizmoPlace place>
+void setGizmoPlace(EditorState& s) {
+    s.view.gizmoPlace = place;
+}
+template <GizmoPlace place>
+bool hasGizmoPlace(const EditorState& s) {
+    return s.view.gizmoPlace == place;
+}
 /// The action that shows an overlay; null: none. Its id is "overlay." and the overlay's name, with
 /// underscores.
 Action overlayAction(const OverlayKind* kind) {
@@ -281,6 +290,9 @@ std::vector<Action> fixedActions() {
     {"view.bottom", "From below", Menu::View, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
     {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, setTool<Tool::Select>, hasTool<Tool::Select>},
     {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, setTool<Tool::Move>, hasTool<Tool::Move>},
+    {"gizmo.middle", "Gizmo in the middle of the selection", Menu::View, kNoKey, kNoKey, true, always, setGizmoPlace<GizmoPlace::Middle>, hasGizmoPlace<GizmoPlace::Middle>},
+    {"gizmo.origins", "Gizmo at the objects' origins", Menu::View, kNoKey, kNoKey, false, always, setGizmoPlace<GizmoPlace::Origins>, hasGizmoPlace<GizmoPlace::Origins>},
+    {"gizmo.click", "Gizmo where the object was clicked", Menu::View, kNoKey, kNoKey, false, always, setGizmoPlace<GizmoPlace::Click>, hasGizmoPlace<GizmoPlace::Click>},
     {"view.play", "Play films", Menu::View, plain(key::kSpace), kNoKey, true, hasFilm, togglePlay, plays},
     {"view.rewind", "Rewind films", Menu::View, kNoKey, kNoKey, false, hasFilm, rewindFilms},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},

@@ -100,17 +100,18 @@ static std::size_t fittingPrefix(const std::string& text, float width) {
     return cut ? std::size_t(cut - text.data()) : text.size();
 }
 
-void elidedText(const std::string& text, float width) {
-    const char* begin = text.data();
-    const char* end = begin + text.size();
-    if (ImGui::CalcTextSize(begin, end).x <= width) {
-        ImGui::TextUnformatted(begin, end);
-        return;
-    }
+std::string elided(const std::string& text, float width) {
+    if (ImGui::CalcTextSize(text.c_str()).x <= width)
+        return text;
     const float dots = ImGui::CalcTextSize("...").x;
-    const std::string cut = text.substr(0, fittingPrefix(text, std::max(width - dots, 1.f)));
-    ImGui::TextUnformatted((cut + "...").c_str());
-    wrappedTooltip(text.c_str());
+    return text.substr(0, fittingPrefix(text, std::max(width - dots, 1.f))) + "...";
+}
+
+void elidedText(const std::string& text, float width) {
+    const std::string shown = elided(text, width);
+    ImGui::TextUnformatted(shown.data(), shown.data() + shown.size());
+    if (shown.size() != text.size())
+        wrappedTooltip(text.c_str());
 }
 
 std::string groupedNumber(unsigned long long n) {

@@ -31,6 +31,9 @@ void positionField(const char* id, glm::dvec3& translation);
 /// part of the gesture.
 void fieldEdited(FieldEdit& edit, const char* label);
 
+/// `text`, or as much of its beginning as fits `width` [px], followed by dots.
+std::string elided(const std::string& text, float width);
+
 /// Draws text cut to `width` pixels with an ellipsis. If it was cut, a tooltip shows all of it.
 void elidedText(const std::string& text, float width);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
@@ -28,6 +29,31 @@ static void rotationRow(FieldEdit& edit, Node& node) {
     fieldEdited(edit, "Rotate");
 }
 
+/// What a click found: the mesh and its material, which a button selects.
+static void pickedRows(FieldEdit& edit) {
+    EditorState& state = edit.state;
+    const PickedSurface* picked = pickedSurface(state);
+    if (!picked || picked->node != edit.id || picked->mesh >= state.assets->meshes.size())
+        return;
+    const Mesh& mesh = state.assets->meshes[picked->mesh];
+    ImGui::Separator();
+    fieldLabel("Clicked mesh", "The part of the object that was clicked in the picture");
+    elidedText(mesh.name.empty() ? "Mesh " + std::to_string(picked->mesh) : mesh.name,
+               ImGui::GetContentRegionAvail().x);
+    fieldLabel("Its material", "Click to edit the material");
+    const ObjectId material = materialOf(state, picked->mesh);
+    const Object* object = findObject(state, material);
+    if (!object) {
+        ImGui::TextDisabled("none");
+        return;
+    }
+    const std::string name = objectName(*object);
+    if (ImGui::Button((elided(name, ImGui::GetContentRegionAvail().x - 12) + "###material").c_str(),
+                      {-FLT_MIN, 0}))
+        state.selection = {material};
+    wrappedTooltip(name.c_str());
+}
+
 void nodeSection(FieldEdit& edit, Node& node) {
     Transform& t = node.transform;
     fieldLabel("Position (m)", "In the parent's space [m]. Ctrl-click to type a number");
@@ -53,6 +79,7 @@ void nodeSection(FieldEdit& edit, Node& node) {
     ImGui::TextDisabled("%zu %s, %s triangles", node.meshes.size(),
                         node.meshes.size() == 1 ? "mesh" : "meshes",
                         groupedNumber(triangles).c_str());
+    pickedRows(edit);
 }
 
 } // namespace limn

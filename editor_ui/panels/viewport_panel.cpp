@@ -11,6 +11,7 @@
 #include "editor_ui/view/picking.h"
 #include "editor_ui/view/pivot.h"
 #include "engine/scene/light/rectangle_light.h"
+#include "engine/scene/placement.h"
 
 #include <imgui.h>
 
@@ -27,6 +28,7 @@ namespace {
 constexpr int kLeft = 0, kRight = 1, kMiddle = 2;
 constexpr float kRadiansPerPixel = 0.006f;
 constexpr float kClickPixels = 4;
+constexpr std::size_t kMaxBoxes = 200;
 
 glm::vec2 mousePosition() {
     const ImVec2 m = ImGui::GetIO().MousePos;
@@ -196,31 +198,48 @@ static void lightIcons(const EditorState& state) {
     }
 }
 
-/// Corners of the selected meshes' boxes, so that a picked node can be seen.
+static void boxOutline(ImDrawList& list, const Picture& picture, const Bounds& b,
+                       const glm::mat4& toWorld) {
+    std::array<std::optional<glm::vec2>, 8> corner;
+    for (std::size_t i = 0; i < 8; ++i)
+        corner[i] = toPixel(picture, toWorld * glm::vec4(i & 1 ? b.upper.x : b.lower.x,
+                                                         i & 2 ? b.upper.y : b.lower.y,
+                                                         i & 4 ? b.upper.z : b.lower.z, 1));
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t bit : {1u, 2u, 4u})
+            if (!(i & bit) && corner[i] && corner[i | bit])
+                list.AddLine({corner[i]->x, corner[i]->y}, {corner[i | bit]->x, corner[i | bit]->y},
+                             IM_COL32(255, 225, 110, 130));
+}
+
+/// Box of the node's meshes in its own space, or of the one that was clicked.
+static std::optional<Bounds> meshBox(const EditorState& state, ObjectId id, const Node& node) {
+    const PickedSurface* picked = id == activeId(state) ? pickedSurface(state) : nullptr;
+    std::optional<Bounds> box;
+    for (std::uint32_t mesh : node.meshes) {
+        if (mesh >= state.meshBounds.size() || (picked && picked->mesh != mesh))
+            continue;
+        const Bounds& b = state.meshBounds[mesh];
+        box = box ? Bounds{glm::min(box->lower, b.lower), glm::max(box->upper, b.upper)} : b;
+    }
+    return box;
+}
+
+/// A box for each selected node, so that a picked one can be seen; one box for a large selection.
 static void selectionBoxes(const EditorState& state) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const Picture picture = state.view.picture();
+    if (state.selection.size() > kMaxBoxes) {
+        boxOutline(list, picture, selectionBounds(state), glm::mat4(1));
+        return;
+    }
+    Placements placements(state.document);
     for (ObjectId id : state.selection) {
         const auto it = state.document.objects.find(id);
         const Node* node =
             it == state.document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
-        for (std::uint32_t mesh : node ? node->meshes : std::vector<std::uint32_t>{}) {
-            if (mesh >= state.meshBounds.size())
-                continue;
-            const Bounds& b = state.meshBounds[mesh];
-            const glm::mat4 m = worldMatrix(state.document, id);
-            std::array<std::optional<glm::vec2>, 8> corner;
-            for (std::size_t i = 0; i < 8; ++i)
-                corner[i] = toPixel(picture, m * glm::vec4(i & 1 ? b.upper.x : b.lower.x,
-                                                           i & 2 ? b.upper.y : b.lower.y,
-                                                           i & 4 ? b.upper.z : b.lower.z, 1));
-            for (std::size_t i = 0; i < 8; ++i)
-                for (std::size_t bit : {1u, 2u, 4u})
-                    if (!(i & bit) && corner[i] && corner[i | bit])
-                        list.AddLine({corner[i]->x, corner[i]->y},
-                                     {corner[i | bit]->x, corner[i | bit]->y},
-                                     IM_COL32(255, 225, 110, 130));
-        }
+        if (const auto box = node ? meshBox(state, id, *node) : std::nullopt)
+            boxOutline(list, picture, *box, glm::mat4(placements.of(id).toWorld));
     }
 }
 

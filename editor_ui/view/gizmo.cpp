@@ -95,7 +95,8 @@ static void drawReadout(const Picture& picture, glm::vec3 origin, glm::vec3 move
 
 static void startDrag(EditorState& state, Handle handle, glm::vec3 origin, glm::vec2 mouse) {
     commitGesture(state);
-    state.view.drag = GizmoDrag{handle, origin, mouse, movableSelection(state)};
+    state.view.drag = GizmoDrag{handle, origin, mouse, movableSelection(state),
+                                state.view.picked ? state.view.picked->position : glm::vec3(0)};
 }
 
 /// A round step of about a tenth of the arrow [m].
@@ -130,6 +131,8 @@ static void continueDrag(EditorState& state, const Picture& picture, glm::vec2 m
         *object = displaced(state.document, start, d);
     }
     trackEdits(state, seen, "Move");
+    if (pickedSurface(state))
+        state.view.picked->position = drag.surface + d;
     drawReadout(picture, drag.origin + d, d);
 }
 
@@ -140,12 +143,12 @@ void moveGizmo(EditorState& state, bool mouseHere) {
         state.view.drag.reset();
     if (state.view.drag)
         continueDrag(state, picture, mouse);
-    glm::vec3 origin;
-    if (state.view.tool != Tool::Move || !selectionOrigin(state, origin) ||
-        !toPixel(picture, origin)) {
+    const auto place = state.view.tool == Tool::Move ? selectionOrigin(state) : std::nullopt;
+    if (!place || !toPixel(picture, *place)) {
         state.view.drag.reset();
         return;
     }
+    const glm::vec3 origin = *place;
     Handle lit = state.view.drag ? state.view.drag->handle : Handle::None;
     if (!state.view.drag && mouseHere) {
         lit = handleAt(picture, origin, mouse);

@@ -22,22 +22,23 @@ static ObjectId iconAt(const EditorState& state, const Picture& picture, glm::ve
     return found;
 }
 
-ObjectId objectAt(const EditorState& state, glm::vec2 mouse) {
-    const Picture picture = state.view.picture();
-    if (state.view.showLights)
-        if (const ObjectId id = iconAt(state, picture, mouse))
-            return id;
+std::optional<PickedSurface> surfaceAt(const EditorState& state, glm::vec2 mouse) {
     if (!state.trace)
-        return 0;
+        return std::nullopt;
+    const Picture picture = state.view.picture();
     const Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
     if (!hit)
-        return 0;
-    const ObjectId node = state.trace->scene().instances[hit.instance].node;
-    return state.document.objects.contains(node) ? node : 0;
+        return std::nullopt;
+    const Instance& instance = state.trace->scene().instances[hit.instance];
+    if (!state.document.objects.contains(instance.node))
+        return std::nullopt;
+    return PickedSurface{instance.node, instance.mesh, hit.position};
 }
 
 void pick(EditorState& state, glm::vec2 mouse, bool extend) {
-    const ObjectId id = objectAt(state, mouse);
+    const ObjectId icon = state.view.showLights ? iconAt(state, state.view.picture(), mouse) : 0;
+    state.view.picked = icon ? std::nullopt : surfaceAt(state, mouse);
+    const ObjectId id = state.view.picked ? state.view.picked->node : icon;
     const auto at = std::ranges::find(state.selection, id);
     if (!extend)
         state.selection = id ? std::vector{id} : std::vector<ObjectId>{};

@@ -5,11 +5,11 @@
 
 namespace limn {
 
-/// The object under the mouse: a light's icon within 12 px, else the nearest surface's node; 0 if
-/// there is none.
-ObjectId objectAt(const EditorState& state, glm::vec2 mouse);
+/// The nearest surface under the mouse; std::nullopt if there is none.
+std::optional<PickedSurface> surfaceAt(const EditorState& state, glm::vec2 mouse);
 
-/// Selects the object under the mouse. `extend` adds or removes it instead of replacing the
+/// Selects the light whose icon is within 12 px of the mouse, else the node of the nearest surface,
+/// whose mesh becomes ViewState::picked. `extend` adds or removes it instead of replacing the
 /// selection.
 void pick(EditorState& state, glm::vec2 mouse, bool extend);
 

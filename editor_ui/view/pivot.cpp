@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/view/pivot.h"
 
-#include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/view/camera_control.h"
 
@@ -22,9 +22,8 @@ static float depthOf(const Camera& camera, glm::vec3 point) {
 /// in front of the eye. The target's depth if none is [m].
 static float depthWithoutSurface(const EditorState& state, const Picture& picture) {
     const Camera& camera = picture.camera;
-    glm::vec3 selected;
-    if (selectionOrigin(state, selected))
-        if (const float depth = depthOf(camera, selected); depth > 0)
+    if (const auto selected = selectionOrigin(state))
+        if (const float depth = depthOf(camera, *selected); depth > 0)
             return depth;
     if (const auto middle = surfaceUnder(state, middleOf(picture)))
         return depthOf(camera, *middle);

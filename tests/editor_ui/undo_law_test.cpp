@@ -2,6 +2,7 @@
 // Drives the whole interface with random mouse and keys, without a window or a GPU.
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/object_rules.h"
+#include "editor_ui/document/selection.h"
 #include "tests/editor_ui/headless.h"
 
 #include <imgui.h>
@@ -48,8 +49,8 @@ struct RandomUser {
             mouse = {float(below(270)), 60 + float(below(500))};
             break; // outliner
         case 3:
-            if (glm::vec3 origin; selectionOrigin(state, origin))
-                if (const auto p = toPixel(state.view.picture(), origin))
+            if (const auto origin = selectionOrigin(state))
+                if (const auto p = toPixel(state.view.picture(), *origin))
                     mouse = *p + glm::vec2(float(below(160) - 80), float(below(160) - 80)); // gizmo
             break;
         default:
