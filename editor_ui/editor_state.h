@@ -10,6 +10,7 @@
 #include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/statistics.h"
 #include "editor_ui/request.h"
+#include "editor_ui/view/compare_state.h"
 #include "editor_ui/view/gizmo_math.h"
 #include "editor_ui/view/overlay_state.h"
 #include "engine/scene/scene.h"
@@ -101,6 +102,7 @@ struct EditorState {
 
     ViewState view;
     OverlayState overlay;
+    CompareState compare;
     LayoutState layout;
     OutlinerState outliner;
     EulerEdit euler;

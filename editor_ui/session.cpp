@@ -17,10 +17,6 @@
 
 namespace limn {
 
-bool lightChanged(const Scene& a, const Scene& b) {
-    return a.lights != b.lights || a.materials != b.materials || a.sky != b.sky;
-}
-
 static bool sameInstances(const Scene& a, const Scene& b) {
     return std::ranges::equal(a.instances, b.instances, [](const Instance& x, const Instance& y) {
         return x.mesh == y.mesh && x.node == y.node;
@@ -56,7 +52,8 @@ Session::Session(SessionOptions options)
     : m_options(std::move(options)),
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
-      m_relightJob(m_options.wake), m_exportJob(m_options.wake) {
+      m_relightJob(m_options.wake), m_exportJob(m_options.wake), m_referenceJob(m_options.wake),
+      m_comparisonJob(m_options.wake) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
@@ -320,7 +317,7 @@ void Session::followDocument() {
     m_shownSeconds = state.seconds;
     auto scene =
         std::make_shared<const Scene>(flatten(state.document, state.assets, m_shownSeconds));
-    if (lightChanged(*m_scene, *scene)) {
+    if (!sameLight(*m_scene, *scene)) {
         m_bakeSecondsAtLightEdit = bakeSeconds();
         m_lightEdited = true;
     }
@@ -385,6 +382,30 @@ void Session::showStatus() {
     }
 }
 
+void Session::followReference() {
+    const ViewState& view = state.view;
+    const glm::uvec2 size = glm::max(glm::uvec2(view.size), glm::uvec2(1));
+    CompareState& compare = state.compare;
+    std::optional<ReferenceOrder> order;
+    if (compare.mode != Compare::Off && view.view != View::Normals && !m_scene->instances.empty())
+        order = {m_scene, view.view, view.camera, size.x, size.y, compare.noise};
+    m_referenceJob.set(std::move(order));
+    const ReferenceProgress traced = m_referenceJob.progress();
+    std::optional<ComparisonOrder> wanted;
+    if (traced.set) {
+        const bool same =
+            m_picture && m_picture->camera == view.camera && m_picture->view == view.view;
+        wanted = {traced.set,
+                  same ? std::shared_ptr<const ImageF>(m_picture, &m_picture->image) : nullptr,
+                  compare.mode == Compare::Difference, view.tonemap, view.exposureEv};
+    }
+    m_comparisonJob.set(std::move(wanted));
+    m_compared = m_comparisonJob.result();
+    compare.reference = {traced.running,  traced.set ? 4 * traced.set->samplesPerPixel : 0,
+                         traced.noise,    traced.seconds,
+                         traced.fraction, m_compared.error};
+}
+
 void Session::update() {
     if (!state.requests.empty())
         commitGesture(state);
@@ -399,11 +420,13 @@ void Session::update() {
     followTime();
     showStatus();
     showExport();
+    followReference();
 }
 
 bool Session::idle() const {
-    return !m_files.busy() && !m_bakeJob.busy() && !m_exportJob.busy() && !m_bakeSoon &&
-           !state.relight.running && !m_relit.status.running && state.loading.empty();
+    return !state.compare.reference.running && !m_comparisonJob.busy() && !m_files.busy() &&
+           !m_bakeJob.busy() && !m_exportJob.busy() && !m_bakeSoon && !state.relight.running &&
+           !m_relit.status.running && state.loading.empty();
 }
 
 double Session::bakeSeconds() const {

@@ -4,8 +4,10 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/jobs/background_priority.h"
 #include "editor_ui/jobs/bake_job.h"
+#include "editor_ui/jobs/comparison_job.h"
 #include "editor_ui/jobs/export_job.h"
 #include "editor_ui/jobs/file_job.h"
+#include "editor_ui/jobs/reference_job.h"
 #include "editor_ui/jobs/relight_job.h"
 
 namespace limn {
@@ -57,8 +59,16 @@ public:
     /// relights.
     const std::shared_ptr<const LightSnapshot>& lit() const { return m_relit.lit; }
 
+    /// Sets the newest picture of the viewport in full size, which the reference is compared with.
+    void setPicture(std::shared_ptr<const LinearPicture> picture) {
+        m_picture = std::move(picture);
+    }
+    /// The reference or the difference to it, as state.compare asks; its image is null if there is
+    /// none.
+    const ComparedPicture& compared() const { return m_compared; }
+
     bool wantsQuit() const { return m_quit; }
-    /// True if nothing is being opened, saved, baked, exported or relit.
+    /// True if nothing is being opened, saved, baked, exported, relit or path-traced.
     bool idle() const;
     /// Seconds of baking since the start, finished, cancelled or running.
     double bakeSeconds() const;
@@ -72,6 +82,7 @@ private:
     void takeExported();
     void startExport(const std::string& path);
     void showExport();
+    void followReference();
     void followDocument();
     void followTime();
     void showStatus();
@@ -87,6 +98,10 @@ private:
     BakeJob m_bakeJob;
     RelightJob m_relightJob;
     ExportJob m_exportJob;
+    ReferenceJob m_referenceJob;
+    ComparisonJob m_comparisonJob;
+    std::shared_ptr<const LinearPicture> m_picture; ///< null: none yet
+    ComparedPicture m_compared;
     double m_shownSeconds = 0; ///< time of animated textures in m_scene
     ObjectsById m_followed;    ///< the document's objects as m_scene shows them
     std::shared_ptr<const Scene> m_scene;
@@ -99,9 +114,6 @@ private:
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
     bool m_lightEdited = false; ///< since the scene was opened
 };
-
-/// True if the lights, the materials or the sky differ.
-bool lightChanged(const Scene& a, const Scene& b);
 
 /// Layout of `scene`'s instances in the atlas of `baked`. Instances unknown to `baked` have no
 /// place.

@@ -47,9 +47,10 @@ std::vector<std::string> RenderJob::validationMessages() const {
     return m_messages;
 }
 
-void RenderJob::publish(RenderWorker& worker, std::shared_ptr<const Image> image) {
+void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     const std::lock_guard lock(m_mutex);
-    m_result.image = std::move(image);
+    m_result.image = std::move(images.shown);
+    m_result.linear = std::move(images.linear);
     ++m_result.number;
     m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
     m_result.stats = worker.viewport.stats();
@@ -73,8 +74,7 @@ void RenderJob::run(bool validate) {
             PictureRequest request = m_next ? std::move(*std::exchange(m_next, {})) : worker.shown;
             m_hurry = false;
             lock.unlock();
-            publish(worker,
-                    std::make_shared<const Image>(worker.draw(std::move(request), m_hurry)));
+            publish(worker, worker.draw(std::move(request), m_hurry));
             m_wake();
         }
     } catch (

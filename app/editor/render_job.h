@@ -2,6 +2,7 @@
 #pragma once
 
 #include "editor_ui/jobs/relight_job.h"
+#include "editor_ui/view/compare_state.h"
 #include "engine/render/viewport.h"
 
 #include <atomic>
@@ -15,6 +16,7 @@
 namespace limn {
 
 class RenderWorker;
+struct DrawnImages;
 
 /// What a picture is to show. Equal pointers imply equal contents.
 struct PictureRequest {
@@ -22,6 +24,7 @@ struct PictureRequest {
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
     std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
     ViewportOptions options;
+    bool linear = false; ///< DrawnPicture::linear is wanted too
     bool moving = false; ///< shadow maps that change may be coarse
     OverlayRequest overlay;
     std::shared_ptr<const Precomputed> bake;    ///< bake that the overlay shows; null: no overlay
@@ -35,9 +38,10 @@ struct PictureRequest {
 };
 
 struct DrawnPicture {
-    std::shared_ptr<const Image> image; ///< tone-mapped; null: none yet
-    std::uint64_t number = 0;           ///< of this picture, counted from 1
-    OverlayLegend legend;               ///< of its overlay
+    std::shared_ptr<const Image> image;          ///< tone-mapped; null: none yet
+    std::uint64_t number = 0;                    ///< of this picture, counted from 1
+    std::shared_ptr<const LinearPicture> linear; ///< null: not asked for
+    OverlayLegend legend;                        ///< of its overlay
     ViewportStats stats;
     bool running = false;                   ///< another one is being drawn
     std::shared_ptr<const Precomputed> lit; ///< bake that the following members are about
@@ -67,7 +71,7 @@ public:
 
 private:
     void run(bool validate);
-    void publish(RenderWorker& worker, std::shared_ptr<const Image> image);
+    void publish(RenderWorker& worker, DrawnImages images);
 
     std::function<void()> m_wake;
     std::atomic<bool> m_hurry{false}; ///< another picture is requested, or the job is stopping

@@ -140,7 +140,7 @@ void RenderWorker::makeOverlay(const PictureRequest& request) {
     viewport.setOverlay(overlay);
 }
 
-Image RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry) {
+DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry) {
     takeBake(request);
     takeScene(request);
     measure(request);
@@ -157,10 +157,15 @@ Image RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry)
     makeOverlay(request);
     viewport.render(request.options);
     shown = std::move(request);
-    Image image = viewport.readTonemapped();
+    DrawnImages images;
+    images.shown = std::make_shared<const Image>(viewport.readTonemapped());
     m_pictureMs = msSince(start);
+    const ViewportOptions& o = shown.options;
+    if (shown.linear)
+        images.linear = std::make_shared<const LinearPicture>(
+            LinearPicture{viewport.readLinear(), o.camera, o.view});
     relight.running = bouncing();
-    return image;
+    return images;
 }
 
 } // namespace limn

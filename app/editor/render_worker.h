@@ -8,6 +8,12 @@
 
 namespace limn {
 
+/// Images of one picture.
+struct DrawnImages {
+    std::shared_ptr<const Image> shown;          ///< tone-mapped
+    std::shared_ptr<const LinearPicture> linear; ///< null unless PictureRequest::linear
+};
+
 /// What RenderJob's thread draws with. No other thread uses it.
 class RenderWorker {
 public:
@@ -15,7 +21,7 @@ public:
     explicit RenderWorker(bool validate);
 
     /// Draws a picture. `hurry` is set if another picture is requested; bounces then wait.
-    Image draw(PictureRequest request, const std::atomic<bool>& hurry);
+    DrawnImages draw(PictureRequest request, const std::atomic<bool>& hurry);
 
     /// True if the light is still bouncing or not all caches are lit, so that the picture shown
     /// must be redrawn.

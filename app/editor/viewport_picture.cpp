@@ -51,6 +51,8 @@ void ViewportPicture::takeDrawn(Session& session) {
     if (!drawn.error.empty() && m_drawn.error.empty())
         state.log.push_back({LogLine::Level::Error, "No more pictures: " + drawn.error});
     m_drawn = std::move(drawn);
+    if (m_drawn.linear)
+        session.setPicture(m_drawn.linear);
     takeRelit(session);
     if (!m_drawn.image)
         return;
@@ -92,14 +94,26 @@ void ViewportPicture::update(Session& session) {
     takeDrawn(session);
     const ViewState& view = state.view;
     const glm::uvec2 full = glm::max(glm::uvec2(view.size), glm::uvec2(1));
-    Shown shown{
-        view.view,       view.tonemap,         view.exposureEv,           view.camera, full,
-        session.scene(), session.layout(),     session.field(),           {},          nullptr,
-        session.lit(),   session.baked().bake, session.viewportRelights()};
+    Shown shown{view.view,
+                view.tonemap,
+                view.exposureEv,
+                view.camera,
+                full,
+                session.scene(),
+                session.layout(),
+                session.field(),
+                {},
+                nullptr,
+                session.lit(),
+                session.baked().bake,
+                session.viewportRelights(),
+                state.compare.mode != Compare::Off};
     if (state.overlay.options.kind) {
         shown.overlay = state.overlay.options;
         shown.bake = state.overlay.bake;
     }
+    m_compared = session.compared();
+    m_split = state.compare.split;
     const bool changed = m_shown != shown;
     const auto now = Clock::now();
     const bool resting = std::chrono::duration<double>(now - m_changed).count() >= kRestSeconds;
@@ -118,28 +132,46 @@ void ViewportPicture::update(Session& session) {
                                 .height = size.y,
                                 .tonemap = view.tonemap,
                                 .exposureEv = view.exposureEv},
-                m_reduced, shown.overlay, shown.bake, state.overlay.scene, shown.light,
-                session.baked(), shown.relight, measure ? state.trace : nullptr});
+                shown.linear && !m_reduced, m_reduced, shown.overlay, shown.bake,
+                state.overlay.scene, shown.light, session.baked(), shown.relight,
+                measure ? state.trace : nullptr});
     m_drawn = m_job.result();
     if (shown.relight)
         state.relight = m_drawn.relight;
     m_shown = std::move(shown);
 }
 
+/// The picture with what it is compared with from `column` on. Both have the same size.
+Image ViewportPicture::withCompared(const Image& image, std::uint32_t column) const {
+    Image both = image;
+    for (std::size_t y = 0; y < image.height; ++y) {
+        const std::size_t row = y * image.width * 4;
+        std::copy(m_compared.image->rgba.begin() + std::ptrdiff_t(row + column * 4),
+                  m_compared.image->rgba.begin() + std::ptrdiff_t(row + image.width * 4),
+                  both.rgba.begin() + std::ptrdiff_t(row + column * 4));
+    }
+    return both;
+}
+
 WindowPicture ViewportPicture::record(VkCommandBuffer cmd, const ViewState& view) {
     if (!m_drawn.image)
         return {};
-    const Image& image = *m_drawn.image;
-    if (m_onDevice != m_drawn.number) {
+    const Image& drawn = *m_drawn.image;
+    const bool compare = m_compared.image && m_compared.image->width == drawn.width &&
+                         m_compared.image->height == drawn.height;
+    const auto column = std::uint32_t(std::lround(m_split * float(drawn.width)));
+    const OnDevice wanted{m_drawn.number, compare ? m_compared.number : 0, compare ? column : 0};
+    if (m_onDevice != wanted) {
+        const Image image = compare ? withCompared(drawn, column) : drawn;
         gpu::ImageDesc desc = gpu::ImageDesc::texture(image.width, image.height,
                                                       VK_FORMAT_R8G8B8A8_UNORM, 1, "picture");
         desc.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
         m_image = gpu::Image(m_device, desc);
         gpu::uploadImage(m_device, cmd, m_image, std::as_bytes(std::span(image.rgba)));
-        m_onDevice = m_drawn.number;
+        m_onDevice = wanted;
     }
     const glm::ivec2 begin(view.origin);
-    return {m_image.handle, {image.width, image.height}, begin, begin + glm::ivec2(view.size)};
+    return {m_image.handle, {drawn.width, drawn.height}, begin, begin + glm::ivec2(view.size)};
 }
 
 double ViewportPicture::secondsToNext() const {

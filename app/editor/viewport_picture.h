@@ -49,10 +49,12 @@ private:
         std::shared_ptr<const LightSnapshot> light;
         std::shared_ptr<const Precomputed> lit; ///< whose light is shown
         bool relight = false;                   ///< by the viewport's device
+        bool linear = false;                    ///< it is compared with the reference
 
         bool operator==(const Shown&) const = default;
     };
 
+    Image withCompared(const Image& image, std::uint32_t column) const;
     float chooseScale(glm::uvec2 full) const;
     void takeDrawn(Session& session);
     void takeRelit(Session& session);
@@ -61,8 +63,16 @@ private:
     gpu::Device& m_device;
     RenderJob m_job;
     DrawnPicture m_drawn;
-    gpu::Image m_image;           ///< on the window's device
-    std::uint64_t m_onDevice = 0; ///< number of the picture in m_image
+    gpu::Image m_image; ///< on the window's device
+    /// What m_image holds: numbers of the picture and of what it is compared with (0: nothing), and
+    /// the column at which the latter begins.
+    struct OnDevice {
+        std::uint64_t picture = 0, compared = 0;
+        std::uint32_t column = 0;
+        bool operator==(const OnDevice&) const = default;
+    } m_onDevice;
+    ComparedPicture m_compared;   ///< stands beside the picture; null image: nothing does
+    float m_split = 1;            ///< where it begins, as a fraction of the width
     std::optional<Shown> m_shown; ///< the latest request
     std::chrono::steady_clock::time_point m_changed;
     /// Times of the last picture: of its shadow maps, which do not depend on its size, and of the

@@ -54,6 +54,10 @@ bool sameBakeInputs(const Scene& a, const Scene& b) {
            std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
 }
 
+bool sameLight(const Scene& a, const Scene& b) {
+    return a.lights == b.lights && a.materials == b.materials && a.sky == b.sky;
+}
+
 Scene relitScene(const Scene& baked, const Scene& now) {
     Scene scene = baked;
     scene.lights = now.lights;

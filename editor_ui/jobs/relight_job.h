@@ -80,6 +80,9 @@ bool sameBakeInputs(const Scene& a, const Scene& b);
 bool sameGeometry(const Scene& a, const Scene& b);
 bool sameStaticGeometry(const Scene& a, const Scene& b);
 
+/// True if the lights, the materials and the sky are equal.
+bool sameLight(const Scene& a, const Scene& b);
+
 /// Copy of `baked` with the lights, materials, sky, bounces and `dimming` of `now`. A bake older
 /// than the document can still be lit with it.
 Scene relitScene(const Scene& baked, const Scene& now);

@@ -176,6 +176,14 @@ template <GizmoPlace place>
 bool hasGizmoPlace(const EditorState& s) {
     return s.view.gizmoPlace == place;
 }
+template <Compare mode>
+void toggleCompare(EditorState& s) {
+    s.compare.mode = s.compare.mode == mode ? Compare::Off : mode;
+}
+template <Compare mode>
+bool compares(const EditorState& s) {
+    return s.compare.mode == mode;
+}
 /// The action that shows an overlay; null: none. Its id is "overlay." and the overlay's name, with
 /// underscores.
 Action overlayAction(const OverlayKind* kind) {
@@ -280,6 +288,8 @@ std::vector<Action> fixedActions() {
     {"view.irradiance", "Irradiance", Menu::View, kNoKey, kNoKey, false, always, showView<View::Irradiance>, showsView<View::Irradiance>},
     {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, showView<View::Albedo>, showsView<View::Albedo>},
     {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, showView<View::Normals>, showsView<View::Normals>},
+    {"compare.reference", "Path-traced reference beside it", Menu::View, shift('R'), kNoKey, true, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
+    {"compare.difference", "Difference to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
     {"view.focus", "Focus selection", Menu::View, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
     {"view.camera", "Scene camera", Menu::View, plain(key::kPad0), kNoKey, false, hasCamera, sceneCamera},
     {"view.front", "From the front", Menu::View, plain(key::kPad1), kNoKey, true, always, lookFromSide<Side::Front>},

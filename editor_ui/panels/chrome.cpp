@@ -123,6 +123,7 @@ static void tonemapCombo(EditorState& state) {
 void viewBar(EditorState& state) {
     toolButton(state, "tool.select", "Select");
     toolButton(state, "tool.move", "Move");
+    toolButton(state, "compare.reference", "Ref");
     viewCombo(state);
     overlayCombo(state);
     ImGui::SameLine();

@@ -2,6 +2,7 @@
 #include "editor_ui/panels/viewport_panel.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/panels/compare_overlay.h"
 #include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/theme.h"
@@ -288,7 +289,8 @@ void viewportPanel(EditorState& state) {
     const ImVec2 origin = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
     state.view.origin = {origin.x, origin.y};
     state.view.size = {std::max(size.x, 1.f), std::max(size.y, 1.f)};
-    const bool hovered = ImGui::IsWindowHovered();
+    const bool over = ImGui::IsWindowHovered();
+    const bool hovered = !compareHandle(state, over) && over;
     if (hovered)
         startNavigation(state);
     navigate(state);
@@ -299,6 +301,7 @@ void viewportPanel(EditorState& state) {
     if (state.view.showLights)
         lightIcons(state);
     moveGizmo(state, hovered && state.view.navigation == Navigation::None && !state.view.placing);
+    compareOverlay(state);
     emptyHint(state);
     placingHint(state, hovered && state.view.navigation == Navigation::None);
     ImGui::PopClipRect();

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 namespace limn {
 
 static constexpr double kNrmseThatMatters = 0.1, kBiasThatMatters = 0.02;
@@ -48,6 +50,22 @@ bool refine(ReferenceSet& set, const TraceScene& trace, const ReferenceOptions& 
     set.samplesPerPixel *= 2;
     ++set.passes;
     return true;
+}
+
+double noiseOf(const ReferenceSet& set) {
+    const ImageF a = set.first(), b = set.second();
+    double sum = 0, squares = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+        const glm::dvec3 half = (glm::dvec3(a.rgb[i]) - glm::dvec3(b.rgb[i])) / 2.0,
+                         mean = (glm::dvec3(a.rgb[i]) + glm::dvec3(b.rgb[i])) / 2.0;
+        if (!std::isfinite(half.x + half.y + half.z))
+            continue;
+        squares += glm::dot(half, half);
+        sum += mean.x + mean.y + mean.z;
+        count += 3;
+    }
+    return sum > 0 ? std::sqrt(squares * double(count)) / sum : 0;
 }
 
 /// Product of a picture's differences from two references, per pixel; NaN if any value is NaN.

@@ -33,6 +33,10 @@ std::optional<ReferenceSet> renderReferenceSet(const TraceScene& trace,
 bool refine(ReferenceSet& set, const TraceScene& trace, const ReferenceOptions& options,
             const Progress& progress = {});
 
+/// Standard error of a pixel of the set's mean, rms over pixels and channels relative to the mean
+/// of the picture; 0 for a black picture. Pixels that are NaN or Inf are left out.
+double noiseOf(const ReferenceSet& set);
+
 /// Compares with the set's two means. Here nrmseMost is free of bias by noise: pixels are sorted by
 /// the products of two parts, and the remaining ones are measured by those of the other two.
 /// Because noise affects the sorting too, the pixels left out need not be exactly the worst. Fails

@@ -44,9 +44,9 @@ struct RenderWorkerTest : testing::Test {
 /// Draws until the light rests.
 Image drawn(RenderWorker& worker, const PictureRequest& request) {
     const std::atomic<bool> hurry = false;
-    Image image = worker.draw(request, hurry);
+    Image image = *worker.draw(request, hurry).shown;
     for (int k = 0; worker.bouncing() && k < 1000; ++k)
-        image = worker.draw(request, hurry);
+        image = *worker.draw(request, hurry).shown;
     EXPECT_FALSE(worker.bouncing());
     return image;
 }
@@ -63,11 +63,25 @@ TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {
     EXPECT_GT(counterOf(turned.relight.last, "caches_unseen"),
               bakeOf(*made)->caches.lightmapCount / 4);
     EXPECT_TRUE(turned.bouncing());
-    const Image a = turned.draw(looking(-1, moved), hurry),
-                b = still.draw(looking(-1, moved), hurry);
+    const Image a = *turned.draw(looking(-1, moved), hurry).shown,
+                b = *still.draw(looking(-1, moved), hurry).shown;
     EXPECT_EQ(turned.relight.bounces, still.relight.bounces);
     EXPECT_EQ(a.rgba, b.rgba);
     EXPECT_NE(a.rgba, before.rgba) << "the old light";
+}
+
+TEST_F(RenderWorkerTest, TheLinearPictureComesOnRequestAndSaysWhatItShows) {
+    const std::atomic<bool> hurry = true;
+    RenderWorker worker(false);
+    PictureRequest request = looking(1, first);
+    EXPECT_FALSE(worker.draw(request, hurry).linear);
+    request.linear = true;
+    const DrawnImages images = worker.draw(request, hurry);
+    ASSERT_TRUE(images.linear);
+    EXPECT_EQ(images.linear->image.width, images.shown->width);
+    EXPECT_EQ(images.linear->image.height, images.shown->height);
+    EXPECT_EQ(images.linear->camera, request.options.camera);
+    EXPECT_EQ(images.linear->view, request.options.view);
 }
 
 TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
@@ -78,7 +92,7 @@ TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
     EXPECT_GT(counterOf(turned.relight.last, "caches_unseen"), 0U)
         << "the bounces were for what is seen";
     const std::uint64_t calls = turned.relight.calls;
-    const Image a = turned.draw(looking(-1, moved), hurry);
+    const Image a = *turned.draw(looking(-1, moved), hurry).shown;
     EXPECT_EQ(turned.relight.calls, calls) << "nothing is left to do";
     EXPECT_FALSE(turned.bouncing());
     drawn(still, looking(-1, first));
