@@ -36,12 +36,14 @@ LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapL
     return fitted;
 }
 
-// Older documents have none, and no edit but this one adds objects of the kind.
-static void addTechniqueChoice(Document& document) {
+/// Adds a default object where the document has none of its kind. Older documents lack some of the
+/// kinds that every document has one of, and no edit adds them.
+template <class T>
+static void addIfMissing(Document& document) {
     for (const auto& [id, object] : document.objects)
-        if (std::holds_alternative<TechniqueChoice>(object))
+        if (std::holds_alternative<T>(object))
             return;
-    addObject(document, TechniqueChoice{});
+    addObject(document, T{});
 }
 
 static Prediction predictionFor(const Scene& scene) {
@@ -140,7 +142,8 @@ void Session::takeOpened() {
     state.relightPlace = before.relightPlace;
     state.autoBake = before.autoBake;
     state.document = std::move(file.imported.document);
-    addTechniqueChoice(state.document);
+    addIfMissing<TechniqueChoice>(state.document);
+    addIfMissing<RelightSettings>(state.document);
     state.saved = state.document.objects;
     state.assets = std::move(file.imported.assets);
     state.meshBounds = std::move(file.meshBounds);

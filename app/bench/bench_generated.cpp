@@ -122,8 +122,8 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
     const LightmapLayout& layout = prepared.data->layout();
     const PrecomputedReport report = prepared.data->report();
     const auto lighting = technique.light(prepared);
-    const LightingReport lit =
-        lighting->update({.scene = m.scene, .trace = &m.trace, .bounces = settings.maxBounces}, {});
+    const LightingReport lit = lighting->update(
+        {.scene = m.scene, .trace = &m.trace, .bounces = m.scene.relight.maxBounces}, {});
     const IndirectField& field = *lighting->field();
     Json row = {{"name", fmt::format("generated:{}", m.seed)},
                 {"kind", kSceneKindNames[std::size_t(m.generated.kind)]},

@@ -14,8 +14,6 @@ static constexpr std::array<std::string_view, 6> kTracesNothing = {
 void addSweepOptions(CLI::App& command, SettingsSweep& sweep) {
     const BakeSettings defaults;
     visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
-        if (!setting.flag)
-            return;
         const std::string key = setting.key;
         command
             .add_option_function<std::vector<std::string>>(

@@ -15,7 +15,7 @@ namespace limn {
 /// setBakeSetting() takes them. A setting without values keeps its default.
 using SettingsSweep = std::map<std::string, std::vector<std::string>>;
 
-/// Adds an option with a comma-separated list for every setting that has a flag. Given values
+/// Adds an option with a comma-separated list for every setting. Given values
 /// replace those in `sweep`.
 void addSweepOptions(CLI::App& command, SettingsSweep& sweep);
 

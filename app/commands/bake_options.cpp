@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/bake_options.h"
-#include "app/commands/setting_type_name.h"
 
 #include "engine/core/hash.h"
 #include "engine/scene/bake_settings_fields.h"
@@ -44,17 +43,13 @@ void addBakeOptions(CLI::App& command, BakeOptions& o) {
     const BakeSettings defaults;
     std::map<std::string, CLI::Option*> byKey;
     visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
-        if (!setting.flag)
-            return;
-        const std::string key = setting.key;
-        CLI::Option* option = command.add_option_function<std::string>(
-            setting.flag, [&o, key](const std::string& text) { o.given.emplace_back(key, text); },
-            setting.help);
-        option->type_name(typeName(limits...))->check([key](const std::string& text) {
-            BakeSettings scratch;
-            return setBakeSetting(scratch, key, text);
-        });
-        byKey[key] = option;
+        byKey[setting.key] = addSettingOption(
+            command, o.given, setting,
+            [](const std::string& key, const std::string& text) {
+                BakeSettings scratch;
+                return setBakeSetting(scratch, key, text);
+            },
+            limits...);
     });
     visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
         if (setting.replaces)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/commands/setting_options.h"
 #include "engine/lighting/precomputed.h"
 
 #include <CLI/CLI.hpp>
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,8 +16,7 @@ namespace limn {
 
 /// Flags that replace the document's bake settings.
 struct BakeOptions {
-    /// Keys of settings and their new values, as setBakeSetting() takes them; already checked.
-    std::vector<std::pair<std::string, std::string>> given;
+    GivenSettings given; ///< as setBakeSetting() takes them
     const BakePreset* preset = nullptr;
     int threads = 0; ///< 0: all
 };

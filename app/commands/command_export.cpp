@@ -4,8 +4,9 @@
 #include "app/commands/output_file.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/read_bake_of.h"
+#include "app/commands/relight_options.h"
 #include "app/commands/scene_options.h"
-#include "app/commands/setting_type_name.h"
+#include "app/commands/setting_options.h"
 #include "app/resources.h"
 
 #include "engine/core/log.h"
@@ -31,8 +32,7 @@ namespace {
 struct Options {
     SceneOptions scene;
     BakeOptions bake;
-    /// Keys of settings and their values as text, already checked; they replace the document's.
-    std::vector<std::pair<std::string, std::string>> given;
+    GivenSettings relight, given; ///< replace the document's; `given` are those of the export
     std::string format, bakeFile, output;
     ExportFolders folders = exportFolders();
     bool list = false, json = false;
@@ -158,6 +158,7 @@ Exit runExport(const Options& options) {
         return failed(fmt::format("{}: is the scene itself", options.output));
     Scene scene = flatten(imported->document, imported->assets);
     applyBakeOptions(options.bake, scene.bake);
+    applyRelightOptions(options.relight, scene.relight);
     const ExportSettings settings = settingsOf(options, imported->document);
     const Result<ConvergedLight> lit = lightOnCpu(options, std::move(scene), progressOnStderr());
     endProgressLine();
@@ -191,24 +192,21 @@ Exit runExport(const Options& options) {
 void addSettingOptions(CLI::App& command, Options& options) {
     const ExportSettings defaults;
     visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
-        const std::string key = setting.key;
         if constexpr (sizeof...(limits) == 0)
             command.add_flag_callback(
-                setting.flag, [&options, key] { options.given.emplace_back(key, "true"); },
+                setting.flag,
+                [&options, key = std::string(setting.key)] {
+                    options.given.emplace_back(key, "true");
+                },
                 setting.help);
         else
-            command
-                .add_option_function<std::string>(
-                    setting.flag,
-                    [&options, key](const std::string& text) {
-                        options.given.emplace_back(key, text);
-                    },
-                    setting.help)
-                ->type_name(typeName(limits...))
-                ->check([key](const std::string& text) {
+            addSettingOption(
+                command, options.given, setting,
+                [](const std::string& named, const std::string& text) {
                     ExportSettings scratch;
-                    return setExportSetting(scratch, key, text);
-                });
+                    return setExportSetting(scratch, named, text);
+                },
+                limits...);
     });
 }
 
@@ -219,6 +217,7 @@ void addExportCommand(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("export", "Write a scene's light for other programs");
     addSceneOptions(*command, o->scene);
     addBakeOptions(*command, o->bake);
+    addRelightOptions(*command, o->relight);
     CLI::Option* list = command->add_flag("--list", o->list, "List the formats");
     command->get_option("scene")->required(false);
     CLI::Option* format = command->add_option("--format", o->format, "What to write")

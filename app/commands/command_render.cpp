@@ -5,6 +5,7 @@
 #include "app/commands/overlay_options.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/read_bake_of.h"
+#include "app/commands/relight_options.h"
 #include "app/commands/render_image.h"
 #include "app/commands/scene_options.h"
 
@@ -37,7 +38,8 @@ struct Options {
     float exposureEv = 0;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
-    bool noDimming = false, allCaches = false, json = false;
+    GivenSettings relighting; ///< instead of the document's
+    bool allCaches = false, json = false;
 };
 
 /// What a picture needs besides the scene: indirect light and an overlay. Empty if it needs
@@ -95,7 +97,7 @@ CpuLight relight(const Scene& scene, Baked& baked) {
         baked.lighting = baked.technique->light(baked.prepared);
     LightingReport report = baked.lighting->update({.scene = scene,
                                                     .trace = baked.trace.get(),
-                                                    .bounces = scene.bake.maxBounces,
+                                                    .bounces = scene.relight.maxBounces,
                                                     .view = baked.view ? &*baked.view : nullptr},
                                                    progressOnStderr());
     endProgressLine();
@@ -347,7 +349,7 @@ Exit runRender(const Options& options) {
     if (!imported)
         return failed(imported.error().message);
     Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
-    scene.bake.dimming = scene.bake.dimming && !options.noDimming;
+    applyRelightOptions(options.relighting, scene.relight);
     if (const Result<void> chosen = chooseTechnique(options, scene.technique); !chosen)
         return failed(chosen.error().message);
     const Result<Camera> camera = chooseCamera(scene, options.camera);
@@ -403,8 +405,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
             "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or "
             "auto, which the editor has found faster here; cpu until it has")
         ->check(CLI::IsMember(strings(kRelightOnNames)));
-    command->add_flag("--no-dimming", options->noDimming,
-                      "dynamic objects do not keep bounced light off what is behind them");
+    addRelightOptions(*command, options->relighting);
     command->add_flag("--all-caches", options->allCaches,
                       "light the whole lightmap, not only what the picture looks up");
     command->add_flag("--json", options->json, "one JSON object on stdout");

@@ -12,9 +12,7 @@ Result<std::shared_ptr<const Precomputed>> readBakeOf(Scene& scene, const std::s
     auto read = precomputation.read(file, memory);
     if (!read)
         return read;
-    const bool dimming = scene.bake.dimming; // the document's, not that of the time of the bake
     scene.bake = (*read)->settings();
-    scene.bake.dimming = dimming;
     if ((*read)->inputHash() != precomputation.inputHash(scene))
         return fail(
             fmt::format("{}: is the bake of another scene than {}, or of an older state of it",

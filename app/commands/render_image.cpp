@@ -71,7 +71,7 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
     }
     const Viewpoint view{request.camera, float(request.width) / float(request.height)};
     result.relight = lighting->update({.scene = scene,
-                                       .bounces = scene.bake.maxBounces,
+                                       .bounces = scene.relight.maxBounces,
                                        .view = request.lightAll ? nullptr : &view},
                                       {});
     result.relightDevice = device->properties.deviceName;

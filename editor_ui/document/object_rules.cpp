@@ -82,6 +82,10 @@ static bool valid(const TechniqueChoice& c) {
     return std::ranges::all_of(c.settings, [](const auto& s) { return std::isfinite(s.second); });
 }
 
+static bool valid(const RelightSettings& r) {
+    return settingsDefect(r).empty();
+}
+
 static bool valid(const ExportSettings& e) {
     return settingsDefect(e).empty();
 }
@@ -134,6 +138,8 @@ const char* kindName(const Object& object) {
         return "Sky";
     if (std::holds_alternative<TechniqueChoice>(object))
         return "Technique of bounced light";
+    if (std::holds_alternative<RelightSettings>(object))
+        return "Relighting";
     if (std::holds_alternative<ExportSettings>(object))
         return "Export";
     return "Bake settings";

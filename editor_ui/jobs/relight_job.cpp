@@ -50,7 +50,7 @@ bool sameStaticGeometry(const Scene& a, const Scene& b) {
 }
 
 bool sameBakeInputs(const Scene& a, const Scene& b) {
-    return sameStaticGeometry(a, b) && sameBake(a.bake, b.bake) &&
+    return sameStaticGeometry(a, b) && a.bake == b.bake &&
            std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
 }
 
@@ -62,7 +62,7 @@ Scene relitScene(const Scene& baked, const Scene& now) {
     Scene scene = baked;
     scene.lights = now.lights;
     scene.sky = now.sky;
-    scene.bake = now.bake; // what the bake was made with is in the bake
+    scene.relight = now.relight;
     if (scene.materials.size() == now.materials.size())
         scene.materials = now.materials;
     return scene;

@@ -83,7 +83,7 @@ bool sameStaticGeometry(const Scene& a, const Scene& b);
 /// True if the lights, the materials and the sky are equal.
 bool sameLight(const Scene& a, const Scene& b);
 
-/// Copy of `baked` with the lights, materials, sky, bounces and `dimming` of `now`. A bake older
+/// Copy of `baked` with the lights, materials, sky and relight settings of `now`. A bake older
 /// than the document can still be lit with it.
 Scene relitScene(const Scene& baked, const Scene& now);
 

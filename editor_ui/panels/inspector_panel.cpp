@@ -36,6 +36,8 @@ static void section(FieldEdit& edit, Object& object) {
         bakeSection(edit, *settings);
     else if (auto* choice = std::get_if<TechniqueChoice>(&object))
         techniqueSection(edit, *choice);
+    else if (auto* relight = std::get_if<RelightSettings>(&object))
+        relightSection(edit, *relight);
 }
 
 void inspectorPanel(EditorState& state) {

@@ -19,5 +19,6 @@ void skySection(FieldEdit& edit, Sky& sky);
 void cameraSection(FieldEdit& edit, Camera& camera);
 void bakeSection(FieldEdit& edit, BakeSettings& settings);
 void techniqueSection(FieldEdit& edit, TechniqueChoice& choice);
+void relightSection(FieldEdit& edit, RelightSettings& settings);
 
 } // namespace limn

@@ -90,7 +90,10 @@ static std::vector<Row> visibleRows(const EditorState& state) {
     section("Objects", nodeRows);
     section("Cameras", rowsOfKind<Camera>);
     section("Environment", rowsOfKind<Sky>);
-    section("Bounced light", rowsOfKind<TechniqueChoice>);
+    section("Bounced light", [](auto&... arguments) {
+        rowsOfKind<TechniqueChoice>(arguments...);
+        rowsOfKind<RelightSettings>(arguments...);
+    });
     section("Baking", rowsOfKind<BakeSettings>);
     section("Materials", rowsOfKind<Material>);
     return rows;

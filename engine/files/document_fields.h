@@ -91,6 +91,13 @@ void describeTechniqueChoice(Fields& fields, T& t) {
 }
 
 template <class Fields, class T>
+void describeRelightSettings(Fields& fields, T& r) {
+    visitRelightSettings(r, [&](const Setting& setting, auto& value, const auto&... limits) {
+        fields(setting.key, value, fieldLimits(limits)...);
+    });
+}
+
+template <class Fields, class T>
 void describeExportSettings(Fields& fields, T& e) {
     fields("format", e.format);
     visitExportSettings(e, [&](const Setting& setting, auto& value, const auto&... limits) {
@@ -118,6 +125,8 @@ void describeObject(const Object& object, const Use& use) {
                 use("bakeSettings", o, [](auto& f, auto& b) { describeBakeSettings(f, b); });
             else if constexpr (std::is_same_v<T, TechniqueChoice>)
                 use("technique", o, [](auto& f, auto& t) { describeTechniqueChoice(f, t); });
+            else if constexpr (std::is_same_v<T, RelightSettings>)
+                use("relighting", o, [](auto& f, auto& r) { describeRelightSettings(f, r); });
             else
                 use("export", o, [](auto& f, auto& e) { describeExportSettings(f, e); });
         },

@@ -262,11 +262,11 @@ static std::string invariantOf(const Object& object) {
 /// Reads the object from the field that names its kind.
 static Result<Object> readObject(const Json& json, const std::string& path,
                                  const glm::dvec3& origin) {
-    static const std::array<Object, 8> kinds = {
-        Node{}, Material{},     Light{},           Camera{},
-        Sky{},  BakeSettings{}, TechniqueChoice{}, ExportSettings{}};
-    Result<Object> result =
-        fail(path + ": no node, material, light, camera, sky, bakeSettings, technique or export");
+    static const std::array<Object, 9> kinds = {
+        Node{},         Material{},        Light{},           Camera{},        Sky{},
+        BakeSettings{}, TechniqueChoice{}, RelightSettings{}, ExportSettings{}};
+    Result<Object> result = fail(path + ": no node, material, light, camera, sky, bakeSettings, "
+                                        "technique, relighting or export");
     for (const Object& kind : kinds)
         describeObject(kind, [&](const char* name, auto object, const auto& describe) {
             const auto found = json.find(name);
@@ -285,6 +285,30 @@ static Result<Object> readObject(const Json& json, const std::string& path,
                 result = fail(problem);
         });
     return result;
+}
+
+/// Reads the settings of relighting that older projects keep among the bake's, where two of them
+/// had these names, and removes them from there. Returns std::nullopt where there are none.
+static Result<std::optional<RelightSettings>>
+takeFormerRelightSettings(Json& bakeSettings, const std::string& path, const glm::dvec3& origin) {
+    Json taken = Json::object();
+    for (const char* key : {"maxBounces", "dimming"})
+        if (const auto at = bakeSettings.find(key); at != bakeSettings.end()) {
+            taken[key] = *at;
+            bakeSettings.erase(at);
+        }
+    if (taken.empty())
+        return std::nullopt;
+    RelightSettings settings;
+    std::string problem;
+    FieldReader fields(taken, path, problem, origin);
+    visitRelightSettings(settings, [&](const Setting& setting, auto& value, const auto&... limits) {
+        const bool renamed = std::string_view(setting.key) == "dynamicOcclusion";
+        fields(renamed ? "dimming" : setting.key, value, fieldLimits(limits)...);
+    });
+    if (!problem.empty())
+        return fail(problem);
+    return settings;
 }
 
 static Result<void> readEntry(const Json& json, const std::string& path, Document& document) {
@@ -375,7 +399,7 @@ static Result<void> readHead(const Json& json, Document& document) {
     return {};
 }
 
-static Result<ProjectText> readProject(const Json& json) {
+static Result<ProjectText> readProject(Json& json) {
     if (!json.is_object())
         return fail("JSON: not an object");
     if (Result<void> version = checkVersion(json); !version)
@@ -389,11 +413,21 @@ static Result<ProjectText> readProject(const Json& json) {
         return project;
     if (!objects->is_array())
         return fail("objects: not an array");
-    for (std::size_t i = 0; i < objects->size(); ++i)
-        if (Result<void> read =
-                readEntry((*objects)[i], fmt::format("objects[{}]", i), project.document);
-            !read)
+    std::optional<RelightSettings> former;
+    for (std::size_t i = 0; i < objects->size(); ++i) {
+        Json& entry = (*objects)[i];
+        const std::string path = fmt::format("objects[{}]", i);
+        if (entry.is_object() && entry.contains("bakeSettings")) {
+            auto taken = takeFormerRelightSettings(entry["bakeSettings"], path + ".bakeSettings",
+                                                   project.document.origin);
+            if (!taken)
+                return tl::make_unexpected(taken.error());
+            if (*taken)
+                former = *taken;
+        }
+        if (Result<void> read = readEntry(entry, path, project.document); !read)
             return tl::make_unexpected(read.error());
+    }
     if (!project.document.objects.empty()) {
         const ObjectId last = project.document.objects.rbegin()->first;
         if (!json.contains("nextId"))
@@ -401,6 +435,11 @@ static Result<ProjectText> readProject(const Json& json) {
         if (project.document.nextId <= last)
             return fail(fmt::format("nextId: object {} exists", last));
     }
+    const bool hasRelighting = std::ranges::any_of(project.document.objects, [](const auto& entry) {
+        return std::holds_alternative<RelightSettings>(entry.second);
+    });
+    if (former && !hasRelighting)
+        addObject(project.document, *former);
     if (Result<void> tree = checkTree(project.document); !tree)
         return tl::make_unexpected(tree.error());
     return project;
@@ -416,7 +455,7 @@ Result<ProjectText> readProjectText(const std::string& json) {
         return depth <= kMaxDepth;
     };
     try {
-        const Json parsed = Json::parse(json, limit);
+        Json parsed = Json::parse(json, limit);
         return tooDeep ? fail("JSON: nested too deeply") : readProject(parsed);
     } catch (const Json::exception& e) {
         const std::string_view what = e.what();

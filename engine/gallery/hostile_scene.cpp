@@ -48,6 +48,7 @@ public:
             addObject(scene.document, std::move(light));
         addObject(scene.document, m_sky);
         addObject(scene.document, m_settings);
+        addObject(scene.document, m_relight);
         std::size_t triangles = 0;
         for (const Mesh& m : m_assets.meshes)
             triangles += m.triangleCount();
@@ -293,8 +294,8 @@ private:
             s.grid = {std::uint32_t(m_random.whole(1, 4)), std::uint32_t(m_random.whole(1, 4)),
                       std::uint32_t(m_random.whole(1, 4))};
         static constexpr std::uint32_t kBounces[] = {1, 2, 3, 8, 9, 1000, 1000, 1000};
-        s.maxBounces = kBounces[m_random.whole(0, 7)];
-        s.dimming = isThing(0.7);
+        m_relight.maxBounces = kBounces[m_random.whole(0, 7)];
+        m_relight.dynamicOcclusion = isThing(0.7);
         s.placement = SurfelPlacement(m_random.whole(0, 2));
         s.linker = isThing(0.75) ? Linker::Gather : Linker::FormFactor;
         s.cut = isThing(0.7) ? CutCriterion::Detail : CutCriterion::SolidAngle;
@@ -318,6 +319,7 @@ private:
     std::vector<Light> m_lights;
     Sky m_sky;
     BakeSettings m_settings;
+    RelightSettings m_relight;
 };
 
 } // namespace

@@ -23,7 +23,7 @@ Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
     lit.lighting = technique.light(lit.prepared);
     lit.report = lit.lighting->update({.scene = *lit.scene,
                                        .trace = lit.trace.get(),
-                                       .bounces = lit.scene->bake.maxBounces,
+                                       .bounces = lit.scene->relight.maxBounces,
                                        .unread = true},
                                       progress);
     if (progress.cancelled())

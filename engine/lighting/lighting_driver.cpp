@@ -22,7 +22,7 @@ std::optional<LightingReport> LightingDriver::step(LightingInput input, Rest res
     if (done() || (m_converged && rest == Rest::Later))
         return {};
     const bool resting = m_converged;
-    const std::uint32_t most = input.scene.bake.maxBounces;
+    const std::uint32_t most = input.scene.relight.maxBounces;
     input.bounces = resting ? 0 : bouncesPerUpdate(most);
     if (!m_everWhole || (resting && rest == Rest::All))
         input.view = nullptr;

@@ -73,7 +73,8 @@ Result<Comparison> measure(const TraceScene& trace, const Prepared& prepared, co
                            const Progress& progress) {
     const Scene& scene = trace.scene();
     const auto lighting = prepared.data->technique().light(prepared);
-    lighting->update({.scene = scene, .trace = &trace, .bounces = scene.bake.maxBounces}, progress);
+    lighting->update({.scene = scene, .trace = &trace, .bounces = scene.relight.maxBounces},
+                     progress);
     if (progress.cancelled())
         return fail("cancelled");
     const Result<Comparison> error = compareImages(

@@ -42,15 +42,4 @@ std::string setBakeSetting(BakeSettings& s, std::string_view key, const std::str
     return defect;
 }
 
-bool sameBake(const BakeSettings& a, const BakeSettings& b) {
-    const auto bakedPart = [](BakeSettings s) {
-        visitBakeSettings(s, [](const Setting& setting, auto& value, const auto&...) {
-            if (setting.invalidates != Invalidates::Bake)
-                value = {};
-        });
-        return s;
-    };
-    return bakedPart(a) == bakedPart(b);
-}
-
 } // namespace limn

@@ -41,11 +41,9 @@ struct BakeSettings {
     std::uint32_t bands = 3;       ///< SH bands of the caches; [2, 8]
     std::uint32_t rays = 256;      ///< R per cache; [16, 65536]
     std::uint32_t lightmapCaches =
-        36000;                       ///< target count of lightmap caches; 0 with texelsPerMetre > 0
-    float texelsPerMetre = 0;        ///< > 0: fixes the texel density instead
-    glm::uvec3 grid{0};              ///< cells of the grid caches; 0: chosen from the bounds
-    std::uint32_t maxBounces = 1000; ///< relighting stops earlier once converged
-    bool dimming = true;             ///< dynamic objects occlude bounced light
+        36000;                ///< target count of lightmap caches; 0 with texelsPerMetre > 0
+    float texelsPerMetre = 0; ///< > 0: fixes the texel density instead
+    glm::uvec3 grid{0};       ///< cells of the grid caches; 0: chosen from the bounds
 
     SurfelPlacement placement = SurfelPlacement::Relaxed;
     Linker linker = Linker::Gather;
@@ -68,11 +66,6 @@ inline std::uint32_t chromaBandsOf(const BakeSettings& s) {
     return s.chromaBands == 0 || s.chromaBands > s.bands ? s.bands : s.chromaBands;
 }
 
-/// Up to this many bounces are computed exactly as requested (BakeSettings::maxBounces): every
-/// change restarts from zero bounced light. With more bounces, lighting continues from the previous
-/// light.
-inline constexpr std::uint32_t kFewBounces = 8;
-
 /// Describes which setting is out of its range; empty if all are valid.
 std::string settingsDefect(const BakeSettings& settings);
 
@@ -80,10 +73,6 @@ std::string settingsDefect(const BakeSettings& settings);
 /// empty string on success; otherwise a description of what is wrong with the text, and nothing
 /// changes. Precondition: the setting exists.
 std::string setBakeSetting(BakeSettings& settings, std::string_view key, const std::string& text);
-
-/// Whether a bake with settings `a` serves settings `b`: they differ at most in settings that
-/// invalidate light alone.
-bool sameBake(const BakeSettings& a, const BakeSettings& b);
 
 /// A named combination of counts.
 struct BakePreset {

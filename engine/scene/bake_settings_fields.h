@@ -8,7 +8,7 @@
 namespace limn {
 
 /// Setting::group of the lightmap's settings, and the last group of all.
-inline constexpr int kLightmapGroup = 2, kLastSettingGroup = 3;
+inline constexpr int kLightmapGroup = 2, kLastSettingGroup = kLightmapGroup;
 
 /// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
 /// other setting, once for each, in the order of bake files. `s` is a BakeSettings, const or not.
@@ -130,19 +130,6 @@ void visitBakeSettings(S& s, const Visit& visit) {
                       "scene's size",
            .group = kLightmapGroup},
           s.grid, SettingRange{0, 256, 1});
-    visit({.key = "maxBounces",
-           .label = "Maximum bounces",
-           .tooltip = "Relighting stops as soon as nothing to speak of is missing. 1: light that "
-                      "is reflected once; up to 8 begin anew with every change",
-           .invalidates = Invalidates::Light,
-           .group = kLastSettingGroup},
-          s.maxBounces, SettingRange{1, 10000});
-    visit({.key = "dimming",
-           .label = "Occlusion",
-           .tooltip = "Dynamic objects keep bounced light off what is behind them. Needs no bake",
-           .invalidates = Invalidates::Light,
-           .group = kLastSettingGroup},
-          s.dimming);
 }
 
 } // namespace limn

@@ -39,6 +39,7 @@ std::string objectName(const Object& object) {
         std::string operator()(const Sky&) const { return "Sky"; }
         std::string operator()(const BakeSettings&) const { return "Bake settings"; }
         std::string operator()(const TechniqueChoice&) const { return "Technique"; }
+        std::string operator()(const RelightSettings&) const { return "Relighting"; }
         std::string operator()(const ExportSettings&) const { return "Export"; }
     } name;
     return std::visit(name, object);

@@ -5,6 +5,7 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/export_settings.h"
 #include "engine/scene/light/light.h"
+#include "engine/scene/relight_settings.h"
 #include "engine/scene/sky.h"
 #include "engine/scene/surface/material.h"
 #include "engine/scene/technique_choice.h"
@@ -51,8 +52,8 @@ struct Node {
 /// Any object of a document. Mesh::material counts the Material objects in the order of their ids.
 /// (Material itself is declared in material.h.)
 
-using Object =
-    std::variant<Node, Material, Light, Camera, Sky, BakeSettings, TechniqueChoice, ExportSettings>;
+using Object = std::variant<Node, Material, Light, Camera, Sky, BakeSettings, TechniqueChoice,
+                            RelightSettings, ExportSettings>;
 
 /// Everything a user can edit, as a plain value; heavy, immutable data is in Assets. Node
 /// transforms are in the file's coordinates. Lights and cameras are in world space, whose origin is
@@ -70,8 +71,8 @@ struct Document {
 /// Adds `object` under a new id and returns the id.
 ObjectId addObject(Document& document, Object object);
 
-/// The single object of type T (Sky, BakeSettings, TechniqueChoice, ExportSettings), or a default T
-/// if the document has none.
+/// The single object of type T (Sky, BakeSettings, TechniqueChoice, RelightSettings,
+/// ExportSettings), or a default T if the document has none.
 template <class T>
 T singleton(const Document& document) {
     for (const auto& [id, object] : document.objects)
@@ -80,8 +81,8 @@ T singleton(const Document& document) {
     return {};
 }
 
-/// Display name of an object; "Sky", "Bake settings", "Technique" and "Export" for objects without
-/// a name.
+/// Display name of an object; "Sky", "Bake settings", "Technique", "Relighting" and "Export" for
+/// objects without a name.
 std::string objectName(const Object& object);
 
 } // namespace limn

@@ -114,6 +114,7 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, do
     scene.sky = singleton<Sky>(document);
     scene.bake = singleton<BakeSettings>(document);
     scene.technique = singleton<TechniqueChoice>(document);
+    scene.relight = singleton<RelightSettings>(document);
     scene.bounds = instanceBounds(scene, true);
     return scene;
 }

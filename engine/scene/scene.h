@@ -55,6 +55,7 @@ struct Scene {
     Sky sky;
     BakeSettings bake;
     TechniqueChoice technique;
+    RelightSettings relight;
     Bounds bounds;        ///< world space, of all instances; 0 for an empty scene
     glm::dvec3 origin{0}; ///< of world space, in the file's coordinates [m]
 

@@ -537,12 +537,20 @@ TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndDimsTheLightWhereverItIs) {
     const std::string start =
         "render cornell --bake " + bake + " --device cpu --view irradiance --width 48 --height 32 ";
     ASSERT_EQ(limn(start + "--dynamic 'Short block@0.3,0.7,0.3' -o " + a).exit, 0);
-    ASSERT_EQ(limn(start + "--dynamic 'Short block@0.3,0.7,0.3' --no-dimming -o " + b).exit, 0);
+    const std::string moved = start + "--dynamic 'Short block@0.3,0.7,0.3' ";
+    ASSERT_EQ(limn(moved + "--dynamic-occlusion false -o " + b).exit, 0);
     EXPECT_GT(json("compare " + a + " " + b + " --json")["nrmse"], 0.05);
     EXPECT_LT(json("compare " + a + " " + b + " --json")["bias"], -0.01);
     ASSERT_EQ(limn(start + "--dynamic 'Short block' -o " + b).exit, 0);
     EXPECT_GT(json("compare " + a + " " + b + " --json")["nrmse"], 0.05);
     expectRefusal(start + "-o " + b, "another scene"); // the block is static here
+    const std::string once = path("once.exr"), former = path("former.exr");
+    ASSERT_EQ(limn(moved + "--no-dimming -o " + former).exit, 0);
+    ASSERT_EQ(limn(moved + "--dynamic-occlusion false -o " + b).exit, 0);
+    EXPECT_EQ(contents(former), contents(b)) << "the older flag means the same";
+    ASSERT_EQ(limn(moved + "--dynamic-occlusion false --max-bounces 1 -o " + once).exit, 0);
+    EXPECT_LT(json("compare " + once + " " + b + " --json")["bias"], -0.05);
+    EXPECT_EQ(limn(moved + "--max-bounces 0 -o " + once).exit, 2);
     expectRefusal(start + "--dynamic Ball -o " + b, "Ball");
     expectRefusal(start + "--dynamic 'Short block@1,2' -o " + b, "x,y,z");
     const std::string onDevice = "render cornell --bake " + bake +

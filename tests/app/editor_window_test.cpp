@@ -36,7 +36,8 @@ Document testDocument(ObjectId& light) {
             settings->rays = 64;
             settings->links = 32;
         }
-    addObject(document, TechniqueChoice{}); // which the editor would add
+    addObject(document, TechniqueChoice{}); // which the editor would add, as this:
+    addObject(document, RelightSettings{});
     light = addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = 0.5f});
     return document;
 }

@@ -111,7 +111,7 @@ std::shared_ptr<const Scene> withBlock(float x, bool dimming = true) {
     b.add(block, glm::mat4(1), true).toWorld[3] = {x, 0.7f, 1.5f, 1};
     Scene scene = b.build();
     scene.bake = litRoom(500, 800)->bake;
-    scene.bake.dimming = dimming;
+    scene.relight.dynamicOcclusion = dimming;
     return std::make_shared<const Scene>(std::move(scene));
 }
 

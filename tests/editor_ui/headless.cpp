@@ -102,6 +102,7 @@ EditorState fullEditor() {
     addObject(d, Camera{.name = "Shot", .eye = {0, 1, 6}, .target = {0, 1, 0}});
     addObject(d, Sky{});
     addObject(d, BakeSettings{});
+    addObject(d, RelightSettings{});
     state.saved = d.objects;
     state.view.camera = {.eye = {0, 1, 6}, .target = {0, 1, 0}};
     return state;

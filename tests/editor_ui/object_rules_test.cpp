@@ -26,6 +26,7 @@ TEST(ObjectRules, DefaultsAreValid) {
     EXPECT_TRUE(isValid(Camera{}));
     EXPECT_TRUE(isValid(Sky{}));
     EXPECT_TRUE(isValid(BakeSettings{}));
+    EXPECT_TRUE(isValid(RelightSettings{}));
 }
 
 TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
@@ -49,6 +50,7 @@ TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
     EXPECT_FALSE(validWith<Camera>([](Camera& c) { c.target = c.eye; }));
     EXPECT_FALSE(validWith<BakeSettings>([](BakeSettings& b) { b.bands = 9; }));
     EXPECT_FALSE(validWith<BakeSettings>([](BakeSettings& b) { b.surfels = 63; }));
+    EXPECT_FALSE(validWith<RelightSettings>([](RelightSettings& r) { r.maxBounces = 0; }));
     EXPECT_TRUE(validWith<Node>([](Node& n) { n.transform.scale.y = -1; }));
 }
 

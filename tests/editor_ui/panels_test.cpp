@@ -129,7 +129,7 @@ TEST(Panels, EveryRowOfTheListCanBeClickedRightAfterAnother) {
     ui.frames(state);
     std::set<ObjectId> selected;
     const float line = ImGui::GetTextLineHeightWithSpacing();
-    for (int row = 0; row < 17; ++row) {
+    for (int row = 0; row < 19; ++row) {
         ui.mouse(80, 66 + line * float(row));
         ui.button(true);
         ui.button(false);

@@ -124,7 +124,7 @@ TEST_F(RelightJobTest, WhatComesIntoViewIsRightWithTheNextField) {
 TEST_F(RelightJobTest, TakesNoMoreBouncesThanTheDocumentAsksFor) {
     for (const std::uint32_t bounces : {1U, 3U}) {
         Scene few = *scene;
-        few.bake.maxBounces = bounces;
+        few.relight.maxBounces = bounces;
         const auto shown = std::make_shared<const Scene>(few), moved = lampAt(few, {3, 2, 4});
         RelightJob job([] {});
         job.setScene(shown);

@@ -26,16 +26,39 @@ TEST(DocumentJson, EveryDocumentComesBackEqual) {
 
 TEST(DocumentJson, DefaultsComeBackAndMissingFieldsTakeThem) {
     Document document;
-    for (Object object : {Object(Node{}), Object(Material{}), Object(Light{}), Object(Camera{}),
-                          Object(Sky{}), Object(BakeSettings{}), Object(TechniqueChoice{})})
+    for (Object object :
+         {Object(Node{}), Object(Material{}), Object(Light{}), Object(Camera{}), Object(Sky{}),
+          Object(BakeSettings{}), Object(TechniqueChoice{}), Object(RelightSettings{})})
         addObject(document, object);
     EXPECT_TRUE(*documentFromJson(documentToJson(document)) == document);
     const Result<Document> sparse = documentFromJson(R"({"version": 1, "objects": [
         {"id": 1, "node": {}}, {"id": 2, "material": {}}, {"id": 3, "light": {}},
         {"id": 4, "camera": {}}, {"id": 5, "sky": {}}, {"id": 6, "bakeSettings": {}},
-        {"id": 7, "technique": {}}]})");
+        {"id": 7, "technique": {}}, {"id": 8, "relighting": {}}]})");
     ASSERT_TRUE(sparse) << sparse.error().message;
     EXPECT_TRUE(*sparse == document);
+}
+
+TEST(DocumentJson, RelightSettingsAreFoundWhereOlderProjectsKeepThem) {
+    const Result<Document> old = documentFromJson(R"({"version": 1, "nextId": 9, "objects": [
+        {"id": 2, "bakeSettings": {"rays": 64, "maxBounces": 3, "dimming": false}}]})");
+    ASSERT_TRUE(old) << old.error().message;
+    EXPECT_EQ(singleton<BakeSettings>(*old), BakeSettings{.rays = 64});
+    EXPECT_EQ(std::get<RelightSettings>(old->objects.at(9)),
+              (RelightSettings{.maxBounces = 3, .dynamicOcclusion = false}));
+    EXPECT_EQ(old->nextId, 10U);
+    EXPECT_EQ(*documentFromJson(documentToJson(*old)), *old);
+
+    const Result<Document> both = documentFromJson(R"({"version": 1, "objects": [
+        {"id": 1, "relighting": {"maxBounces": 5}}, {"id": 2, "bakeSettings": {"maxBounces": 3}}]})");
+    ASSERT_TRUE(both) << both.error().message;
+    EXPECT_EQ(both->objects.size(), 2U);
+    EXPECT_EQ(singleton<RelightSettings>(*both).maxBounces, 5U);
+
+    const Result<Document> bad = documentFromJson(R"({"version": 1, "objects": [
+        {"id": 1, "bakeSettings": {"dimming": 1}}]})");
+    ASSERT_FALSE(bad);
+    EXPECT_EQ(bad.error().message, "objects[0].bakeSettings.dimming: not true or false");
 }
 
 TEST(DocumentJson, NumbersDoNotDependOnTheLocale) {

@@ -92,7 +92,7 @@ private:
         return t;
     }
     Object other() {
-        switch (below(6)) {
+        switch (below(7)) {
         case 0: {
             Material m;
             m.name = text();
@@ -140,6 +140,8 @@ private:
             return Sky{SkyKind(below(3)), color(), color(), color(), text(), light(), number()};
         case 4:
             return TechniqueChoice{text(), {{text(), number()}, {"radiance", unit()}}};
+        case 5:
+            return RelightSettings{.maxBounces = 1 + below(10000), .dynamicOcclusion = coin()};
         default: {
             BakeSettings b;
             b.surfels = 64 + below(1000000);
@@ -149,8 +151,6 @@ private:
             b.lightmapCaches = 1 + below(1 << 24);
             b.texelsPerMetre = 1e6f * unit();
             b.grid = {below(100), below(100), below(100)};
-            b.maxBounces = 1 + below(10000);
-            b.dimming = coin();
             b.placement = SurfelPlacement(below(3));
             b.linker = Linker(below(2));
             b.cut = CutCriterion(below(2));

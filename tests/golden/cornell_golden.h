@@ -42,7 +42,7 @@ inline LitCornell litCornell() {
         throw std::runtime_error(baked.error().message);
     lit.bake = std::make_shared<const Bake>(std::move(*baked));
     lit.relighter = std::make_unique<Relighter>(lit.bake);
-    lit.relighter->relight(lit.scene, *lit.trace, lit.scene.bake.maxBounces);
+    lit.relighter->relight(lit.scene, *lit.trace, lit.scene.relight.maxBounces);
     return lit;
 }
 

@@ -81,13 +81,13 @@ TEST_F(LightingDriverTest, TheRestIsLitByViewOrWholeOrLater) {
 }
 
 TEST_F(LightingDriverTest, TakesNoMoreBouncesThanTheDocumentAsksFor) {
-    scene.bake.maxBounces = 3; // few: all at once
+    scene.relight.maxBounces = 3; // few: all at once
     LightingDriver few = driver(100);
     few.step(input(), Rest::All);
     EXPECT_TRUE(few.done());
     EXPECT_EQ(calls, (Calls{{3, false}}));
     calls.clear();
-    scene.bake.maxBounces = 10;
+    scene.relight.maxBounces = 10;
     LightingDriver many = driver(100);
     while (!many.done())
         many.step(input(), Rest::All);

@@ -54,7 +54,7 @@ TEST(BakeToError, GrowsUntilTheErrorIsHeld) {
 
 TEST(BakeToError, EndsWhereMoreTexelsAreOfNoUse) {
     Scene scene = *litRoom(400, 400);
-    scene.bake.maxBounces = 1; // whatever the texels: the light of the other bounces is missing
+    scene.relight.maxBounces = 1; // whatever the texels: the light of the other bounces is missing
     const TraceScene trace(scene);
     const auto made = bakeToError(kBaking, trace, goal(scene, 1e-3));
     ASSERT_TRUE(made) << made.error().message;

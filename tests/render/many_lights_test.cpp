@@ -26,7 +26,7 @@ Scene partedRoom(std::uint32_t lamps) {
     b.scene.bake.lightmapCaches = 200;
     b.scene.bake.rays = 16;
     b.scene.bake.links = 16;
-    b.scene.bake.dimming = false;
+    b.scene.relight.dynamicOcclusion = false;
     for (std::uint32_t k = 0; k < lamps; ++k) {
         Light& lamp = b.scene.lights.emplace_back();
         const float u = (float(k) + 0.5f) / float(lamps);

@@ -22,10 +22,8 @@ TEST(BakeSettings, EverySettingIsNamedOnceAndExplained) {
         EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
         ASSERT_TRUE(setting.label && setting.tooltip) << setting.key;
         EXPECT_GT(std::string(setting.tooltip).size(), 10U) << setting.key;
-        EXPECT_EQ(setting.flag == nullptr, setting.help == nullptr) << setting.key;
-        if (setting.flag) {
-            EXPECT_TRUE(flags.insert(setting.flag).second) << setting.flag;
-        }
+        ASSERT_TRUE(setting.flag && setting.help) << setting.key;
+        EXPECT_TRUE(flags.insert(setting.flag).second) << setting.flag;
         EXPECT_LE(setting.group, kLastSettingGroup);
     });
     EXPECT_EQ(settingsDefect(s), "");
@@ -93,8 +91,6 @@ TEST(BakeSettings, TextSetsWhatItNamesAndTellsWhatIsWrong) {
     EXPECT_EQ(s.storage, LinkStorage::Sh);
     EXPECT_EQ(setBakeSetting(s, "grid", "3x4x5"), "");
     EXPECT_EQ(s.grid, glm::uvec3(3, 4, 5));
-    EXPECT_EQ(setBakeSetting(s, "dimming", "false"), "");
-    EXPECT_FALSE(s.dimming);
     EXPECT_EQ(setBakeSetting(s, "clusterNormalWeight", "0.25"), "");
     EXPECT_EQ(s.clusterNormalWeight, 0.25f);
 
@@ -107,7 +103,6 @@ TEST(BakeSettings, TextSetsWhatItNamesAndTellsWhatIsWrong) {
     for (const char* text : {"nan", "inf", "-0.1", "101"})
         EXPECT_NE(setBakeSetting(s, "clusterNormalWeight", text), "") << text;
     EXPECT_EQ(setBakeSetting(s, "cut", "best"), "\"best\" is not one of detail, solid-angle");
-    EXPECT_NE(setBakeSetting(s, "dimming", "yes"), "");
     EXPECT_EQ(s, before);
 }
 
@@ -118,18 +113,6 @@ TEST(BakeSettings, TextForTheLightmapsSizeReplacesItsDensity) {
     EXPECT_EQ(setBakeSetting(s, "lightmapCaches", "500"), "");
     EXPECT_EQ(s.texelsPerMetre, 0);
     EXPECT_EQ(s.lightmapCaches, 500U);
-}
-
-TEST(BakeSettings, OnlyWhatABakeDependsOnAsksForAnother) {
-    BakeSettings a, b;
-    b.maxBounces = 3;
-    b.dimming = false;
-    EXPECT_TRUE(sameBake(a, b));
-    b.rays = 64;
-    EXPECT_FALSE(sameBake(a, b));
-    b = a;
-    b.grid = {3, 3, 3};
-    EXPECT_FALSE(sameBake(a, b));
 }
 
 } // namespace limn

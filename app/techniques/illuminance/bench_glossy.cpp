@@ -148,7 +148,7 @@ Result<void> measureBake(const GlossyBench& o, const GlossyView& view, float rou
         return tl::make_unexpected(made.error());
     const auto baked = std::make_shared<const Bake>(std::move(*made));
     Relighter relighter(baked, LitBands::All);
-    relighter.relight(view.scene, trace, settings.maxBounces);
+    relighter.relight(view.scene, trace, view.scene.relight.maxBounces);
     FieldRenderOptions options;
     options.camera = view.camera;
     options.width = o.camera.width;

@@ -81,7 +81,7 @@ Result<void> measureScene(const LinksBench& o, const std::string& path, Json& ro
     }
     const BakedSenders senders(trace, scene, *bakes[0], store);
     Relighter relighter(bakes[0]);
-    relighter.relight(scene, trace, scene.bake.maxBounces);
+    relighter.relight(scene, trace, scene.relight.maxBounces);
     const std::vector<glm::vec4>& radiosity = relighter.radiosity();
     if (std::ranges::none_of(radiosity, [](const glm::vec4& b) { return b.w > 0; }))
         return fail(fmt::format("{}: nothing is lit; --light adds a lamp", path));

@@ -75,7 +75,7 @@ struct FieldDifference {
 Scene sceneAt(const RelightBench& o, const Scene& scene, int k) {
     Scene moved = scene;
     if (o.anew)
-        moved.bake.maxBounces = o.bounces;
+        moved.relight.maxBounces = o.bounces;
     moved.lights = movedLights(scene.lights, k);
     moveObjects(moved, scene, k);
     return moved;

@@ -42,7 +42,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                                                  .emitted = emitted,
                                                  .sky = sky,
                                                  .bands = bands,
-                                                 .maxBounces = lit.bake.maxBounces,
+                                                 .maxBounces = lit.relight.maxBounces,
                                                  .grid = needsGrid(lit, bake->lightmap),
                                                  .dimming = &lit},
                                                 bounces);

@@ -50,7 +50,7 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
     updateSurfelLight(bake.surfels, s.scene, *s.trace, light);
     surfelMaterials(bake.surfels, s.scene, albedo, emitted);
     const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, s.scene.sky);
-    const std::uint32_t bounces = std::min(s.scene.bake.maxBounces, kBounces);
+    const std::uint32_t bounces = std::min(s.scene.relight.maxBounces, kBounces);
     Relighter cpu(s.bake);
     cpu.relight(s.scene, *s.trace, bounces, subject.progress);
     const IndirectField& field = cpu.field();
@@ -59,7 +59,7 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
                      .emitted = emitted,
                      .sky = sky,
                      .bands = field.bands,
-                     .maxBounces = s.scene.bake.maxBounces,
+                     .maxBounces = s.scene.relight.maxBounces,
                      .grid = needsGrid(s.scene, bake.lightmap),
                      .dimming = &s.scene},
                     bounces, subject.progress);

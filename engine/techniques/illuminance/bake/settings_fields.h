@@ -18,6 +18,10 @@ void settingsFields(A& a, B& b) {
               return valueDefect(v, limits...).empty();
           }));
     });
+    // The place of two settings that no bake depends on. Files keep it; its values are not used.
+    std::uint32_t maxBounces = 1000;
+    bool dynamicOcclusion = true;
+    a("maxBounces", maxBounces, any), a("dimming", dynamicOcclusion, any);
     a("sceneHash", b.sceneHash, rule::holds("after settings that exclude each other", [&b](auto) {
           return settingsDefect(b.settings).empty();
       }));

@@ -35,7 +35,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .sky = sky,
                                               .lights = &lights,
                                               .bands = bands,
-                                              .maxBounces = scene.bake.maxBounces,
+                                              .maxBounces = scene.relight.maxBounces,
                                               .grid = needsGrid(scene, bake.lightmap),
                                               .dimming = &scene},
                                              bounces, progress, seen);

@@ -316,8 +316,8 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
         convergence.lightChanged();
     if (skyChanged || dimmingChanged)
         convergence.skyChanged();
-    const bool limitChanged = maxBounces != scene.bake.maxBounces;
-    maxBounces = scene.bake.maxBounces;
+    const bool limitChanged = maxBounces != scene.relight.maxBounces;
+    maxBounces = scene.relight.maxBounces;
     if (limitChanged)
         convergence.lightChanged();
     const bool changed = materialsChanged || skyChanged || directChanged || dimmingChanged ||

@@ -58,11 +58,11 @@ public:
     explicit Relighter(std::shared_ptr<const Bake> bake, LitBands lit = LitBands::Needed);
     ~Relighter();
 
-    /// Brings the field up to date with the lights, materials, sky and, with scene.bake.dimming,
-    /// the dynamic objects of `scene`, by at most `bounces` iterations of B = albedo (E_direct +
-    /// E_indirect(B)) + pi L_e. Call again to converge further. Where scene.bake.maxBounces is
-    /// kFewBounces or less, a change restarts from no bounced light. `trace` answers the shadow
-    /// rays. Cancelled calls leave a valid field.
+    /// Brings the field up to date with the lights, materials, sky and, with
+    /// scene.relight.dynamicOcclusion, the dynamic objects of `scene`, by at most `bounces`
+    /// iterations of B = albedo (E_direct + E_indirect(B)) + pi L_e. Call again to converge
+    /// further. Where scene.relight.maxBounces is kFewBounces or less, a change restarts from no
+    /// bounced light. `trace` answers the shadow rays. Cancelled calls leave a valid field.
     ///
     /// `seen`: lightmap caches where the field is needed, by seenCaches(); null: all. Others keep
     /// older light. Bounces light the caches that surfels read, and the last bounce lights those

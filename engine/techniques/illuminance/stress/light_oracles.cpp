@@ -174,7 +174,7 @@ std::optional<LitScene> greyScene(const Subject& subject) {
         m.emission = glm::vec3(0);
     }
     s.scene.sky = {};
-    s.scene.bake.maxBounces = 1000;
+    s.scene.relight.maxBounces = 1000;
     if (!lamps)
         return s;
     Result<LitScene> again = bakeAndLight(s.scene, subject.progress);

@@ -22,7 +22,7 @@ Result<LitScene> bakeAndLight(const Scene& scene, const Progress& progress) {
     if (!made)
         return tl::make_unexpected(made.error());
     lit.bake = std::make_shared<const Bake>(std::move(*made));
-    lit.light = lightOf(lit.bake, scene, *lit.trace, scene.bake.maxBounces, progress);
+    lit.light = lightOf(lit.bake, scene, *lit.trace, scene.relight.maxBounces, progress);
     if (progress.cancelled())
         return fail("cancelled");
     return lit;

@@ -160,6 +160,10 @@ private:
                                                                    : Sky{.radiance = glm::vec3(1)};
                                 }});
     }
+    bool makePlain(ObjectId id, const RelightSettings&) {
+        return tryAll<RelightSettings>(id, {[](RelightSettings& s) { s.maxBounces = 1; },
+                                            [](RelightSettings& s) { s.dynamicOcclusion = true; }});
+    }
     bool makePlain(ObjectId id, const BakeSettings&) {
         static const BakeSettings plain;
         return tryAll<BakeSettings>(
@@ -168,8 +172,6 @@ private:
              [](BakeSettings& s) { s.chromaBands = plain.chromaBands; },
              [](BakeSettings& s) { s.texelsPerMetre = 0; },
              [](BakeSettings& s) { s.grid = plain.grid; },
-             [](BakeSettings& s) { s.maxBounces = 1; },
-             [](BakeSettings& s) { s.dimming = plain.dimming; },
              [](BakeSettings& s) { s.placement = plain.placement; },
              [](BakeSettings& s) { s.linker = plain.linker; },
              [](BakeSettings& s) { s.cut = plain.cut; },

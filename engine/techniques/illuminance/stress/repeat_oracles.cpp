@@ -53,8 +53,9 @@ Judgement judgeFile(const Subject& subject) {
     if (!read)
         return broken();
     const auto bake = std::make_shared<const Bake>(std::move(*read));
-    return judgeSame(subject, *bake,
-                     lightOf(bake, s.scene, *s.trace, s.scene.bake.maxBounces, subject.progress));
+    return judgeSame(
+        subject, *bake,
+        lightOf(bake, s.scene, *s.trace, s.scene.relight.maxBounces, subject.progress));
 }
 
 /// A bake that reuses the stages of a scene with one object at another place must equal a full

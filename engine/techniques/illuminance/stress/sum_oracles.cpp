@@ -32,7 +32,7 @@ Judgement judgeBrightness(const Subject& subject) {
     const float k = std::exp2(float(random.whole(-8, 8)));
     const Scene scene = brighter(s.scene, k);
     const RelitState light =
-        lightOf(s.bake, scene, *s.trace, scene.bake.maxBounces, subject.progress);
+        lightOf(s.bake, scene, *s.trace, scene.relight.maxBounces, subject.progress);
     if (light.sh.size() != s.light.sh.size())
         return broken();
     constexpr float kFlushed = 1e-30f;
@@ -140,13 +140,12 @@ Judgement judgeIncrements(const Subject& subject) {
     RandomStream random(subject.seed + 7);
     Relighter relighter(s.bake);
     for (int k = 0; k < 3; ++k)
-        relighter.relight(edited(s.scene, random), *s.trace, std::min(s.scene.bake.maxBounces, 20U),
-                          subject.progress);
+        relighter.relight(edited(s.scene, random), *s.trace,
+                          std::min(s.scene.relight.maxBounces, 20U), subject.progress);
     const RelightStats stats =
-        relighter.relight(s.scene, *s.trace, s.scene.bake.maxBounces, subject.progress);
+        relighter.relight(s.scene, *s.trace, s.scene.relight.maxBounces, subject.progress);
     const RelitState light = lightOf(relighter, stats);
-    constexpr std::uint32_t kFewBounces = 8;
-    if (s.scene.bake.maxBounces <= kFewBounces) {
+    if (s.scene.relight.maxBounces <= kFewBounces) {
         std::uint64_t different = light.sh.size() != s.light.sh.size();
         for (std::size_t i = 0; i < std::min(light.sh.size(), s.light.sh.size()); ++i)
             different += light.sh[i] != s.light.sh[i];

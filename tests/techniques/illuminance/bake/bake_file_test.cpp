@@ -77,6 +77,22 @@ TEST_F(BakeFile, LoadsBackToIdenticalResults) {
     EXPECT_EQ(first.field(), second.field());
 }
 
+TEST_F(BakeFile, IgnoresTheRelightSettingsThatOlderFilesHold) {
+    ByteWriter written;
+    settingsFields(written, baked);
+    // 1000 bounces and a switch that is on, before the hash of the scene.
+    const std::string usual("\xe8\x03\0\0\x01", 5), other("\x03\0\0\0\0", 5);
+    const std::size_t at = written.bytes.find(usual);
+    ASSERT_NE(at, std::string::npos);
+    written.bytes.replace(at, usual.size(), other);
+    ByteReader reader(written.bytes);
+    Bake loaded;
+    settingsFields(reader, loaded);
+    EXPECT_TRUE(reader.ok && reader.atEnd());
+    EXPECT_EQ(loaded.settings, baked.settings);
+    EXPECT_EQ(loaded.sceneHash, baked.sceneHash);
+}
+
 TEST_F(BakeFile, LoadsBackLinksInShStorage) {
     scene.bake.storage = LinkStorage::Sh;
     scene.bake.chromaBands = 2;

@@ -11,9 +11,9 @@ namespace {
 /// not depend on the light that was.
 Scene dimmedCourt(LinkStorage storage) {
     Scene scene = court(simple::box(glm::vec3(-0.4f), glm::vec3(0.4f), false, 2));
-    scene.bake.dimming = true;
+    scene.relight.dynamicOcclusion = true;
     scene.bake.storage = storage;
-    scene.bake.maxBounces = 3;
+    scene.relight.maxBounces = 3;
     return scene;
 }
 
@@ -36,7 +36,7 @@ protected:
         const TraceScene trace(scene);
         const SurfelValues values = surfelValues(*made, scene, trace);
         SurfelInputs inputs = values.inputs(&scene);
-        inputs.maxBounces = scene.bake.maxBounces;
+        inputs.maxBounces = scene.relight.maxBounces;
         stats = relighter->relight(inputs, 3);
         cpuStats = cpu->relight(scene, trace, 3);
     }
@@ -74,12 +74,12 @@ TEST_F(GpuDimming, GivesTheLightOfTheCpuWhereverAnObjectMovesAndExactlyThatWhich
             start.bake.bands = bands;
             start.lights.clear(); // the object's shadow would move too
             prepare(start);
-            scene.bake.dimming = false;
+            scene.relight.dynamicOcclusion = false;
             relight();
             EXPECT_EQ(stats.linksDimmed, 0U);
             EXPECT_EQ(stats.dimMs, 0);
             const std::vector<glm::vec3> undimmed = relighter->readCacheSh();
-            scene.bake.dimming = true;
+            scene.relight.dynamicOcclusion = true;
             std::vector<glm::vec3> first;
             for (const glm::vec3 place : kPlaces) {
                 std::printf("storage %d, %u bands\n", int(storage), bands);
@@ -101,7 +101,7 @@ TEST_F(GpuDimming, GivesTheLightOfTheCpuWhereverAnObjectMovesAndExactlyThatWhich
             EXPECT_TRUE(relighter->readCacheSh() == undimmed);
             moveTo(scene, kPlaces[1]);
             relight();
-            scene.bake.dimming = false;
+            scene.relight.dynamicOcclusion = false;
             relight();
             EXPECT_EQ(stats.linksDimmed, 0U);
             EXPECT_EQ(stats.cachesDimmed, 0U);
@@ -113,9 +113,9 @@ TEST_F(GpuDimming, SendsTheLinksThatChangedAndNothingWhereNoneDoes) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
         prepare(dimmedCourt(storage));
         scene.lights.clear();
-        scene.bake.dimming = false;
+        scene.relight.dynamicOcclusion = false;
         relight();
-        scene.bake.dimming = true;
+        scene.relight.dynamicOcclusion = true;
         relight();
         const std::uint64_t all = stats.linksDimmed;
         EXPECT_EQ(stats.bytesUploaded, all * bytesOfLink());
@@ -143,7 +143,7 @@ TEST_F(GpuDimming, AnObjectThatHidesNothingWhereverItMovesCostsNoBounce) {
     Scene start = dimmedCourt(LinkStorage::Rtp);
     start.lights.clear();
     prepare(start);
-    scene.bake.maxBounces = 100;
+    scene.relight.maxBounces = 100;
     moveTo(scene, glm::vec3(100));
     for (int k = 0; k < 60; ++k)
         relight();

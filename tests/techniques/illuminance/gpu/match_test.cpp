@@ -54,7 +54,7 @@ TEST_F(GpuMatch, FieldsFollowLightOfAnyStrength) {
     Relighter cpu(made);
     CacheFlags few(made->caches.lightmapCount, 0);
     few[few.size() / 2] = 1;
-    scene.bake.maxBounces = 2;
+    scene.relight.maxBounces = 2;
     for (const float strength : {1.f, 1e8f, 2e8f, 1e-6f, 0.f, 1.f}) {
         Scene lit = scene;
         lit.sky.radiance *= strength;

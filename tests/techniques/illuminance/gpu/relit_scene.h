@@ -57,7 +57,7 @@ inline Scene court(const Mesh& object = simple::sphere(0.1f, 0, false, 0)) {
     b.add(box({1, 0, 1.5f}, {2.5f, 1.5f, 3.5f}, false, 2));
     b.add(object, glm::mat4(1), true).toWorld[3] = {3.5f, 1, 1, 1};
     Scene scene = b.build();
-    scene.bake.dimming = false;
+    scene.relight.dynamicOcclusion = false;
     Light lamp;
     lamp.position = {3, 2, 4};
     lamp.color = {1, 0.6f, 0.2f};

@@ -116,7 +116,7 @@ TEST_F(RelightViewport, FollowsLightsMaterialsAndSky) {
 TEST_F(RelightViewport, FewBouncesLeaveNothingOfTheLightThatWas) {
     relight();
     for (const std::uint32_t bounces : {1U, 3U}) {
-        scene.bake.maxBounces = bounces; // a change of its own
+        scene.relight.maxBounces = bounces; // a change of its own
         scene.lights[0].position.x = bounces == 1 ? 1 : 3;
         relight(bounces);
         EXPECT_LT(differenceFromCpu(), kRounding);
@@ -131,7 +131,7 @@ TEST_F(RelightViewport, DynamicObjectsDimLinksAsOnTheCpu) {
     const Mesh block = simple::box(glm::vec3(-0.4f), glm::vec3(0.4f), false);
     Scene dynamic = corner(&block);
     dynamic.lights.clear(); // shadow maps and rays differ at the edges of shadows
-    dynamic.bake.dimming = true;
+    dynamic.relight.dynamicOcclusion = true;
     prepare(dynamic);
     for (const float x : {0.6f, 1.f, 2.f}) {
         scene.instances.back().toWorld[3] = {x, 0.5f, 1, 1};
@@ -142,7 +142,7 @@ TEST_F(RelightViewport, DynamicObjectsDimLinksAsOnTheCpu) {
         EXPECT_LT(differenceFromCpu(), kRounding);
         EXPECT_EQ(relight().dimMs, 0) << "it stands still";
     }
-    scene.bake.dimming = false;
+    scene.relight.dynamicOcclusion = false;
     EXPECT_EQ(relight().linksDimmed, 0U);
     EXPECT_LT(differenceFromCpu(), kRounding);
 }

@@ -40,7 +40,7 @@ Figures measure(std::uint64_t seed) {
     EXPECT_TRUE(baked);
     const auto shared = std::make_shared<const Bake>(std::move(*baked));
     Relighter relighter(shared);
-    relighter.relight(scene, trace, settings.maxBounces);
+    relighter.relight(scene, trace, scene.relight.maxBounces);
     FieldRenderOptions drawn;
     drawn.view = View::Irradiance;
     drawn.width = 64;

@@ -175,7 +175,7 @@ TEST(DarkLinks, AreThoseToWhatALampDoesNotReachUntilItsLightHasBounced) {
     scene.lights[0].kind = LightKind::Spot;
     scene.lights[0].position = {3, 2, 4};
     scene.lights[0].outerAngle = 0.5f;
-    scene.bake.maxBounces = 1;
+    scene.relight.maxBounces = 1;
     const TraceScene trace(scene);
     const auto baked = bakeOf(trace);
     const Caches& caches = baked->caches;
@@ -194,7 +194,7 @@ TEST(DarkLinks, AreThoseToWhatALampDoesNotReachUntilItsLightHasBounced) {
     EXPECT_EQ(one.linksPassedOver, expected);
     EXPECT_GT(expected, byLightmap / 4);
     EXPECT_EQ(relighter.relight(scene, trace, 0).links, 0U) << "nothing is lit";
-    scene.bake.maxBounces = 64;
+    scene.relight.maxBounces = 64;
     relighter.relight(scene, trace, 64);
     scene.lights[0].strength *= 2;
     const RelightStats more = relighter.relight(scene, trace, 3);

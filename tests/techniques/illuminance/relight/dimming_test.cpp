@@ -123,7 +123,7 @@ TEST(Dimming, WithoutDynamicObjectsOrFarFromThemNothingIsDone) {
     const RelightStats still = relighter.relight(scene, TraceScene(scene), 8);
     EXPECT_EQ(still.dimMs, 0);
     EXPECT_TRUE(still.skipped);
-    scene.bake.dimming = false;
+    scene.relight.dynamicOcclusion = false;
     const RelightStats off = relighter.relight(scene, TraceScene(scene), 8);
     EXPECT_FALSE(off.skipped);
     EXPECT_EQ(off.cachesDimmed, 0U);
@@ -131,12 +131,12 @@ TEST(Dimming, WithoutDynamicObjectsOrFarFromThemNothingIsDone) {
 
     Scene empty = scene;
     empty.instances.pop_back();
-    empty.bake.dimming = true;
+    empty.relight.dynamicOcclusion = true;
     Relighter first(bake), second(bake);
     const RelightStats none = first.relight(empty, TraceScene(empty), 8);
     EXPECT_EQ(none.dimMs, 0);
     EXPECT_EQ(none.cachesDimmed, 0U);
-    empty.bake.dimming = false;
+    empty.relight.dynamicOcclusion = false;
     second.relight(empty, TraceScene(empty), 8);
     EXPECT_TRUE(first.cacheSh() == second.cacheSh());
 }
@@ -437,9 +437,9 @@ TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
     scene.instances[1].toWorld[1] = glm::vec4(0);
     EXPECT_TRUE(sceneBlockers(scene, shapes).empty());
     EXPECT_TRUE(dimsLinks(scene));
-    scene.bake.dimming = false;
+    scene.relight.dynamicOcclusion = false;
     EXPECT_FALSE(dimsLinks(scene));
-    scene.bake.dimming = true;
+    scene.relight.dynamicOcclusion = true;
     scene.instances[1].dynamic = false;
     EXPECT_FALSE(dimsLinks(scene));
     EXPECT_EQ(hashBlockers(scene), 0U);

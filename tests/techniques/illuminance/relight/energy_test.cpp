@@ -96,7 +96,7 @@ TEST(Energy, BouncesInAHouseGoOnBesideAGroundThatIsFarBrighter) {
     scene.sky.radiance = glm::vec3(0);
     scene.bake.surfels = 4000;
     scene.bake.lightmapCaches = 3000;
-    scene.bake.maxBounces = 64;
+    scene.relight.maxBounces = 64;
     const auto lamp = [&](glm::vec3 position, float candela) {
         Light light;
         light.kind = LightKind::Point;

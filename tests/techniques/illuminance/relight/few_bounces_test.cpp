@@ -34,7 +34,7 @@ struct FewBounces : testing::Test {
     }
     /// All that the scene asks for.
     std::vector<glm::vec4> light(Relighter& by) const {
-        by.relight(scene, trace, scene.bake.maxBounces);
+        by.relight(scene, trace, scene.relight.maxBounces);
         return by.field().lightmap;
     }
     std::vector<glm::vec4> lightAnew() const {
@@ -45,7 +45,7 @@ struct FewBounces : testing::Test {
 
 TEST_F(FewBounces, LeaveNothingOfTheLightThatWas) {
     for (const std::uint32_t bounces : {1U, 2U, kFewBounces}) {
-        scene.bake.maxBounces = bounces;
+        scene.relight.maxBounces = bounces;
         for (const float x : {1.f, 3.f}) {
             scene.lights[0].position.x = x;
             EXPECT_EQ(light(relighter), lightAnew()) << bounces << " bounces";
@@ -60,10 +60,10 @@ TEST_F(FewBounces, LeaveNothingOfTheLightThatWas) {
 
 TEST_F(FewBounces, FollowTheirNumberWhileTheLightStandsStill) {
     const std::vector<glm::vec4> all = light(relighter);
-    scene.bake.maxBounces = 1;
+    scene.relight.maxBounces = 1;
     const std::vector<glm::vec4> one = light(relighter);
     EXPECT_EQ(one, lightAnew());
-    scene.bake.maxBounces = 64;
+    scene.relight.maxBounces = 64;
     const std::vector<glm::vec4> again = light(relighter);
     float difference = 0, largest = 0, gain = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {

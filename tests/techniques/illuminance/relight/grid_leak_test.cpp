@@ -36,7 +36,7 @@ Scene rooms(float apart) {
     scene.bake.rays = 512;
     scene.bake.links = 128;
     scene.bake.grid = {8, 4, 4};
-    scene.bake.dimming = false;
+    scene.relight.dynamicOcclusion = false;
     return scene;
 }
 
@@ -133,7 +133,7 @@ TEST(GridNeed, CellsThatNothingReadsAreNeitherLitNorShown) {
 
 TEST(GridNeed, CellsThatNothingReadsAreLitWhereAskedFor) {
     Scene scene = rooms(0.2f);
-    scene.bake.dimming = false; // the ball takes no light from the cells
+    scene.relight.dynamicOcclusion = false; // the ball takes no light from the cells
     const TraceScene trace(scene);
     Result<Bake> made = bake(trace);
     ASSERT_TRUE(made);

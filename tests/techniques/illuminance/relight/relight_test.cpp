@@ -80,7 +80,7 @@ TEST(Furnace, ClosedRoomReachesItsRadiosityAtEveryBandCount) {
 // Each bounce passes on nearly all of it: what those left out would bring counts, too.
 TEST(Furnace, RoomsThatAbsorbLittleAreLitUntilNothingIsMissing) {
     for (const float albedo : {0.95f, 0.99f}) {
-        const Lit lit = light(furnace(albedo, 1, 3), BakeSettings().maxBounces);
+        const Lit lit = light(furnace(albedo, 1, 3), RelightSettings().maxBounces);
         const Relighter& relighter = *lit.relighter;
         EXPECT_TRUE(lit.stats.converged);
         const double expected = kPi / (1 - double(albedo));
@@ -101,7 +101,7 @@ TEST(Furnace, GridCachesSeeTheSameRadianceFromEverywhere) {
     b.assets = std::make_shared<Assets>(*scene.assets);
     b.add(sphere(0.01f, 0, false), glm::mat4(1), true); // reads the grid
     scene = b.build();
-    scene.bake.dimming = false;
+    scene.relight.dynamicOcclusion = false;
     const Lit lit = light(std::move(scene));
     for (const glm::vec3 n :
          {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::normalize(glm::vec3(1, 2, 3))}) {
@@ -276,7 +276,7 @@ Scene lampRoom() {
     lamp.position = {2, 2.5f, 2};
     lamp.strength = 5;
     scene.lights = {lamp};
-    scene.bake.maxBounces = 64;
+    scene.relight.maxBounces = 64;
     return scene;
 }
 

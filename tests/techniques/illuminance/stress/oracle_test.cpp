@@ -66,7 +66,7 @@ TEST(Oracles, AreMetByScenesSmallerThanAMillimetre) {
 /// A closed room with a lamp, of few bounces.
 Subject room(const TemporaryFolder& folder) {
     Scene scene = *litRoom(150, 150);
-    scene.bake.maxBounces = 8;
+    scene.relight.maxBounces = 8;
     return {3, *bakeAndLight(scene, {}), folder.path.string(), {}};
 }
 

@@ -108,8 +108,9 @@ struct Writer {
 } // namespace
 
 bool dimsLinks(const Scene& scene) {
-    return scene.bake.dimming && std::any_of(scene.instances.begin(), scene.instances.end(),
-                                             [](const Instance& i) { return i.dynamic; });
+    return scene.relight.dynamicOcclusion &&
+           std::any_of(scene.instances.begin(), scene.instances.end(),
+                       [](const Instance& i) { return i.dynamic; });
 }
 
 std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree& tree) {
