@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // save_project SCENE.gltf PROJECT.limn [--sky R,G,B]
-// [--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]...: writes the project of a sample scene.
+// [--flipbook MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]...: writes the project of a sample scene.
 #include "engine/files/project_file.h"
 #include "engine/scene/light/light_spec.h"
 
@@ -12,19 +12,19 @@ namespace {
 using namespace limn;
 
 // MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND
-Result<void> setFilm(Document& document, const std::string& spec) {
+Result<void> setFlipbook(Document& document, const std::string& spec) {
     const std::size_t equals = spec.find('=');
-    Flipbook film;
+    Flipbook flipbook;
     if (equals == std::string::npos ||
-        std::sscanf(spec.c_str() + equals, "=%ux%u@%f", &film.columns, &film.rows,
-                    &film.framesPerSecond) != 3)
-        return fail("--film " + spec + ": expected MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND");
+        std::sscanf(spec.c_str() + equals, "=%ux%u@%f", &flipbook.columns, &flipbook.rows,
+                    &flipbook.framesPerSecond) != 3)
+        return fail("--flipbook " + spec + ": expected MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND");
     for (auto& [id, object] : document.objects)
         if (Material* m = std::get_if<Material>(&object); m && m->name == spec.substr(0, equals)) {
-            m->emissiveFilm = film;
+            m->emissiveFlipbook = flipbook;
             return {};
         }
-    return fail("--film " + spec + ": there is no such material");
+    return fail("--flipbook " + spec + ": there is no such material");
 }
 
 Result<void> saveSample(int argc, char** argv) {
@@ -41,8 +41,8 @@ Result<void> saveSample(int argc, char** argv) {
             if (!parsed)
                 return tl::make_unexpected(parsed.error());
             sky = *parsed;
-        } else if (flag == "--film") {
-            if (const Result<void> set = setFilm(document, argv[i + 1]); !set)
+        } else if (flag == "--flipbook") {
+            if (const Result<void> set = setFlipbook(document, argv[i + 1]); !set)
                 return tl::make_unexpected(set.error());
         } else {
             return fail("unknown flag " + flag);
@@ -62,7 +62,7 @@ Result<void> saveSample(int argc, char** argv) {
 int main(int argc, char** argv) {
     if (argc < 3 || argc % 2 == 0) {
         std::fputs("usage: save_project SCENE.gltf PROJECT.limn [--sky R,G,B] "
-                   "[--film MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]\n",
+                   "[--flipbook MATERIAL=COLUMNSxROWS@FRAMES_PER_SECOND]\n",
                    stderr);
         return 2;
     }

@@ -265,7 +265,7 @@ void printReport(const std::string& path, const Options& options, const Rendered
         fmt::print("{}", legendText(overlay->legend));
 }
 
-// "film.png" becomes "film-03.png" for frame 3 of 100; a single frame keeps the name.
+// "walk.png" becomes "walk-03.png" for frame 3 of 100; a single frame keeps the name.
 std::string framePath(const Options& options, std::uint32_t frame) {
     if (options.frames == 1)
         return options.output;
@@ -364,13 +364,13 @@ Exit runRender(const Options& options) {
 void addRenderCommand(CLI::App& app, Run& run) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "render", "Draws a picture, or frames of a film, as the viewport shows it");
+        "render", "Draws a picture, or the frames of an animation, as the viewport shows it");
     addSceneOptions(*command, options->scene);
     addTimeOption(*command, options->scene);
     command
         ->add_option("--frames", options->frames,
-                     "pictures of films in materials, from --time on; their numbers are put before "
-                     "the extension of the output")
+                     "number of pictures of animated textures, from --time on; their numbers are "
+                     "put before the extension of the output")
         ->check(CLI::Range(1, 100000));
     command->add_option("--fps", options->framesPerSecond, "frames per second of --frames [1/s]")
         ->check(numberWithin(0.001, 10000.0));

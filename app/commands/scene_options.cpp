@@ -74,7 +74,7 @@ void addLightOptions(CLI::App& command, SceneOptions& options) {
 }
 
 void addTimeOption(CLI::App& command, SceneOptions& options) {
-    command.add_option("--time", options.seconds, "after the start of films in materials [s]")
+    command.add_option("--time", options.seconds, "time at which animated textures are shown [s]")
         ->check(numberWithin(-1e6, 1e6));
 }
 

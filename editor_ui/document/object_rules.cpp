@@ -49,8 +49,9 @@ static bool valid(const Material& m) {
     const glm::vec4 c = m.baseColor;
     return inUnit(c.x) && inUnit(c.y) && inUnit(c.z) && inUnit(c.w) && inUnit(m.metallic) &&
            inUnit(m.roughness) && inUnit(m.alphaCutoff) && isLight(m.emission) &&
-           valid(m.emissiveFilm) &&
-           (m.emissiveTexture.rotation == 0 || m.emissiveFilm.columns == m.emissiveFilm.rows);
+           valid(m.emissiveFlipbook) &&
+           (m.emissiveTexture.rotation == 0 ||
+            m.emissiveFlipbook.columns == m.emissiveFlipbook.rows);
 }
 
 static bool isLightSize(float edge) {

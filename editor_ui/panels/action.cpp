@@ -218,7 +218,7 @@ void startBake(EditorState& s) {
 void cancelBake(EditorState& s) {
     request(s, Request::Kind::CancelBake);
 }
-bool hasFilm(const EditorState& s) {
+bool hasAnimation(const EditorState& s) {
     return std::ranges::any_of(s.document.objects, [](const auto& entry) {
         const Material* m = std::get_if<Material>(&entry.second);
         return m && isAnimated(*m);
@@ -230,7 +230,7 @@ bool plays(const EditorState& s) {
 void togglePlay(EditorState& s) {
     s.playing = !s.playing;
 }
-void rewindFilms(EditorState& s) {
+void rewindAnimations(EditorState& s) {
     s.seconds = 0;
 }
 void toggleAutoBake(EditorState& s) {
@@ -303,8 +303,8 @@ std::vector<Action> fixedActions() {
     {"gizmo.middle", "Gizmo in the middle of the selection", Menu::View, kNoKey, kNoKey, true, always, setGizmoPlace<GizmoPlace::Middle>, hasGizmoPlace<GizmoPlace::Middle>},
     {"gizmo.origins", "Gizmo at the objects' origins", Menu::View, kNoKey, kNoKey, false, always, setGizmoPlace<GizmoPlace::Origins>, hasGizmoPlace<GizmoPlace::Origins>},
     {"gizmo.click", "Gizmo where the object was clicked", Menu::View, kNoKey, kNoKey, false, always, setGizmoPlace<GizmoPlace::Click>, hasGizmoPlace<GizmoPlace::Click>},
-    {"view.play", "Play films", Menu::View, plain(key::kSpace), kNoKey, true, hasFilm, togglePlay, plays},
-    {"view.rewind", "Rewind films", Menu::View, kNoKey, kNoKey, false, hasFilm, rewindFilms},
+    {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
+    {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},

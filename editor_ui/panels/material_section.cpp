@@ -43,18 +43,19 @@ static void textureLine(const EditorState& state, const char* use, const Texture
     ImGui::PopStyleColor();
 }
 
-static void filmRows(FieldEdit& edit, Flipbook& film) {
-    int grid[2] = {int(film.columns), int(film.rows)};
-    fieldLabel("Film frames", "Columns and rows of frames in the emissive image: a film that plays "
-                              "row after row from the upper left [1, 256]");
+static void flipbookRows(FieldEdit& edit, Flipbook& flipbook) {
+    int grid[2] = {int(flipbook.columns), int(flipbook.rows)};
+    fieldLabel("Animation frames",
+               "Columns and rows of frames in an animated emissive image, which "
+               "plays row after row from the upper left [1, 256]");
     if (ImGui::DragInt2("##frames", grid, 0.05f, 1, 256, "%d", ImGuiSliderFlags_AlwaysClamp)) {
-        film.columns = std::uint32_t(grid[0]);
-        film.rows = std::uint32_t(grid[1]);
+        flipbook.columns = std::uint32_t(grid[0]);
+        flipbook.rows = std::uint32_t(grid[1]);
     }
-    fieldEdited(edit, "Film frames");
+    fieldEdited(edit, "Animation frames");
     fieldLabel("Speed (frames/s)", "0: the first frame stands still [0, 1000]");
-    ImGui::SliderFloat("##speed", &film.framesPerSecond, 0, 60, "%.1f");
-    fieldEdited(edit, "Film speed");
+    ImGui::SliderFloat("##speed", &flipbook.framesPerSecond, 0, 60, "%.1f");
+    fieldEdited(edit, "Animation speed");
 }
 
 void materialSection(FieldEdit& edit, Material& material) {
@@ -74,7 +75,7 @@ void materialSection(FieldEdit& edit, Material& material) {
     colorAndStrength(edit, material.emission, "Emission", "Colour", "Emission (nits)",
                      "Radiance the surface sends out [nits]; lights the scene without a new bake");
     if (material.emissiveTexture.image >= 0)
-        filmRows(edit, material.emissiveFilm);
+        flipbookRows(edit, material.emissiveFlipbook);
     ImGui::Separator();
     fieldLabel("Double sided", "Seen and lit from both sides; changing it needs a new bake");
     ImGui::Checkbox("##double", &material.doubleSided);

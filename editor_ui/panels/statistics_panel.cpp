@@ -78,7 +78,7 @@ static const char* placeTooltip(RelightOn device) {
     switch (device) {
     case RelightOn::Auto:
         return "Whichever is faster here. Measured once per device and size of bake, when all else "
-               "is done, and remembered; the CPU where dynamic objects dim bounced light";
+               "is done, and remembered; the CPU where dynamic objects occlude bounced light";
     case RelightOn::Cpu:
         return "By this machine's processor, with traced shadows";
     case RelightOn::Gpu:

@@ -17,7 +17,7 @@ struct FieldRange {
 inline constexpr FieldRange kNotNegative{0};
 inline constexpr FieldRange kLightRange{0, kMaxLight};
 inline constexpr FieldRange kUnitRange{0, 1};
-inline constexpr FieldRange kFilmFrames{1, 256};
+inline constexpr FieldRange kFlipbookFrames{1, 256};
 
 // Lists the fields of materials; document_fields.h lists those of other objects.
 
@@ -34,9 +34,9 @@ void describeTexture(Fields& fields, T& t) {
 }
 
 template <class Fields, class T>
-void describeFilm(Fields& fields, T& f) {
-    fields("columns", f.columns, kFilmFrames);
-    fields("rows", f.rows, kFilmFrames);
+void describeFlipbook(Fields& fields, T& f) {
+    fields("columns", f.columns, kFlipbookFrames);
+    fields("rows", f.rows, kFlipbookFrames);
     fields("framesPerSecond", f.framesPerSecond, FieldRange{0, 1000});
 }
 
@@ -56,8 +56,8 @@ void describeMaterial(Fields& fields, T& m) {
     fields.object("metallicRoughnessTexture", m.metallicRoughnessTexture, texture);
     fields.object("normalTexture", m.normalTexture, texture);
     fields.object("emissiveTexture", m.emissiveTexture, texture);
-    fields.object("emissiveFilm", m.emissiveFilm,
-                  [](auto& f, auto& film) { describeFilm(f, film); });
+    fields.object("emissiveFilm", m.emissiveFlipbook,
+                  [](auto& f, auto& flipbook) { describeFlipbook(f, flipbook); });
 }
 
 } // namespace limn

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Writes signs.gltf, signs.bin and two films: a room like Cornell's that only moving pictures
-// light, four turning asterisks on the walls and a ring under the ceiling, round which a spark
-// runs. After Figure 7 of "Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed
-// Illuminance Composition with Chrominance Compression. 2016".
+// Writes signs.gltf, signs.bin and two animated textures: a room like Cornell's that only moving
+// pictures light, four turning asterisks on the walls and a ring under the ceiling, round which a
+// spark runs. After Figure 7 of "Jendersie, Kuri, Grosch. Real-Time Global Illumination Using
+// Precomputed Illuminance Composition with Chrominance Compression. 2016".
 #include "engine/gallery/mesh_builder.h"
 #include "projects/gltf_writer.h"
 #include "projects/png_writer.h"
@@ -32,7 +32,7 @@ double smooth(double edge, double width, double x) {
     return glm::smoothstep(edge - width, edge + width, x);
 }
 
-// Six arms, a sixth of a turn in all frames, so that the film closes. `p` in [-1, 1]^2.
+// Six arms, a sixth of a turn in all frames, so that the loop closes. `p` in [-1, 1]^2.
 double asterisk(dvec2 p, double time) {
     const double r = glm::length(p), arm = kPi / 3;
     const double angle = std::atan2(p.y, p.x) - time * arm;
@@ -49,7 +49,7 @@ double ring(dvec2 p, double time) {
     return (0.06 + 0.94 * tail) * (1 - smooth(0.16, 0.03, std::abs(r - 0.7)));
 }
 
-bool writeFilm(const std::string& path, const std::function<double(dvec2, double)>& picture) {
+bool writeFlipbook(const std::string& path, const std::function<double(dvec2, double)>& picture) {
     std::vector<unsigned char> pixels;
     for (int y = 0; y < kRows * kFrameSize; ++y)
         for (int x = 0; x < kColumns * kFrameSize; ++x) {
@@ -99,18 +99,18 @@ GltfFile signs() {
     file.materials = {{.name = "White", .baseColor = {0.73, 0.72, 0.7}},
                       {.name = "Red", .baseColor = {0.63, 0.065, 0.05}},
                       {.name = "Green", .baseColor = {0.14, 0.45, 0.091}}};
-    const auto film = [&](const char* name, dvec3 color, double nits, const char* image) {
+    const auto addSign = [&](const char* name, dvec3 color, double nits, const char* image) {
         file.materials.push_back({.name = name,
                                   .baseColor = dvec3(0.05),
                                   .emissive = color,
                                   .emissiveStrength = nits,
                                   .emissiveTexture = image});
     };
-    film("Ring", {1, 0.85, 0.6}, 40, "ring.png");
-    film("Asterisk1", {1, 0.3, 0.1}, 12, "asterisk.png");
-    film("Asterisk2", {0.15, 0.5, 1}, 12, "asterisk.png");
-    film("Asterisk3", {0.9, 0.9, 0.2}, 12, "asterisk.png");
-    film("Asterisk4", {0.8, 0.2, 1}, 12, "asterisk.png");
+    addSign("Ring", {1, 0.85, 0.6}, 40, "ring.png");
+    addSign("Asterisk1", {1, 0.3, 0.1}, 12, "asterisk.png");
+    addSign("Asterisk2", {0.15, 0.5, 1}, 12, "asterisk.png");
+    addSign("Asterisk3", {0.9, 0.9, 0.2}, 12, "asterisk.png");
+    addSign("Asterisk4", {0.8, 0.2, 1}, 12, "asterisk.png");
     file.meshes = {wall("Floor", White, {0, 0, 0}, h * x, -h * z),
                    wall("Ceiling", White, {0, kRoom, 0}, h * x, h * z),
                    wall("Back wall", White, {0, h, -h}, h * x, h * y),
@@ -138,8 +138,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     const std::string folder = argv[1];
-    if (!writeGltf(signs(), folder) || !writeFilm(folder + "/asterisk.png", asterisk) ||
-        !writeFilm(folder + "/ring.png", ring)) {
+    if (!writeGltf(signs(), folder) || !writeFlipbook(folder + "/asterisk.png", asterisk) ||
+        !writeFlipbook(folder + "/ring.png", ring)) {
         std::fprintf(stderr, "generate_signs: cannot write to %s\n", argv[1]);
         return 1;
     }

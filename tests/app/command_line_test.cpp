@@ -327,30 +327,30 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
     EXPECT_EQ(limn("render cornell").exit, 2);
 }
 
-TEST_F(CommandLine, RenderWritesTheFramesOfAFilmEachAsAPictureOfItsTime) {
+TEST_F(CommandLine, RenderWritesTheFramesOfAnAnimationEachAsAPictureOfItsTime) {
     const std::string bake = path("signs.limnbake");
     ASSERT_EQ(limn("bake signs" + kCoarse + "-o " + bake).exit, 0);
     const std::string start = "render signs --bake " + bake + " --width 48 --height 48 --json ";
     for (const std::string relight : {"cpu", "gpu"}) {
         const std::string where = "--relight " + relight + " ";
-        const nlohmann::json film = json(start + where + "--time 0.25 --frames 11 --fps 4 -o " +
-                                         path("film.exr"))["frames"];
-        ASSERT_EQ(film.size(), 11u);
-        EXPECT_EQ(film[2]["file"], path("film-02.exr"));
-        EXPECT_DOUBLE_EQ(film[2]["time"], 0.75);
-        EXPECT_EQ(film[10]["file"], path("film-10.exr"));
+        const nlohmann::json frames = json(start + where + "--time 0.25 --frames 11 --fps 4 -o " +
+                                           path("walk.exr"))["frames"];
+        ASSERT_EQ(frames.size(), 11u);
+        EXPECT_EQ(frames[2]["file"], path("walk-02.exr"));
+        EXPECT_DOUBLE_EQ(frames[2]["time"], 0.75);
+        EXPECT_EQ(frames[10]["file"], path("walk-10.exr"));
         json(start + where + "--time 0.75 -o " + path("one.exr"));
         const auto error = [&](const std::string& file) {
             return double(
                 json("compare " + path(file) + " " + path("one.exr") + " --json")["nrmse"]);
         };
-        EXPECT_LT(error("film-02.exr"), 1e-3); // what bounces leave undone
-        EXPECT_GT(error("film-01.exr"), 0.05);
-        EXPECT_GT(error("film-03.exr"), 0.05);
+        EXPECT_LT(error("walk-02.exr"), 1e-3); // what bounces leave undone
+        EXPECT_GT(error("walk-01.exr"), 0.05);
+        EXPECT_GT(error("walk-03.exr"), 0.05);
     }
-    expectRefusal("render signs --frames 2 --overlay surfels -o " + path("film.png"), "--frames");
-    EXPECT_EQ(limn("render signs --frames 0 -o " + path("film.png")).exit, 2);
-    EXPECT_EQ(limn("render signs --frames 2 --fps 0 -o " + path("film.png")).exit, 2);
+    expectRefusal("render signs --frames 2 --overlay surfels -o " + path("walk.png"), "--frames");
+    EXPECT_EQ(limn("render signs --frames 0 -o " + path("walk.png")).exit, 2);
+    EXPECT_EQ(limn("render signs --frames 2 --fps 0 -o " + path("walk.png")).exit, 2);
 }
 
 TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) {
@@ -422,27 +422,27 @@ TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {
     EXPECT_EQ(limn(start + " --runs 8").exit, 2);
 }
 
-TEST_F(CommandLine, BenchRelightMovesDynamicObjectsAndTimesTheirDimming) {
-    const std::string folder = path("dimming");
+TEST_F(CommandLine, BenchRelightMovesDynamicObjectsAndTimesTheirOcclusion) {
+    const std::string folder = path("occlusion");
     const std::string start = "bench relight cornell --surfels 256 --links 16 --rays 32 --lightmap "
                               "200 --storage rtp --runs 9 --json -o " +
                               folder;
     const nlohmann::json moving = json(start + " --dynamic 'Short block@0,0.6,0'")["rows"][0];
-    EXPECT_GT(moving["dimming_median_ms"], 0);
-    EXPECT_GE(moving["dimming_p95_ms"], moving["dimming_median_ms"]);
-    EXPECT_LT(moving["dimming_median_ms"], moving["p95_ms"]) << "it is a part of all";
-    EXPECT_GT(moving["caches_dimmed"], 0);
-    EXPECT_GT(moving["links_dimmed"], moving["caches_dimmed"]);
-    EXPECT_NE(contents(folder + "/relight.csv").find("dimming_median_ms"), std::string::npos);
+    EXPECT_GT(moving["occlusion_median_ms"], 0);
+    EXPECT_GE(moving["occlusion_p95_ms"], moving["occlusion_median_ms"]);
+    EXPECT_LT(moving["occlusion_median_ms"], moving["p95_ms"]) << "it is a part of all";
+    EXPECT_GT(moving["caches_occluded"], 0);
+    EXPECT_GT(moving["links_occluded"], moving["caches_occluded"]);
+    EXPECT_NE(contents(folder + "/relight.csv").find("occlusion_median_ms"), std::string::npos);
     const nlohmann::json still = json(start)["rows"][0];
-    EXPECT_EQ(still["dimming_median_ms"], 0);
-    EXPECT_EQ(still["links_dimmed"], 0);
+    EXPECT_EQ(still["occlusion_median_ms"], 0);
+    EXPECT_EQ(still["links_occluded"], 0);
     EXPECT_EQ(limn(start + " --dynamic Nothing").exit, 1);
     const nlohmann::json both =
         json(start + " --dynamic 'Short block@0,0.6,0' --device cpu,gpu")["rows"];
-    EXPECT_EQ(both[1]["links_dimmed"], both[0]["links_dimmed"]);
-    EXPECT_EQ(both[1]["caches_dimmed"], both[0]["caches_dimmed"]);
-    EXPECT_GT(both[1]["dimming_median_ms"], 0);
+    EXPECT_EQ(both[1]["links_occluded"], both[0]["links_occluded"]);
+    EXPECT_EQ(both[1]["caches_occluded"], both[0]["caches_occluded"]);
+    EXPECT_GT(both[1]["occlusion_median_ms"], 0);
 }
 
 TEST_F(CommandLine, BenchLinksMeasuresBothStorages) {
@@ -466,16 +466,16 @@ TEST_F(CommandLine, BenchLinksMeasuresBothStorages) {
     EXPECT_EQ(limn("bench links -o " + folder).exit, 2);
 }
 
-TEST_F(CommandLine, BenchRelightCountsLinksThatArePassedOver) {
+TEST_F(CommandLine, BenchRelightCountsLinksThatAreSkipped) {
     const std::string start = "bench relight cornell --surfels 2048 --links 64 --rays 64 "
                               "--lightmap 400 --storage rtp --runs 9 --json -o " +
                               path("over") + " --light 'spot pos=0,1.5,0 dir=0,-1,0 cd=9 outer=9'";
     const nlohmann::json on = json(start)["rows"][0], anew = json(start + " --anew")["rows"][0];
     EXPECT_GT(on["links_of_run"], on["caches"]);
     EXPECT_EQ(anew["links_of_run"], on["links_of_run"]);
-    EXPECT_GT(anew["links_passed_over"], on["links_passed_over"]) << "no light has bounced yet";
-    EXPECT_DOUBLE_EQ(double(anew["passed_over_percent"]),
-                     100 * double(anew["links_passed_over"]) / double(anew["links_of_run"]));
+    EXPECT_GT(anew["links_skipped"], on["links_skipped"]) << "no light has bounced yet";
+    EXPECT_DOUBLE_EQ(double(anew["skipped_percent"]),
+                     100 * double(anew["links_skipped"]) / double(anew["links_of_run"]));
     EXPECT_EQ(limn(start + " --anew --bounces 9").exit, 1);
 }
 
@@ -495,7 +495,7 @@ TEST_F(CommandLine, BenchStressFindsNothingWrongButWhatIs) {
         EXPECT_EQ(row[count], 0);
     EXPECT_GE(row["frames"], 20);
     EXPECT_GT(row["field_looks"], 0);
-    EXPECT_GT(row["links_dimmed"], 0);
+    EXPECT_GT(row["links_occluded"], 0);
     std::uint64_t shakes = 0;
     for (const char* shake : {"move_light", "change_light", "switch_light", "add_light",
                               "remove_light", "change_material", "change_sky", "move_object"})
@@ -531,7 +531,7 @@ TEST_F(CommandLine, RenderRelightsOnEitherDeviceAndSaysOnWhich) {
     EXPECT_EQ(limn(start + "--relight nonsense -o " + gpu).exit, 2);
 }
 
-TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndDimsTheLightWhereverItIs) {
+TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndOccludesTheLightWhereverItIs) {
     const std::string bake = path("box.limnbake"), a = path("a.exr"), b = path("b.exr");
     ASSERT_EQ(limn("bake cornell --dynamic 'Short block'" + kCoarse + "-o " + bake).exit, 0);
     const std::string start =

@@ -100,7 +100,7 @@ TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
 }
 
 /// The room with a dynamic block at `x`.
-std::shared_ptr<const Scene> withBlock(float x, bool dimming = true) {
+std::shared_ptr<const Scene> withBlock(float x, bool occlusion = true) {
     using namespace simple;
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(1)));
@@ -111,18 +111,18 @@ std::shared_ptr<const Scene> withBlock(float x, bool dimming = true) {
     b.add(block, glm::mat4(1), true).toWorld[3] = {x, 0.7f, 1.5f, 1};
     Scene scene = b.build();
     scene.bake = litRoom(500, 800)->bake;
-    scene.relight.dynamicOcclusion = dimming;
+    scene.relight.dynamicOcclusion = occlusion;
     return std::make_shared<const Scene>(std::move(scene));
 }
 
-TEST_F(RenderWorkerTest, AMovedObjectTakesItsDimmingAlong) {
+TEST_F(RenderWorkerTest, AMovedObjectTakesItsOcclusionAlong) {
     first = withBlock(1);
     trace = std::make_shared<const TraceScene>(*first);
     made = precomputed(*trace);
     RenderWorker worker(false);
     const Image before = drawn(worker, looking(-1, first));
-    const double dimmed = counterOf(worker.relight.last, "links_occluded");
-    EXPECT_GT(dimmed, 100U);
+    const double occluded = counterOf(worker.relight.last, "links_occluded");
+    EXPECT_GT(occluded, 100U);
     const auto there = withBlock(3);
     const Image after = drawn(worker, looking(-1, there));
     EXPECT_NE(after.rgba, before.rgba);
@@ -141,7 +141,7 @@ TEST_F(RenderWorkerTest, AMovedObjectTakesItsDimmingAlong) {
     EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"), 0U);
     EXPECT_NE(off.rgba, after.rgba);
     drawn(worker, looking(-1, first));
-    EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"), dimmed);
+    EXPECT_EQ(counterOf(worker.relight.last, "links_occluded"), occluded);
 }
 
 } // namespace

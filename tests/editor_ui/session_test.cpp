@@ -94,20 +94,20 @@ TEST_F(SessionTest, ASkyImageIsReadLightsTheSceneWithoutABakeAndIsUndone) {
     EXPECT_NE(session.state.log.back().text.find("none.exr"), std::string::npos);
 }
 
-TEST_F(SessionTest, TimeThatGoesOnPlaysFilmsAndOnlyThoseAndChangesNoDocument) {
+TEST_F(SessionTest, TimeThatGoesOnPlaysAnimatedTexturesAndOnlyThoseAndChangesNoDocument) {
     Session session(options());
     session.open("signs");
     ASSERT_TRUE(runUntil(session, [&] { return session.scene()->materials.size() > 7; }));
     const auto still = session.scene();
-    session.state.seconds = 0.01; // all films still show their first frame
+    session.state.seconds = 0.01; // all textures still show their first frame
     session.update();
     EXPECT_EQ(session.scene(), still);
     session.state.seconds = 0.5;
     session.update();
     ASSERT_NE(session.scene(), still);
     for (std::size_t m = 0; m < still->materials.size(); ++m) {
-        const bool film = isAnimated(still->materials[m]);
-        EXPECT_EQ(session.scene()->materials[m] != still->materials[m], film) << m;
+        const bool animated = isAnimated(still->materials[m]);
+        EXPECT_EQ(session.scene()->materials[m] != still->materials[m], animated) << m;
     }
     EXPECT_FALSE(hasUnsavedChanges(session.state));
     const auto play = std::ranges::find(actions(), std::string("view.play"), &Action::id);

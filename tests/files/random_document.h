@@ -108,7 +108,7 @@ private:
             m.metallicRoughnessTexture = texture();
             m.normalTexture = texture();
             m.emissiveTexture = texture();
-            m.emissiveFilm = {1 + below(256), 1 + below(256), 1000 * unit()};
+            m.emissiveFlipbook = {1 + below(256), 1 + below(256), 1000 * unit()};
             return m;
         }
         case 1: {

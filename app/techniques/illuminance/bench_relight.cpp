@@ -38,7 +38,7 @@ struct Step {
     double RelightStats::*ms;
 };
 constexpr Step kSteps[] = {{"direct", &RelightStats::directMs},
-                           {"dimming", &RelightStats::dimMs},
+                           {"occlusion", &RelightStats::occlusionMs},
                            {"surfel_light", &RelightStats::surfelLightMs},
                            {"pull", &RelightStats::pullMs},
                            {"cache_light", &RelightStats::cacheLightMs},
@@ -123,8 +123,8 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
     return all;
 }
 
-double passedOverPercent(const RelightStats& run) {
-    return 100 * double(run.linksPassedOver) / double(std::max<std::uint64_t>(run.links, 1));
+double skippedPercent(const RelightStats& run) {
+    return 100 * double(run.linksSkipped) / double(std::max<std::uint64_t>(run.links, 1));
 }
 
 Json describe(const RelightBench& o, const BenchBake& baked, const Measured& measured,
@@ -147,14 +147,14 @@ Json describe(const RelightBench& o, const BenchBake& baked, const Measured& mea
                 {"nrmse", measured.nrmse ? Json(*measured.nrmse) : Json()},
                 {"links_in_all", caches.linkCount()},
                 {"links_of_run", runs.back().links},
-                {"links_passed_over", runs.back().linksPassedOver},
-                {"passed_over_percent", passedOverPercent(runs.back())},
+                {"links_skipped", runs.back().linksSkipped},
+                {"skipped_percent", skippedPercent(runs.back())},
                 {"bytes", bytes},
                 {"bytes_per_second", bytesPerSecond},
                 {"floor_ms", 1000 * double(bytes) / bytesPerSecond},
                 {"shadow_rays", runs.back().shadowRays},
-                {"caches_dimmed", runs.back().cachesDimmed},
-                {"links_dimmed", runs.back().linksDimmed}});
+                {"caches_occluded", runs.back().cachesOccluded},
+                {"links_occluded", runs.back().linksOccluded}});
     for (const Step& step : kSteps) {
         std::vector<double> ms;
         for (const RelightStats& r : runs)
@@ -175,10 +175,10 @@ constexpr Column kColumns[] = {{"scene", -14, "name"},
                                {"chroma", 6, "chroma_bands"},
                                {"kind", -4, "storage"},
                                {"MiB", 8, "bytes", 2, kMiB},
-                               {"over [%]", 8, "passed_over_percent", 1},
+                               {"skip [%]", 8, "skipped_percent", 1},
                                {"floor", 7, "floor_ms"},
                                {"direct", 7, "direct_median_ms"},
-                               {"dimming", 7, "dimming_median_ms"},
+                               {"occlusion", 9, "occlusion_median_ms"},
                                {"surfels", 7, "surfel_light_median_ms"},
                                {"pull", 7, "pull_median_ms"},
                                {"caches", 7, "cache_light_median_ms"},

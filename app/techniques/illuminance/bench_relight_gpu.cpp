@@ -44,7 +44,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                                                  .bands = bands,
                                                  .maxBounces = lit.relight.maxBounces,
                                                  .grid = needsGrid(lit, bake->lightmap),
-                                                 .dimming = &lit},
+                                                 .occluders = &lit},
                                                 bounces);
         RelightStats r = g;
         r.directMs = traced.count() + g.uploadMs;

@@ -48,7 +48,7 @@ std::uint64_t countInvalid(const std::vector<glm::vec4>& values) {
 struct ShakeResult {
     std::array<std::uint64_t, kShakeNames.size()> shakes{};
     std::uint64_t frames = 0, fieldLooks = 0, invalidPixels = 0, invalidField = 0;
-    std::uint64_t linksDimmed = 0; ///< in all frames
+    std::uint64_t linksOccluded = 0; ///< in all frames
     std::uint64_t residentStart = 0, residentWarm = 0, residentEnd = 0;
     std::uint64_t gpuBytesWarm = 0, gpuBytesEnd = 0;
     std::vector<double> frameMs;
@@ -107,8 +107,8 @@ Result<void> StressedViewport::draw(RandomScene& random, ShakeResult& result) {
         ++result.shakes[std::size_t(random.shake())];
     const auto start = Clock::now();
     m_viewport.setScene(random.scene, {m_bake, &m_bake->lightmap});
-    result.linksDimmed +=
-        m_relighter->relight(m_viewport, random.scene, 1 + random.below(3)).linksDimmed;
+    result.linksOccluded +=
+        m_relighter->relight(m_viewport, random.scene, 1 + random.below(3)).linksOccluded;
     m_options.view = View(random.below(std::uint32_t(kViewNames.size())));
     m_viewport.render(m_options);
     result.invalidPixels += countInvalidPixels(m_viewport.readLinear());
@@ -159,7 +159,7 @@ Json describe(const ShakeBench& o, const BenchBake& baked, const gpu::Device& de
     row.update(settingsOf(baked));
     row.update({{"frames", r.frames},
                 {"field_looks", r.fieldLooks},
-                {"links_dimmed", r.linksDimmed},
+                {"links_occluded", r.linksOccluded},
                 {"messages", messages},
                 {"invalid_pixels", r.invalidPixels},
                 {"invalid_field", r.invalidField},

@@ -61,7 +61,7 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
                      .bands = field.bands,
                      .maxBounces = s.scene.relight.maxBounces,
                      .grid = needsGrid(s.scene, bake.lightmap),
-                     .dimming = &s.scene},
+                     .occluders = &s.scene},
                     bounces, subject.progress);
     std::uint32_t links = 0;
     for (std::size_t c = 0; c < bake.caches.size(); ++c)

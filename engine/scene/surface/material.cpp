@@ -5,27 +5,27 @@
 
 namespace limn {
 
-std::uint32_t frameAt(const Flipbook& film, double seconds) {
-    const double frames = double(film.columns) * film.rows;
-    const double at = std::floor(seconds * double(film.framesPerSecond));
+std::uint32_t frameAt(const Flipbook& flipbook, double seconds) {
+    const double frames = double(flipbook.columns) * flipbook.rows;
+    const double at = std::floor(seconds * double(flipbook.framesPerSecond));
     return std::isfinite(at) ? std::uint32_t(at - frames * std::floor(at / frames)) : 0;
 }
 
 TextureRef emissiveTextureAt(const Material& material, double seconds) {
-    const Flipbook& film = material.emissiveFilm;
+    const Flipbook& flipbook = material.emissiveFlipbook;
     TextureRef texture = material.emissiveTexture;
-    const std::uint32_t frame = frameAt(film, seconds);
-    const glm::vec2 share = 1.f / glm::vec2(film.columns, film.rows);
+    const std::uint32_t frame = frameAt(flipbook, seconds);
+    const glm::vec2 share = 1.f / glm::vec2(flipbook.columns, flipbook.rows);
     texture.offset =
-        (texture.offset + glm::vec2(frame % film.columns, frame / film.columns)) * share;
+        (texture.offset + glm::vec2(frame % flipbook.columns, frame / flipbook.columns)) * share;
     texture.scale *= share;
     return texture;
 }
 
 bool isAnimated(const Material& material) {
-    const Flipbook& film = material.emissiveFilm;
-    return material.emissiveTexture.image >= 0 && film.columns * film.rows > 1 &&
-           film.framesPerSecond > 0;
+    const Flipbook& flipbook = material.emissiveFlipbook;
+    return material.emissiveTexture.image >= 0 && flipbook.columns * flipbook.rows > 1 &&
+           flipbook.framesPerSecond > 0;
 }
 
 bool isTwoSided(const Material& material) {

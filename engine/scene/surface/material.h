@@ -37,7 +37,7 @@ struct Flipbook {
 };
 
 /// Index of the frame shown `seconds` after the start; negative times run backwards.
-std::uint32_t frameAt(const Flipbook& film, double seconds);
+std::uint32_t frameAt(const Flipbook& flipbook, double seconds);
 
 /// glTF metallic-roughness. Factors multiply textures. Transport treats it as Lambertian with
 /// albedo = min(baseColor * (1 - metallic), 0.99).
@@ -57,7 +57,7 @@ struct Material {
     TextureRef emissiveTexture;          ///< sRGB
     /// Frames of the emissive texture. The texture's transform is then applied within a frame: it
     /// must not rotate unless columns == rows, because a TextureRef cannot express that.
-    Flipbook emissiveFilm;
+    Flipbook emissiveFlipbook;
 
     bool operator==(const Material&) const = default;
 };

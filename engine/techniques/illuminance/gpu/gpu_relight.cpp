@@ -4,7 +4,7 @@
 #include "engine/field/field_packing.h"
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
-#include "engine/techniques/illuminance/gpu/gpu_dimming.h"
+#include "engine/techniques/illuminance/gpu/gpu_link_occlusion.h"
 #include "engine/techniques/illuminance/gpu/relight_steps.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
@@ -40,7 +40,7 @@ struct Sent {
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
         : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMaxSteps),
-          keptLights(d, bake->surfels.size()), dimming(d, *bake, buffers.links) {}
+          keptLights(d, bake->surfels.size()), occlusion(d, *bake, buffers.links) {}
 
     gpu::Device& device;
     std::shared_ptr<const Bake> bake;
@@ -48,7 +48,7 @@ struct GpuRelighter::State {
     std::optional<RelightSteps> steps; ///< in the field's bands
     gpu::Timestamps times;
     KeptLights keptLights;
-    GpuDimming dimming;
+    GpuLinkOcclusion occlusion;
 
     bool started = false;
     std::uint32_t maxBounces = ~0U; ///< of the last inputs
@@ -83,7 +83,7 @@ struct GpuRelighter::State {
     void countLinks(const CacheFlags& lightmap, bool grid);
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
     bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
-    bool dim(const Scene* scene, GpuRelightStats& stats);
+    bool occlude(const Scene* scene, GpuRelightStats& stats);
     RoundChange bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
     float brightestCoefficient() const;
     void writeField(bool grid, GpuRelightStats& stats);
@@ -149,7 +149,7 @@ void GpuRelighter::State::countLinks(const CacheFlags& lightmap, bool grid) {
         if (c < lightmap.size() ? lightmap[c] == 0 : !grid)
             continue;
         links.links += caches.linkBegin[c + 1] - caches.linkBegin[c];
-        links.passedOver += caches.linkBegin[c + 1] - linkEnds[c];
+        links.skipped += caches.linkBegin[c + 1] - linkEnds[c];
     }
 }
 
@@ -217,14 +217,14 @@ bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightS
     return true;
 }
 
-/// Returns true if the dimming of some link changed.
-bool GpuRelighter::State::dim(const Scene* scene, GpuRelightStats& stats) {
+/// Returns true if the occlusion of some link changed.
+bool GpuRelighter::State::occlude(const Scene* scene, GpuRelightStats& stats) {
     const auto start = Clock::now();
-    const std::optional<std::uint64_t> sent = dimming.update(scene);
-    stats.cachesDimmed = dimming.hidden().caches;
-    stats.linksDimmed = dimming.hidden().links;
+    const std::optional<std::uint64_t> sent = occlusion.update(scene);
+    stats.cachesOccluded = occlusion.hidden().caches;
+    stats.linksOccluded = occlusion.hidden().links;
     stats.bytesUploaded += sent.value_or(0);
-    stats.dimMs = sent ? msSince(start) : 0;
+    stats.occlusionMs = sent ? msSince(start) : 0;
     if (sent.value_or(0) == 0)
         return false;
     convergence.skyChanged();
@@ -340,7 +340,7 @@ bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
     bool surfelsChanged = upload(inputs, stats, skyChanged) || newBands;
     if (inputs.lights)
         surfelsChanged |= lightSurfels(*inputs.lights, stats);
-    const bool dimmingChanged = dim(inputs.dimming, stats);
+    const bool occlusionChanged = occlude(inputs.occluders, stats);
     const auto gridCaches = std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
     const bool grid = inputs.grid && gridCaches > 0;
     stats.gridCachesSkipped = grid ? 0 : gridCaches;
@@ -352,7 +352,7 @@ bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
     if (surfelsChanged || gridMissing || limitChanged)
         convergence.lightChanged();
     const bool changed =
-        surfelsChanged || skyChanged || dimmingChanged || gridMissing || limitChanged;
+        surfelsChanged || skyChanged || occlusionChanged || gridMissing || limitChanged;
     if (changed && maxBounces <= kFewBounces) {
         clearBuffers(device, {buffers.indirect.handle});
         unread = false;
@@ -403,7 +403,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
     stats.cachesUnread = std::uint32_t(std::ranges::count(s.read, 0));
     stats.links = s.links.links;
-    stats.linksPassedOver = s.links.passedOver;
+    stats.linksSkipped = s.links.skipped;
     stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
     stats.totalMs = msSince(start);
     return stats;

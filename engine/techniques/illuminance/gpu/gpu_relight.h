@@ -32,14 +32,15 @@ struct SurfelInputs {
     /// As RelightSettings::maxBounces: up to kFewBounces, bounces restart with every changed input.
     std::uint32_t maxBounces = ~0U;
     bool grid = true; ///< the grid is read, as by needsGrid(); else its caches keep older light
-    /// Scene whose dynamic objects dim links, where dimsLinks(), as for Relighter. Null: none do.
-    const Scene* dimming = nullptr;
+    /// Scene whose dynamic objects occlude links, where occludesLinks(), as for Relighter. Null:
+    /// none do.
+    const Scene* occluders = nullptr;
 };
 
 /// Milliseconds and counters of one GpuRelighter::relight() call. They differ from Relighter's as
 /// follows. Steps are measured in GPU time, without surfelReadMs. fieldMs includes the last bands
-/// of caches, dimMs the upload. linksPassedOver counts links to a black sky. lightsTraced includes
-/// lights without room to be kept. The caller fills shadowRays, lightsOff, bandsLit and
+/// of caches, occlusionMs the upload. linksSkipped counts links to a black sky. lightsTraced
+/// includes lights without room to be kept. The caller fills shadowRays, lightsOff, bandsLit and
 /// bandsSkipped.
 struct GpuRelightStats : RelightStats {
     double uploadMs = 0;          ///< upload of what had changed

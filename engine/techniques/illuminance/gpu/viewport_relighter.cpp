@@ -37,7 +37,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .bands = bands,
                                               .maxBounces = scene.relight.maxBounces,
                                               .grid = needsGrid(scene, bake.lightmap),
-                                              .dimming = &scene},
+                                              .occluders = &scene},
                                              bounces, progress, seen);
     viewport.setIndirect(m_gpu->field());
     const ViewportStats& drawn = viewport.stats();

@@ -61,7 +61,7 @@ public:
         m_passedOn = 0;
         m_latest = {};
     }
-    /// Call this where the sky or the dimming of links has changed. Such a change reaches the
+    /// Call this where the sky or the occlusion of links has changed. Such a change reaches the
     /// caches in the first round and the surfels' radiosity only in the second.
     void skyChanged() {
         lightChanged();

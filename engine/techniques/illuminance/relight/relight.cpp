@@ -6,7 +6,7 @@
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
-#include "engine/techniques/illuminance/relight/occlusion/dimming.h"
+#include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
 #include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/relight/surfel_read.h"
@@ -83,8 +83,8 @@ struct Relighter::State {
     CacheRuns someRuns;       ///< the same
     bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
 
-    Dimming dimming;
-    DimmedLinks dimmed; ///< by it
+    LinkOcclusion occlusion;
+    OccludedLinks occluded; ///< by it
 
     void light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out);
     std::vector<glm::vec3>& inner();
@@ -150,9 +150,9 @@ void Relighter::State::setBands(int count) {
     innerSh.clear();
     current.assign(bake->caches.lightmapCount, 0);
     unread = false;
-    dimmed = {}; // its links have the old number of bands
-    dimming.hidden = {};
-    dimming.blockers = 0;
+    occluded = {}; // its links have the old number of bands
+    occlusion.hidden = {};
+    occlusion.blockers = 0;
     field.bands = std::uint32_t(bands);
     field.chromaBands = std::uint32_t(finalBands.chroma);
     field.lightmap.assign(std::size_t(field.lightmapWidth) * field.lightmapHeight * n,
@@ -193,10 +193,10 @@ void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<g
         return;
     out.resize(std::max(out.size(), runs.back().end * coefficients));
     const LinkCounts counts =
-        lightCaches(dimmed.cones.links.empty() ? caches : dimmed.cones, ends, radiosity, in, runs,
-                    out, dimmed.halfs.empty() ? halfs : dimmed.halfs);
+        lightCaches(occluded.cones.links.empty() ? caches : occluded.cones, ends, radiosity, in,
+                    runs, out, occluded.halfs.empty() ? halfs : occluded.halfs);
     links.links += counts.links;
-    links.passedOver += counts.passedOver;
+    links.skipped += counts.skipped;
     fillInvalidCaches(caches, in.luma, runs, out);
 }
 
@@ -299,13 +299,13 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     stats.bandsLit = std::uint32_t(bands);
     stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
     stats.directMs = timer.lap();
-    const bool moved = updateDimming(*bake, scene, dimming);
+    const bool moved = updateLinkOcclusion(*bake, scene, occlusion);
     if (moved)
-        dimLinks(*bake, dimming, halfs, dimmed);
-    stats.cachesDimmed = dimming.hidden.caches;
-    stats.linksDimmed = dimming.hidden.links;
-    stats.dimMs = moved ? timer.lap() : 0;
-    const bool dimmingChanged = moved && !dimming.hidden.changed.empty();
+        occludeLinks(*bake, occlusion, halfs, occluded);
+    stats.cachesOccluded = occlusion.hidden.caches;
+    stats.linksOccluded = occlusion.hidden.links;
+    stats.occlusionMs = moved ? timer.lap() : 0;
+    const bool occlusionChanged = moved && !occlusion.hidden.changed.empty();
     const Caches& caches = bake->caches;
     const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
     const bool grid = gridCaches > 0 && (unreadGrid || needsGrid(scene, bake->lightmap));
@@ -314,13 +314,13 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     gridLit = grid;
     if (materialsChanged || directChanged || gridMissing)
         convergence.lightChanged();
-    if (skyChanged || dimmingChanged)
+    if (skyChanged || occlusionChanged)
         convergence.skyChanged();
     const bool limitChanged = maxBounces != scene.relight.maxBounces;
     maxBounces = scene.relight.maxBounces;
     if (limitChanged)
         convergence.lightChanged();
-    const bool changed = materialsChanged || skyChanged || directChanged || dimmingChanged ||
+    const bool changed = materialsChanged || skyChanged || directChanged || occlusionChanged ||
                          gridMissing || limitChanged;
     if (changed && maxBounces <= kFewBounces) {
         std::ranges::fill(indirect, glm::vec3(0));
@@ -387,7 +387,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     }
     stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
     stats.links = s.links.links;
-    stats.linksPassedOver = s.links.passedOver;
+    stats.linksSkipped = s.links.skipped;
     stats.totalMs = total.lap();
     return stats;
 }

@@ -20,7 +20,7 @@ struct RelightStats {
     double cacheLightMs = 0;  ///< light of the caches, through their links
     double surfelReadMs = 0;  ///< bounced light at the surfels, from the caches
     double fieldMs = 0;       ///< the field that the viewport samples
-    double dimMs = 0;         ///< which links dynamic objects block; 0 while they stand still
+    double occlusionMs = 0;   ///< which links dynamic objects block; 0 while they stand still
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
     std::uint64_t shadowRays = 0;
@@ -31,14 +31,14 @@ struct RelightStats {
     std::uint32_t lightsTraced = 0; ///< lights whose shadows were traced: they or an object moved
     std::uint32_t lightsOff = 0; ///< off, black or out of reach of every surfel: they cost nothing
     std::uint64_t links = 0;     ///< of the caches lit by this call, once for each bounce
-    std::uint64_t linksPassedOver = 0;   ///< of those: skipped, as their senders send no light
+    std::uint64_t linksSkipped = 0;      ///< of those: skipped, as their senders send no light
     std::uint32_t bandsLit = 0;          ///< of the caches
     std::uint32_t bandsSkipped = 0;      ///< bands of the bake that no surface's reflection needs
     std::uint32_t gridCachesSkipped = 0; ///< the grid's caches, where nothing reads them
-    std::uint32_t cachesUnread = 0; ///< lightmap caches that no surfel reads and no bounce lights
-    std::uint32_t cachesUnseen = 0; ///< lightmap caches for which the field keeps older light
-    std::uint32_t cachesDimmed = 0; ///< caches that dynamic objects take light from
-    std::uint64_t linksDimmed = 0;  ///< of those
+    std::uint32_t cachesUnread = 0;   ///< lightmap caches that no surfel reads and no bounce lights
+    std::uint32_t cachesUnseen = 0;   ///< lightmap caches for which the field keeps older light
+    std::uint32_t cachesOccluded = 0; ///< caches that dynamic objects take light from
+    std::uint64_t linksOccluded = 0;  ///< of those
     bool skipped = false; ///< no work was done: nothing had changed and bounces had converged
 };
 

@@ -18,7 +18,7 @@ LightingReport reportOf(const RelightStats& r) {
         {"pull", "Pull", "Sums flux up the cluster tree", r.pullMs},
         {"cache_light", "Cache light",
          "Gathers linked clusters into the caches; finds what moved objects hide",
-         r.cacheLightMs + r.dimMs},
+         r.cacheLightMs + r.occlusionMs},
         {"field", "Field", "What the viewport samples, from the caches", r.fieldMs}};
     report.counters = {
         {"passed_on", "Passed on",
@@ -39,7 +39,7 @@ LightingReport reportOf(const RelightStats& r) {
         {"links_skipped", "  skipped",
          "What they come from sends no light: a black sky or, where the CPU reads cones, surfaces "
          "in the dark. Nothing is lost without them",
-         double(r.linksPassedOver)},
+         double(r.linksSkipped)},
         {"bands_lit", "Bands lit", "Bands of spherical harmonics that some surface reads",
          double(r.bandsLit)},
         {"bands_skipped", "  skipped",
@@ -58,11 +58,11 @@ LightingReport reportOf(const RelightStats& r) {
          double(r.cachesUnread)},
         {"caches_occluded", "Occluded",
          "Caches that dynamic objects take bounced light from; 0 where there are none",
-         double(r.cachesDimmed)},
-        {"links_occluded", "  links", "Of those caches", double(r.linksDimmed)},
+         double(r.cachesOccluded)},
+        {"links_occluded", "  links", "Of those caches", double(r.linksOccluded)},
         {"occlusion_ms", "Occlusion",
-         "Finding what dynamic objects hide, by the last call; 0 while they stand still", r.dimMs,
-         CounterUnit::Milliseconds}};
+         "Finding what dynamic objects hide, by the last call; 0 while they stand still",
+         r.occlusionMs, CounterUnit::Milliseconds}};
     return report;
 }
 

@@ -18,10 +18,10 @@ namespace limn {
 struct SurfelValues {
     std::vector<glm::vec3> direct, albedo, emitted, sky;
 
-    /// `dimming`: as SurfelInputs::dimming.
-    SurfelInputs inputs(const Scene* dimming = nullptr) const {
+    /// `occluders`: as SurfelInputs::occluders.
+    SurfelInputs inputs(const Scene* occluders = nullptr) const {
         SurfelInputs in{direct, albedo, emitted, sky};
-        in.dimming = dimming;
+        in.occluders = occluders;
         return in;
     }
 };
@@ -43,7 +43,7 @@ inline SurfelValues surfelValues(const Bake& bake, const Scene& scene, const Tra
 
 /// A court under a coloured sky: walls of three colours, one of which glows, a lamp, and a block
 /// that hides caches below and inside it. A dynamic object, a small ball, reads the grid; it
-/// dims nothing.
+/// occludes nothing.
 inline Scene court(const Mesh& object = simple::sphere(0.1f, 0, false, 0)) {
     using namespace simple;
     SceneBuilder b;

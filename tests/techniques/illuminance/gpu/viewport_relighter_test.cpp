@@ -127,7 +127,7 @@ TEST_F(RelightViewport, FewBouncesLeaveNothingOfTheLightThatWas) {
     }
 }
 
-TEST_F(RelightViewport, DynamicObjectsDimLinksAsOnTheCpu) {
+TEST_F(RelightViewport, DynamicObjectsOccludeLinksAsOnTheCpu) {
     const Mesh block = simple::box(glm::vec3(-0.4f), glm::vec3(0.4f), false);
     Scene dynamic = corner(&block);
     dynamic.lights.clear(); // shadow maps and rays differ at the edges of shadows
@@ -136,14 +136,14 @@ TEST_F(RelightViewport, DynamicObjectsDimLinksAsOnTheCpu) {
     for (const float x : {0.6f, 1.f, 2.f}) {
         scene.instances.back().toWorld[3] = {x, 0.5f, 1, 1};
         const RelightStats stats = relight();
-        EXPECT_GT(stats.linksDimmed, 100U);
-        EXPECT_GT(stats.cachesDimmed, 10U);
-        EXPECT_GT(stats.dimMs, 0);
+        EXPECT_GT(stats.linksOccluded, 100U);
+        EXPECT_GT(stats.cachesOccluded, 10U);
+        EXPECT_GT(stats.occlusionMs, 0);
         EXPECT_LT(differenceFromCpu(), kRounding);
-        EXPECT_EQ(relight().dimMs, 0) << "it stands still";
+        EXPECT_EQ(relight().occlusionMs, 0) << "it stands still";
     }
     scene.relight.dynamicOcclusion = false;
-    EXPECT_EQ(relight().linksDimmed, 0U);
+    EXPECT_EQ(relight().linksOccluded, 0U);
     EXPECT_LT(differenceFromCpu(), kRounding);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Links to what sends no light: passed over without loss, and counted.
+// Links to what sends no light: skipped without loss, and counted.
 #include "engine/core/parallel.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
@@ -107,7 +107,7 @@ std::vector<Vectors> vectorsHere() {
     return here;
 }
 
-void expectPassedOver(const Bake& baked, LightBands bands, std::uint32_t lanes) {
+void expectSkipped(const Bake& baked, LightBands bands, std::uint32_t lanes) {
     const Caches& caches = baked.caches;
     const std::vector<std::uint32_t> ends = allLinks(caches);
     // From where only three tenths of the hall are lit: a cut keeps more links to what lights a
@@ -116,21 +116,21 @@ void expectPassedOver(const Bake& baked, LightBands bands, std::uint32_t lanes) 
     const Lit over = lit(caches, ends, radiosity, bands),
               whole = lit(withoutDark(caches, radiosity), ends, radiosity, bands);
     EXPECT_EQ(over.counts.links, caches.linkCount());
-    EXPECT_EQ(over.counts.passedOver, inDarkVectors(caches, ends, radiosity, lanes));
-    EXPECT_GT(over.counts.passedOver, caches.linkCount() / 8);
-    EXPECT_LT(over.counts.passedOver, caches.linkCount() / 4 * 3);
-    EXPECT_EQ(whole.counts.passedOver, 0U);
+    EXPECT_EQ(over.counts.skipped, inDarkVectors(caches, ends, radiosity, lanes));
+    EXPECT_GT(over.counts.skipped, caches.linkCount() / 8);
+    EXPECT_LT(over.counts.skipped, caches.linkCount() / 4 * 3);
+    EXPECT_EQ(whole.counts.skipped, 0U);
     EXPECT_TRUE(over.sh == whole.sh) << bands.luma << " bands, " << bands.chroma << " coloured";
 }
 
-TEST(DarkLinks, ArePassedOverByWholeVectorsWithoutAnyLoss) {
+TEST(DarkLinks, AreSkippedByWholeVectorsWithoutAnyLoss) {
     ASSERT_FALSE(vectorsHere().empty());
     for (std::uint32_t bands = 2; bands <= 8; ++bands) {
         const auto baked = bakeOf(TraceScene(litHall(LinkStorage::Rtp, bands)));
         for (const Vectors& vectors : vectorsHere()) {
             const OnlyVectors only(vectors.kind);
             for (int chroma = 1; chroma <= int(bands); ++chroma)
-                expectPassedOver(*baked, {int(bands), chroma}, vectors.lanes);
+                expectSkipped(*baked, {int(bands), chroma}, vectors.lanes);
         }
     }
 }
@@ -149,11 +149,11 @@ TEST(DarkLinks, AreAllOrNoneInTheDarkAndInTheLight) {
         const auto night = lightBeyond(*baked, 9, glm::vec3(0)),
                    noon = lightBeyond(*baked, -1, glm::vec3(1)),
                    lamps = lightBeyond(*baked, -1, glm::vec3(0));
-        EXPECT_EQ(lit(caches, all, noon, {3, 3}).counts.passedOver, 0U);
-        EXPECT_EQ(lit(caches, some, lamps, {3, 3}).counts.passedOver, sky);
+        EXPECT_EQ(lit(caches, all, noon, {3, 3}).counts.skipped, 0U);
+        EXPECT_EQ(lit(caches, some, lamps, {3, 3}).counts.skipped, sky);
         const LinkCounts none = lit(caches, some, night, {3, 3}).counts;
         EXPECT_EQ(none.links, caches.linkCount());
-        EXPECT_EQ(none.passedOver, storage == LinkStorage::Rtp ? caches.linkCount() : sky);
+        EXPECT_EQ(none.skipped, storage == LinkStorage::Rtp ? caches.linkCount() : sky);
     }
 }
 
@@ -163,7 +163,7 @@ TEST(DarkLinks, AreCountedAlikeByAnyNumberOfThreads) {
     const std::vector<glm::vec4> radiosity = lightBeyond(*baked, 2, glm::vec3(0));
     const auto count = [&](int threads) {
         const ThreadLimit limit(threads);
-        return lit(baked->caches, allLinks(baked->caches), radiosity, {3, 3}).counts.passedOver;
+        return lit(baked->caches, allLinks(baked->caches), radiosity, {3, 3}).counts.skipped;
     };
     EXPECT_EQ(count(1), count(2));
     EXPECT_GT(count(1), 0U);
@@ -191,14 +191,14 @@ TEST(DarkLinks, AreThoseToWhatALampDoesNotReachUntilItsLightHasBounced) {
     }();
     const std::uint64_t expected =
         inDarkVectors(caches, lightmapEnds, relighter.radiosity(), vectorsHere().front().lanes);
-    EXPECT_EQ(one.linksPassedOver, expected);
+    EXPECT_EQ(one.linksSkipped, expected);
     EXPECT_GT(expected, byLightmap / 4);
     EXPECT_EQ(relighter.relight(scene, trace, 0).links, 0U) << "nothing is lit";
     scene.relight.maxBounces = 64;
     relighter.relight(scene, trace, 64);
     scene.lights[0].strength *= 2;
     const RelightStats more = relighter.relight(scene, trace, 3);
-    EXPECT_EQ(more.linksPassedOver, 0U) << "bounced light is everywhere";
+    EXPECT_EQ(more.linksSkipped, 0U) << "bounced light is everywhere";
     EXPECT_GT(more.links, 2 * byLightmap);
 }
 

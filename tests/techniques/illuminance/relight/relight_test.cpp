@@ -549,7 +549,7 @@ TEST(Relight, BandsThatNothingReflectsAreNotLit) {
             EXPECT_EQ(whole.stats.bandsSkipped, 0U);
             EXPECT_EQ(needed.stats.bandsLit, 3U);
             EXPECT_EQ(needed.stats.bandsSkipped, 3U);
-            EXPECT_GT(largest(*whole.relighter, 5), 0.01f) << "which is light passed over";
+            EXPECT_GT(largest(*whole.relighter, 5), 0.01f) << "which is light that was skipped";
             EXPECT_GT(largest(*needed.relighter, 2), 0.1f);
             EXPECT_TRUE(needed.relighter->radiosity() == whole.relighter->radiosity());
             // What is lit and looked up is what all bands would have there.

@@ -332,7 +332,7 @@ TEST(ViewDependentRelighting, InMovingLightOnlyTheFourthBounceIsLate) {
     EXPECT_LT(glm::length(x - y), 1e-3f * glm::length(x));
 }
 
-TEST(ViewDependentRelighting, DimsWhatIsSeen) {
+TEST(ViewDependentRelighting, OccludesWhatIsSeen) {
     SceneBuilder b;
     Scene made = room();
     b.scene = made;
@@ -343,7 +343,7 @@ TEST(ViewDependentRelighting, DimsWhatIsSeen) {
     const Baked in(std::move(made));
     const CacheFlags seen = in.seen(cameras()[0]);
     Relighter all(in.bake), few(in.bake);
-    EXPECT_GT(all.relight(in.scene, in.trace, 2).cachesDimmed, 100U);
+    EXPECT_GT(all.relight(in.scene, in.trace, 2).cachesOccluded, 100U);
     few.relight(in.scene, in.trace, 2, {}, &seen);
     EXPECT_EQ(differing(*in.bake, all.field(), few.field(), seen), 0U);
     EXPECT_EQ(all.field().grid, few.field().grid);

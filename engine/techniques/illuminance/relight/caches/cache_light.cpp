@@ -48,7 +48,7 @@ LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<gl
                        LinkHalfs halfs) {
     if (halfs.empty())
         halfs = caches.shCoefficients;
-    std::atomic<std::uint64_t> passedOver = 0;
+    std::atomic<std::uint64_t> skipped = 0;
     parallelRanges(runs.size(), 1, [&](std::size_t first, std::size_t last) {
         std::uint64_t over = 0;
         for (std::size_t k = first; k < last; ++k) {
@@ -60,12 +60,12 @@ LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<gl
             for (std::uint32_t c = begin; c < end; ++c)
                 over += caches.linkBegin[c + 1] - ends[c];
         }
-        passedOver += over;
+        skipped += over;
     });
     std::uint64_t links = 0;
     for (const CacheRun& run : runs)
         links += caches.linkBegin[run.end] - caches.linkBegin[run.begin];
-    return {links, passedOver};
+    return {links, skipped};
 }
 
 std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands) {

@@ -25,7 +25,7 @@ void pullRadiosity(const ClusterTree& tree, std::vector<glm::vec4>& radiosity);
 /// Number of links of the caches that were lit, and of those that were skipped because their
 /// senders send no light. Skipping causes no error. Both are the same for any number of threads.
 struct LinkCounts {
-    std::uint64_t links = 0, passedOver = 0;
+    std::uint64_t links = 0, skipped = 0;
 };
 
 /// Computes the SH of incident radiance of the caches of `runs`, which do not overlap: sh[c *

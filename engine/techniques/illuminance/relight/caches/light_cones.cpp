@@ -328,7 +328,7 @@ HWY_INLINE std::size_t sumCones(const Link* links, std::size_t count, const glm:
     const auto clear = [&]() LIMN_UNROLLED {
         unrolled<0, kSums>([&](auto i) LIMN_UNROLLED { sum[i] = hn::Zero(d); });
     };
-    std::size_t passedOver = 0;
+    std::size_t skipped = 0;
     for (std::size_t k = 0; k < count; k += kBlock) {
         const std::size_t end = std::min(k + kBlock, count);
         std::size_t vectors = 0;
@@ -339,7 +339,7 @@ HWY_INLINE std::size_t sumCones(const Link* links, std::size_t count, const glm:
             V light[4];
             lightOf(d, links + n, end - n, radiosity, light);
             if (isBlack(d, light)) {
-                passedOver += std::min(kLanes, end - n);
+                skipped += std::min(kLanes, end - n);
                 continue;
             }
             Cones<Bands> cones;
@@ -361,7 +361,7 @@ HWY_INLINE std::size_t sumCones(const Link* links, std::size_t count, const glm:
             addTotals<Bands, Chroma, Second>(sum, total);
         }
     }
-    return passedOver;
+    return skipped;
 }
 
 /// sums[i * Colours + k] += basis i * light k, lane by lane, over `vectors`, each of which has
@@ -422,7 +422,7 @@ HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
     const Floats d;
     const int all = 2 * coloured + kCount;
     std::fill_n(sums, std::size_t(all + 3) * kLanes, 0.f);
-    std::size_t passedOver = 0;
+    std::size_t skipped = 0;
     for (std::size_t k = 0; k < count; k += kBlock) {
         const std::size_t end = std::min(k + kBlock, count);
         std::size_t vectors = 0;
@@ -432,7 +432,7 @@ HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
             V colour[4];
             lightOf(d, links + n, end - n, radiosity, colour);
             if (isBlack(d, colour)) {
-                passedOver += std::min(kLanes, end - n);
+                skipped += std::min(kLanes, end - n);
                 continue;
             }
             unrolled<0, 4>([&](auto j) LIMN_UNROLLED {
@@ -459,7 +459,7 @@ HWY_INLINE std::size_t sumBlocksOfCones(const Link* links, std::size_t count,
         for (int j = 0; j < 4; ++j)
             total[i + j] += out[j];
     }
-    return passedOver;
+    return skipped;
 }
 
 /// Not inlined: it is called from two places and takes long to compile.
@@ -469,12 +469,12 @@ HWY_NOINLINE std::size_t sumLinks(const Link* links, std::size_t count, const gl
     if constexpr (Bands == 2 || (Bands <= 4 && kManyRegisters)) {
         constexpr Orders kFirst = Bands < 4 ? kEveryOrder : kEvenOrders,
                          kSecond = Bands < 4 ? 0 : kOddOrders;
-        std::size_t passedOver = 0;
+        std::size_t skipped = 0;
         unrolled<1, Bands + 1>([&](auto k) LIMN_UNROLLED {
             if (k == chroma)
-                passedOver = sumCones<Bands, k, kFirst, kSecond>(links, count, radiosity, total);
+                skipped = sumCones<Bands, k, kFirst, kSecond>(links, count, radiosity, total);
         });
-        return passedOver;
+        return skipped;
     } else
         return sumBlocksOfCones<Bands>(links, count, radiosity, chroma * chroma, total);
 }
@@ -489,14 +489,14 @@ HWY_INLINE std::size_t sumCache(const std::vector<Link>& links, std::size_t firs
     std::fill_n(total, 3 * Bands * Bands, 0.f);
     if (last + kReadBehind <= links.size())
         return sumLinks<Bands>(links.data() + first, last - first, radiosity, chroma, total);
-    std::size_t passedOver = 0;
+    std::size_t skipped = 0;
     for (std::size_t count; first < last; first += count) {
         Link copies[kCopied + kReadBehind] = {};
         count = std::min(kCopied, last - first);
         std::copy_n(links.begin() + std::ptrdiff_t(first), count, copies);
-        passedOver += sumLinks<Bands>(copies, count, radiosity, chroma, total);
+        skipped += sumLinks<Bands>(copies, count, radiosity, chroma, total);
     }
-    return passedOver;
+    return skipped;
 }
 
 template <int Bands>
@@ -505,9 +505,9 @@ std::size_t lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* rad
     constexpr int kCount = Bands * Bands;
     const int coloured = chroma * chroma;
     float total[3 * kCount + 3] = {};
-    std::size_t passedOver = 0;
+    std::size_t skipped = 0;
     for (std::uint32_t c = begin; c < end; ++c) {
-        passedOver +=
+        skipped +=
             sumCache<Bands>(caches.links, caches.linkBegin[c], ends[c], radiosity, chroma, total);
         const float scale = linkScale(caches, c);
         glm::vec3* out = sh + std::size_t(c) * kCount;
@@ -517,7 +517,7 @@ std::size_t lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* rad
         for (int i = coloured; i < kCount; ++i)
             out[i] = glm::vec3(total[2 * coloured + i] * (kMonicScale[std::size_t(i)] * scale));
     }
-    return passedOver;
+    return skipped;
 }
 
 std::size_t lightCones(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,

@@ -11,8 +11,8 @@
 
 namespace limn {
 
-/// Whether dynamic objects of `scene` dim links.
-bool dimsLinks(const Scene& scene);
+/// Whether dynamic objects of `scene` occlude links.
+bool occludesLinks(const Scene& scene);
 
 std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree& tree);
 
@@ -29,32 +29,34 @@ struct HiddenLinks {
 /// Tracks how the dynamic objects of scenes occlude the links of one bake, which contains none of
 /// them; the paper has no such step. A cache inside a closed object sees nothing. Only light from
 /// behind an object is removed; light that the object reflects is not added.
-struct Dimming {
+struct LinkOcclusion {
     HiddenLinks hidden;
     std::uint64_t blockers = 0; ///< hashBlockers() of the scene that `hidden` belongs to; 0: none
     BlockerShapes shapes;
     std::vector<SenderPlace> places; ///< empty until needed
 };
 
-/// Brings `dimming` up to date with `scene`. Returns false, and does nothing, where nothing has
+/// Brings `occlusion` up to date with `scene`. Returns false, and does nothing, where nothing has
 /// moved.
-bool updateDimming(const Bake& bake, const Scene& scene, Dimming& dimming);
+bool updateLinkOcclusion(const Bake& bake, const Scene& scene, LinkOcclusion& occlusion);
 
 /// The share of link k's directions that nothing blocks.
 float openShare(const Bake& bake, const HiddenLinks& hidden, std::size_t k);
 
 /// A transport or coefficient of a link, reduced to its open share.
-std::uint16_t dimmedHalf(std::uint16_t half, float share);
+std::uint16_t occludedHalf(std::uint16_t half, float share);
 
 /// The links to read instead of the bake's own: those with transports times openShare().
-struct DimmedLinks {
+struct OccludedLinks {
     Caches cones; ///< LinkStorage::Rtp: only lightmapCount, linkBegin, linkExponent and links
-    std::vector<std::uint16_t> halfs; ///< LinkStorage::Sh: as many per link as dimLinks() was given
+    std::vector<std::uint16_t>
+        halfs; ///< LinkStorage::Sh: as many per link as occludeLinks() was given
 };
 
-/// Brings `dimmed` up to date after an updateDimming() that returned true. `dimmed` is empty at
-/// first and where there are no blockers. `halfs`: those of links of LinkStorage::Sh that are read,
-/// bands^2 for each; empty: the bake's.
-void dimLinks(const Bake& bake, const Dimming& dimming, LinkHalfs halfs, DimmedLinks& dimmed);
+/// Brings `occluded` up to date after an updateLinkOcclusion() that returned true. `occluded` is
+/// empty at first and where there are no blockers. `halfs`: those of links of LinkStorage::Sh that
+/// are read, bands^2 for each; empty: the bake's.
+void occludeLinks(const Bake& bake, const LinkOcclusion& occlusion, LinkHalfs halfs,
+                  OccludedLinks& occluded);
 
 } // namespace limn

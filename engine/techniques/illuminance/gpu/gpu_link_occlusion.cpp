@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/gpu/gpu_dimming.h"
+#include "engine/techniques/illuminance/gpu/gpu_link_occlusion.h"
 
 #include "engine/core/parallel.h"
 #include "engine/gpu/barrier.h"
@@ -18,7 +18,7 @@ constexpr std::uint32_t kLanes = 64;
 constexpr std::size_t kStagingBytes = 2 << 20; // larger updates are split
 constexpr std::size_t kLinksAtOnce = 1024;     // per task
 
-/// Number of words of a link that dimming changes. relight_buffers packs harmonics as pairs of
+/// Number of words of a link that occlusion changes. relight_buffers packs harmonics as pairs of
 /// halfs.
 std::size_t changingWords(const Bake& bake) {
     const std::size_t coefficients = std::size_t(bake.settings.bands) * bake.settings.bands;
@@ -27,15 +27,15 @@ std::size_t changingWords(const Bake& bake) {
 
 } // namespace
 
-GpuDimming::GpuDimming(gpu::Device& device, const Bake& bake, const gpu::Buffer& links)
+GpuLinkOcclusion::GpuLinkOcclusion(gpu::Device& device, const Bake& bake, const gpu::Buffer& links)
     : m_device(device), m_bake(bake), m_links(links), m_words(changingWords(bake)) {}
 
-void GpuDimming::makePipeline() {
+void GpuLinkOcclusion::makePipeline() {
     m_staging = {m_device,
                  {.size = kStagingBytes,
                   .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                   .memory = gpu::MemoryKind::Upload,
-                  .name = "dimmed links"}};
+                  .name = "occluded links"}};
     constexpr std::array kTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     m_setLayout = gpu::createSetLayout(m_device, kTypes);
@@ -44,17 +44,17 @@ void GpuDimming::makePipeline() {
     gpu::writeBuffer(m_device, m_set, 0, kTypes[0], m_links.handle);
     gpu::writeBuffer(m_device, m_set, 1, kTypes[1], m_staging.handle);
     m_layout = gpu::createPipelineLayout(m_device, std::array{m_setLayout.handle},
-                                         sizeof(shared::GpuRelightRange), "dim links");
+                                         sizeof(shared::GpuRelightRange), "occlude links");
     const std::uint32_t stride =
         m_bake.caches.shNode.empty() ? RELIGHT_CONE_WORDS : 1 + std::uint32_t(m_words);
     const std::array constants = {kLanes, std::uint32_t(m_words), stride};
     m_pipeline = gpu::createComputePipeline(m_device, kRelightLinksComp, m_layout.handle, constants,
-                                            "dim links");
+                                            "occlude links");
 }
 
 /// Writes changed links [begin, end) to the staging buffer: the link, then its new words.
-void GpuDimming::fill(std::size_t begin, std::size_t end) {
-    const HiddenLinks& hidden = m_dimming.hidden;
+void GpuLinkOcclusion::fill(std::size_t begin, std::size_t end) {
+    const HiddenLinks& hidden = m_occlusion.hidden;
     const Caches& caches = m_bake.caches;
     const std::size_t coefficients =
         caches.shNode.empty() ? 0 : caches.shCoefficients.size() / caches.shNode.size();
@@ -66,33 +66,33 @@ void GpuDimming::fill(std::size_t begin, std::size_t end) {
             *out++ = k;
             if (coefficients == 0) {
                 Link link = caches.links[k];
-                link.transport = dimmedHalf(link.transport, share);
+                link.transport = occludedHalf(link.transport, share);
                 *out = std::bit_cast<std::array<std::uint32_t, RELIGHT_CONE_WORDS>>(link).back();
                 continue;
             }
             const std::uint16_t* halfs = &caches.shCoefficients[k * coefficients];
             for (std::size_t c = 0; c < coefficients; c += 2) {
-                const std::uint32_t low = dimmedHalf(halfs[c], share),
-                                    high =
-                                        c + 1 < coefficients ? dimmedHalf(halfs[c + 1], share) : 0U;
+                const std::uint32_t low = occludedHalf(halfs[c], share),
+                                    high = c + 1 < coefficients ? occludedHalf(halfs[c + 1], share)
+                                                                : 0U;
                 *out++ = low | high << 16;
             }
         }
     });
 }
 
-std::optional<std::uint64_t> GpuDimming::update(const Scene* scene) {
+std::optional<std::uint64_t> GpuLinkOcclusion::update(const Scene* scene) {
     const Scene none;
-    if (!updateDimming(m_bake, scene ? *scene : none, m_dimming))
+    if (!updateLinkOcclusion(m_bake, scene ? *scene : none, m_occlusion))
         return std::nullopt;
-    const std::size_t changed = m_dimming.hidden.changed.size();
+    const std::size_t changed = m_occlusion.hidden.changed.size();
     if (changed > 0 && !m_pipeline)
         makePipeline();
     const std::size_t bytes = (1 + m_words) * sizeof(std::uint32_t), room = kStagingBytes / bytes;
     for (std::size_t begin = 0; begin < changed; begin += room) {
         const std::size_t end = std::min(begin + room, changed);
         fill(begin, end);
-        m_device.immediate("dim links", [&](VkCommandBuffer cmd) {
+        m_device.immediate("occlude links", [&](VkCommandBuffer cmd) {
             const auto words = std::uint32_t((end - begin) * m_words);
             const shared::GpuRelightRange range{.begin = 0, .end = words};
             gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);

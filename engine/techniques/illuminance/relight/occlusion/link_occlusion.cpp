@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/occlusion/dimming.h"
+#include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
 
 #include "engine/core/parallel.h"
 #include "engine/math/packing.h"
@@ -75,7 +75,7 @@ void updateHidden(const LinksAndBlockers& scene, HiddenLinks& hidden) {
     }
 }
 
-void copyLinks(const Caches& from, LinkHalfs halfs, DimmedLinks& to) {
+void copyLinks(const Caches& from, LinkHalfs halfs, OccludedLinks& to) {
     if (!from.shNode.empty()) {
         to.halfs.assign(halfs.begin(), halfs.end());
         return;
@@ -89,25 +89,25 @@ void copyLinks(const Caches& from, LinkHalfs halfs, DimmedLinks& to) {
 struct Writer {
     const Bake& bake;
     const HiddenLinks& hidden;
-    LinkHalfs halfs; ///< undimmed
-    DimmedLinks& out;
+    LinkHalfs halfs; ///< unoccluded
+    OccludedLinks& out;
 
     void write(std::size_t k) {
         const Caches& from = bake.caches;
         const float share = openShare(bake, hidden, k);
         if (from.shNode.empty()) {
-            out.cones.links[k].transport = dimmedHalf(from.links[k].transport, share);
+            out.cones.links[k].transport = occludedHalf(from.links[k].transport, share);
             return;
         }
         const std::size_t stored = halfs.size() / from.shNode.size();
         for (std::size_t i = k * stored; i < (k + 1) * stored; ++i)
-            out.halfs[i] = dimmedHalf(halfs[i], share);
+            out.halfs[i] = occludedHalf(halfs[i], share);
     }
 };
 
 } // namespace
 
-bool dimsLinks(const Scene& scene) {
+bool occludesLinks(const Scene& scene) {
     return scene.relight.dynamicOcclusion &&
            std::any_of(scene.instances.begin(), scene.instances.end(),
                        [](const Instance& i) { return i.dynamic; });
@@ -141,16 +141,16 @@ std::vector<SenderPlace> senderPlaces(const Surfels& surfels, const ClusterTree&
     return places;
 }
 
-bool updateDimming(const Bake& bake, const Scene& scene, Dimming& dimming) {
-    const std::uint64_t now = dimsLinks(scene) ? hashBlockers(scene) : 0;
-    if (now == dimming.blockers)
+bool updateLinkOcclusion(const Bake& bake, const Scene& scene, LinkOcclusion& occlusion) {
+    const std::uint64_t now = occludesLinks(scene) ? hashBlockers(scene) : 0;
+    if (now == occlusion.blockers)
         return false;
-    dimming.blockers = now;
-    if (dimming.places.empty())
-        dimming.places = senderPlaces(bake.surfels, bake.tree);
-    updateHidden({bake, dimming.places,
-                  now != 0 ? sceneBlockers(scene, dimming.shapes) : std::vector<Blocker>()},
-                 dimming.hidden);
+    occlusion.blockers = now;
+    if (occlusion.places.empty())
+        occlusion.places = senderPlaces(bake.surfels, bake.tree);
+    updateHidden({bake, occlusion.places,
+                  now != 0 ? sceneBlockers(scene, occlusion.shapes) : std::vector<Blocker>()},
+                 occlusion.hidden);
     return true;
 }
 
@@ -162,22 +162,23 @@ float openShare(const Bake& bake, const HiddenLinks& hidden, std::size_t k) {
     return 1 - float(std::popcount(hidden.directions[k])) / float(directionsOf(u));
 }
 
-std::uint16_t dimmedHalf(std::uint16_t half, float share) {
+std::uint16_t occludedHalf(std::uint16_t half, float share) {
     return share < 1 ? floatToHalf(halfToFloat(half) * share) : half;
 }
 
-void dimLinks(const Bake& bake, const Dimming& dimming, LinkHalfs halfs, DimmedLinks& dimmed) {
-    if (dimming.blockers == 0) {
-        dimmed = {};
+void occludeLinks(const Bake& bake, const LinkOcclusion& occlusion, LinkHalfs halfs,
+                  OccludedLinks& occluded) {
+    if (occlusion.blockers == 0) {
+        occluded = {};
         return;
     }
     if (halfs.empty())
         halfs = bake.caches.shCoefficients;
-    const HiddenLinks& hidden = dimming.hidden;
-    const bool fresh = dimmed.cones.links.empty() && dimmed.halfs.empty();
+    const HiddenLinks& hidden = occlusion.hidden;
+    const bool fresh = occluded.cones.links.empty() && occluded.halfs.empty();
     if (fresh)
-        copyLinks(bake.caches, halfs, dimmed);
-    Writer writer{bake, hidden, halfs, dimmed};
+        copyLinks(bake.caches, halfs, occluded);
+    Writer writer{bake, hidden, halfs, occluded};
     if (fresh)
         parallelRanges(hidden.directions.size(), kLinksAtOnce,
                        [&](std::size_t begin, std::size_t end) {

@@ -5,7 +5,7 @@
 #include "engine/gpu/descriptors.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/techniques/illuminance/bake/bake.h"
-#include "engine/techniques/illuminance/relight/occlusion/dimming.h"
+#include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
 
 #include <cstdint>
 #include <optional>
@@ -14,17 +14,17 @@ namespace limn {
 
 /// Rewrites the links of a bake on the GPU whose occlusion by dynamic objects has changed. The CPU
 /// finds them, as for Relighter, and sends only the changed words to the GPU.
-class GpuDimming {
+class GpuLinkOcclusion {
 public:
     /// `links` are the bake's RelightBuffers::links. All three arguments must outlive the object.
-    GpuDimming(gpu::Device& device, const Bake& bake, const gpu::Buffer& links);
+    GpuLinkOcclusion(gpu::Device& device, const Bake& bake, const gpu::Buffer& links);
 
     /// Updates the links for the dynamic objects of `scene`; null: there are none. No submitted
     /// work may be reading the links; later submissions see the changes. Returns the bytes sent, 0
     /// where no link changed, or std::nullopt where no object has moved.
     std::optional<std::uint64_t> update(const Scene* scene);
 
-    const HiddenLinks& hidden() const { return m_dimming.hidden; }
+    const HiddenLinks& hidden() const { return m_occlusion.hidden; }
 
 private:
     void makePipeline();
@@ -34,8 +34,8 @@ private:
     const Bake& m_bake;
     const gpu::Buffer& m_links;
     std::size_t m_words; ///< that change in a link: its cone's last one, or its harmonics
-    Dimming m_dimming;
-    gpu::Buffer m_staging; ///< mapped; created when something is first dimmed, then kept
+    LinkOcclusion m_occlusion;
+    gpu::Buffer m_staging; ///< mapped; created when something is first occluded, then kept
     gpu::DescriptorSetLayout m_setLayout;
     gpu::DescriptorPool m_pool;
     VkDescriptorSet m_set = VK_NULL_HANDLE;

@@ -7,9 +7,9 @@
 namespace limn {
 namespace {
 
-/// The court with a dynamic block over its floor that dims links. Few bounces, so that light does
-/// not depend on the light that was.
-Scene dimmedCourt(LinkStorage storage) {
+/// The court with a dynamic block over its floor that occludes links. Few bounces, so that light
+/// does not depend on the light that was.
+Scene occludedCourt(LinkStorage storage) {
     Scene scene = court(simple::box(glm::vec3(-0.4f), glm::vec3(0.4f), false, 2));
     scene.relight.dynamicOcclusion = true;
     scene.bake.storage = storage;
@@ -22,7 +22,7 @@ void moveTo(Scene& scene, glm::vec3 place) {
         glm::rotate(glm::translate(glm::mat4(1), place), 0.5f, glm::vec3(0, 1, 0));
 }
 
-class GpuDimming : public DeviceTest {
+class GpuLinkOcclusion : public DeviceTest {
 protected:
     void prepare(const Scene& with) {
         scene = with;
@@ -46,8 +46,8 @@ protected:
                        brightest);
         expectRounding("radiosity", distance(relighter->readRadiosity(), radiosityOf(*cpu)), terms,
                        largest(radiosityOf(*cpu)));
-        EXPECT_EQ(stats.linksDimmed, cpuStats.linksDimmed);
-        EXPECT_EQ(stats.cachesDimmed, cpuStats.cachesDimmed);
+        EXPECT_EQ(stats.linksOccluded, cpuStats.linksOccluded);
+        EXPECT_EQ(stats.cachesOccluded, cpuStats.cachesOccluded);
         EXPECT_EQ(stats.bounces, cpuStats.bounces);
     }
     /// Of a changed link: its number and what changes of it.
@@ -67,57 +67,58 @@ protected:
     RelightStats cpuStats;
 };
 
-TEST_F(GpuDimming, GivesTheLightOfTheCpuWhereverAnObjectMovesAndExactlyThatWhichWasWhenItIsGone) {
+TEST_F(GpuLinkOcclusion,
+       GivesTheLightOfTheCpuWhereverAnObjectMovesAndExactlyThatWhichWasWhenItIsGone) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
         for (const std::uint32_t bands : {3U, 4U}) { // an odd number of halfs, and an even one
-            Scene start = dimmedCourt(storage);
+            Scene start = occludedCourt(storage);
             start.bake.bands = bands;
             start.lights.clear(); // the object's shadow would move too
             prepare(start);
             scene.relight.dynamicOcclusion = false;
             relight();
-            EXPECT_EQ(stats.linksDimmed, 0U);
-            EXPECT_EQ(stats.dimMs, 0);
-            const std::vector<glm::vec3> undimmed = relighter->readCacheSh();
+            EXPECT_EQ(stats.linksOccluded, 0U);
+            EXPECT_EQ(stats.occlusionMs, 0);
+            const std::vector<glm::vec3> unoccluded = relighter->readCacheSh();
             scene.relight.dynamicOcclusion = true;
             std::vector<glm::vec3> first;
             for (const glm::vec3 place : kPlaces) {
                 std::printf("storage %d, %u bands\n", int(storage), bands);
                 moveTo(scene, place);
                 relight();
-                EXPECT_GT(stats.linksDimmed, made->caches.linkCount() / 100);
-                EXPECT_GT(stats.dimMs, 0);
+                EXPECT_GT(stats.linksOccluded, made->caches.linkCount() / 100);
+                EXPECT_GT(stats.occlusionMs, 0);
                 expectSame();
                 if (first.empty())
                     first = relighter->readCacheSh();
             }
-            EXPECT_GT(distance(first, undimmed).max, 0.05 * largest(undimmed));
+            EXPECT_GT(distance(first, unoccluded).max, 0.05 * largest(unoccluded));
             moveTo(scene, kPlaces[0]);
             relight();
             EXPECT_TRUE(relighter->readCacheSh() == first);
             moveTo(scene, glm::vec3(100)); // where it hides nothing
             relight();
-            EXPECT_EQ(stats.linksDimmed, 0U);
-            EXPECT_TRUE(relighter->readCacheSh() == undimmed);
+            EXPECT_EQ(stats.linksOccluded, 0U);
+            EXPECT_TRUE(relighter->readCacheSh() == unoccluded);
             moveTo(scene, kPlaces[1]);
             relight();
             scene.relight.dynamicOcclusion = false;
             relight();
-            EXPECT_EQ(stats.linksDimmed, 0U);
-            EXPECT_EQ(stats.cachesDimmed, 0U);
-            EXPECT_TRUE(relighter->readCacheSh() == undimmed);
+            EXPECT_EQ(stats.linksOccluded, 0U);
+            EXPECT_EQ(stats.cachesOccluded, 0U);
+            EXPECT_TRUE(relighter->readCacheSh() == unoccluded);
         }
 }
 
-TEST_F(GpuDimming, SendsTheLinksThatChangedAndNothingWhereNoneDoes) {
+TEST_F(GpuLinkOcclusion, SendsTheLinksThatChangedAndNothingWhereNoneDoes) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
-        prepare(dimmedCourt(storage));
+        prepare(occludedCourt(storage));
         scene.lights.clear();
         scene.relight.dynamicOcclusion = false;
         relight();
         scene.relight.dynamicOcclusion = true;
         relight();
-        const std::uint64_t all = stats.linksDimmed;
+        const std::uint64_t all = stats.linksOccluded;
         EXPECT_EQ(stats.bytesUploaded, all * bytesOfLink());
         const std::uint64_t memory = device->memory.bytesInUse;
         moveTo(scene, kPlaces[0] + glm::vec3(0, 0.01f, 0));
@@ -128,7 +129,7 @@ TEST_F(GpuDimming, SendsTheLinksThatChangedAndNothingWhereNoneDoes) {
         EXPECT_EQ(device->memory.bytesInUse, memory);
         relight();
         EXPECT_EQ(stats.bytesUploaded, 0U);
-        EXPECT_EQ(stats.dimMs, 0);
+        EXPECT_EQ(stats.occlusionMs, 0);
         moveTo(scene, glm::vec3(100));
         relight();
         moveTo(scene, glm::vec3(101));
@@ -139,8 +140,8 @@ TEST_F(GpuDimming, SendsTheLinksThatChangedAndNothingWhereNoneDoes) {
     }
 }
 
-TEST_F(GpuDimming, AnObjectThatHidesNothingWhereverItMovesCostsNoBounce) {
-    Scene start = dimmedCourt(LinkStorage::Rtp);
+TEST_F(GpuLinkOcclusion, AnObjectThatHidesNothingWhereverItMovesCostsNoBounce) {
+    Scene start = occludedCourt(LinkStorage::Rtp);
     start.lights.clear();
     prepare(start);
     scene.relight.maxBounces = 100;
@@ -153,7 +154,7 @@ TEST_F(GpuDimming, AnObjectThatHidesNothingWhereverItMovesCostsNoBounce) {
     relight();
     EXPECT_TRUE(stats.skipped);
     EXPECT_TRUE(cpuStats.skipped);
-    EXPECT_GT(stats.dimMs, 0);
+    EXPECT_GT(stats.occlusionMs, 0);
     moveTo(scene, kPlaces[0]);
     relight();
     EXPECT_FALSE(stats.skipped);
@@ -161,13 +162,13 @@ TEST_F(GpuDimming, AnObjectThatHidesNothingWhereverItMovesCostsNoBounce) {
     EXPECT_FALSE(cpuStats.skipped);
 }
 
-TEST_F(GpuDimming, SendsInPartsWhatIsMoreThanFitsAtOnce) {
-    Scene start = dimmedCourt(LinkStorage::Sh);
+TEST_F(GpuLinkOcclusion, SendsInPartsWhatIsMoreThanFitsAtOnce) {
+    Scene start = occludedCourt(LinkStorage::Sh);
     start.bake.bands = 8;
     prepare(start);
     scene.instances.back().toWorld = glm::scale(glm::mat4(1), glm::vec3(100)); // all are within
     relight();
-    EXPECT_GT(stats.linksDimmed * bytesOfLink(), 2U << 20);
+    EXPECT_GT(stats.linksOccluded * bytesOfLink(), 2U << 20);
     expectSame();
     moveTo(scene, kPlaces[1]);
     relight();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/occlusion/dimming.h"
+#include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
 
 #include "engine/core/parallel.h"
 #include "engine/math/packing.h"
@@ -71,7 +71,7 @@ float openShare(const TraceScene& trace, glm::vec3 p, glm::vec3 n) {
 }
 
 struct Errors {
-    double mean = 0, undimmed = 0, most = 0; ///< of the irradiance of caches, over pi
+    double mean = 0, unoccluded = 0, most = 0; ///< of the irradiance of caches, over pi
 };
 
 Errors errors(const Scene& scene) {
@@ -86,13 +86,13 @@ Errors errors(const Scene& scene) {
         const float is = shIrradiance(3, relighter.cacheSh().data() + 9 * i, c.normal[i]).x / kPi;
         EXPECT_TRUE(std::isfinite(is));
         e.mean += std::abs(double(is - open)) / c.lightmapCount;
-        e.undimmed += double(1 - open) / c.lightmapCount;
+        e.unoccluded += double(1 - open) / c.lightmapCount;
         e.most = std::max(e.most, std::abs(double(is - open)));
     }
     return e;
 }
 
-TEST(Dimming, TakesTheLightThatAnObjectHides) {
+TEST(LinkOcclusion, TakesTheLightThatAnObjectHides) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh}) {
         const Mesh block = box(glm::vec3(-0.5f), glm::vec3(0.5f), false);
         const glm::mat4 turned =
@@ -102,46 +102,46 @@ TEST(Dimming, TakesTheLightThatAnObjectHides) {
               std::pair(block, glm::scale(turned, glm::vec3(1.2f, 0.4f, 1))),
               std::pair(sphere(0.6f, 3, false), moved({2, 1.2f, 3}))}) {
             const Errors e = errors(room(mesh, at, storage));
-            std::printf("storage %d: mean error %.4f, most %.3f; undimmed %.4f\n", int(storage),
-                        e.mean, e.most, e.undimmed);
-            EXPECT_GT(e.undimmed, 0.02);
-            EXPECT_LT(e.mean, e.undimmed / 10);
+            std::printf("storage %d: mean error %.4f, most %.3f; unoccluded %.4f\n", int(storage),
+                        e.mean, e.most, e.unoccluded);
+            EXPECT_GT(e.unoccluded, 0.02);
+            EXPECT_LT(e.mean, e.unoccluded / 10);
             EXPECT_LT(e.most, 0.04);
         }
     }
 }
 
-TEST(Dimming, WithoutDynamicObjectsOrFarFromThemNothingIsDone) {
+TEST(LinkOcclusion, WithoutDynamicObjectsOrFarFromThemNothingIsDone) {
     Scene scene = room(box(glm::vec3(0), glm::vec3(0.02f), false), moved({2, 1.5f, 2.5f}));
     const auto bake = baked(scene);
     Relighter relighter(bake);
     const RelightStats small = relighter.relight(scene, TraceScene(scene), 8);
-    EXPECT_GT(small.dimMs, 0);
-    EXPECT_EQ(small.cachesDimmed, 0U); // it is 1.5 m away from all, over 22 of its radii
+    EXPECT_GT(small.occlusionMs, 0);
+    EXPECT_EQ(small.cachesOccluded, 0U); // it is 1.5 m away from all, over 22 of its radii
     scene.instances[1].toWorld = moved({2, 0, 2.5f}); // on the floor
-    EXPECT_GT(relighter.relight(scene, TraceScene(scene), 8).cachesDimmed, 0U);
+    EXPECT_GT(relighter.relight(scene, TraceScene(scene), 8).cachesOccluded, 0U);
     const RelightStats still = relighter.relight(scene, TraceScene(scene), 8);
-    EXPECT_EQ(still.dimMs, 0);
+    EXPECT_EQ(still.occlusionMs, 0);
     EXPECT_TRUE(still.skipped);
     scene.relight.dynamicOcclusion = false;
     const RelightStats off = relighter.relight(scene, TraceScene(scene), 8);
     EXPECT_FALSE(off.skipped);
-    EXPECT_EQ(off.cachesDimmed, 0U);
-    EXPECT_EQ(off.linksDimmed, 0U);
+    EXPECT_EQ(off.cachesOccluded, 0U);
+    EXPECT_EQ(off.linksOccluded, 0U);
 
     Scene empty = scene;
     empty.instances.pop_back();
     empty.relight.dynamicOcclusion = true;
     Relighter first(bake), second(bake);
     const RelightStats none = first.relight(empty, TraceScene(empty), 8);
-    EXPECT_EQ(none.dimMs, 0);
-    EXPECT_EQ(none.cachesDimmed, 0U);
+    EXPECT_EQ(none.occlusionMs, 0);
+    EXPECT_EQ(none.cachesOccluded, 0U);
     empty.relight.dynamicOcclusion = false;
     second.relight(empty, TraceScene(empty), 8);
     EXPECT_TRUE(first.cacheSh() == second.cacheSh());
 }
 
-TEST(Dimming, FollowsAnObjectAsIfItHadAlwaysBeenThere) {
+TEST(LinkOcclusion, FollowsAnObjectAsIfItHadAlwaysBeenThere) {
     const Mesh block = box(glm::vec3(-0.4f), glm::vec3(0.4f), false);
     Scene scene = room(block, moved({1, 0.8f, 1}));
     const auto bake = baked(scene);
@@ -162,7 +162,7 @@ TEST(Dimming, FollowsAnObjectAsIfItHadAlwaysBeenThere) {
     EXPECT_TRUE(relighter.cacheSh() == before);
 }
 
-TEST(Dimming, ACacheWithinAnObjectSeesNothingAndNoLightIsNegative) {
+TEST(LinkOcclusion, ACacheWithinAnObjectSeesNothingAndNoLightIsNegative) {
     Scene scene = room(box(glm::vec3(-0.8f), glm::vec3(0.8f), false), moved({2, 0.5f, 2.5f}));
     scene.sky.radiance = glm::vec3(1);
     const auto bake = baked(scene);
@@ -182,33 +182,33 @@ TEST(Dimming, ACacheWithinAnObjectSeesNothingAndNoLightIsNegative) {
     EXPECT_GT(within, 10U);
 }
 
-struct Dimmed {
+struct Occluded {
     std::shared_ptr<const Bake> bake;
     std::vector<Blocker> blockers;
-    Dimming dimming;
-    DimmedLinks links;
+    LinkOcclusion occlusion;
+    OccludedLinks links;
 };
 
-Dimmed dimmed(const Scene& scene, std::shared_ptr<const Bake> bake) {
-    Dimmed d{.bake = std::move(bake)};
-    updateDimming(*d.bake, scene, d.dimming);
-    d.blockers = sceneBlockers(scene, d.dimming.shapes);
-    dimLinks(*d.bake, d.dimming, {}, d.links);
+Occluded occluded(const Scene& scene, std::shared_ptr<const Bake> bake) {
+    Occluded d{.bake = std::move(bake)};
+    updateLinkOcclusion(*d.bake, scene, d.occlusion);
+    d.blockers = sceneBlockers(scene, d.occlusion.shapes);
+    occludeLinks(*d.bake, d.occlusion, {}, d.links);
     return d;
 }
 
-Dimmed dimmed(const Scene& scene) {
-    return dimmed(scene, baked(scene));
+Occluded occluded(const Scene& scene) {
+    return occluded(scene, baked(scene));
 }
 
-TEST(Dimming, LowersTheTransportsOfHiddenLinksAndNoOthers) {
-    const Dimmed d =
-        dimmed(room(box(glm::vec3(-0.5f), glm::vec3(0.5f), false), moved({2, 1, 2.5f})));
+TEST(LinkOcclusion, LowersTheTransportsOfHiddenLinksAndNoOthers) {
+    const Occluded d =
+        occluded(room(box(glm::vec3(-0.5f), glm::vec3(0.5f), false), moved({2, 1, 2.5f})));
     const std::vector<Link>&before = d.bake->caches.links, &now = d.links.cones.links;
     ASSERT_EQ(now.size(), before.size());
     std::uint64_t lower = 0, gone = 0;
     for (std::size_t k = 0; k < now.size(); ++k) {
-        const int hidden = std::popcount(d.dimming.hidden.directions[k]);
+        const int hidden = std::popcount(d.occlusion.hidden.directions[k]);
         const auto all = int(directionsOf(halfToFloat(before[k].u)));
         ASSERT_LE(hidden, all);
         EXPECT_NEAR(halfToFloat(now[k].transport),
@@ -220,14 +220,14 @@ TEST(Dimming, LowersTheTransportsOfHiddenLinksAndNoOthers) {
         same.transport = before[k].transport;
         ASSERT_EQ(same, before[k]);
     }
-    EXPECT_EQ(lower, d.dimming.hidden.links);
+    EXPECT_EQ(lower, d.occlusion.hidden.links);
     EXPECT_GT(gone, 0U);
     EXPECT_LT(gone, lower);
-    EXPECT_GT(d.dimming.hidden.caches, 0U);
-    EXPECT_LT(d.dimming.hidden.caches, d.bake->caches.size());
+    EXPECT_GT(d.occlusion.hidden.caches, 0U);
+    EXPECT_LT(d.occlusion.hidden.caches, d.bake->caches.size());
 }
 
-TEST(Dimming, OfFewerBandsThanLinksHaveIsTheSame) {
+TEST(LinkOcclusion, OfFewerBandsThanLinksHaveIsTheSame) {
     Scene scene =
         room(box(glm::vec3(-0.5f), glm::vec3(0.5f), false), moved({2, 1, 2.5f}), LinkStorage::Sh);
     scene.bake.bands = 5;
@@ -237,7 +237,7 @@ TEST(Dimming, OfFewerBandsThanLinksHaveIsTheSame) {
     EXPECT_EQ(few.relight(scene, trace, 8).bandsLit, 3U);
     const RelightStats stats = all.relight(scene, trace, 8);
     EXPECT_EQ(stats.bandsLit, 5U);
-    EXPECT_GT(stats.linksDimmed, 0U);
+    EXPECT_GT(stats.linksOccluded, 0U);
     for (std::size_t c = 0; c < bake->caches.size(); ++c)
         for (std::size_t i = 0; i < 9; ++i)
             ASSERT_LT(glm::distance(few.cacheSh()[c * 9 + i], all.cacheSh()[c * 25 + i]), 1e-4f);
@@ -254,7 +254,7 @@ struct Differences {
 };
 
 /// Asks a ray of every direction of every link, whatever is in its way.
-Differences compareWithRays(const Scene& scene, const Dimmed& d) {
+Differences compareWithRays(const Scene& scene, const Occluded& d) {
     const TraceScene trace(scene);
     const Caches& c = d.bake->caches;
     const Blocker& blocker = d.blockers[0];
@@ -278,7 +278,7 @@ Differences compareWithRays(const Scene& scene, const Dimmed& d) {
                 cone = coneOfHarmonics(c, k, coefficients);
             const DirectionSet set(directionsOf(cone.u), false, 0);
             const glm::mat3 toWorld = basisAround(glm::normalize(cone.direction));
-            const SenderPlace& place = d.dimming.places[cone.node];
+            const SenderPlace& place = d.occlusion.places[cone.node];
             const float distance = glm::distance(place.centre, x);
             for (std::uint32_t n = 0; n < set.count; ++n) {
                 glm::vec3 w = set[n];
@@ -297,7 +297,7 @@ Differences compareWithRays(const Scene& scene, const Dimmed& d) {
                                                                        TraceMask::Dynamic));
                 ++result.directions;
                 result.blocked += hit ? 1 : 0;
-                result.other += hit != ((d.dimming.hidden.directions[k] >> n & 1U) != 0) ? 1 : 0;
+                result.other += hit != ((d.occlusion.hidden.directions[k] >> n & 1U) != 0) ? 1 : 0;
             }
         }
     }
@@ -345,7 +345,7 @@ TEST(HiddenLinks, AreThoseOfWhichRaysFindTheObjectInTheWay) {
               std::pair(moved({2, 0.3f, 2.5f}), LinkStorage::Rtp),
               std::pair(turned, LinkStorage::Rtp), std::pair(turned, LinkStorage::Sh)}) {
             const Scene scene = room(mesh, at, storage);
-            const Differences d = compareWithRays(scene, dimmed(scene));
+            const Differences d = compareWithRays(scene, occluded(scene));
             std::printf("%s, storage %d: %llu of %llu directions blocked, %llu differ\n", name,
                         int(storage), static_cast<unsigned long long>(d.blocked),
                         static_cast<unsigned long long>(d.directions),
@@ -361,7 +361,7 @@ TEST(HiddenLinks, AreFoundThroughConesTooNarrowForNormalHalfs) {
     for (Link& link : bake.caches.links)
         link.u = 0x3ff; // 6.1e-5, the largest denormal: a half-angle of 0.6 degrees
     const Differences d =
-        compareWithRays(scene, dimmed(scene, std::make_shared<const Bake>(std::move(bake))));
+        compareWithRays(scene, occluded(scene, std::make_shared<const Bake>(std::move(bake))));
     EXPECT_GT(d.blocked, d.directions / 1000);
     EXPECT_LE(d.other, d.blocked / 10000);
 }
@@ -436,12 +436,12 @@ TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
     EXPECT_NE(hashBlockers(scene), 0U);
     scene.instances[1].toWorld[1] = glm::vec4(0);
     EXPECT_TRUE(sceneBlockers(scene, shapes).empty());
-    EXPECT_TRUE(dimsLinks(scene));
+    EXPECT_TRUE(occludesLinks(scene));
     scene.relight.dynamicOcclusion = false;
-    EXPECT_FALSE(dimsLinks(scene));
+    EXPECT_FALSE(occludesLinks(scene));
     scene.relight.dynamicOcclusion = true;
     scene.instances[1].dynamic = false;
-    EXPECT_FALSE(dimsLinks(scene));
+    EXPECT_FALSE(occludesLinks(scene));
     EXPECT_EQ(hashBlockers(scene), 0U);
 }
 
