@@ -42,7 +42,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
                                                  .emitted = emitted,
                                                  .sky = sky,
                                                  .bands = bands,
-                                                 .maxBounces = lit.relight.maxBounces,
+                                                 .settings = lit.relight,
                                                  .grid = needsGrid(lit, bake->lightmap),
                                                  .occluders = &lit},
                                                 bounces);

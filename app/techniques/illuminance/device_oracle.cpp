@@ -59,7 +59,7 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
                      .emitted = emitted,
                      .sky = sky,
                      .bands = field.bands,
-                     .maxBounces = s.scene.relight.maxBounces,
+                     .settings = s.scene.relight,
                      .grid = needsGrid(s.scene, bake.lightmap),
                      .occluders = &s.scene},
                     bounces, subject.progress);

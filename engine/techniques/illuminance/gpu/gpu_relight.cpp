@@ -51,7 +51,6 @@ struct GpuRelighter::State {
     GpuLinkOcclusion occlusion;
 
     bool started = false;
-    std::uint32_t maxBounces = ~0U; ///< of the last inputs
     Convergence convergence;
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;                 ///< as sent
@@ -346,14 +345,13 @@ bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
     stats.gridCachesSkipped = grid ? 0 : gridCaches;
     gridMissing = grid && !gridLit;
     gridLit = grid;
-    const bool limitChanged = started && maxBounces != inputs.maxBounces;
-    maxBounces = inputs.maxBounces;
+    const bool settingsChanged = convergence.applySettings(inputs.settings);
     started = true;
-    if (surfelsChanged || gridMissing || limitChanged)
+    if (surfelsChanged || gridMissing)
         convergence.lightChanged();
     const bool changed =
-        surfelsChanged || skyChanged || occlusionChanged || gridMissing || limitChanged;
-    if (changed && maxBounces <= kFewBounces) {
+        surfelsChanged || skyChanged || occlusionChanged || gridMissing || settingsChanged;
+    if (changed && convergence.restarts()) {
         clearBuffers(device, {buffers.indirect.handle});
         unread = false;
     }

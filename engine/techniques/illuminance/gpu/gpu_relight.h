@@ -29,8 +29,7 @@ struct SurfelInputs {
     /// Number of bands in which the caches are lit: [2, the bake's], by receiverBands(); 0: all of
     /// the bake's.
     std::uint32_t bands = 0;
-    /// As RelightSettings::maxBounces: up to kFewBounces, bounces restart with every changed input.
-    std::uint32_t maxBounces = ~0U;
+    RelightSettings settings; ///< those on which the end of bounces depends
     bool grid = true; ///< the grid is read, as by needsGrid(); else its caches keep older light
     /// Scene whose dynamic objects occlude links, where occludesLinks(), as for Relighter. Null:
     /// none do.

@@ -35,7 +35,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
                                               .sky = sky,
                                               .lights = &lights,
                                               .bands = bands,
-                                              .maxBounces = scene.relight.maxBounces,
+                                              .settings = scene.relight,
                                               .grid = needsGrid(scene, bake.lightmap),
                                               .occluders = &scene},
                                              bounces, progress, seen);

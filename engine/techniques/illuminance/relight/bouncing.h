@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/relight_settings.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/relight/caches/light_links.h"
 
@@ -54,6 +55,18 @@ public:
     static constexpr double kGrown = 1e6;
     bool grows() const { return m_growing >= kGrowing || m_grown >= kGrown; }
 
+    /// Applies the settings on which the end of bounces depends. Returns whether they changed,
+    /// which counts as a change of light.
+    bool applySettings(const RelightSettings& settings) {
+        const bool same = m_settings.maxBounces == settings.maxBounces;
+        m_settings = settings;
+        if (!same)
+            lightChanged();
+        return !same;
+    }
+    /// Whether every change restarts from zero bounced light.
+    bool restarts() const { return m_settings.maxBounces <= kFewBounces; }
+
     void lightChanged() {
         m_reached = false;
         m_rounds = m_growing = 0;
@@ -97,6 +110,7 @@ private:
         return std::max(q / (1 - q), 1.);
     }
 
+    RelightSettings m_settings;
     bool m_reached = false;
     std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;
     double m_before = 0, m_passedOn = 0, m_grown = 1;

@@ -56,7 +56,6 @@ struct Relighter::State {
     LinkEnds ends;                                   ///< the ones in use
     LinkCounts links;                                ///< of this call
     bool started = false;
-    std::uint32_t maxBounces = 0; ///< of the last call's scene
     Convergence convergence;
 
     std::vector<Material> materials; ///< materials of `albedo` and `emitted`
@@ -316,13 +315,10 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
         convergence.lightChanged();
     if (skyChanged || occlusionChanged)
         convergence.skyChanged();
-    const bool limitChanged = maxBounces != scene.relight.maxBounces;
-    maxBounces = scene.relight.maxBounces;
-    if (limitChanged)
-        convergence.lightChanged();
+    const bool settingsChanged = convergence.applySettings(scene.relight);
     const bool changed = materialsChanged || skyChanged || directChanged || occlusionChanged ||
-                         gridMissing || limitChanged;
-    if (changed && maxBounces <= kFewBounces) {
+                         gridMissing || settingsChanged;
+    if (changed && convergence.restarts()) {
         std::ranges::fill(indirect, glm::vec3(0));
         unread = false;
     }

@@ -36,7 +36,7 @@ protected:
         const TraceScene trace(scene);
         const SurfelValues values = surfelValues(*made, scene, trace);
         SurfelInputs inputs = values.inputs(&scene);
-        inputs.maxBounces = scene.relight.maxBounces;
+        inputs.settings = scene.relight;
         stats = relighter->relight(inputs, 3);
         cpuStats = cpu->relight(scene, trace, 3);
     }

@@ -17,7 +17,7 @@ TEST_F(GpuSkips, NoGridCacheIsLitWhereNothingReadsThem) {
     const auto lit = [&](GpuRelighter& by, bool grid, std::uint32_t bounces = 3) {
         SurfelInputs inputs = values.inputs();
         inputs.grid = grid;
-        inputs.maxBounces = 3; // from no bounced light at all
+        inputs.settings.maxBounces = 3; // from no bounced light at all
         return by.relight(inputs, bounces);
     };
     const auto always = gpuRelighter(*device, made), toggled = gpuRelighter(*device, made);

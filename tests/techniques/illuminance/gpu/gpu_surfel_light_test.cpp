@@ -27,7 +27,7 @@ protected:
         lights = viewport->shadowedLights();
         SurfelInputs inputs = half.inputs();
         inputs.lights = &lights;
-        inputs.maxBounces = 1; // from no bounced light at all
+        inputs.settings.maxBounces = 1; // from no bounced light at all
         stats = relighter->relight(inputs, 1);
         std::vector<glm::vec3> E = relighter->readRadiosity();
         E.resize(made->surfels.size());

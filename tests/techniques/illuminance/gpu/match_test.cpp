@@ -65,7 +65,7 @@ TEST_F(GpuMatch, FieldsFollowLightOfAnyStrength) {
         const SurfelValues values = surfelValues(*made, lit, trace);
         SurfelInputs inputs = values.inputs();
         inputs.bands = 3;
-        inputs.maxBounces = 2;
+        inputs.settings.maxBounces = 2;
         gpu->relight(inputs, 2, {}, &few);
         for (const glm::vec4& c : gpu->readField().lightmap)
             ASSERT_LE(glm::length(glm::vec3(c)), 1e11f * strength + 1e3f) << "older light, finite";
