@@ -9,8 +9,9 @@
 
 namespace limn {
 
-/// Ranges with an upper end above this have a logarithmic slider.
-static constexpr double kWide = 16;
+/// Ranges from 0 with an upper end above kWide, and others whose ends have a ratio above
+/// kWideRatio, have a logarithmic slider.
+static constexpr double kWide = 16, kWideRatio = 100;
 
 /// "##rays": a widget without a label, by the setting's key.
 static std::string idOf(const Setting& setting) {
@@ -18,8 +19,10 @@ static std::string idOf(const Setting& setting) {
 }
 
 static ImGuiSliderFlags sliderFlags(const SettingRange& range) {
+    const bool wide =
+        range.lowest > 0 ? range.upper / range.lowest > kWideRatio : range.upper > kWide;
     return ImGuiSliderFlags_AlwaysClamp |
-           (range.upper > kWide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+           (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
 }
 
 void settingWidget(const Setting& setting, bool& value) {

@@ -13,6 +13,7 @@ namespace limn {
 /// document.
 struct RelightSettings {
     std::uint32_t maxBounces = 1000; ///< updates stop earlier once the light has converged
+    float tolerance = 0.01f;         ///< change that converged light may still be due [%]
     bool dynamicOcclusion = true;    ///< dynamic objects occlude bounced light
 
     bool operator==(const RelightSettings&) const = default;
@@ -45,6 +46,16 @@ void visitRelightSettings(S& s, const Visit& visit) {
                              "starts again without bounced light",
                   .invalidates = Invalidates::Light},
           s.maxBounces, SettingRange{1, 10000});
+    visit(Setting{.key = "tolerance",
+                  .flag = "--tolerance",
+                  .label = "Tolerance (%)",
+                  .help = "Change of the light below which bounces end [%]",
+                  .tooltip =
+                      "Bounces end when all that are still to come would change the light by "
+                      "less than this share [%]. Less: closer to the exact light, more "
+                      "bounces. More: the light settles sooner",
+                  .invalidates = Invalidates::Light},
+          s.tolerance, SettingRange{0.001, 10});
     visit(Setting{.key = "dynamicOcclusion",
                   .flag = "--dynamic-occlusion",
                   .label = "Dynamic occlusion",

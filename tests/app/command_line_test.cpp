@@ -551,6 +551,11 @@ TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndOccludesTheLightWhereverItIs) {
     ASSERT_EQ(limn(moved + "--dynamic-occlusion false --max-bounces 1 -o " + once).exit, 0);
     EXPECT_LT(json("compare " + once + " " + b + " --json")["bias"], -0.05);
     EXPECT_EQ(limn(moved + "--max-bounces 0 -o " + once).exit, 2);
+    const auto bouncesAt = [&](const char* tolerance) {
+        return double(
+            json(moved + "--tolerance " + tolerance + " --json -o " + once)["relight"]["bounces"]);
+    };
+    EXPECT_LT(bouncesAt("5"), bouncesAt("0.01"));
     expectRefusal(start + "--dynamic Ball -o " + b, "Ball");
     expectRefusal(start + "--dynamic 'Short block@1,2' -o " + b, "x,y,z");
     const std::string onDevice = "render cornell --bake " + bake +

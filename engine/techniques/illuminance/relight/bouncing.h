@@ -35,12 +35,11 @@ std::vector<float> seenShares(const ClusterTree& tree);
 class Convergence {
 public:
     /// Bounces have converged when the latest one and all that would follow it change less than
-    /// this share of both the total radiosity of all surfels and each surfel's own, averaged over
-    /// what caches see. With the total alone, a sunlit ground of 200 m hid the bounces in the house
-    /// on it, and its walls came out up to a fourth too dark. With the latest bounce alone, a
-    /// closed room of albedo 0.99 missed 1 %, because each later one passes on nearly as much.
-    static constexpr double kChange = 1e-4;
-
+    /// RelightSettings::tolerance of both the total radiosity of all surfels and each surfel's own,
+    /// averaged over what caches see. With the total alone, a sunlit ground of 200 m hid the
+    /// bounces in the house on it, and its walls came out up to a fourth too dark. With the latest
+    /// bounce alone, a closed room of albedo 0.99 missed 1 %, because each later one passes on
+    /// nearly as much.
     bool reached() const { return m_reached; }
 
     /// Share of one round's change that the next round passes on; 0: not known yet. It is below 1,
@@ -58,7 +57,8 @@ public:
     /// Applies the settings on which the end of bounces depends. Returns whether they changed,
     /// which counts as a change of light.
     bool applySettings(const RelightSettings& settings) {
-        const bool same = m_settings.maxBounces == settings.maxBounces;
+        const bool same = m_settings.maxBounces == settings.maxBounces &&
+                          m_settings.tolerance == settings.tolerance;
         m_settings = settings;
         if (!same)
             lightChanged();
@@ -87,8 +87,9 @@ public:
         m_before = round.change;
         m_latest[m_rounds % m_latest.size()] = m_passedOn;
         const double toCome = following();
+        const double tolerance = double(m_settings.tolerance) / 100;
         const bool converged =
-            round.ofAll() * toCome < kChange && round.relative * toCome < kChange;
+            round.ofAll() * toCome < tolerance && round.relative * toCome < tolerance;
         const bool more = m_passedOn > kRounding && !converged;
         m_growing = more ? m_growing + 1 : 0;
         m_grown = more ? m_grown * m_passedOn : 1;

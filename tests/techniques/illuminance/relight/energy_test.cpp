@@ -132,7 +132,7 @@ TEST(Energy, BouncesDoNotEndByTheFirstShareThatRoundingMakesLow) {
         missing = change / 0.01 / 1000;
     }
     EXPECT_TRUE(convergence.reached());
-    EXPECT_LT(missing, Convergence::kChange);
+    EXPECT_LT(missing, RelightSettings().tolerance / 100);
 }
 
 TEST(Energy, ALittleMoreThanAllIsGrowthAndRoundingIsNot) {

@@ -75,5 +75,34 @@ TEST_F(FewBounces, FollowTheirNumberWhileTheLightStandsStill) {
     EXPECT_GT(gain, 0.2f * largest);
 }
 
+// In a grey closed room every bounce passes on the same share, the albedo.
+TEST_F(FewBounces, ToleranceDecidesHowManyOfManyThereAre) {
+    scene.materials[0].baseColor = {0.5f, 0.5f, 0.5f, 1};
+    const std::uint32_t most = scene.relight.maxBounces;
+    scene.relight.tolerance = 0.001f;
+    const RelightStats exact = relighter.relight(scene, trace, most);
+    const std::vector<glm::vec4> sent = relighter.radiosity();
+    std::uint32_t bounces = exact.bounces;
+    for (const float tolerance : {0.1f, 1.f, 10.f}) {
+        scene.relight.tolerance = tolerance;
+        Relighter coarse(made);
+        const RelightStats stats = coarse.relight(scene, trace, most);
+        EXPECT_TRUE(stats.converged);
+        EXPECT_LT(stats.bounces, bounces) << tolerance;
+        bounces = stats.bounces;
+        double missing = 0, all = 0;
+        for (std::size_t i = 0; i < made->surfels.size(); ++i) {
+            const auto area = double(made->surfels.area[i]);
+            missing += area * double(sent[i].x - coarse.radiosity()[i].x);
+            all += area * double(sent[i].x);
+        }
+        EXPECT_LT(missing / all, double(tolerance) / 100);
+        EXPECT_GT(missing, 0);
+    }
+    EXPECT_TRUE(relighter.relight(scene, trace, most).converged) << "more tolerance asks for less";
+    scene.relight.tolerance = 0.001f;
+    EXPECT_FALSE(relighter.relight(scene, trace, most).skipped) << "a change of its own";
+}
+
 } // namespace
 } // namespace limn
