@@ -290,25 +290,29 @@ void addGeneratedOptions(CLI::App& command, GeneratedBench& o) {
     auto* generated =
         command
             .add_option("--generated", o.scenes,
-                        "pictures of this many generated scenes instead, at default settings but "
-                        "for those given")
+                        "Measure pictures of this many generated scenes instead, with default "
+                        "settings except those given")
             ->check(CLI::Range(1, 100000));
-    command.add_option("--first-seed", o.firstSeed, "of the generated scenes")->needs(generated);
+    command.add_option("--first-seed", o.firstSeed, "Seed of the first generated scene")
+        ->needs(generated);
     command
         .add_option(
             "--spp", o.samplesPerPixel,
-            "samples per pixel of a reference, at most; fewer where that makes figures sure")
+            "Maximum samples per pixel of a reference; fewer are traced where those suffice")
         ->needs(generated)
         ->check(CLI::Range(2, 1 << 20));
-    command.add_option("--size", o.size, "of pictures, WxH")
+    command.add_option("--size", o.size, "Size of the pictures, WxH")
         ->needs(generated)
         ->check([](const std::string& text) {
             return sizeOf(text) ? "" : fmt::format("\"{}\" is not WxH", text);
         });
 #ifdef LIMN_HAS_VIEWPORT
-    auto* viewport = command.add_flag("--viewport", o.viewport, "pictures by Vulkan as well");
+    auto* viewport =
+        command.add_flag("--viewport", o.viewport, "Also draw the pictures with Vulkan");
     viewport->needs(generated);
-    command.add_option("--device", o.device, "part of its name; default: the best")
+    command
+        .add_option("--device", o.device,
+                    "Part of the Vulkan device's name; default: the best device")
         ->needs(viewport);
 #endif
 }

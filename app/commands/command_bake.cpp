@@ -54,7 +54,7 @@ nlohmann::json summaryOf(const Prediction& p) {
 void print(const BakeSettings& settings, const nlohmann::json& predicted) {
     if (const auto least = predicted["least_texels"].get<std::uint64_t>())
         fmt::print("{} texels are asked for, but the objects need at least about {}: one for each "
-                   "way that an object faces\n",
+                   "direction that an object faces\n",
                    settings.lightmapCaches, least);
     fmt::print("About {} caches, a file of {} and a peak of {} of memory\n",
                predicted["caches"].get<std::uint64_t>(),
@@ -111,7 +111,7 @@ std::string shortfall(const MeasuredBake& made, double error) {
     case MeasuredBake::End::Held:
         return {};
     case MeasuredBake::End::NoBetter:
-        why = "more texels hardly lower it";
+        why = "more texels hardly reduce it";
         break;
     case MeasuredBake::End::Memory:
         why = "a finer bake would need more memory than is allowed (--memory)";
@@ -218,23 +218,24 @@ void addBakeCommand(CLI::App& app, Run& run) {
     addBakeOptions(*sub, command->bake);
     CLI::Option* folder = sub->add_option(
         "--cache", command->store.folder,
-        "Folder that keeps finished stages for later bakes; default ~/.cache/limn/bake");
-    sub->add_option("--cache-size", command->storeGib, "Most that the folder may hold [GiB]")
+        "Folder that keeps finished stages for later bakes; default: ~/.cache/limn/bake");
+    sub->add_option("--cache-size", command->storeGib, "Maximum size of that folder [GiB]")
         ->check(numberWithin(0.001, 1e6));
-    sub->add_flag("--no-cache", command->noStore, "Bake everything, keep nothing")
+    sub->add_flag("--no-cache", command->noStore, "Bake every stage, and keep none")
         ->excludes(folder);
     sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();
     CLI::Option* error =
-        sub->add_option("--error", command->error,
-                        "nRMSE of the irradiance, in the scene's light and its camera's view, that "
-                        "the bake is to hold: counts grow from those of draft, or those given, "
-                        "until it does")
+        sub->add_option(
+               "--error", command->error,
+               "Maximum nRMSE of the irradiance that the camera sees in the scene's light. "
+               "Counts start from those of draft, or those given, and grow until the "
+               "bake reaches it")
             ->check(numberWithin(1e-3, 10.));
     addViewOptions(*sub, command->camera);
     for (const char* view : {"--camera", "--eye", "--target", "--fov"})
         sub->get_option(view)->needs(error);
     error->excludes(sub->get_option("--texels-per-metre"));
-    sub->add_flag("--json", command->json, "One JSON object on stdout");
+    sub->add_flag("--json", command->json, "Print one JSON object to stdout");
     sub->callback([command, &run] { run = [command] { return runBake(*command); }; });
 }
 

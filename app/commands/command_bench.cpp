@@ -75,7 +75,7 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 }
 
 void addBenchCommand(CLI::App& app, Run& run) {
-    CLI::App* bench = app.add_subcommand("bench", "Measures, and writes tables");
+    CLI::App* bench = app.add_subcommand("bench", "Run a benchmark and write its table");
     bench->require_subcommand(1);
     for (const TechniqueProgram* program : techniquePrograms())
         program->addBenches(*bench, run);

@@ -76,15 +76,16 @@ Exit runCompare(const Options& o) {
 
 void addCompareCommand(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("compare", "Measures the error of a render");
-    command->add_option("test", o->test, "linear .exr or .hdr")->required();
-    command->add_option("reference", o->reference, "of the same size")->required();
+    CLI::App* command =
+        app.add_subcommand("compare", "Measure the error of a render against a reference");
+    command->add_option("test", o->test, "Linear image to judge, .exr or .hdr")->required();
+    command->add_option("reference", o->reference, "Reference of the same size")->required();
     command->add_option("--reference2", o->reference2,
-                        "a second reference with another seed: its noise and that of the first do "
-                        "not count as errors");
+                        "Second reference with another seed, so that the noise of both is not "
+                        "counted as error");
     command->add_option("--heatmap", o->heatmap,
-                        "error map .png: blue too dark, orange too bright");
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+                        "Error map to write, .png: blue is too dark, orange too bright");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runCompare(*o); }; });
 }
 

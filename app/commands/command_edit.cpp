@@ -19,9 +19,10 @@ static bool parseSize(const std::string& text, EditorAppOptions& options) {
 
 void addEditCommand(CLI::App& app, Run& run) {
     auto options = std::make_shared<EditorAppOptions>();
-    CLI::App* command = app.add_subcommand("edit", "opens the editor");
+    CLI::App* command = app.add_subcommand("edit", "Open the editor");
     command
-        ->add_option("scene", options->scene, ".gltf, .glb or .limn file, or the name of a project")
+        ->add_option("scene", options->scene,
+                     "Scene (.gltf, .glb), project (.limn), or name of a sample project")
         ->default_str("cornell");
     command->add_option_function<std::string>(
         "--size",
@@ -30,12 +31,12 @@ void addEditCommand(CLI::App& app, Run& run) {
                 throw CLI::ValidationError("--size",
                                            "not WIDTHxHEIGHT from 320x240 to 16384x16384");
         },
-        "WIDTHxHEIGHT of the window [px]");
+        "Size of the window, WIDTHxHEIGHT [pixels]");
     command->add_option(
         "--stats-json", options->statsPath,
-        "writes counters and the longest frame there, whenever all work is done and at the end");
+        "File for counters and the longest frame, written whenever all work is done and on exit");
     command->add_flag("--validate", options->validate,
-                      "Vulkan validation; fails if there was a message");
+                      "Enable Vulkan validation; fail if it reports a message");
     command
         ->add_option_function<std::string>(
             "--relight",
@@ -44,12 +45,12 @@ void addEditCommand(CLI::App& app, Run& run) {
                     RelightOn(std::find(kRelightOnNames.begin(), kRelightOnNames.end(), name) -
                               kRelightOnNames.begin());
             },
-            "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or auto, "
-            "which is faster here")
+            "Where bounced light is computed: cpu, gpu (the Vulkan device that draws), or auto, "
+            "whichever is faster on this machine")
         ->check(CLI::IsMember(
             std::vector<std::string>(kRelightOnNames.begin(), kRelightOnNames.end())));
     addImportOptions(*command, options->import);
-    command->add_flag("--no-bake", options->noBake, "does not bake a scene as soon as it is open");
+    command->add_flag("--no-bake", options->noBake, "Do not bake a scene as soon as it is opened");
     command->callback([options, &run] {
         run = [options] {
             options->projectsFolder = projectsFolder();

@@ -220,15 +220,16 @@ void addExportCommand(CLI::App& app, Run& run) {
     addRelightOptions(*command, o->relight);
     CLI::Option* list = command->add_flag("--list", o->list, "List the formats");
     command->get_option("scene")->required(false);
-    CLI::Option* format = command->add_option("--format", o->format, "What to write")
+    CLI::Option* format = command->add_option("--format", o->format, "Format to write")
                               ->check(CLI::IsMember(formatNames()));
-    command->add_option("--bake", o->bakeFile, "Bake of the scene, .limnbake; default: bakes");
+    command->add_option("--bake", o->bakeFile,
+                        "Bake of the scene, .limnbake; default: a bake is made in memory");
     command->add_option("-o,--output", o->output, "File to write, or a folder");
     addSettingOptions(*command, *o);
     command->add_option("--three", o->folders.three, "Folder of the npm package three, for web");
     command->add_option("--web-runtime", o->folders.webRuntime,
                         "Folder of limn_runtime.wasm, for web; ./run --web makes it");
-    command->add_flag("--json", o->json, "One JSON object on stdout");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run, list, format] {
         if (!*list && (o->scene.scene.empty() || !*format || o->output.empty()))
             throw CLI::RequiredError("A scene, --format and --output, or --list,");

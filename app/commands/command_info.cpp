@@ -150,9 +150,9 @@ void addInfoCommand(CLI::App& app, Run& run) {
     };
     const auto options = std::make_shared<Options>();
     CLI::App* command =
-        app.add_subcommand("info", "Says what a scene, project, bake or image holds");
-    command->add_option("file", options->file, "the file, or the name of a project")->required();
-    command->add_flag("--json", options->json, "one JSON object on stdout");
+        app.add_subcommand("info", "Print what a scene, project, bake or image contains");
+    command->add_option("file", options->file, "File, or name of a sample project")->required();
+    command->add_flag("--json", options->json, "Print one JSON object to stdout");
     command->callback([options, &run] {
         run = [options] {
             const Result<Json> json = describeFile(options->file);

@@ -93,21 +93,25 @@ Exit runReference(Options& o) {
 
 void addReferenceCommand(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("reference", "Path-traces ground truth");
+    CLI::App* command = app.add_subcommand("reference", "Path-trace ground truth");
     addSceneOptions(*command, o->scene);
     addTimeOption(*command, o->scene);
     addCameraOptions(*command, o->camera);
-    command->add_option("--view", o->view, "lit, direct, indirect, irradiance or albedo")
+    command
+        ->add_option("--view", o->view, "What to show: lit, direct, indirect, irradiance or albedo")
         ->check(CLI::IsMember({"lit", "direct", "indirect", "irradiance", "albedo"}));
-    command->add_option("--spp", o->reference.samplesPerPixel, "samples per pixel")
+    command->add_option("--spp", o->reference.samplesPerPixel, "Samples per pixel")
         ->check(CLI::Range(1, 1 << 24));
     command
-        ->add_option("--bounces", o->reference.maxBounces, "path segments after the first surface")
+        ->add_option("--bounces", o->reference.maxBounces,
+                     "Maximum path segments after the first surface")
         ->check(CLI::Range(0, 100000));
-    command->add_option("--seed", o->reference.seed, "another seed, other noise");
-    command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
-    command->add_option("-o,--output", o->output, "linear 32-bit .exr")->required();
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_option("--seed", o->reference.seed,
+                        "Seed of the random numbers; another seed gives other noise");
+    command->add_option("--threads", o->threads, "Threads to use; 0: all")
+        ->check(CLI::Range(0, 1024));
+    command->add_option("-o,--output", o->output, "Linear 32-bit image to write, .exr")->required();
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runReference(*o); }; });
 }
 

@@ -364,51 +364,53 @@ Exit runRender(const Options& options) {
 void addRenderCommand(CLI::App& app, Run& run) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "render", "Draws a picture, or the frames of an animation, as the viewport shows it");
+        "render", "Draw a picture, or the frames of an animation, as the viewport does");
     addSceneOptions(*command, options->scene);
     addTimeOption(*command, options->scene);
     command
         ->add_option("--frames", options->frames,
-                     "number of pictures of animated textures, from --time on; their numbers are "
-                     "put before the extension of the output")
+                     "Number of pictures, from --time on; each picture's number is inserted before "
+                     "the extension of the output")
         ->check(CLI::Range(1, 100000));
-    command->add_option("--fps", options->framesPerSecond, "frames per second of --frames [1/s]")
+    command->add_option("--fps", options->framesPerSecond, "Pictures per second of --frames [1/s]")
         ->check(numberWithin(0.001, 10000.0));
     addCameraOptions(*command, options->camera);
     addOverlayFlags(*command, options->overlay);
-    command->add_option("--bake", options->bake,
-                        ".limnbake of this scene; without it, one is made in memory if needed");
+    command->add_option(
+        "--bake", options->bake,
+        "Bake of this scene, .limnbake; default: a bake is made in memory where needed");
     command
-        ->add_option("-o,--output", options->output, "picture: .exr (linear) or .png (tone-mapped)")
+        ->add_option("-o,--output", options->output,
+                     "Picture to write, .exr (linear) or .png (tone-mapped)")
         ->required();
     command
         ->add_option("--technique", options->technique,
-                     "what bounced light is computed by, instead of the document's: " +
+                     "Technique that computes bounced light, instead of the document's: " +
                          techniqueNames())
         ->check([](const std::string& name) {
             return findTechnique(name) ? std::string()
                                        : fmt::format("\"{}\" is not {}", name, techniqueNames());
         });
     command->add_option("--set", options->settings,
-                        "KEY=NUMBER: a setting of the technique; may be repeated");
-    command->add_option("--view", options->view, "what it shows")
+                        "Setting of the technique, KEY=NUMBER; may be repeated");
+    command->add_option("--view", options->view, "What to show")
         ->check(CLI::IsMember(strings(kViewNames)));
-    command->add_option("--exposure", options->exposureEv, "stops before tone mapping [EV]")
+    command->add_option("--exposure", options->exposureEv, "Exposure before tone mapping [EV]")
         ->check(numberWithin(-64.0, 64.0));
-    command->add_option("--tonemap", options->tonemap, "curve of a .png")
+    command->add_option("--tonemap", options->tonemap, "Tone-mapping curve of a .png")
         ->check(CLI::IsMember(strings(kTonemapNames)));
     command->add_option("--device", options->device,
-                        "auto, cpu, or part of a Vulkan device's name");
+                        "What draws: auto, cpu, or part of a Vulkan device's name");
     command
         ->add_option(
             "--relight", options->relight,
-            "where bounced light is worked out: cpu, gpu (the Vulkan device that draws), or "
-            "auto, which the editor has found faster here; cpu until it has")
+            "Where bounced light is computed: cpu, gpu (the Vulkan device that draws), or auto, "
+            "whichever the editor has measured to be faster here; cpu where it has not")
         ->check(CLI::IsMember(strings(kRelightOnNames)));
     addRelightOptions(*command, options->relighting);
     command->add_flag("--all-caches", options->allCaches,
-                      "light the whole lightmap, not only what the picture looks up");
-    command->add_flag("--json", options->json, "one JSON object on stdout");
+                      "Light the whole lightmap, not only the texels that the picture reads");
+    command->add_flag("--json", options->json, "Print one JSON object to stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }
 

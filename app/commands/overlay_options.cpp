@@ -13,17 +13,16 @@ void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
     std::vector<std::string> names = {"none"};
     for (const OverlayKind* kind : overlayKinds())
         names.emplace_back(kind->name);
-    command.add_option("--overlay", flags.name, "what of the bake is drawn over a .png")
+    command.add_option("--overlay", flags.name, "Part of the bake to draw over a .png")
         ->check(CLI::IsMember(names));
     command.add_option("--overlay-depth", flags.depth,
-                       "depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
+                       "Depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
                        "(default: 6)");
-    CLI::Option* pick = command
-                            .add_option("--pick", flags.pick,
-                                        "x,y of the pixel whose cache 'links' or 'lobes' show")
-                            ->delimiter(',')
-                            ->expected(2);
-    command.add_option("--cache", flags.cache, "number of the cache that 'links' or 'lobes' show")
+    CLI::Option* pick =
+        command.add_option("--pick", flags.pick, "Pixel x,y whose cache 'links' or 'lobes' show")
+            ->delimiter(',')
+            ->expected(2);
+    command.add_option("--cache", flags.cache, "Number of the cache that 'links' or 'lobes' show")
         ->excludes(pick);
 }
 

@@ -25,8 +25,9 @@ namespace limn {
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command
-        .add_option("scene", options.scene,
-                    ".gltf, .glb or .limn file, the name of a project, or generated:SEED")
+        .add_option(
+            "scene", options.scene,
+            "Scene (.gltf, .glb), project (.limn), name of a sample project, or generated:SEED")
         ->required();
     addLightOptions(command, options);
     addDynamicOption(command, options);
@@ -37,18 +38,19 @@ void addImportOptions(CLI::App& command, ImportOptions& options) {
         .add_option_function<double>(
             "--memory",
             [&options](double gib) { options.memory.most = std::uint64_t(gib * double(1 << 30)); },
-            "most that scenes, pictures and bakes may need [GiB]; default half of the machine's")
+            "Maximum memory for scenes, pictures and bakes [GiB]; default: half of the machine's")
         ->check(numberWithin(0.001, 1e6));
     command.add_flag_callback(
         "--outside-files", [&options] { options.reach = FileReach::Anywhere; },
-        "a .gltf may name files outside its own folder");
+        "Allow a .gltf to name files outside its own folder");
 }
 
 void addDynamicOption(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--dynamic", options.dynamics,
-                    "NAME or NAME@x,y,z: the object of that name moves freely, here by x,y,z [m]: "
-                    "lit from the grid, casts shadows, sends no bounced light; may be repeated")
+                    "Object that may move without a new bake, NAME or NAME@x,y,z to move it by "
+                    "x,y,z [m]: it is lit from the grid, casts shadows and sends no bounced "
+                    "light; may be repeated")
         ->allow_extra_args(false)
         ->take_all();
 }
@@ -56,25 +58,25 @@ void addDynamicOption(CLI::App& command, SceneOptions& options) {
 void addLightOptions(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--light", options.lights,
-                    "adds a light: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
+                    "Light to add: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
                     "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
-                    "color=r,g,b, name=; may be repeated")
+                    "color=r,g,b and name= if wanted; may be repeated")
         ->allow_extra_args(false)
         ->take_all();
     command.add_option("--sky", options.sky,
-                       "r,g,b [nits] | gradient up=r,g,b horizon=r,g,b ground=r,g,b | FILE.hdr or "
-                       "FILE.exr, a panorama; replaces the scene's");
-    command.add_option("--sky-strength", options.skyStrength, "times the panorama's radiance")
+                       "Sky instead of the scene's: r,g,b [nits] | gradient up=r,g,b horizon=r,g,b "
+                       "ground=r,g,b | FILE.hdr or FILE.exr, a panorama");
+    command.add_option("--sky-strength", options.skyStrength, "Factor of the panorama's radiance")
         ->check(numberWithin(0., double(kMaxLight)));
     addImportOptions(command, options.import);
     command
         .add_option("--sky-rotation", options.skyRotation,
-                    "of the panorama about +Y, from +Z towards +X [degrees]")
+                    "Rotation of the panorama about +Y, from +Z towards +X [degrees]")
         ->check(numberWithin(-1e6, 1e6));
 }
 
 void addTimeOption(CLI::App& command, SceneOptions& options) {
-    command.add_option("--time", options.seconds, "time at which animated textures are shown [s]")
+    command.add_option("--time", options.seconds, "Time at which animated textures are shown [s]")
         ->check(numberWithin(-1e6, 1e6));
 }
 
@@ -152,21 +154,28 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
 }
 
 void addViewOptions(CLI::App& command, CameraOptions& options) {
-    CLI::Option* name = command.add_option("--camera", options.name, "name of a camera");
+    CLI::Option* name =
+        command.add_option("--camera", options.name, "Name of the scene's camera to use");
     CLI::Option* eye =
-        command.add_option("--eye", options.eye, "x,y,z [m]")->delimiter(',')->expected(3);
+        command.add_option("--eye", options.eye, "Position of the camera, x,y,z [m]")
+            ->delimiter(',')
+            ->expected(3);
     CLI::Option* target =
-        command.add_option("--target", options.target, "x,y,z [m]")->delimiter(',')->expected(3);
+        command.add_option("--target", options.target, "Point that the camera looks at, x,y,z [m]")
+            ->delimiter(',')
+            ->expected(3);
     eye->needs(target)->excludes(name);
     target->needs(eye);
-    command.add_option("--fov", options.fovDegrees, "vertical field of view [degrees]")
+    command.add_option("--fov", options.fovDegrees, "Vertical field of view [degrees]")
         ->check(numberWithin(0.1, 179.0));
 }
 
 void addCameraOptions(CLI::App& command, CameraOptions& options) {
     addViewOptions(command, options);
-    command.add_option("--width", options.width, "[pixels]")->check(CLI::Range(1, 16384));
-    command.add_option("--height", options.height, "[pixels]")->check(CLI::Range(1, 16384));
+    command.add_option("--width", options.width, "Width of the picture [pixels]")
+        ->check(CLI::Range(1, 16384));
+    command.add_option("--height", options.height, "Height of the picture [pixels]")
+        ->check(CLI::Range(1, 16384));
 }
 
 Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {

@@ -31,8 +31,8 @@ static void memoryLine(const EditorState& state) {
     ImGui::TextDisabled("About %s, %s while baking",
                         byteText(std::uint64_t(totalOf(p.bytes))).c_str(),
                         byteText(p.working).c_str());
-    std::string tooltip = "What a bake with these settings takes in memory, and the most that "
-                          "baking takes besides the scene; about " +
+    std::string tooltip = "Memory of a bake with these settings, and the peak while baking, "
+                          "without the scene; about " +
                           byteText(p.file) + " as a file.";
     for (const LightingCounter& part : p.bytes)
         tooltip += std::string(&part == &p.bytes.front() ? " " : ", ") + part.label + " " +
@@ -40,8 +40,8 @@ static void memoryLine(const EditorState& state) {
     wrappedTooltip((tooltip + "; about " + groupedNumber(p.caches) + " caches").c_str());
     if (p.minTexels > 0) {
         ImGui::PushTextWrapPos(0);
-        ImGui::TextDisabled("The objects need at least about %s texels: one for each way that an "
-                            "object faces.",
+        ImGui::TextDisabled("The objects need at least about %s texels: one for each direction "
+                            "that an object faces.",
                             groupedNumber(p.minTexels).c_str());
         ImGui::PopTextWrapPos();
     }
@@ -53,7 +53,7 @@ static void bakeStateLine(EditorState& state) {
     ImGui::PushTextWrapPos(0);
     const bool refining = bake.preview && bake.running;
     if (refining)
-        ImGui::TextDisabled("A first look of few rays; the full bake is being made.");
+        ImGui::TextDisabled("The picture shows a preview of few rays; the full bake is running.");
     else
         switch (bake.freshness) {
         case BakeFreshness::NotUsed:

@@ -97,7 +97,7 @@ static void skyImageRows(FieldEdit& edit, Sky& sky) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     elidedText(shown.empty() ? "none" : shown, ImGui::GetContentRegionAvail().x);
-    fieldLabel("Strength", "Times the image's radiance");
+    fieldLabel("Strength", "Factor of the image's radiance");
     ImGui::SliderFloat("##strength", &sky.strength, 0, 100, "%.3f", ImGuiSliderFlags_Logarithmic);
     fieldEdited(edit, "Sky strength");
     float degrees = glm::degrees(sky.rotation);
@@ -110,7 +110,7 @@ static void skyImageRows(FieldEdit& edit, Sky& sky) {
 
 void skySection(FieldEdit& edit, Sky& sky) {
     int kind = int(sky.kind);
-    fieldLabel("Kind", "Changing it lights the scene anew, without a bake");
+    fieldLabel("Kind", "How the sky's light is given. Changing it needs no new bake");
     if (ImGui::Combo("##kind", &kind, "Colour\0Gradient\0Image\0"))
         sky.kind = SkyKind(kind);
     fieldEdited(edit, "Sky kind");
@@ -148,7 +148,7 @@ void cameraSection(FieldEdit& edit, Camera& camera) {
     if (ImGui::Button("Look through it", {-FLT_MIN, 0}))
         edit.state.view.camera = camera;
     wrappedTooltip("Shows the picture of this camera (Numpad 0)");
-    if (ImGui::Button("Take the view's place", {-FLT_MIN, 0})) {
+    if (ImGui::Button("Move to the view", {-FLT_MIN, 0})) {
         const std::string name = camera.name;
         camera = edit.state.view.camera;
         camera.name = name;

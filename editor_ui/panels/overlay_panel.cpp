@@ -55,7 +55,7 @@ void overlayCombo(EditorState& state) {
     const bool open = ImGui::BeginCombo("##overlay", shown ? shown->label : kNoOverlay.label,
                                         ImGuiComboFlags_HeightLargest);
     if (!open) {
-        wrappedTooltip("What of the bake is drawn over the picture");
+        wrappedTooltip("Part of the bake that is drawn over the picture");
         return;
     }
     const auto entry = [&](const OverlayKind& text, const OverlayKind* kind) {

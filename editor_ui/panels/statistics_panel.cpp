@@ -59,7 +59,7 @@ static void timeTable(const EditorState& state) {
     row("Upload", ms(f.uploadMs), "Bounced light to the graphics device");
     row("Shadow maps", ms(f.shadowMs), "0 maps are drawn while no light or object moves");
     row("Surfaces", ms(f.surfacesMs),
-        "Triangles that the camera sees; kept while it, objects and materials stand still");
+        "Triangles that the camera sees; kept while camera, objects and materials are unchanged");
     row("Shade", ms(f.shadeMs), "The picture from caches and direct light");
     ImGui::EndTable();
 }
@@ -77,12 +77,13 @@ static std::string measuredMs(const RelightPlace& place, RelightOn device) {
 static const char* placeTooltip(RelightOn device) {
     switch (device) {
     case RelightOn::Auto:
-        return "Whichever is faster here. Measured once per device and size of bake, when all else "
-               "is done, and remembered; the CPU where dynamic objects occlude bounced light";
+        return "Whichever is faster here: measured once per device and size of bake, when all "
+               "other work is done, and remembered. The CPU where dynamic objects occlude bounced "
+               "light";
     case RelightOn::Cpu:
-        return "By this machine's processor, with traced shadows";
+        return "On this machine's processor, with traced shadows";
     case RelightOn::Gpu:
-        return "By the device that draws the picture, with the picture's shadow maps; nothing is "
+        return "On the device that draws the picture, with the picture's shadow maps; nothing is "
                "uploaded";
     }
     return "";
@@ -101,7 +102,7 @@ static void placeRow(RelightPlace& place) {
     ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
     elidedText("Relight on", ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
-    wrappedTooltip("Which device works bounced light out");
+    wrappedTooltip("Where bounced light is computed");
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
@@ -156,7 +157,7 @@ static void relightTable(EditorState& state) {
         : r.running     ? "bouncing"
                         : "idle",
         r.last.diverges ? "Every bounce brought more light than the one before: bake again"
-                        : "Converged: another bounce would change nothing");
+                        : "Converged: more bounces would change next to nothing");
     placeRow(state.relightPlace);
     for (const RelightOn on : {RelightOn::Cpu, RelightOn::Gpu})
         row(on == RelightOn::Cpu ? "  CPU" : "  GPU", measuredMs(state.relightPlace, on),
@@ -180,9 +181,9 @@ static void windowTable(const EditorState& state) {
     row("Longest", ms(f.longestUiMs), "Longest UI frame since the start");
     row("  relighting", ms(f.longestUiWhileRelightingMs),
         "Longest UI frame while light was bouncing: the window never waits for it");
-    row("UI frames", groupedNumber(f.uiFrames), "Stands still while nothing happens");
+    row("UI frames", groupedNumber(f.uiFrames), "Counts up only while something happens");
     row("Pictures", groupedNumber(f.pictures),
-        "Drawn by the viewport; stands still while nothing changes");
+        "Drawn by the viewport; counts up only while something changes");
     row("  redrawn", groupedNumber(f.surfacesDrawn),
         "Pictures for which triangles were drawn; light that changes needs none");
     row("Size", fmt::format("{} \u00d7 {}", f.width, f.height),

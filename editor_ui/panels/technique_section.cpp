@@ -19,7 +19,7 @@ static std::string techniqueTooltip(const Technique& technique) {
 
 static void techniqueRow(FieldEdit& edit, TechniqueChoice& choice) {
     const Technique* current = findTechnique(choice.technique);
-    fieldLabel("Technique", "What bounced light is computed by. Switching keeps the bake");
+    fieldLabel("Technique", "How bounced light is computed. Switching keeps the bake");
     if (ImGui::BeginCombo("##technique", current ? current->label : choice.technique.c_str())) {
         for (const Technique* technique : techniques()) {
             if (ImGui::Selectable(technique->label, technique == current))

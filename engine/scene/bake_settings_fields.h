@@ -25,8 +25,9 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .flag = "--links",
            .label = "Links (n_L)",
            .help = "Links per cache n_L",
-           .tooltip = "Clusters of surfels that each cache listens to. More: more accurate, slower "
-                      "to relight"},
+           .tooltip =
+               "Clusters of surfels that each cache gathers from. More: more accurate, slower "
+               "to relight"},
           s.links, SettingRange{1, 4096});
     visit({.key = "bands",
            .flag = "--bands",
@@ -44,8 +45,8 @@ void visitBakeSettings(S& s, const Visit& visit) {
     visit({.key = "lightmapCaches",
            .flag = "--lightmap",
            .label = "Lightmap texels",
-           .help = "Wanted number of lightmap caches",
-           .tooltip = "About how many texels gather light",
+           .help = "Target number of lightmap caches",
+           .tooltip = "Target number of texels that gather light",
            .replaces = "texelsPerMetre",
            .group = kLightmapGroup,
            .applies = s.texelsPerMetre == 0},
@@ -61,64 +62,68 @@ void visitBakeSettings(S& s, const Visit& visit) {
     visit({.key = "placement",
            .flag = "--placement",
            .label = "Placement",
-           .help = "Where surfels lie",
-           .tooltip = "Where surfels lie. Relaxed: Halton points, then spread evenly. Halton and "
-                      "random are there to compare"},
+           .help = "How surfels are placed",
+           .tooltip =
+               "How surfels are placed. Relaxed: at Halton points, then spread evenly. Halton "
+               "and random are for comparison"},
           s.placement, SettingChoices{kPlacementNames, kPlacementLabels});
     visit({.key = "linker",
            .flag = "--linker",
            .label = "Linker",
            .help = "How caches find what they see",
-           .tooltip = "How a cache finds what it sees. Gather: rays that leave it. Form factor: a "
-                      "ray towards every surfel, many times slower; there to compare",
+           .tooltip =
+               "How a cache finds what it sees. Gather: by rays that leave it. Form factor: by "
+               "a ray towards every surfel, many times slower; for comparison",
            .group = 1},
           s.linker, SettingChoices{kLinkerNames, kLinkerLabels});
     visit({.key = "cut",
            .flag = "--cut",
            .label = "Cut",
            .help = "Which clusters caches link",
-           .tooltip = "Which clusters a cache links. Detail: those whose differences inside would "
-                      "change its light most; hard caches get more links, easy ones fewer. Solid "
-                      "angle: those that look largest, the same number for every cache",
+           .tooltip = "Which clusters a cache links. Detail: those whose inner differences would "
+                      "change its light most; caches of varied light get more links. Solid "
+                      "angle: those of the largest solid angle, the same number for every cache",
            .group = 1},
           s.cut, SettingChoices{kCutNames, kCutLabels});
     visit({.key = "storage",
            .flag = "--storage",
            .label = "Link storage",
-           .help = "How links are kept: rtp is small, sh quicker to light in few bands",
-           .tooltip = "How links are kept. Cones (RTP): 12 bytes each, turned into SH whenever "
-                      "light changes. SH: turned once by the bake, 4 + 2 l\u00b2 bytes each. Both "
-                      "give the same light",
+           .help = "How links are stored: rtp is small, sh faster to relight with few bands",
+           .tooltip = "How links are stored. Cones (RTP): 12 bytes each, projected to SH whenever "
+                      "light changes. SH: projected once by the bake, 4 + 2 l\u00b2 bytes each. "
+                      "Both give the same light",
            .group = 1},
           s.storage, SettingChoices{kStorageNames, kStorageLabels});
     visit({.key = "chromaBands",
            .flag = "--chroma-bands",
            .label = "Chroma bands",
            .help = "SH bands of the lit caches' chrominance; 0: as many as --bands",
-           .tooltip = "Bands that keep their colour; what lies above is grey. Fewer: quicker to "
-                      "relight. 0: all of them"},
+           .tooltip = "Bands that keep their colour; higher bands are grey. Fewer: faster to "
+                      "relight. 0: all"},
           s.chromaBands, SettingRange{0, 8});
     visit({.key = "clustering",
            .flag = "--clustering",
            .label = "Clustering",
-           .help = "How surfels are joined",
-           .tooltip = "How surfels are joined into clusters. Agglomerative: the closest two, again "
-                      "and again; slower. Kd-tree: halved at medians",
+           .help = "How surfels are clustered",
+           .tooltip = "How surfels are clustered. Agglomerative: the closest pair is joined "
+                      "repeatedly; slower. Kd-tree: split at medians",
            .group = 1},
           s.clustering, SettingChoices{kClusteringNames, kClusteringLabels});
     visit({.key = "clusterNormalWeight",
            .flag = "--cluster-normal-weight",
            .label = "Normal weight (C_n)",
            .help = "C_n, weight of normals in the clusters' metric",
-           .tooltip = "How much clusters keep to surfels that face the same way. More: flatter "
-                      "clusters",
+           .tooltip =
+               "Weight of the difference of normals. More: clusters of surfels that face the "
+               "same direction",
            .group = 1},
           s.clusterNormalWeight, SettingRange{0, 100});
     visit({.key = "clusterBalanceWeight",
            .flag = "--cluster-balance-weight",
            .label = "Balance weight (C_b)",
-           .help = "C_b, weight of equal areas in it; agglomerative only",
-           .tooltip = "How much clusters of like area are joined first. More: a tree of less depth",
+           .help = "C_b, weight of balance in the clusters' metric; agglomerative only",
+           .tooltip = "Weight of balance: clusters of similar area are joined first. More: a "
+                      "shallower tree",
            .group = 1,
            .applies = s.clustering == Clustering::Agglomerative},
           s.clusterBalanceWeight, SettingRange{0, 100});
@@ -126,8 +131,9 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .flag = "--grid",
            .label = "Grid (cells)",
            .help = "Cells of the grid caches, XxYxZ",
-           .tooltip = "Cells along X, Y, Z that light what has no lightmap; 0 0 0: chosen from the "
-                      "scene's size",
+           .tooltip =
+               "Cells along X, Y and Z. They light objects without a lightmap. 0 0 0: chosen "
+               "from the size of the scene",
            .group = kLightmapGroup},
           s.grid, SettingRange{0, 256, 1});
 }

@@ -110,16 +110,16 @@ void addEnergyBench(CLI::App& bench, Run& run) {
     o->camera.width = 160;
     o->camera.height = 90;
     CLI::App* command = bench.add_subcommand(
-        "energy", "Which step from path-traced light to the picture gains or loses how much");
+        "energy", "Energy that each step from path-traced light to the picture gains or loses");
     addSceneOptions(*command, o->scene);
     addCameraOptions(*command, o->camera);
     addBakeOptions(*command, o->bake);
-    command->add_option("-o,--output", o->output, "folder of energy.csv and energy.json")
+    command->add_option("-o,--output", o->output, "Folder for energy.csv and energy.json")
         ->required();
-    command->add_option("--paths", o->paths, "of each pixel and each surfel")
+    command->add_option("--paths", o->paths, "Paths per pixel and per surfel")
         ->check(CLI::Range(1, 1 << 20));
-    command->add_option("--seed", o->seed, "of the paths");
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_option("--seed", o->seed, "Seed of the paths");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runEnergyBench(*o); }; });
 }
 

@@ -177,20 +177,25 @@ Exit runErrorBench(const ErrorBench& o) {
 void addErrorBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<ErrorBench>();
     CLI::App* command = bench.add_subcommand(
-        "error", "Irradiance of caches against a converged gather, over a sweep of settings");
+        "error",
+        "Error of the caches' irradiance against a converged gather, over a sweep of settings");
     command->add_option("scenes", o->scenes,
-                        ".gltf, .glb or .limn files, names of projects, or "
+                        "Scenes (.gltf, .glb), projects (.limn), names of sample projects, or "
                         "generated:SEED");
     addGeneratedOptions(*command, o->generated);
     addLightOptions(*command, o->common);
-    command->add_option("-o,--output", o->output, "folder of error.csv and error.json")->required();
+    command->add_option("-o,--output", o->output, "Folder for error.csv and error.json")
+        ->required();
     addSweepOptions(*command, o->sweep);
-    command->add_option("--caches", o->caches, "how many are compared")
+    command->add_option("--caches", o->caches, "Number of caches to compare")
         ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--reference-rays", o->referenceRays, "of a cache that is compared")
+    command
+        ->add_option("--reference-rays", o->referenceRays,
+                     "Rays of the reference for each compared cache")
         ->check(CLI::Range(64, 1 << 24));
-    command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_option("--threads", o->threads, "Threads to use; 0: all")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, command, &run] {
         if (o->scenes.empty() == (o->generated.scenes == 0))
             throw CLI::ValidationError("scenes", "give either scenes or --generated");

@@ -241,25 +241,27 @@ void addFrameBench(CLI::App& bench, Run& run) {
         bench.add_subcommand("frame", "Time of each pass of the viewport while all lights move");
     addBenchBakes(*command, o->bakes);
     addCameraOptions(*command, o->camera);
-    command->add_option("-o,--output", o->output, "folder of frame.csv and frame.json")->required();
-    command->add_option("--view", o->view, "what it shows")->check(oneOf(kViewNames));
-    addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+    command->add_option("-o,--output", o->output, "Folder for frame.csv and frame.json")
+        ->required();
+    command->add_option("--view", o->view, "What the viewport shows")->check(oneOf(kViewNames));
+    addList(*command, "--lights", o->lights,
+            "Number of moving point lights, a list; 0: the lights of the scene",
             CLI::Range(0, 4096));
     addList(*command, "--relight", o->relightOn,
-            "a list: where bounced light is worked out, gpu or cpu",
+            "Where bounced light is computed, gpu or cpu, a list",
             CLI::IsMember(std::vector<std::string>{"gpu", "cpu"}));
     addList(*command, "--caches", o->caches,
-            "a list: light those caches that the picture looks up (seen), or all",
+            "Which caches are lit: those that the picture reads (seen), or all; a list",
             CLI::IsMember(std::vector<std::string>{"all", "seen"}));
-    command->add_option("--bounces", o->bounces, "of a frame")->check(CLI::Range(1, 64));
-    command->add_option("--device", o->device, "part of a Vulkan device's name");
-    command->add_option("--runs", o->runs, "frames, of which the median is printed")
+    command->add_option("--bounces", o->bounces, "Bounces per frame")->check(CLI::Range(1, 64));
+    command->add_option("--device", o->device, "Part of the Vulkan device's name");
+    command->add_option("--runs", o->runs, "Number of frames; their median is printed")
         ->check(CLI::Range(9, 100000));
     command->add_flag("--coarse-shadows", o->coarse,
-                      "half as many texels across, as in the editor while things move");
+                      "Draw shadow maps of half the width, as the editor does while things move");
     command->add_flag("--moving-camera", o->movingCamera,
-                      "steps of 10 cm to the side: triangles are drawn in every frame");
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+                      "Move the camera by 10 cm per frame, so that every frame draws triangles");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runFrameBench(*o); }; });
 }
 

@@ -246,27 +246,30 @@ Exit runGlossyBench(const GlossyBench& o) {
 void addGlossyBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<GlossyBench>();
     CLI::App* command = bench.add_subcommand(
-        "glossy", "Error of what a metal object reflects against the reference, over its polish "
-                  "and the bands of bounced light");
+        "glossy",
+        "Error of reflections in a metal object against the reference, over its roughness "
+        "and the bands of bounced light");
     addSceneOptions(*command, o->scene);
     addCameraOptions(*command, o->camera);
-    command->add_option("--object", o->object, "name of the node that is made a metal")->required();
-    command->add_option("-o,--output", o->output, "folder of glossy.csv and glossy.json")
+    command->add_option("--object", o->object, "Name of the node to make metal")->required();
+    command->add_option("-o,--output", o->output, "Folder for glossy.csv and glossy.json")
         ->required();
     const auto list = [&](const char* flag, auto& values, const char* text, const auto& check) {
         command->add_option(flag, values, text)->delimiter(',')->check(check);
     };
-    list("--roughness", o->roughnesses, "of the metal, a list", numberWithin(0.0, 1.0));
-    list("--bands", o->bands, "SH bands, a list", CLI::Range(2, 8));
-    list("--storage", o->storages, "a list of link storages", oneOf(kStorageNames));
-    command->add_option("--spp", o->samplesPerPixel, "of the reference")
+    list("--roughness", o->roughnesses, "Roughness of the metal, a list", numberWithin(0.0, 1.0));
+    list("--bands", o->bands, "SH bands of the caches, a list", CLI::Range(2, 8));
+    list("--storage", o->storages, "How links are stored, a list", oneOf(kStorageNames));
+    command->add_option("--spp", o->samplesPerPixel, "Samples per pixel of the reference")
         ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--surfels", o->surfels, "n_S")->check(CLI::Range(64, 1 << 20));
-    command->add_option("--links", o->links, "n_L")->check(CLI::Range(1, 4096));
-    command->add_option("--lightmap", o->lightmap, "wanted caches")->check(CLI::Range(1, 1 << 24));
-    command->add_option("--threads", o->threads, "0: all")->check(CLI::Range(0, 1024));
-    command->add_flag("--pictures", o->pictures, "keep every picture, tone-mapped");
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_option("--surfels", o->surfels, "Surfels n_S")->check(CLI::Range(64, 1 << 20));
+    command->add_option("--links", o->links, "Links per cache n_L")->check(CLI::Range(1, 4096));
+    command->add_option("--lightmap", o->lightmap, "Target number of lightmap caches")
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--threads", o->threads, "Threads to use; 0: all")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--pictures", o->pictures, "Also write every picture, tone-mapped");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runGlossyBench(*o); }; });
 }
 

@@ -131,16 +131,22 @@ Exit runLinksBench(const LinksBench& o) {
 void addLinksBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<LinksBench>();
     CLI::App* command = bench.add_subcommand(
-        "links", "Error of links as cones and as harmonics against those of many more rays");
-    command->add_option("scenes", o->scenes, "glTF files, projects or samples")->required();
+        "links", "Error of links as cones and as harmonics against links of many more rays");
+    command
+        ->add_option("scenes", o->scenes,
+                     "Scenes (.gltf, .glb), projects (.limn), or names of sample projects")
+        ->required();
     addLightOptions(*command, o->common);
     addBakeOptions(*command, o->bake);
-    command->add_option("-o,--output", o->output, "folder of links.csv and links.json")->required();
-    command->add_option("--caches", o->caches, "measured, of each kind, at most")
+    command->add_option("-o,--output", o->output, "Folder for links.csv and links.json")
+        ->required();
+    command->add_option("--caches", o->caches, "Maximum number of measured caches of each kind")
         ->check(CLI::Range(1, 1 << 20));
-    command->add_option("--reference-rays", o->multiple, "of the reference, times the bake's")
+    command
+        ->add_option("--reference-rays", o->multiple,
+                     "Rays of the reference, as a multiple of the bake's")
         ->check(CLI::Range(1, 1024));
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runLinksBench(*o); }; });
 }
 

@@ -144,15 +144,16 @@ Exit runCaseFile(const OracleBench& o) {
 
 void addOracleOptions(CLI::App& command, OracleBench& o) {
     auto* generated = command.add_option("--generated", o.scenes,
-                                         "this many hostile scenes before oracles instead");
+                                         "Judge this many hostile scenes by oracles instead");
     generated->check(CLI::Range(1, 100000000));
-    command.add_option("--first-seed", o.firstSeed, "of the generated scenes")->needs(generated);
-    command.add_option("--case", o.caseFile, "one case that an earlier run has kept")
+    command.add_option("--first-seed", o.firstSeed, "Seed of the first generated scene")
+        ->needs(generated);
+    command.add_option("--case", o.caseFile, "Case to judge, a file that an earlier run kept")
         ->excludes(generated);
-    command.add_option("--case-seconds", o.caseSeconds, "a case that takes longer is stopped")
+    command.add_option("--case-seconds", o.caseSeconds, "Time after which a case is stopped [s]")
         ->check(numberWithin(0.1, 1e5));
     command.add_option("--device-share", o.deviceShare,
-                       "the device is asked about one scene in so many; 0: about none");
+                       "Relight one scene in this many on the device too; 0: none");
 }
 
 Exit runOracleBench(const OracleBench& o) {

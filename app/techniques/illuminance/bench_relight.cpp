@@ -245,28 +245,31 @@ void addRelightBench(CLI::App& bench, Run& run) {
         "relight", "Time of each step of relighting while all lights and dynamic objects move");
     addBenchBakes(*command, o->bakes);
     addDynamicOption(*command, o->bakes.common);
-    command->add_option("-o,--output", o->output, "folder of relight.csv and relight.json")
+    command->add_option("-o,--output", o->output, "Folder for relight.csv and relight.json")
         ->required();
-    addList(*command, "--lights", o->lights, "moving point lights, a list; 0: those of the scene",
+    addList(*command, "--lights", o->lights,
+            "Number of moving point lights, a list; 0: the lights of the scene",
             CLI::Range(0, 4096));
-    command->add_option("--device", o->devices, "a list: cpu, gpu, or part of a device's name")
+    command
+        ->add_option("--device", o->devices,
+                     "Where to relight: cpu, gpu, or part of a device's name; a list")
         ->delimiter(',');
     command->add_flag_callback(
         "--needed-bands", [o] { o->lit = LitBands::Needed; },
-        "light only the bands that the scene's surfaces need; without it, all");
+        "Light only the bands that the scene's surfaces need; default: all");
     addList(*command, "--caches", o->caches,
-            "a list: all, or those that the camera's picture looks up (cpu); with both, nrmse is "
-            "how far the light of what is seen differs",
+            "Which caches are lit: all, or those that the camera's picture reads (seen, cpu "
+            "only); a list. With both, nrmse compares their light where it is seen",
             CLI::IsMember(std::vector<std::string>{"all", "seen"}));
     addCameraOptions(*command, o->camera);
-    command->add_option("--bounces", o->bounces, "of a run")->check(CLI::Range(1, 64));
+    command->add_option("--bounces", o->bounces, "Bounces per run")->check(CLI::Range(1, 64));
     command->add_flag("--anew", o->anew,
-                      fmt::format("let each run begin without bounced light, as where the bake "
-                                  "section asks for so few bounces, at most {}",
+                      fmt::format("Start each run without bounced light, as --max-bounces up to "
+                                  "{} does",
                                   kFewBounces));
-    command->add_option("--runs", o->runs, "of which the median is printed")
+    command->add_option("--runs", o->runs, "Number of runs; their median is printed")
         ->check(CLI::Range(1, 100000));
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_flag("--json", o->json, "Print one JSON object to stdout");
     command->callback([o, &run] { run = [o] { return runRelightBench(*o); }; });
 }
 

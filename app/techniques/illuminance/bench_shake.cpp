@@ -240,13 +240,14 @@ void addShakeOptions(CLI::App& command, ShakeBench& o) {
     o.camera.height = 120;
     addBenchBakes(command, o.bakes)->required(false);
     addCameraOptions(command, o.camera);
-    command.add_option("--seconds", o.seconds, "for each bake")->check(numberWithin(0.1, 1e6));
-    command.add_option("--frames", o.frames, "at least so many, however long they take")
+    command.add_option("--seconds", o.seconds, "Duration for each bake [s]")
+        ->check(numberWithin(0.1, 1e6));
+    command.add_option("--frames", o.frames, "Minimum number of frames, however long they take")
         ->check(CLI::Range(1, 1000000));
-    command.add_option("--seed", o.seed, "the same makes the same changes");
+    command.add_option("--seed", o.seed, "Seed of the changes");
     command
         .add_option("--growth", o.growthMiB,
-                    "resident memory may grow by so much after a fifth of the time and 100 frames "
+                    "Maximum growth of resident memory after a fifth of the time and 100 frames "
                     "[MiB]")
         ->check(numberWithin(0.0, 1e6));
 }

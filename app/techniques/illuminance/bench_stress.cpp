@@ -23,16 +23,17 @@ struct StressBench {
 void addStressBench(CLI::App& bench, Run& run) {
     const auto o = std::make_shared<StressBench>();
     CLI::App* command = bench.add_subcommand(
-        "stress", "Lights, materials and objects change by chance under Vulkan validation; fails "
-                  "if there is a message, a number that is not finite, or growing memory. With "
-                  "--generated, oracles judge hostile scenes instead");
+        "stress",
+        "Change lights, materials and objects at random under Vulkan validation; fail on a "
+        "validation message, a number that is not finite, or growing memory. With "
+        "--generated, oracles judge hostile scenes instead");
     addOracleOptions(*command, o->oracles);
-    command->add_option("-o,--output", o->oracles.output, "folder of stress.csv and stress.json")
+    command->add_option("-o,--output", o->oracles.output, "Folder for stress.csv and stress.json")
         ->required();
-    command->add_flag("--json", o->oracles.json, "one JSON object on stdout");
+    command->add_flag("--json", o->oracles.json, "Print one JSON object to stdout");
 #ifdef LIMN_HAS_VIEWPORT
     addShakeOptions(*command, o->shake);
-    command->add_option("--device", o->oracles.device, "part of a Vulkan device's name");
+    command->add_option("--device", o->oracles.device, "Part of the Vulkan device's name");
 #endif
     command->callback([o, &run] {
         const bool judge = o->oracles.scenes > 0 || !o->oracles.caseFile.empty();

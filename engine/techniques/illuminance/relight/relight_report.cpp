@@ -17,13 +17,14 @@ LightingReport reportOf(const RelightStats& r) {
          r.surfelLightMs + r.surfelReadMs},
         {"pull", "Pull", "Sums flux up the cluster tree", r.pullMs},
         {"cache_light", "Cache light",
-         "Gathers linked clusters into the caches; finds what moved objects hide",
+         "Gathers linked clusters into the caches; finds what moved objects occlude",
          r.cacheLightMs + r.occlusionMs},
         {"field", "Field", "What the viewport samples, from the caches", r.fieldMs}};
     report.counters = {
         {"passed_on", "Passed on",
-         "Share of the light of a bounce that the next one hands on, below 1 where no light comes "
-         "from nowhere; known from the third bounce after an edit on",
+         "Share of a bounce's light that the next bounce passes on; below 1, as surfaces reflect "
+         "less "
+         "than they receive. Known from the third bounce after an edit",
          r.passedOn, CounterUnit::Share},
         {"shadow_rays", "Shadow rays",
          "Of the last call; 0 when no light moved, and on the GPU, which draws shadow maps",
@@ -37,16 +38,16 @@ LightingReport reportOf(const RelightStats& r) {
         {"links", "Links", "Of the caches that the last call lit, once for each bounce",
          double(r.links)},
         {"links_skipped", "  skipped",
-         "What they come from sends no light: a black sky or, where the CPU reads cones, surfaces "
-         "in the dark. Nothing is lost without them",
+         "Links from senders without light: a black sky or, where the CPU reads cones, unlit "
+         "surfaces. The result is unchanged",
          double(r.linksSkipped)},
         {"bands_lit", "Bands lit", "Bands of spherical harmonics that some surface reads",
          double(r.bandsLit)},
         {"bands_skipped", "  skipped",
-         "Bands that would be seen in glossy reflections only, and no surface needs them",
+         "Bands that only glossy reflections would show, where no surface is glossy enough",
          double(r.bandsSkipped)},
         {"grid_skipped", "Grid skipped",
-         "Cells not lit, because no object reads them: none is dynamic or without lightmap",
+         "Grid cells not lit, because no object is dynamic or without a lightmap",
          double(r.gridCachesSkipped)},
         {"caches_unseen", "Unseen",
          "Caches of the lightmap that the last bounce did not light, because the picture does not "
@@ -56,13 +57,12 @@ LightingReport reportOf(const RelightStats& r) {
          "Caches of the lightmap that the bounces before the last did not light, because no surfel "
          "reads them",
          double(r.cachesUnread)},
-        {"caches_occluded", "Occluded",
-         "Caches that dynamic objects take bounced light from; 0 where there are none",
+        {"caches_occluded", "Occluded", "Caches whose bounced light dynamic objects occlude",
          double(r.cachesOccluded)},
         {"links_occluded", "  links", "Of those caches", double(r.linksOccluded)},
         {"occlusion_ms", "Occlusion",
-         "Finding what dynamic objects hide, by the last call; 0 while they stand still",
-         r.occlusionMs, CounterUnit::Milliseconds}};
+         "Time to find what dynamic objects occlude; 0 while they stand still", r.occlusionMs,
+         CounterUnit::Milliseconds}};
     return report;
 }
 
