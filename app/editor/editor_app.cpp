@@ -4,6 +4,7 @@
 #include "app/editor/editor_window.h"
 #include "app/editor/screenshot.h"
 #include "app/editor/viewport_picture.h"
+#include "app/resources.h"
 #include "editor_ui/editor.h"
 #include "editor_ui/panels/theme.h"
 #include "engine/core/log.h"
@@ -32,7 +33,9 @@ struct ImGuiContextOwner {
         applyTheme();
         const float scale = window.scale();
         ImGui::GetStyle().ScaleAllSizes(scale);
-        addFont(15 * scale);
+        if (addFont(15 * scale, dataFolder("resources") + "/fonts").empty())
+            logWarning("no font found: Greek letters and superscripts are shown as \"?\"; install "
+                       "DejaVu Sans");
         window.connectImGui();
     }
     ~ImGuiContextOwner() { ImGui::DestroyContext(); }

@@ -63,8 +63,9 @@ void applyTheme() {
     setColors(style.Colors);
 }
 
-const char* addFont(float pixels) {
-    static const char* const kFonts[] = {
+std::string addFont(float pixels, const std::string& fonts) {
+    const std::string files[] = {
+        fonts + "/DejaVuSans.ttf",
         "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",          // fonts-dejavu-core
         "/usr/share/fonts/truetype/open-sans/OpenSans-Regular.ttf", // fonts-open-sans
     };
@@ -73,9 +74,9 @@ const char* addFont(float pixels) {
     static const ImWchar kRanges[] = {0x20,   0x17F,  0x370,  0x3FF,  0x2010, 0x2044,
                                       0x2070, 0x209C, 0x2190, 0x21FF, 0};
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    for (const char* file : kFonts)
+    for (const std::string& file : files)
         if (std::error_code error; std::filesystem::exists(file, error))
-            if (atlas.AddFontFromFileTTF(file, pixels, nullptr, kRanges))
+            if (atlas.AddFontFromFileTTF(file.c_str(), pixels, nullptr, kRanges))
                 return file;
     atlas.AddFontDefault();
     return "";

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 namespace limn {
 
 /// Colours that carry meaning. They are distinguished by hue and lightness and always accompanied
@@ -22,8 +24,9 @@ inline constexpr ImU32 kHandleLit = IM_COL32(255, 225, 110, 255);
 /// Dark, calm colours and even spacing for the current ImGui context, sized for a 15 px font.
 void applyTheme();
 
-/// Adds the interface font to the atlas: a Debian package's, or ImGui's own where none is
-/// installed. Returns the file used; empty for ImGui's own.
-const char* addFont(float pixels);
+/// Adds the interface font to the atlas: DejaVuSans.ttf in the folder `fonts`, else the system's,
+/// else ImGui's own, which lacks Greek letters and superscripts. Returns the file used; empty for
+/// ImGui's own.
+std::string addFont(float pixels, const std::string& fonts);
 
 } // namespace limn

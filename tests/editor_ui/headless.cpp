@@ -18,7 +18,7 @@ HeadlessUi::HeadlessUi(float width, float height) {
     io.ConfigDragClickToInputText = true; // lets Tab move between fields
     mapKeys();
     applyTheme();
-    addFont(15);
+    addFont(15, "");
     unsigned char* pixels = nullptr;
     int w = 0, h = 0;
     io.Fonts->GetTexDataAsAlpha8(&pixels, &w, &h);
