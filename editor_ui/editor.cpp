@@ -8,6 +8,7 @@
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/palette.h"
+#include "editor_ui/panels/save_dialog.h"
 #include "editor_ui/panels/statistics_panel.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/viewport_panel.h"
@@ -191,7 +192,7 @@ static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
     constexpr Shortcut kEsc{key::kEscape, kNoMods};
     const bool typing = ImGui::GetIO().WantTextInput;
     const bool flying = state.view.navigation == Navigation::Fly; // W, Q, ... steer
-    const bool modal = state.fileBrowser || state.confirm || state.exportDialog;
+    const bool modal = state.fileBrowser || state.confirm || state.recovery || state.exportDialog;
     for (const Shortcut& shortcut : pressed)
         if (!modal && shortcut == kEsc && escape(state))
             continue;
@@ -208,7 +209,8 @@ void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {
     palettePopup(state);
     fileBrowserDialog(state);
     exportDialog(state);
-    confirmDialog(state);
+    saveDialog(state);
+    recoveryDialog(state);
     if (!ImGui::IsAnyItemActive() && !state.view.drag)
         commitGesture(state);
 }

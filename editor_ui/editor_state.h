@@ -7,7 +7,9 @@
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/keys.h"
+#include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/palette.h"
+#include "editor_ui/panels/recovery_dialog.h"
 #include "editor_ui/panels/statistics.h"
 #include "editor_ui/request.h"
 #include "editor_ui/view/compare_state.h"
@@ -19,7 +21,6 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -66,16 +67,6 @@ struct LayoutState {
     float left = 270, right = 350, bottom = 212;
 };
 
-struct OutlinerState {
-    std::string filter;
-    std::set<ObjectId> collapsed;
-    ObjectId renaming = 0;
-    std::string newName;
-    bool focusName = false;
-    ObjectId anchor = 0;   ///< start of a Shift-click range
-    ObjectId revealed = 0; ///< the last active object scrolled to
-};
-
 /// Euler angles as typed by the user, valid while the object still has `rotation`.
 struct EulerEdit {
     ObjectId id = 0;
@@ -109,7 +100,9 @@ struct EditorState {
     std::optional<FileBrowser> fileBrowser;
     std::optional<ExportDialog> exportDialog;
     ExportStatus exporting;
-    std::optional<Request> confirm; ///< waits for "discard changes?"
+    std::optional<Request> confirm;   ///< waits for "save changes?"
+    std::optional<Request> afterSave; ///< goes on once the document is saved
+    std::optional<RecoveryOffer> recovery;
     Palette palette;
     bool autoBake = false;
     double seconds = 0;                      ///< since the start of animated textures
@@ -141,6 +134,11 @@ inline Object* findObject(EditorState& state, ObjectId id) {
 /// True if the document differs from its file.
 inline bool hasUnsavedChanges(const EditorState& state) {
     return state.document.objects != state.saved;
+}
+
+/// Path of the project; of the scene where it was never saved as one; empty where there is neither.
+inline const std::string& documentPath(const EditorState& state) {
+    return state.projectPath.empty() ? state.document.scenePath : state.projectPath;
 }
 
 } // namespace limn

@@ -16,10 +16,14 @@ struct Request {
         CancelBake,
         Export,
         CancelExport,
+        Recover,
+        DiscardRecovery,
+        PostponeRecovery,
         Screenshot,
         Quit
     } kind;
-    std::string path; ///< of NewFromScene, Open, OpenSkyImage, Save, Export
+    std::string path;             ///< of NewFromScene, Open, OpenSkyImage, Save, Export
+    bool discardsChanges = false; ///< unsaved changes are lost without asking
 };
 
 } // namespace limn

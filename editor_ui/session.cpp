@@ -55,7 +55,8 @@ Session::Session(SessionOptions options)
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
       m_relightJob(m_options.wake), m_exportJob(m_options.wake), m_referenceJob(m_options.wake),
-      m_comparisonJob(m_options.wake) {
+      m_comparisonJob(m_options.wake), m_recovery(m_options.recoveryFolder),
+      m_followed(std::make_shared<const Document>()) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
@@ -75,7 +76,7 @@ void Session::open(const std::string& what) {
 void Session::handle(const Request& request) {
     const bool leaves = request.kind == Request::Kind::NewFromScene ||
                         request.kind == Request::Kind::Open || request.kind == Request::Kind::Quit;
-    if (leaves && hasUnsavedChanges(state)) {
+    if (leaves && !request.discardsChanges && hasUnsavedChanges(state)) {
         state.confirm = request;
         return;
     }
@@ -94,8 +95,15 @@ void Session::handle(const Request& request) {
     case Request::Kind::Save:
         if (m_files.save(request.path, state.document, m_baked.preview ? nullptr : m_baked.bake))
             m_savingTo = request.path;
-        else
+        else {
+            state.afterSave.reset();
             log(LogLine::Level::Warning, "Busy with another file; try again in a moment");
+        }
+        break;
+    case Request::Kind::Recover:
+    case Request::Kind::DiscardRecovery:
+    case Request::Kind::PostponeRecovery:
+        answerRecovery(request.kind);
         break;
     case Request::Kind::Bake:
         m_bakeSoon = true;
@@ -124,31 +132,33 @@ void Session::takeOpened() {
     if (!opened)
         return;
     state.loading.clear();
-    if (!*opened) {
+    if (*opened)
+        show(std::move(**opened));
+    else
         log(LogLine::Level::Error, opened->error().message);
-        return;
-    }
-    OpenedFile& file = **opened;
+    offerRecovery();
+}
+
+void Session::show(OpenedFile file) {
     m_bakeJob.cancel();
     const EditorState before = std::exchange(state, {});
     state.layout = before.layout;
     state.view.origin = before.view.origin;
     state.view.size = before.view.size;
     state.overlay.options.kind = before.overlay.options.kind;
-    state.recent =
-        addRecentFile(before.recent, file.projectPath.empty() ? file.imported.document.scenePath
-                                                              : file.projectPath);
     state.frame = before.frame;
     state.relightPlace = before.relightPlace;
     state.autoBake = before.autoBake;
     state.document = std::move(file.imported.document);
     addIfMissing<TechniqueChoice>(state.document);
     addIfMissing<RelightSettings>(state.document);
-    state.saved = state.document.objects;
+    if (!file.recovered)
+        state.saved = state.document.objects;
     state.assets = std::move(file.imported.assets);
     state.meshBounds = std::move(file.meshBounds);
     state.projectPath = std::move(file.projectPath);
-    log(LogLine::Level::Info, "Opened " + file.what);
+    state.recent = addRecentFile(before.recent, documentPath(state));
+    log(LogLine::Level::Info, (file.recovered ? "Recovered " : "Opened ") + file.what);
     if (const std::string defect = choiceDefect(singleton<TechniqueChoice>(state.document));
         !defect.empty())
         log(LogLine::Level::Warning, file.what + ": " + defect + "; there is no bounced light");
@@ -157,7 +167,9 @@ void Session::takeOpened() {
     const bool hasBake = file.baked.bake != nullptr;
     m_scene = hasBake ? file.baked.scene
                       : std::make_shared<const Scene>(flatten(state.document, state.assets));
-    m_followed = state.document.objects;
+    m_followed = std::make_shared<const Document>(state.document);
+    if (file.recovered && m_offered)
+        m_recovery.adopt(*std::exchange(m_offered, {}), m_followed);
     m_shownSeconds = state.seconds;
     state.view.camera = chooseCamera(*m_scene, {});
     state.sceneBounds = m_scene->bounds;
@@ -167,6 +179,48 @@ void Session::takeOpened() {
     useBake(std::move(file.baked));
     m_bakeSoon = !hasBake && m_options.bakeOnOpen && lightsBake() && !m_scene->instances.empty();
     m_lightEdited = false;
+}
+
+/// Offers what another editor left behind: at the start any document, later that which is open.
+void Session::offerRecovery() {
+    const bool started = std::exchange(m_started, true);
+    m_offered.reset(); // if it is still there, it could not be opened
+    if (m_options.recoveryFolder.empty() || hasUnsavedChanges(state))
+        return;
+    std::error_code error;
+    const std::string& open = documentPath(state);
+    if (!open.empty())
+        m_offered =
+            findRecovery(m_options.recoveryFolder, std::filesystem::absolute(open, error).string());
+    if (!m_offered && !started)
+        m_offered = findRecovery(m_options.recoveryFolder, {});
+    if (m_offered)
+        state.recovery = RecoveryOffer{m_offered->of, m_offered->written};
+}
+
+void Session::answerRecovery(Request::Kind answer) {
+    if (!m_offered)
+        return;
+    if (answer == Request::Kind::DiscardRecovery)
+        removeRecovery(m_offered->folder);
+    if (answer != Request::Kind::Recover)
+        m_offered.reset();
+    else if (m_files.recover(m_offered->documentPath(), m_offered->of))
+        state.loading = m_offered->of;
+    else
+        log(LogLine::Level::Warning, "Busy with another file; open the document to recover it");
+}
+
+void Session::keepForRecovery() {
+    std::error_code error;
+    const std::string& path = documentPath(state);
+    if (m_quit || !hasUnsavedChanges(state))
+        m_recovery.clear();
+    else
+        m_recovery.keep(m_followed,
+                        path.empty() ? path : std::filesystem::absolute(path, error).string());
+    if (const std::string problem = m_recovery.takeProblem(); !problem.empty())
+        log(LogLine::Level::Warning, "Changes are not kept for recovery: " + problem);
 }
 
 void Session::takeSky() {
@@ -186,10 +240,13 @@ void Session::takeSaved() {
     auto saved = m_files.takeSaved();
     if (!saved)
         return;
+    const std::optional<Request> next = std::exchange(state.afterSave, {});
     if (!*saved) {
         log(LogLine::Level::Error, saved->error().message);
         return;
     }
+    if (next)
+        state.requests.push_back(*next);
     state.saved = (*saved)->objects;
     state.projectPath = std::filesystem::absolute(m_savingTo).string();
     state.recent = addRecentFile(state.recent, state.projectPath);
@@ -314,9 +371,9 @@ void Session::showExport() {
 }
 
 void Session::followDocument() {
-    if (state.document.objects == m_followed)
+    if (state.document.objects == m_followed->objects)
         return;
-    m_followed = state.document.objects;
+    m_followed = std::make_shared<const Document>(state.document);
     m_shownSeconds = state.seconds;
     auto scene =
         std::make_shared<const Scene>(flatten(state.document, state.assets, m_shownSeconds));
@@ -420,6 +477,7 @@ void Session::update() {
     takeBaked();
     takeExported();
     followDocument();
+    keepForRecovery();
     followTime();
     showStatus();
     showExport();

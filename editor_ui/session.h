@@ -7,6 +7,7 @@
 #include "editor_ui/jobs/comparison_job.h"
 #include "editor_ui/jobs/export_job.h"
 #include "editor_ui/jobs/file_job.h"
+#include "editor_ui/jobs/recovery_job.h"
 #include "editor_ui/jobs/reference_job.h"
 #include "editor_ui/jobs/relight_job.h"
 
@@ -20,6 +21,7 @@ struct SessionOptions {
     ImportOptions
         import; ///< for every scene that is opened; its memory limit is also that of bakes
     ExportFolders exportFolders = {};
+    std::string recoveryFolder = {}; ///< for copies of unsaved documents; empty: none are kept
 };
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No
@@ -76,6 +78,10 @@ public:
 private:
     void handle(const Request& request);
     void takeOpened();
+    void show(OpenedFile file);
+    void offerRecovery();
+    void answerRecovery(Request::Kind answer);
+    void keepForRecovery();
     void takeSky();
     void takeSaved();
     void takeBaked();
@@ -103,7 +109,10 @@ private:
     std::shared_ptr<const LinearPicture> m_picture; ///< null: none yet
     ComparedPicture m_compared;
     double m_shownSeconds = 0; ///< time of animated textures in m_scene
-    ObjectsById m_followed;    ///< the document's objects as m_scene shows them
+    RecoveryJob m_recovery;
+    std::optional<Recovery> m_offered;          ///< that of state.recovery, or being opened
+    bool m_started = false;                     ///< the first file has been opened, or could not be
+    std::shared_ptr<const Document> m_followed; ///< the document as m_scene shows it; never null
     std::shared_ptr<const Scene> m_scene;
     std::shared_ptr<const LightmapLayout> m_layout;
     BakedScene m_baked;

@@ -9,6 +9,7 @@
 #include "editor_ui/panels/theme.h"
 #include "engine/core/log.h"
 #include "engine/core/replace_file.h"
+#include "engine/core/user_folder.h"
 #include "engine/stages/stage_store.h"
 
 #include <imgui.h>
@@ -43,6 +44,12 @@ struct ImGuiContextOwner {
     ImGuiContextOwner& operator=(const ImGuiContextOwner&) = delete;
 };
 
+/// Where copies of unsaved documents are kept; empty: nowhere.
+std::string recoveryFolder() {
+    const std::string state = userFolder(UserFolder::State);
+    return state.empty() ? state : state + "/recovery";
+}
+
 /// Frames drawn after the last event, so that hover and layout of ImGui settle.
 constexpr int kFramesAfterEvent = 2;
 constexpr double kLookWhenIdleSeconds = 0.25, kLookWhenBusySeconds = 0.05;
@@ -57,7 +64,8 @@ public:
           m_swapchain(*m_device, surface), m_imgui(*m_window), m_renderer(*m_device, m_swapchain),
           m_picture(*m_device, options.validate, [this] { m_window->wake(); }),
           m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake,
-                     defaultStageFolder(), options.import, options.exportFolders}) {}
+                     defaultStageFolder(), options.import, options.exportFolders,
+                     recoveryFolder()}) {}
 
     void run();
     void writeStats() const;

@@ -71,9 +71,9 @@ static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene
     return {*bake, scene, std::make_shared<const TraceScene>(*scene)};
 }
 
-static Result<OpenedFile> openFile(const std::string& what, const std::string& projectsFolder,
-                                   const Progress& progress, const ImportOptions& options) {
-    Result<ImportedScene> imported = openAny(what, projectsFolder, progress, options);
+/// `imported` as the contents of the file `what`.
+static Result<OpenedFile> openedFile(const std::string& what, Result<ImportedScene> imported,
+                                     const ImportOptions& options) {
     if (!imported)
         return tl::make_unexpected(imported.error());
     OpenedFile file;
@@ -91,7 +91,20 @@ bool FileJob::open(std::string what) {
     return start([this, what = std::move(what)] {
         Progress progress;
         progress.cancel = &m_cancel;
-        auto opened = openFile(what, m_projectsFolder, progress, m_options);
+        auto opened =
+            openedFile(what, openAny(what, m_projectsFolder, progress, m_options), m_options);
+        const std::lock_guard lock(m_mutex);
+        m_opened = std::move(opened);
+    });
+}
+
+bool FileJob::recover(std::string copy, std::string of) {
+    return start([this, copy = std::move(copy), of = std::move(of)] {
+        Progress progress;
+        progress.cancel = &m_cancel;
+        auto opened = openedFile(of, loadProject(copy, progress, m_options), m_options);
+        if (opened)
+            opened->recovered = true;
         const std::lock_guard lock(m_mutex);
         m_opened = std::move(opened);
     });

@@ -18,6 +18,7 @@ namespace limn {
 /// The result of opening a file.
 struct OpenedFile {
     std::string what;        ///< as requested
+    bool recovered = false;  ///< what recover() read
     std::string projectPath; ///< where Save writes; empty for a scene and for sample projects
     ImportedScene imported;
     std::vector<Bounds> meshBounds; ///< object space, as Assets::meshes
@@ -39,11 +40,14 @@ public:
 
     /// Each of these starts its work and returns true, or returns false while another is running.
     bool open(std::string what);
+    /// Reads `copy`, a project that holds unsaved changes of the project or scene at `of`. Its
+    /// result is that of open(of) with these changes.
+    bool recover(std::string copy, std::string of);
     bool openSkyImage(std::string path);
     /// Writes the project and, beside it, the bake if there is one.
     bool save(std::string path, Document document, std::shared_ptr<const Precomputed> bake);
 
-    /// Returns the result of the last open() once.
+    /// Returns the result of the last open() or recover() once.
     std::optional<Result<OpenedFile>> takeOpened();
     /// Returns the panorama that the last openSkyImage() read, or its error, once.
     std::optional<Result<Sky>> takeSky();

@@ -4,8 +4,8 @@
 #include "engine/core/log.h"
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
+#include "engine/core/user_folder.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -13,12 +13,10 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
+/// Empty where the user has no folder for settings.
 static fs::path recentPath() {
-    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config)
-        return fs::path(config) / "limn" / "recent";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return fs::path(home) / ".config" / "limn" / "recent";
-    return {};
+    const std::string config = userFolder(UserFolder::Config);
+    return config.empty() ? fs::path() : fs::path(config) / "recent";
 }
 
 std::vector<std::string> readRecentFiles() {

@@ -55,8 +55,7 @@ static void menu(EditorState& state, const char* label, Menu which) {
 }
 
 static std::string documentTitle(const EditorState& state) {
-    std::string path = state.projectPath.empty() ? state.document.scenePath : state.projectPath;
-    std::string name = std::filesystem::path(path).filename().string();
+    std::string name = std::filesystem::path(documentPath(state)).filename().string();
     if (name.empty())
         name = "Untitled";
     return hasUnsavedChanges(state) ? name + " (not saved)" : name;
@@ -218,34 +217,6 @@ void statusBar(EditorState& state) {
     } else {
         idleWords(state);
     }
-}
-
-void confirmDialog(EditorState& state) {
-    constexpr const char* kTitle = "Discard changes?";
-    if (!state.confirm)
-        return;
-    if (!ImGui::IsPopupOpen(kTitle))
-        ImGui::OpenPopup(kTitle);
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(kTitle, nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-        return;
-    ImGui::TextUnformatted("The document has changes that are not saved.");
-    ImGui::Spacing();
-    const bool discard = ImGui::Button("Discard them");
-    ImGui::SameLine();
-    const bool keep = ImGui::Button("Go back") || ImGui::IsKeyPressed(key::kEscape);
-    if (discard) {
-        commitGesture(state);
-        state.saved = state.document.objects; // asked and answered
-        state.requests.push_back(*state.confirm);
-    }
-    if (discard || keep) {
-        state.confirm.reset();
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::EndPopup();
 }
 
 } // namespace limn

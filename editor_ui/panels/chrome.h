@@ -15,7 +15,4 @@ void viewBar(EditorState& state);
 /// else the state in words. Draws into the current window.
 void statusBar(EditorState& state);
 
-/// "Discard changes?" while state.confirm is set.
-void confirmDialog(EditorState& state);
-
 } // namespace limn

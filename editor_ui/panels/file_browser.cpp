@@ -218,6 +218,8 @@ void fileBrowserDialog(EditorState& state) {
         setExportPath(*state.exportDialog, request->path); // the dialog goes on
     else if (request)
         state.requests.push_back(*request);
+    if (cancel)
+        state.afterSave.reset();
     if (request || cancel)
         state.fileBrowser.reset();
 }

@@ -6,6 +6,7 @@
 #include "engine/core/memory_budget.h"
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
+#include "engine/core/user_folder.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -299,11 +300,8 @@ std::string StageStore::defect() const {
 }
 
 std::string defaultStageFolder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
-        return (fs::path(cache) / "limn/bake").string();
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return (fs::path(home) / ".cache/limn/bake").string();
-    return {};
+    const std::string cache = userFolder(UserFolder::Cache);
+    return cache.empty() ? std::string() : cache + "/bake";
 }
 
 } // namespace limn

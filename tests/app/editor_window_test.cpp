@@ -69,12 +69,16 @@ struct EditorWindowTest : testing::Test {
         screen.emplace(std::move(*started));
         document = testDocument(light);
         ASSERT_TRUE(saveProject(project, document));
+        startEditor();
+        document = loadProject(project)->document;
+    }
+
+    void startEditor() {
         editor.emplace(std::vector<std::string>{LIMN_BINARY, "edit", project, "--size",
                                                 fmt::format("{}x{}", kWidth, kHeight),
                                                 "--stats-json", stats, "--validate", "--relight",
                                                 relightOn()},
                        screen->environment(), folder.string());
-        document = loadProject(project)->document;
     }
 
     virtual std::string relightOn() const { return "auto"; }
@@ -151,6 +155,33 @@ TEST_F(EditorWindowTest, ALightIsPickedDraggedSavedUndoneAndLitWithoutABake) {
     const Result<Image> shot = readPng((folder / "limn-1.png").string());
     ASSERT_TRUE(shot);
     EXPECT_EQ(shot->width, unsigned(picture.size.x));
+}
+
+TEST_F(EditorWindowTest, AnEditOutlivesAKillAndIsOfferedAtTheNextStart) {
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["bake_up_to_date"] == true; }));
+    screen->focusWindow();
+    screen->click(
+        *toPixel(pictureOf(project), std::get<Light>(document.objects.at(light)).position));
+    ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
+    screen->key("Delete");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 1; }));
+    std::this_thread::sleep_for(std::chrono::seconds(5)); // nothing older may be lost
+    editor->kill();
+    EXPECT_TRUE(loadProject(project)->document.objects.contains(light)) << "the user's file";
+
+    fs::remove(stats);
+    startEditor();
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["bake_up_to_date"] == true; }));
+    EXPECT_EQ(readStats()["unsaved"], false);
+    screen->focusWindow();
+    screen->key("Return");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == true; }));
+    screen->key("ctrl+s");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
+    EXPECT_FALSE(loadProject(project)->document.objects.contains(light));
+    screen->key("ctrl+q");
+    EXPECT_EQ(editor->wait(), 0);
+    EXPECT_TRUE(fs::is_empty(folder / "limn/recovery"));
 }
 
 TEST_F(EditorWindowTest, AnIdleEditorDrawsNothingOnceItKnowsWhichDeviceRelightsFaster) {

@@ -50,13 +50,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
 ChildProcess::~ChildProcess() {
     if (!running())
         return;
-    kill(m_pid, SIGTERM);
+    ::kill(m_pid, SIGTERM);
     for (int i = 0; i < 100 && running(); ++i)
         pause(50);
-    if (running()) {
-        kill(m_pid, SIGKILL);
-        waitpid(m_pid, nullptr, 0);
-    }
+    kill();
 }
 
 bool ChildProcess::running() {
@@ -72,10 +69,16 @@ int ChildProcess::wait() {
     for (int i = 0; i < 600 && running(); ++i)
         pause(100);
     if (running())
-        kill(m_pid, SIGKILL);
+        kill();
+    return m_status;
+}
+
+void ChildProcess::kill() {
+    if (!running())
+        return;
+    ::kill(m_pid, SIGKILL);
     while (running())
         pause(10);
-    return m_status;
 }
 
 static bool installed(const char* program) {
@@ -118,7 +121,8 @@ std::optional<VirtualScreen> startVirtualScreen(int width, int height, const std
 }
 
 std::vector<std::string> VirtualScreen::environment() const {
-    return {"DISPLAY=:" + m_display, "XDG_CONFIG_HOME=" + m_folder, "XDG_CACHE_HOME=" + m_folder};
+    return {"DISPLAY=:" + m_display, "XDG_CONFIG_HOME=" + m_folder, "XDG_CACHE_HOME=" + m_folder,
+            "XDG_STATE_HOME=" + m_folder};
 }
 
 void VirtualScreen::xdotool(std::vector<std::string> arguments) {

@@ -27,6 +27,8 @@ public:
     bool running();
     /// Its exit status; 128 + signal when it was killed. Ends it after a minute.
     int wait();
+    /// Ends it at once, as the kernel does when memory is short.
+    void kill();
 
 private:
     pid_t m_pid = -1;
