@@ -85,6 +85,7 @@ struct EditorState {
     std::shared_ptr<const Assets> assets; ///< never null
     std::vector<Bounds> meshBounds;       ///< object space, as Assets::meshes
     std::string projectPath;              ///< empty: never saved
+    bool sample = false;                  ///< the scene came with the program
     std::vector<std::string> recent;      ///< newest first
     EditHistory history;
     ObjectsById saved;               ///< the objects as they are in the file

@@ -157,6 +157,7 @@ void Session::show(OpenedFile file) {
     state.assets = std::move(file.imported.assets);
     state.meshBounds = std::move(file.meshBounds);
     state.projectPath = std::move(file.projectPath);
+    state.sample = file.sample;
     state.recent = addRecentFile(before.recent, documentPath(state));
     log(LogLine::Level::Info, (file.recovered ? "Recovered " : "Opened ") + file.what);
     if (const std::string defect = choiceDefect(singleton<TechniqueChoice>(state.document));

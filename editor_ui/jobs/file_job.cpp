@@ -71,8 +71,15 @@ static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene
     return {*bake, scene, std::make_shared<const TraceScene>(*scene)};
 }
 
+static bool liesIn(const fs::path& file, const fs::path& folder) {
+    std::error_code error;
+    const fs::path relative = fs::relative(file, folder, error);
+    return !error && !relative.empty() && *relative.begin() != "..";
+}
+
 /// `imported` as the contents of the file `what`.
 static Result<OpenedFile> openedFile(const std::string& what, Result<ImportedScene> imported,
+                                     const std::string& projectsFolder,
                                      const ImportOptions& options) {
     if (!imported)
         return tl::make_unexpected(imported.error());
@@ -80,7 +87,9 @@ static Result<OpenedFile> openedFile(const std::string& what, Result<ImportedSce
     file.what = what;
     file.imported = std::move(*imported);
     file.meshBounds = boundsOfMeshes(*file.imported.assets);
-    if (fs::path(what).extension() == ".limn") {
+    const bool project = fs::path(what).extension() == ".limn";
+    file.sample = liesIn(project ? what : file.imported.document.scenePath, projectsFolder);
+    if (project && !file.sample) {
         file.projectPath = fs::absolute(what).string();
         file.baked = bakeBeside(file.projectPath, file.imported, options.memory);
     }
@@ -91,8 +100,8 @@ bool FileJob::open(std::string what) {
     return start([this, what = std::move(what)] {
         Progress progress;
         progress.cancel = &m_cancel;
-        auto opened =
-            openedFile(what, openAny(what, m_projectsFolder, progress, m_options), m_options);
+        auto opened = openedFile(what, openAny(what, m_projectsFolder, progress, m_options),
+                                 m_projectsFolder, m_options);
         const std::lock_guard lock(m_mutex);
         m_opened = std::move(opened);
     });
@@ -102,7 +111,8 @@ bool FileJob::recover(std::string copy, std::string of) {
     return start([this, copy = std::move(copy), of = std::move(of)] {
         Progress progress;
         progress.cancel = &m_cancel;
-        auto opened = openedFile(of, loadProject(copy, progress, m_options), m_options);
+        auto opened =
+            openedFile(of, loadProject(copy, progress, m_options), m_projectsFolder, m_options);
         if (opened)
             opened->recovered = true;
         const std::lock_guard lock(m_mutex);

@@ -19,6 +19,7 @@ namespace limn {
 struct OpenedFile {
     std::string what;        ///< as requested
     bool recovered = false;  ///< what recover() read
+    bool sample = false;     ///< its scene or project came with the program
     std::string projectPath; ///< where Save writes; empty for a scene and for sample projects
     ImportedScene imported;
     std::vector<Bounds> meshBounds; ///< object space, as Assets::meshes

@@ -4,6 +4,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/theme.h"
+#include "engine/core/user_folder.h"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -74,8 +75,10 @@ void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
     if (purpose == FileBrowser::Purpose::SaveAs)
         browser.name = current.empty() ? "untitled.limn" : current.stem().string() + ".limn";
     std::error_code error;
-    readFolder(browser, current.has_parent_path() ? current.parent_path().string()
-                                                  : fs::current_path(error).string());
+    fs::path folder = current.parent_path();
+    if (purpose == FileBrowser::Purpose::SaveAs && state.projectPath.empty() && state.sample)
+        folder = documentsFolder(); // what came with the program is not the user's to replace
+    readFolder(browser, (folder.empty() ? fs::current_path(error) : folder).string());
     state.fileBrowser = std::move(browser);
 }
 

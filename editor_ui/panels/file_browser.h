@@ -23,7 +23,7 @@ struct FileBrowser {
 };
 
 /// Opens the dialog at the folder of the sky's image (to choose one), of the current project or
-/// scene, or the working directory.
+/// scene, or the working directory. Samples are saved in the user's documents.
 void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose);
 
 /// Reads `folder`: folders first, then files with an extension that fits the purpose, each by name.

@@ -18,4 +18,8 @@ enum class UserFolder : std::uint8_t {
 /// XDG Base Directory Specification 0.8
 std::string userFolder(UserFolder kind);
 
+/// Where the user keeps documents: XDG_DOCUMENTS_DIR of user-dirs.dirs in the user's configuration,
+/// else ~/Documents if there is one, else the home folder. Empty where no home is known.
+std::string documentsFolder();
+
 } // namespace limn

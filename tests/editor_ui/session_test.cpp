@@ -420,6 +420,31 @@ TEST_F(SessionTest, AFileThatCannotBeOpenedIsAnErrorInTheLogAndTheDocumentStays)
     EXPECT_EQ(session.state.document, before);
 }
 
+TEST_F(SessionTest, ASampleIsSavedInTheUsersDocumentsHoweverItWasOpened) {
+    const fs::path documents = folder / "Documents";
+    fs::create_directory(documents);
+    setenv("HOME", folder.c_str(), 1);
+    SessionOptions unbaked = options();
+    unbaked.bakeOnOpen = false;
+    Session session(unbaked);
+    const std::string shipped = unbaked.projectsFolder + "/cornell/cornell";
+    for (const std::string& what : {std::string("cornell"), shipped + ".gltf", shipped + ".limn",
+                                    unbaked.projectsFolder + "/../projects/cornell/cornell.limn"}) {
+        session.open(what);
+        ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+        ASSERT_FALSE(session.state.assets->meshes.empty()) << what;
+        runAction(session.state, actionById("file.save"));
+        ASSERT_TRUE(session.state.fileBrowser) << what << " would be replaced";
+        EXPECT_EQ(session.state.fileBrowser->folder, documents) << what;
+        EXPECT_EQ(session.state.fileBrowser->name, "cornell.limn");
+        session.state.fileBrowser.reset();
+    }
+    session.open(project); // of a sample's scene, but the user's own
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    runAction(session.state, actionById("file.save_as"));
+    EXPECT_EQ(session.state.fileBrowser->folder, folder);
+}
+
 TEST_F(SessionTest, AFirstLookOfFewRaysComesBeforeTheFullBake) {
     Document document = smallDocument();
     for (auto& [id, object] : document.objects)
