@@ -5,6 +5,7 @@
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/chrome.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/palette.h"
@@ -163,6 +164,7 @@ static void panels(EditorState& state, float menuHeight) {
     viewBar(state);
     ImGui::End();
     picturePanel(state, p.picture);
+    noticeBox(state);
     beginFixed("status", p.status, kNoScroll);
     statusBar(state);
     ImGui::End();

@@ -7,6 +7,7 @@
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/keys.h"
+#include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/recovery_dialog.h"
@@ -104,6 +105,7 @@ struct EditorState {
     std::optional<Request> confirm;   ///< waits for "save changes?"
     std::optional<Request> afterSave; ///< goes on once the document is saved
     std::optional<RecoveryOffer> recovery;
+    std::optional<Notice> notice; ///< the newest one that was not dismissed
     Palette palette;
     bool autoBake = false;
     double seconds = 0;                      ///< since the start of animated textures

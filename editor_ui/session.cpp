@@ -8,6 +8,7 @@
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -66,16 +67,29 @@ void Session::log(LogLine::Level level, std::string text) {
     state.log.push_back({level, std::move(text)});
 }
 
+void Session::complain(std::string title, std::string text) {
+    log(LogLine::Level::Error, title + ": " + text);
+    state.notice = Notice{std::move(title), std::move(text)};
+}
+
+static bool isPanorama(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    return extension == ".hdr" || extension == ".exr";
+}
+
 void Session::open(const std::string& what) {
-    if (m_files.open(what))
+    if (isPanorama(what) ? m_files.openSkyImage(what) : m_files.open(what))
         state.loading = what;
     else
-        log(LogLine::Level::Warning, "Busy with another file; " + what + " was not opened");
+        complain("Not opened", what + ": another file is being opened or saved; try again");
 }
 
 void Session::handle(const Request& request) {
     const bool leaves = request.kind == Request::Kind::NewFromScene ||
-                        request.kind == Request::Kind::Open || request.kind == Request::Kind::Quit;
+                        request.kind == Request::Kind::Quit ||
+                        (request.kind == Request::Kind::Open && !isPanorama(request.path));
     if (leaves && !request.discardsChanges && hasUnsavedChanges(state)) {
         state.confirm = request;
         return;
@@ -83,21 +97,15 @@ void Session::handle(const Request& request) {
     switch (request.kind) {
     case Request::Kind::NewFromScene:
     case Request::Kind::Open:
-        open(request.path);
-        break;
     case Request::Kind::OpenSkyImage:
-        if (m_files.openSkyImage(request.path))
-            state.loading = request.path;
-        else
-            log(LogLine::Level::Warning,
-                "Busy with another file; " + request.path + " was not opened");
+        open(request.path);
         break;
     case Request::Kind::Save:
         if (m_files.save(request.path, state.document, m_baked.preview ? nullptr : m_baked.bake))
             m_savingTo = request.path;
         else {
             state.afterSave.reset();
-            log(LogLine::Level::Warning, "Busy with another file; try again in a moment");
+            complain("Not saved", "another file is being opened or saved; try again");
         }
         break;
     case Request::Kind::Recover:
@@ -135,7 +143,7 @@ void Session::takeOpened() {
     if (*opened)
         show(std::move(**opened));
     else
-        log(LogLine::Level::Error, opened->error().message);
+        complain("Not opened", opened->error().message);
     offerRecovery();
 }
 
@@ -209,7 +217,7 @@ void Session::answerRecovery(Request::Kind answer) {
     else if (m_files.recover(m_offered->documentPath(), m_offered->of))
         state.loading = m_offered->of;
     else
-        log(LogLine::Level::Warning, "Busy with another file; open the document to recover it");
+        complain("Not recovered", m_offered->of + ": another file is being opened; open it again");
 }
 
 void Session::keepForRecovery() {
@@ -230,7 +238,7 @@ void Session::takeSky() {
         return;
     state.loading.clear();
     if (!*read) {
-        log(LogLine::Level::Error, "Sky image: " + read->error().message);
+        complain("Not opened as the sky", read->error().message);
         return;
     }
     log(LogLine::Level::Info, "Opened " + (*read)->image);
@@ -243,7 +251,7 @@ void Session::takeSaved() {
         return;
     const std::optional<Request> next = std::exchange(state.afterSave, {});
     if (!*saved) {
-        log(LogLine::Level::Error, saved->error().message);
+        complain("Not saved", saved->error().message);
         return;
     }
     if (next)

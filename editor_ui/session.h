@@ -37,7 +37,8 @@ public:
     /// state.requests for the window.
     void update();
 
-    /// Opens a file as File > Open does, without asking about unsaved changes.
+    /// Opens a file as File > Open does, without asking about unsaved changes. A panorama (.hdr,
+    /// .exr) becomes the sky of the open document, which is an edit.
     void open(const std::string& what);
 
     /// What the viewport shows. The pointers change exactly when their contents do.
@@ -97,6 +98,8 @@ private:
     void useBake(BakedScene baked);
     void fitLayout();
     void log(LogLine::Level level, std::string text);
+    /// Logs an error and shows it in the picture.
+    void complain(std::string title, std::string text);
 
     SessionOptions m_options;
     BackgroundWorkers m_workers;

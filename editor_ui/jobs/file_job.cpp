@@ -72,6 +72,8 @@ static BakedScene bakeBeside(const std::string& projectPath, const ImportedScene
 }
 
 static bool liesIn(const fs::path& file, const fs::path& folder) {
+    if (folder.empty())
+        return false;
     std::error_code error;
     const fs::path relative = fs::relative(file, folder, error);
     return !error && !relative.empty() && *relative.begin() != "..";

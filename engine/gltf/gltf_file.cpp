@@ -133,6 +133,9 @@ static bool isGlb(std::string_view bytes) {
 
 /// The JSON text of the file; for a .glb its first chunk.
 static Result<std::string_view> jsonText(std::string_view bytes) {
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (!isGlb(bytes) && first != std::string_view::npos && bytes[first] != '{')
+        return fail("neither glTF nor GLB");
     if (!isGlb(bytes))
         return bytes;
     if (bytes.size() < 20)

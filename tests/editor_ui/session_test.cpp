@@ -6,6 +6,7 @@
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/techniques/technique_table.h"
+#include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
 
 #include <algorithm>
@@ -13,11 +14,13 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 #include <unistd.h>
 
 namespace limn {
@@ -406,6 +409,59 @@ TEST_F(SessionTest, LeavingAChangedDocumentAsksFirst) {
     EXPECT_FALSE(session.wantsQuit());
     ASSERT_TRUE(session.state.confirm);
     EXPECT_EQ(session.state.confirm->kind, Request::Kind::Quit);
+}
+
+TEST_F(SessionTest, ADroppedPanoramaBecomesTheSkyEvenOfAChangedDocumentAndIsUndone) {
+    SessionOptions unbaked = options();
+    unbaked.bakeOnOpen = false;
+    Session session(unbaked);
+    session.open(project);
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    addLight(session.state, Light{});
+    const Document before = session.state.document;
+    const std::string path = (folder / "Sky.EXR").string();
+    ASSERT_TRUE(writeExr(path, {4, 2, std::vector<glm::vec3>(8, glm::vec3(3))}));
+    session.state.requests.push_back({Request::Kind::Open, path});
+    ASSERT_TRUE(runUntil(session, [&] { return session.scene()->sky.showsImage(); }));
+    EXPECT_FALSE(session.state.confirm) << "nothing is left";
+    EXPECT_FALSE(session.state.notice);
+    ASSERT_TRUE(undoEdit(session.state));
+    EXPECT_EQ(session.state.document, before);
+}
+
+TEST_F(SessionTest, WhatCannotBeOpenedIsSaidWithFileAndReasonUntilItIsDismissed) {
+    SessionOptions unbaked = options();
+    unbaked.bakeOnOpen = false;
+    Session session(unbaked);
+    const auto noticeOf = [&](const std::string& name, const std::string& bytes) {
+        const std::string path = (folder / name).string();
+        std::ofstream(path, std::ios::binary) << bytes;
+        session.state.notice.reset();
+        session.state.requests.push_back({Request::Kind::Open, path});
+        EXPECT_TRUE(runUntil(session, [&] { return session.state.notice.has_value(); })) << name;
+        EXPECT_NE(session.state.notice->text.find(path), std::string::npos) << name;
+        EXPECT_EQ(session.state.log.back().level, LogLine::Level::Error) << name;
+        return session.state.notice->text;
+    };
+    const std::string brackets(1000, '[');
+    EXPECT_NE(noticeOf("photo.gltf", brackets).find("neither glTF nor GLB"), std::string::npos);
+    EXPECT_NE(noticeOf("photo.png", "\x89PNG" + brackets).find("neither glTF"), std::string::npos);
+    EXPECT_NE(noticeOf("sky.hdr", brackets).find("HDR"), std::string::npos);
+    EXPECT_NE(noticeOf("old.limn", "{").find("JSON"), std::string::npos);
+
+    HeadlessUi ui;
+    ui.frames(session.state);
+    ui.frames(session.state);
+    ImGuiWindow* box = ImGui::FindWindowByName("notice");
+    ASSERT_TRUE(box && box->Active);
+    ui.mouse(box->Rect().Min.x + 30, box->Rect().Max.y - 16); // the button at its foot
+    ui.frames(session.state);
+    ui.button(true);
+    ui.button(false);
+    ui.frames(session.state);
+    ui.frames(session.state);
+    EXPECT_FALSE(session.state.notice);
+    EXPECT_FALSE(box->Active);
 }
 
 TEST_F(SessionTest, AFileThatCannotBeOpenedIsAnErrorInTheLogAndTheDocumentStays) {
