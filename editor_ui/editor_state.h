@@ -107,7 +107,7 @@ struct EditorState {
     std::optional<RecoveryOffer> recovery;
     std::optional<Notice> notice; ///< the newest one that was not dismissed
     Palette palette;
-    bool autoBake = false;
+    bool autoBake = true;                    ///< bakes whenever that is needed and nothing is held
     double seconds = 0;                      ///< since the start of animated textures
     bool playing = false;                    ///< `seconds` advances
     Prediction prediction;                   ///< of a bake of the document

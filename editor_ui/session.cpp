@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/jobs/recent_files.h"
+#include "editor_ui/jobs/scene_changes.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/techniques/technique_table.h"
@@ -118,6 +119,7 @@ void Session::handle(const Request& request) {
         break;
     case Request::Kind::CancelBake:
         m_bakeSoon = false;
+        m_notBaked = m_relit.inputHash;
         m_bakeJob.cancel();
         break;
     case Request::Kind::Export:
@@ -265,7 +267,10 @@ void Session::takeSaved() {
 void Session::useBake(BakedScene baked) {
     m_baked = std::move(baked);
     state.relightPlace.refusal.clear(); // of the bake before
-    state.bake = {};
+    const BakeStatus before = std::exchange(state.bake, {});
+    state.bake.running = before.running; // after the preview, the bar goes on where it is
+    state.bake.fraction = before.fraction;
+    m_compared = nullptr;
     if (m_baked.bake) {
         state.bake.last = m_baked.bake->report();
         state.bake.preview = m_baked.preview;
@@ -300,7 +305,10 @@ void Session::takeBaked() {
     const bool preview = *result && (*result)->preview;
     if (!preview)
         m_bakeSecondsDone += std::exchange(m_bakeSecondsRunning, 0);
+    if (!*result && m_superseded)
+        return; // a newer one follows
     if (!*result) {
+        m_notBaked = m_bakingHash;
         state.bake.error = result->error().message;
         log(LogLine::Level::Warning, "Bake: " + state.bake.error);
     } else if ((*result)->scene->assets == state.assets) {
@@ -438,17 +446,43 @@ void Session::showStatus() {
         lightsBake() ? freshness(m_baked, m_relit, *m_scene) : BakeFreshness::NotUsed;
     state.bake.lightEdited = m_lightEdited;
     state.bake.secondsSinceLightEdit = m_lightEdited ? bakeSeconds() - m_bakeSecondsAtLightEdit : 0;
-    const bool traced = m_relit.hashedScene && sameBakeInputs(*m_relit.hashedScene, *m_scene);
-    const bool wanted =
-        m_bakeSoon || (state.autoBake && state.bake.freshness == BakeFreshness::Needed);
-    if (wanted && traced && !m_bakeJob.running()) {
-        m_bakeSoon = false;
-        state.bake.error.clear();
-        // The baker reads the settings of the scene that the rays meet.
-        const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
-        m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr, m_baked.bake == nullptr);
-        m_bakeJob.report(state.bake);
+    showChanges();
+}
+
+void Session::showChanges() {
+    if (state.bake.freshness != BakeFreshness::Needed) {
+        state.bake.changes.clear();
+        m_compared = nullptr;
+    } else if (m_compared != m_scene) {
+        m_compared = m_scene;
+        state.bake.changes = bakeInputChanges(*m_baked.scene, *m_scene, state.document);
     }
+}
+
+/// Starts the bake that the user has asked for, or that the document needs. The latter waits until
+/// no drag changes the document any more, and takes the place of a bake of an older document.
+void Session::bakeIfWanted() {
+    if (!m_relit.hashedScene || !sameBakeInputs(*m_relit.hashedScene, *m_scene))
+        return; // the hash is being computed
+    const bool automatic = state.autoBake && !state.gesture && m_notBaked != m_relit.inputHash;
+    if (m_bakeJob.busy()) {
+        m_superseded |= automatic && m_bakeJob.running() && m_relit.inputHash != m_bakingHash;
+        if (m_superseded) {
+            m_bakeSoon = state.bake.freshness != BakeFreshness::UpToDate;
+            m_bakeJob.cancel();
+        }
+        return;
+    }
+    if (!m_bakeSoon && !(automatic && state.bake.freshness == BakeFreshness::Needed))
+        return;
+    m_bakeSoon = m_superseded = false;
+    m_notBaked.reset();
+    m_bakingHash = m_relit.inputHash;
+    state.bake.error.clear();
+    // The baker reads the settings of the scene that the rays meet.
+    const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
+    m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr, m_baked.bake == nullptr);
+    m_bakeJob.report(state.bake);
 }
 
 void Session::followReference() {
@@ -469,10 +503,10 @@ void Session::followReference() {
                   compare.mode == Compare::Difference, view.tonemap, view.exposureEv};
     }
     m_comparisonJob.set(std::move(wanted));
-    m_compared = m_comparisonJob.result();
+    m_beside = m_comparisonJob.result();
     compare.reference = {traced.running,  traced.set ? 4 * traced.set->samplesPerPixel : 0,
                          traced.noise,    traced.seconds,
-                         traced.fraction, m_compared.error};
+                         traced.fraction, m_beside.error};
 }
 
 void Session::update() {
@@ -489,6 +523,7 @@ void Session::update() {
     keepForRecovery();
     followTime();
     showStatus();
+    bakeIfWanted();
     showExport();
     followReference();
 }

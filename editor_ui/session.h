@@ -68,7 +68,7 @@ public:
     }
     /// The reference or the difference to it, as state.compare asks; its image is null if there is
     /// none.
-    const ComparedPicture& compared() const { return m_compared; }
+    const ComparedPicture& compared() const { return m_beside; }
 
     bool wantsQuit() const { return m_quit; }
     /// True if nothing is being opened, saved, baked, exported, relit or path-traced.
@@ -93,6 +93,8 @@ private:
     void followDocument();
     void followTime();
     void showStatus();
+    void showChanges();
+    void bakeIfWanted();
     /// True if the document's technique lights bakes.
     bool lightsBake() const;
     void useBake(BakedScene baked);
@@ -110,7 +112,7 @@ private:
     ReferenceJob m_referenceJob;
     ComparisonJob m_comparisonJob;
     std::shared_ptr<const LinearPicture> m_picture; ///< null: none yet
-    ComparedPicture m_compared;
+    ComparedPicture m_beside;
     double m_shownSeconds = 0; ///< time of animated textures in m_scene
     RecoveryJob m_recovery;
     std::optional<Recovery> m_offered;          ///< that of state.recovery, or being opened
@@ -120,7 +122,11 @@ private:
     std::shared_ptr<const LightmapLayout> m_layout;
     BakedScene m_baked;
     Relit m_relit;
-    bool m_bakeSoon = false; ///< start once the trace scene exists
+    bool m_bakeSoon = false;                 ///< start once the trace scene exists
+    std::uint64_t m_bakingHash = 0;          ///< input hash of the last bake that was started
+    bool m_superseded = false;               ///< it was cancelled because its scene is out of date
+    std::optional<std::uint64_t> m_notBaked; ///< input hash that the user cancelled or that failed
+    std::shared_ptr<const Scene> m_compared; ///< the scene that state.bake.changes speaks of
     bool m_quit = false;
     std::string m_savingTo, m_exportingTo;
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;

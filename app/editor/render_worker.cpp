@@ -2,6 +2,7 @@
 #include "app/editor/render_worker.h"
 
 #include "app/editor/measure_relight.h"
+#include "editor_ui/jobs/scene_changes.h"
 #include "engine/techniques/device/device_table.h"
 
 #include <chrono>

@@ -4,6 +4,7 @@
 #include "editor_ui/jobs/background_priority.h"
 #include "engine/techniques/technique_table.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace limn {
@@ -111,7 +112,7 @@ std::optional<Result<BakedScene>> BakeJob::takeResult() {
 }
 
 void BakeJob::report(BakeStatus& status) const {
-    status.running = m_running;
+    const bool ranBefore = std::exchange(status.running, m_running);
     if (!status.running)
         return;
     const std::lock_guard lock(m_mutex);
@@ -121,10 +122,11 @@ void BakeJob::report(BakeStatus& status) const {
     status.elapsedSeconds = std::chrono::duration<double>(now - m_start).count();
     status.secondsLeft = secondsLeft(m_expected, m_stage, double(m_stageFraction),
                                      std::chrono::duration<double>(now - m_stageStart).count());
-    status.fraction =
-        status.secondsLeft < 0
-            ? 0
-            : float(status.elapsedSeconds / (status.elapsedSeconds + status.secondsLeft));
+    const double total = status.elapsedSeconds + status.secondsLeft;
+    const float fraction =
+        status.secondsLeft < 0 || total <= 0 ? 0 : float(status.elapsedSeconds / total);
+    // Estimates get longer, too; what was done stays done.
+    status.fraction = ranBefore ? std::max(status.fraction, fraction) : fraction;
 }
 
 } // namespace limn

@@ -2,7 +2,7 @@
 #include "editor_ui/jobs/reference_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
-#include "editor_ui/jobs/relight_job.h"
+#include "editor_ui/jobs/scene_changes.h"
 
 #include <chrono>
 #include <utility>

@@ -2,7 +2,7 @@
 #include "editor_ui/jobs/relight_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
-#include "engine/scene/mesh/input_hash.h"
+#include "editor_ui/jobs/scene_changes.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -10,53 +10,6 @@
 #include <utility>
 
 namespace limn {
-
-namespace {
-
-bool sameSurface(const Material& a, const Material& b) {
-    return a.alphaMode == b.alphaMode && a.alphaCutoff == b.alphaCutoff &&
-           a.doubleSided == b.doubleSided && a.baseColor.w == b.baseColor.w &&
-           a.baseColorTexture == b.baseColorTexture;
-}
-
-bool sameBakedMaterial(const Material& a, const Material& b) {
-    return sameSurface(a, b) && emits(a) == emits(b);
-}
-
-bool sameObject(const Instance& a, const Instance& b) {
-    return a.mesh == b.mesh && a.material == b.material && a.node == b.node &&
-           a.dynamic == b.dynamic;
-}
-
-bool sameInstance(const Instance& a, const Instance& b) {
-    return sameObject(a, b) && a.toWorld == b.toWorld;
-}
-
-bool sameBakedInstance(const Instance& a, const Instance& b) {
-    return sameObject(a, b) && (a.dynamic || a.toWorld == b.toWorld);
-}
-
-} // namespace
-
-bool sameGeometry(const Scene& a, const Scene& b) {
-    return a.assets == b.assets && std::ranges::equal(a.instances, b.instances, sameInstance) &&
-           std::ranges::equal(a.materials, b.materials, sameSurface);
-}
-
-bool sameStaticGeometry(const Scene& a, const Scene& b) {
-    return a.assets == b.assets &&
-           std::ranges::equal(a.instances, b.instances, sameBakedInstance) &&
-           std::ranges::equal(a.materials, b.materials, sameSurface);
-}
-
-bool sameBakeInputs(const Scene& a, const Scene& b) {
-    return sameStaticGeometry(a, b) && a.bake == b.bake &&
-           std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
-}
-
-bool sameLight(const Scene& a, const Scene& b) {
-    return a.lights == b.lights && a.materials == b.materials && a.sky == b.sky;
-}
 
 Scene relitScene(const Scene& baked, const Scene& now) {
     Scene scene = baked;

@@ -73,16 +73,6 @@ private:
 void countUpdate(LightingStatus& status, const LightingDriver& driver,
                  const std::optional<LightingReport>& report);
 
-/// True if a bake of `a` serves `b` as well, as far as can be told without hashing the meshes.
-bool sameBakeInputs(const Scene& a, const Scene& b);
-
-/// True if rays meet the same surfaces. sameStaticGeometry() ignores those of dynamic objects.
-bool sameGeometry(const Scene& a, const Scene& b);
-bool sameStaticGeometry(const Scene& a, const Scene& b);
-
-/// True if the lights, the materials and the sky are equal.
-bool sameLight(const Scene& a, const Scene& b);
-
 /// Copy of `baked` with the lights, materials, sky and relight settings of `now`. A bake older
 /// than the document can still be lit with it.
 Scene relitScene(const Scene& baked, const Scene& now);

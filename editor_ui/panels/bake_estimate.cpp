@@ -11,9 +11,10 @@ double secondsLeft(const StageSeconds& expected, const std::string& stage, doubl
         return -1;
     auto at = std::find_if(expected.begin(), expected.end(),
                            [&](const auto& entry) { return entry.first == stage; });
+    const double atLeast = stageSeconds / 4;
     if (at == expected.end())
-        return std::max(0.0, expected.back().second - stageSeconds);
-    double left = std::max(0.0, at->second - stageSeconds);
+        return std::max(atLeast, expected.back().second - stageSeconds);
+    double left = std::max(atLeast, at->second - stageSeconds);
     // An earlier estimate of the pace would fluctuate.
     if (fraction > 0.05 && stageSeconds > 0.2)
         left = stageSeconds * (1 - fraction) / fraction;

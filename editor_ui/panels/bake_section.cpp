@@ -70,8 +70,8 @@ static void bakeStateLine(EditorState& state) {
             ImGui::TextColored(ImColor(color::kGood), "The bake is up to date.");
             break;
         case BakeFreshness::Needed:
-            ImGui::TextColored(ImColor(color::kWarning),
-                               "Bake needed: objects or settings changed since the last one.");
+            ImGui::TextColored(ImColor(color::kWarning), "Bake needed: %s.",
+                               bakeReason(bake).c_str());
             break;
         }
     for (const std::string& note : bake.last.notes)

@@ -146,10 +146,10 @@ static void bakeProgress(EditorState& state) {
                                             100 * bake.stageFraction, 100 * bake.fraction);
     ImGui::ProgressBar(bake.fraction, {ImGui::GetFontSize() * 18, 0}, percent.c_str());
     ImGui::SameLine();
-    if (bake.secondsLeft >= 0)
+    if (bake.secondsLeft >= 1)
         ImGui::Text("about %s left", durationText(bake.secondsLeft).c_str());
     else
-        ImGui::TextUnformatted("estimating...");
+        ImGui::TextUnformatted(bake.secondsLeft < 0 ? "estimating..." : "nearly done");
     ImGui::SameLine();
     const Action& cancel = actionById("bake.cancel");
     if (ImGui::Button("Cancel"))
@@ -175,7 +175,9 @@ static void bakeWords(EditorState& state) {
         ImGui::TextDisabled("Bake up to date");
         break;
     case BakeFreshness::Needed:
-        ImGui::TextColored(ImColor(color::kWarning), "Bake needed");
+        ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
+        elidedText("Bake needed: " + bakeReason(state.bake), ImGui::GetFontSize() * 24);
+        ImGui::PopStyleColor();
         break;
     }
     if (state.bake.freshness != BakeFreshness::None &&

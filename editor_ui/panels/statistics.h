@@ -18,7 +18,7 @@ enum class BakeFreshness {
     None,     ///< nothing baked yet
     Checking, ///< the document changed; its hash is being computed
     UpToDate,
-    Needed, ///< objects, masks or settings changed since
+    Needed, ///< what it depends on changed since: BakeStatus::changes
 };
 
 /// State of the baker as shown in the panels.
@@ -30,6 +30,7 @@ struct BakeStatus {
     double elapsedSeconds = 0;
     double secondsLeft = -1; ///< < 0: not known yet
     BakeFreshness freshness = BakeFreshness::None;
+    std::string changes;      ///< why a bake is needed, by name: "Door moved"; empty: not known
     PrecomputedReport last;   ///< of the last successful bake
     bool preview = false;     ///< it is a preview; the full bake is running
     bool lightEdited = false; ///< since the scene was opened
@@ -37,6 +38,11 @@ struct BakeStatus {
         0;             ///< spent baking since a light, material or sky was last edited
     std::string error; ///< why the last bake has no result; empty: it has one
 };
+
+/// What changed since the last bake, in words, if a new one is needed.
+inline std::string bakeReason(const BakeStatus& bake) {
+    return bake.changes.empty() ? "what it was made from changed" : bake.changes;
+}
 
 /// State of bounced light and its updates as shown in the panels.
 struct LightingStatus {
