@@ -5,6 +5,7 @@
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/chrome.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/no_light_hint.h"
 #include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/overlay_panel.h"
@@ -164,6 +165,7 @@ static void panels(EditorState& state, float menuHeight) {
     viewBar(state);
     ImGui::End();
     picturePanel(state, p.picture);
+    noLightHint(state);
     noticeBox(state);
     beginFixed("status", p.status, kNoScroll);
     statusBar(state);

@@ -113,6 +113,7 @@ struct EditorState {
     Prediction prediction;                   ///< of a bake of the document
     std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
     Bounds sceneBounds;
+    bool unlit = false; ///< nothing lights the scene
     BakeStatus bake;
     LightingStatus relight;
     RelightPlace relightPlace;

@@ -2,6 +2,7 @@
 #include "editor_ui/session.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/first_light.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "editor_ui/panels/overlay_panel.h"
@@ -186,6 +187,7 @@ void Session::show(OpenedFile file) {
     state.sceneBounds = m_scene->bounds;
     state.prediction = predictionFor(*m_scene);
     state.view.flySpeed = std::max(glm::length(m_scene->bounds.size()) / 8, 0.01f);
+    state.unlit = nothingShines(*m_scene);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
     m_bakeSoon = !hasBake && m_options.bakeOnOpen && lightsBake() && !m_scene->instances.empty();
@@ -404,6 +406,7 @@ void Session::followDocument() {
         state.prediction = predictionFor(*scene);
     m_scene = std::move(scene);
     state.sceneBounds = m_scene->bounds;
+    state.unlit = nothingShines(*m_scene);
     if (!sameList)
         fitLayout();
     m_relightJob.setScene(m_scene);

@@ -49,6 +49,20 @@ static Change changeOfSingle(const Document& document, const T& after) {
     return {document.nextId, {}, after};
 }
 
+void addLightAndSky(EditorState& state, Light light, const Sky& sky) {
+    commitGesture(state);
+    light.name = freeName(state.document, light.name);
+    const ObjectId id = state.document.nextId;
+    Edit edit{"Add " + light.name + " and sky", {{id, {}, light}}};
+    Change change = changeOfSingle(state.document, sky);
+    if (!change.before)
+        change.id = id + 1;
+    if (change.before != change.after)
+        edit.changes.push_back(std::move(change));
+    applyEdit(state, std::move(edit));
+    state.selection = {id};
+}
+
 void setSkyImage(EditorState& state, const Sky& image) {
     commitGesture(state);
     Sky sky = singleton<Sky>(state.document);

@@ -15,6 +15,9 @@ struct EditorState;
 /// Adds `light` under a name no other light has, and selects it.
 ObjectId addLight(EditorState& state, Light light);
 
+/// The same, and makes `sky` that of the document where it is another.
+void addLightAndSky(EditorState& state, Light light, const Sky& sky);
+
 /// Gives the sky the kind, the image and the panorama of `image`.
 void setSkyImage(EditorState& state, const Sky& image);
 

@@ -2,6 +2,7 @@
 #include "editor_ui/panels/action.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/first_light.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
@@ -278,6 +279,7 @@ std::vector<Action> fixedActions() {
     {"edit.select_none", "Select nothing", Menu::Edit, plain(key::kEscape), kNoKey, false, hasSelection, selectNone},
     {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
     {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
+    {"add.sun_and_sky", "Sun and sky", Menu::Add, kNoKey, kNoKey, false, always, addSunAndSky},
     {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Point>, isPlacing<LightKind::Point>},
     {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Spot>, isPlacing<LightKind::Spot>},
     {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Rectangle>, isPlacing<LightKind::Rectangle>},
