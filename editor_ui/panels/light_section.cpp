@@ -2,6 +2,7 @@
 #include "editor_ui/document/light_angles.h"
 #include "editor_ui/document/photometry.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
 
@@ -16,7 +17,7 @@ namespace limn {
 
 static void colorRows(FieldEdit& edit, Light& light) {
     fieldLabel("Colour", "Linear Rec. 709; multiplies the strength");
-    ImGui::ColorEdit3("##color", &light.color.x, ImGuiColorEditFlags_Float);
+    colorField("##color", light.color);
     fieldEdited(edit, "Light colour");
     float kelvin = nearestKelvin(light.color);
     fieldLabel("Temperature (K)",

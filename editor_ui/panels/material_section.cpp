@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/inspector_panel.h"
@@ -21,7 +22,7 @@ static void colorAndStrength(FieldEdit& edit, glm::vec3& radiance, const char* w
     float strength = std::max({radiance.x, radiance.y, radiance.z});
     glm::vec3 color = strength > 0 ? radiance / strength : glm::vec3(1);
     fieldLabel(colorLabel, "Linear Rec. 709, brightest component 1");
-    if (ImGui::ColorEdit3("##radianceColor", &color.x, ImGuiColorEditFlags_Float))
+    if (colorField("##radianceColor", color))
         radiance = color * strength;
     fieldEdited(edit, what);
     fieldLabel(strengthLabel, tooltip);
@@ -60,7 +61,9 @@ static void flipbookRows(FieldEdit& edit, Flipbook& flipbook) {
 
 void materialSection(FieldEdit& edit, Material& material) {
     fieldLabel("Base colour", "Linear; multiplies the texture. Bounced light takes its colour");
-    ImGui::ColorEdit3("##base", &material.baseColor.x, ImGuiColorEditFlags_Float);
+    glm::vec3 base(material.baseColor);
+    if (colorField("##base", base))
+        material.baseColor = glm::vec4(base, material.baseColor.w);
     fieldEdited(edit, "Base colour");
     fieldLabel("Metallic", "0: dielectric, 1: metal; metal sends no diffuse light [0, 1]");
     ImGui::SliderFloat("##metallic", &material.metallic, 0, 1, "%.2f",
