@@ -75,6 +75,11 @@ static void rowsOfKind(const EditorState& state, const std::string& filter,
             rows.push_back({id});
 }
 
+/// A filter looks into all sections.
+static bool isClosed(const EditorState& state, const char* heading) {
+    return state.outliner.filter.empty() && state.outliner.closed.contains(heading);
+}
+
 static std::vector<Row> visibleRows(const EditorState& state) {
     const std::string filter = lowered(state.outliner.filter);
     std::vector<Row> rows;
@@ -85,6 +90,8 @@ static std::vector<Row> visibleRows(const EditorState& state) {
         rows[at].count = rows.size() - at - 1;
         if (rows[at].count == 0)
             rows.pop_back();
+        else if (isClosed(state, heading))
+            rows.resize(at + 1);
     };
     section("Lights", rowsOfKind<Light>);
     section("Objects", nodeRows);
@@ -164,6 +171,20 @@ static void nameField(EditorState& state, ObjectId id) {
         state.outliner.focusName = false;
 }
 
+/// A triangle that points right if `collapsed`, else down, in a line of text at `at` [px].
+static void triangle(ImVec2 at, bool collapsed) {
+    const float h = ImGui::GetTextLineHeight();
+    const ImVec2 c(at.x + h * 0.4f, at.y + h * 0.5f);
+    const float r = h * 0.22f;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (collapsed)
+        list.AddTriangleFilled({c.x - r * 0.7f, c.y - r}, {c.x + r, c.y}, {c.x - r * 0.7f, c.y + r},
+                               color::kDim);
+    else
+        list.AddTriangleFilled({c.x - r, c.y - r * 0.7f}, {c.x + r, c.y - r * 0.7f}, {c.x, c.y + r},
+                               color::kDim);
+}
+
 static void expander(EditorState& state, const Row& row) {
     const float h = ImGui::GetTextLineHeight();
     if (!row.hasChildren) {
@@ -178,15 +199,7 @@ static void expander(EditorState& state, const Row& row) {
         else
             state.outliner.collapsed.insert(row.id);
     }
-    const ImVec2 c(at.x + h * 0.4f, at.y + h * 0.5f);
-    const float r = h * 0.22f;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (collapsed)
-        list.AddTriangleFilled({c.x - r * 0.7f, c.y - r}, {c.x + r, c.y}, {c.x - r * 0.7f, c.y + r},
-                               color::kDim);
-    else
-        list.AddTriangleFilled({c.x - r, c.y - r * 0.7f}, {c.x + r, c.y - r * 0.7f}, {c.x, c.y + r},
-                               color::kDim);
+    triangle(at, collapsed);
 }
 
 static bool isShown(const Object& object) {
@@ -273,7 +286,16 @@ static void objectRow(EditorState& state, const std::vector<Row>& rows, const Ro
     ImGui::PopID();
 }
 
-static void headingRow(const Row& row) {
+/// Opens or closes its section when clicked.
+static void headingRow(EditorState& state, const Row& row) {
+    const float h = ImGui::GetTextLineHeight();
+    const ImVec2 start = ImGui::GetCursorPos(), at = ImGui::GetCursorScreenPos();
+    std::set<std::string>& closed = state.outliner.closed;
+    if (ImGui::Selectable((std::string("##") + row.heading).c_str(), false, 0, {0, h}) &&
+        !closed.erase(row.heading))
+        closed.insert(row.heading);
+    triangle(at, isClosed(state, row.heading));
+    ImGui::SetCursorPos({start.x + h, start.y});
     ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
     ImGui::Text("%s  %zu", row.heading, row.count);
     ImGui::PopStyleColor();
@@ -311,7 +333,7 @@ void outlinerPanel(EditorState& state) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const Row& row = rows[std::size_t(i)];
             if (row.id == 0)
-                headingRow(row);
+                headingRow(state, row);
             else if (state.document.objects.contains(row.id)) // a menu above may have deleted it
                 objectRow(state, rows, row);
         }

@@ -12,7 +12,8 @@ struct EditorState;
 
 struct OutlinerState {
     std::string filter;
-    std::set<ObjectId> collapsed;
+    std::set<ObjectId> collapsed; ///< nodes whose children are not listed
+    std::set<std::string> closed; ///< headings of sections that are not listed
     ObjectId renaming = 0;
     std::string newName;
     bool focusName = false;

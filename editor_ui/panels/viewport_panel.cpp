@@ -8,6 +8,7 @@
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/view/camera_control.h"
 #include "editor_ui/view/gizmo.h"
+#include "editor_ui/view/icon_scales.h"
 #include "editor_ui/view/light_placement.h"
 #include "editor_ui/view/picking.h"
 #include "editor_ui/view/pivot.h"
@@ -19,6 +20,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -175,27 +179,41 @@ static void rectangleOutline(ImDrawList& list, const Picture& picture, const Lig
             list.AddLine({a->x, a->y}, {b->x, b->y}, color, 1.5f);
 }
 
+/// Icons that would cover one another shrink, to dots at last; selected ones keep their size.
 static void lightIcons(const EditorState& state) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const Picture picture = state.view.picture();
+    std::vector<std::pair<ObjectId, const Light*>> lights;
+    std::vector<glm::vec2> places;
     for (const auto& [id, object] : state.document.objects) {
         const auto* light = std::get_if<Light>(&object);
         const auto pixel = light ? toPixel(picture, light->position) : std::nullopt;
         if (!pixel)
             continue;
-        const bool selected = std::ranges::find(state.selection, id) != state.selection.end();
+        lights.emplace_back(id, light);
+        places.push_back(*pixel);
+    }
+    const std::vector<float> scales = iconScales(places, 24);
+    const std::unordered_set<ObjectId> chosen(state.selection.begin(), state.selection.end());
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const auto& [id, light] = lights[i];
+        const bool selected = chosen.contains(id);
+        const float scale = selected ? 1 : scales[i];
         const ImU32 ink = selected         ? color::kHandleLit
                           : light->enabled ? IM_COL32(255, 255, 255, 230)
                                            : IM_COL32(150, 150, 150, 200);
-        const ImVec2 centre(pixel->x, pixel->y);
+        const ImVec2 centre(places[i].x, places[i].y);
         if (light->kind == LightKind::Rectangle)
             rectangleOutline(list, picture, *light, ink);
-        list.AddCircleFilled(centre, 12, IM_COL32(20, 22, 26, 170));
+        list.AddCircleFilled(centre, 12 * scale, IM_COL32(20, 22, 26, 170));
         if (selected)
             list.AddCircle(centre, 12.5f, ink, 0, 1.5f);
         if (selected && light->kind != LightKind::Point)
             directionLine(list, picture, *light, ink);
-        drawIcon(list, lightIcon(light->kind), centre, 15, ink);
+        if (scale > 0.5f)
+            drawIcon(list, lightIcon(light->kind), centre, 15 * scale, ink);
+        else // a shape would be a smudge
+            list.AddCircleFilled(centre, 8 * scale, ink);
     }
 }
 
