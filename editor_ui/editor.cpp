@@ -36,8 +36,7 @@ struct Places {
     Rect left, right, bottom, bar, picture, status;
 };
 
-constexpr float kSplitter = 5;
-constexpr float kMinPanel = 150, kMinPicture = 160;
+constexpr float kSplitter = 5, kMinPanel = 150, kMinPicture = 160; ///< at 96 dpi [px]
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
@@ -46,25 +45,33 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
 
 } // namespace
 
-/// Keeps the panels within the window, the picture never smaller than kMinPicture where there is
-/// room.
+static float splitterWidth() {
+    return std::floor(kSplitter * uiScale());
+}
+
+/// Sizes of the panels on the screen [px]: within the window, the picture never smaller than
+/// kMinPicture where there is room.
 static LayoutState fitted(LayoutState layout, float width, float height) {
-    const float sides = std::max(width - kMinPicture - 2 * kSplitter, 2 * 20.f);
-    layout.left = std::clamp(layout.left, std::min(kMinPanel, sides / 2), sides / 2);
-    layout.right = std::clamp(layout.right, std::min(kMinPanel, sides / 2), sides - layout.left);
-    const float most = std::max(height - kMinPicture, 20.f);
-    layout.bottom = std::clamp(layout.bottom, std::min(80.f, most), most);
+    const float scale = uiScale();
+    const float picture = kMinPicture * scale, panel = kMinPanel * scale;
+    const float sides = std::max(width - picture - 2 * splitterWidth(), 2 * 20.f);
+    layout.left = std::clamp(layout.left * scale, std::min(panel, sides / 2), sides / 2);
+    layout.right =
+        std::clamp(layout.right * scale, std::min(panel, sides / 2), sides - layout.left);
+    const float most = std::max(height - picture, 20.f);
+    layout.bottom = std::clamp(layout.bottom * scale, std::min(80 * scale, most), most);
     return layout;
 }
 
 static Places placesOf(const LayoutState& layout, float menuHeight) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float frame = ImGui::GetFrameHeight();
-    const float statusHeight = frame + 10, barHeight = frame + 12;
+    const float splitter = splitterWidth(), scale = uiScale();
+    const float statusHeight = frame + 10 * scale, barHeight = frame + 12 * scale;
     const float top = menuHeight, height = std::max(display.y - top - statusHeight, 1.f);
-    const float upper = std::max(height - layout.bottom - kSplitter, 1.f);
-    const float middleX = layout.left + kSplitter;
-    const float middleW = std::max(display.x - layout.left - layout.right - 2 * kSplitter, 1.f);
+    const float upper = std::max(height - layout.bottom - splitter, 1.f);
+    const float middleX = layout.left + splitter;
+    const float middleW = std::max(display.x - layout.left - layout.right - 2 * splitter, 1.f);
     Places p;
     p.left = {0, top, layout.left, upper};
     p.right = {display.x - layout.right, top, layout.right, upper};
@@ -100,12 +107,19 @@ static float splitter(const char* name, const Rect& r, bool vertical) {
     return held ? (vertical ? d.x : d.y) : 0.f;
 }
 
-static void splitters(LayoutState& layout, const Places& p) {
-    layout.left += splitter("split left", {p.left.w, p.left.y, kSplitter, p.left.h}, true);
-    layout.right -=
-        splitter("split right", {p.right.x - kSplitter, p.right.y, kSplitter, p.right.h}, true);
-    layout.bottom -= splitter("split bottom",
-                              {p.bottom.x, p.bottom.y - kSplitter, p.bottom.w, kSplitter}, false);
+/// Panels that the user drags get the size `shown` on the screen, and what they are dragged by.
+static void splitters(LayoutState& wanted, const LayoutState& shown, const Places& p) {
+    const float width = splitterWidth();
+    const auto drag = [](float by, float from, float& to) {
+        if (by != 0)
+            to = (from + by) / uiScale();
+    };
+    drag(splitter("split left", {p.left.w, p.left.y, width, p.left.h}, true), shown.left,
+         wanted.left);
+    drag(-splitter("split right", {p.right.x - width, p.right.y, width, p.right.h}, true),
+         shown.right, wanted.right);
+    drag(-splitter("split bottom", {p.bottom.x, p.bottom.y - width, p.bottom.w, width}, false),
+         shown.bottom, wanted.bottom);
 }
 
 static void bottomPanel(EditorState& state, const Rect& place) {
@@ -151,9 +165,10 @@ static void rightPanels(EditorState& state, Rect place) {
 
 static void panels(EditorState& state, float menuHeight) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    state.layout =
-        fitted(state.layout, display.x, display.y - menuHeight - 2 * ImGui::GetFrameHeight() - 22);
-    const Places p = placesOf(state.layout, menuHeight);
+    const LayoutState layout =
+        fitted(state.layout, display.x,
+               display.y - menuHeight - 2 * ImGui::GetFrameHeight() - 22 * uiScale());
+    const Places p = placesOf(layout, menuHeight);
     constexpr ImGuiWindowFlags kNoScroll =
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     beginFixed("outliner", p.left);
@@ -170,7 +185,7 @@ static void panels(EditorState& state, float menuHeight) {
     beginFixed("status", p.status, kNoScroll);
     statusBar(state);
     ImGui::End();
-    splitters(state.layout, p);
+    splitters(state.layout, layout, p);
 }
 
 /// Esc ends what is nearest to the user: a drag, which it takes back, else the topmost menu or

@@ -63,9 +63,11 @@ struct ViewState {
     Picture picture() const { return {camera, origin, size}; }
 };
 
-/// Widths of the fixed panels [px].
+/// Widths of the fixed panels as the user wants them, at 96 dpi [px]. A small window shows less.
 struct LayoutState {
     float left = 270, right = 350, bottom = 212;
+
+    bool operator==(const LayoutState&) const = default;
 };
 
 /// Euler angles as typed by the user, valid while the object still has `rotation`.

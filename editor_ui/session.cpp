@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/first_light.h"
+#include "editor_ui/jobs/editor_settings.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "editor_ui/panels/overlay_panel.h"
@@ -62,6 +63,8 @@ Session::Session(SessionOptions options)
       m_followed(std::make_shared<const Document>()) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
+    if (!m_options.settingsFile.empty())
+        useSettings(state, readEditorSettings(m_options.settingsFile));
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
 }
 
@@ -131,6 +134,8 @@ void Session::handle(const Request& request) {
         break;
     case Request::Kind::Quit:
         m_quit = true;
+        if (!m_options.settingsFile.empty())
+            writeEditorSettings(m_options.settingsFile, settingsOf(state));
         break;
     case Request::Kind::Screenshot:
         state.requests.push_back(request);
@@ -153,13 +158,11 @@ void Session::takeOpened() {
 void Session::show(OpenedFile file) {
     m_bakeJob.cancel();
     const EditorState before = std::exchange(state, {});
-    state.layout = before.layout;
+    useSettings(state, settingsOf(before));
     state.view.origin = before.view.origin;
     state.view.size = before.view.size;
-    state.overlay.options.kind = before.overlay.options.kind;
     state.frame = before.frame;
     state.relightPlace = before.relightPlace;
-    state.autoBake = before.autoBake;
     state.document = std::move(file.imported.document);
     addIfMissing<TechniqueChoice>(state.document);
     addIfMissing<RelightSettings>(state.document);

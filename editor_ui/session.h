@@ -22,6 +22,8 @@ struct SessionOptions {
         import; ///< for every scene that is opened; its memory limit is also that of bakes
     ExportFolders exportFolders = {};
     std::string recoveryFolder = {}; ///< for copies of unsaved documents; empty: none are kept
+    std::string settingsFile =
+        {}; ///< of the window, read at the start, written at the end; or empty
 };
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No

@@ -34,7 +34,7 @@ struct ImGuiContextOwner {
         applyTheme();
         const float scale = window.scale();
         ImGui::GetStyle().ScaleAllSizes(scale);
-        if (addFont(15 * scale, dataFolder("resources") + "/fonts").empty())
+        if (addFont(kFontPixels * scale, dataFolder("resources") + "/fonts").empty())
             logWarning("no font found: Greek letters and superscripts are shown as \"?\"; install "
                        "DejaVu Sans");
         window.connectImGui();
@@ -48,6 +48,12 @@ struct ImGuiContextOwner {
 std::string recoveryFolder() {
     const std::string state = userFolder(UserFolder::State);
     return state.empty() ? state : state + "/recovery";
+}
+
+/// Empty: nothing is remembered.
+std::string settingsFile() {
+    const std::string config = userFolder(UserFolder::Config);
+    return config.empty() ? config : config + "/editor.json";
 }
 
 /// Frames drawn after the last event, so that hover and layout of ImGui settle.
@@ -64,8 +70,8 @@ public:
           m_swapchain(*m_device, surface), m_imgui(*m_window), m_renderer(*m_device, m_swapchain),
           m_picture(*m_device, options.validate, [this] { m_window->wake(); }),
           m_session({options.projectsFolder, [this] { m_window->wake(); }, !options.noBake,
-                     defaultStageFolder(), options.import, options.exportFolders,
-                     recoveryFolder()}) {}
+                     defaultStageFolder(), options.import, options.exportFolders, recoveryFolder(),
+                     settingsFile()}) {}
 
     void run();
     void writeStats() const;

@@ -127,8 +127,8 @@ void viewBar(EditorState& state) {
     overlayCombo(state);
     ImGui::SameLine();
     tonemapCombo(state);
-    ImGui::SetNextItemWidth(
-        std::clamp(ImGui::GetContentRegionAvail().x, 60.f, ImGui::GetFontSize() * 11));
+    ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4,
+                                       ImGui::GetFontSize() * 11));
     ImGui::SliderFloat("##exposure", &state.view.exposureEv, -10, 10, "%+.2f EV",
                        ImGuiSliderFlags_AlwaysClamp);
     wrappedTooltip(

@@ -30,7 +30,8 @@ void wrappedTooltip(const char* text) {
 
 void fieldLabel(const char* label, const char* tooltip) {
     const float left = ImGui::GetCursorPosX();
-    const float width = std::max(ImGui::GetContentRegionAvail().x * 0.42f, 60.f);
+    const float width =
+        std::max(ImGui::GetContentRegionAvail().x * 0.42f, ImGui::GetFontSize() * 4);
     ImGui::AlignTextToFramePadding();
     elidedText(label, width - ImGui::GetStyle().ItemSpacing.x);
     wrappedTooltip(tooltip);

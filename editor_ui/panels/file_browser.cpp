@@ -198,7 +198,7 @@ void fileBrowserDialog(EditorState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize(
-        {std::min(640.f, display.x * 0.9f), std::min(480.f, display.y * 0.9f)});
+        {std::min(640 * uiScale(), display.x * 0.9f), std::min(480 * uiScale(), display.y * 0.9f)});
     if (!ImGui::BeginPopupModal(id.c_str(), nullptr,
                                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
         return;

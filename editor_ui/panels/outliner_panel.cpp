@@ -247,7 +247,7 @@ static void contextMenu(EditorState& state, ObjectId id) {
 static void objectRow(EditorState& state, const std::vector<Row>& rows, const Row& row) {
     const Object& object = state.document.objects.at(row.id);
     ImGui::PushID(int(row.id));
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + kIndent * float(row.depth));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + kIndent * uiScale() * float(row.depth));
     const ImVec2 start = ImGui::GetCursorPos();
     const bool hideable =
         std::holds_alternative<Node>(object) || std::holds_alternative<Light>(object);

@@ -21,6 +21,14 @@ inline constexpr ImU32 kAxisZ = IM_COL32(90, 140, 255, 255);
 inline constexpr ImU32 kHandleLit = IM_COL32(255, 225, 110, 255);
 } // namespace color
 
+/// Height of the interface's font at 96 dpi, for which sizes in pixels are meant [px].
+inline constexpr float kFontPixels = 15;
+
+/// What sizes in pixels are multiplied by for the current font.
+inline float uiScale() {
+    return ImGui::GetFontSize() / kFontPixels;
+}
+
 /// Dark, calm colours and even spacing for the current ImGui context, sized for a 15 px font.
 void applyTheme();
 

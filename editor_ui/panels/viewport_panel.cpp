@@ -193,12 +193,12 @@ static void lightIcons(const EditorState& state) {
         lights.emplace_back(id, light);
         places.push_back(*pixel);
     }
-    const std::vector<float> scales = iconScales(places, 24);
+    const std::vector<float> scales = iconScales(places, 24 * uiScale());
     const std::unordered_set<ObjectId> chosen(state.selection.begin(), state.selection.end());
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const auto& [id, light] = lights[i];
         const bool selected = chosen.contains(id);
-        const float scale = selected ? 1 : scales[i];
+        const float shrink = selected ? 1 : scales[i], scale = shrink * uiScale();
         const ImU32 ink = selected         ? color::kHandleLit
                           : light->enabled ? IM_COL32(255, 255, 255, 230)
                                            : IM_COL32(150, 150, 150, 200);
@@ -207,10 +207,10 @@ static void lightIcons(const EditorState& state) {
             rectangleOutline(list, picture, *light, ink);
         list.AddCircleFilled(centre, 12 * scale, IM_COL32(20, 22, 26, 170));
         if (selected)
-            list.AddCircle(centre, 12.5f, ink, 0, 1.5f);
+            list.AddCircle(centre, 12.5f * scale, ink, 0, 1.5f);
         if (selected && light->kind != LightKind::Point)
             directionLine(list, picture, *light, ink);
-        if (scale > 0.5f)
+        if (shrink > 0.5f)
             drawIcon(list, lightIcon(light->kind), centre, 15 * scale, ink);
         else // a shape would be a smudge
             list.AddCircleFilled(centre, 8 * scale, ink);

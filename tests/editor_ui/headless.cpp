@@ -9,7 +9,7 @@
 
 namespace limn {
 
-HeadlessUi::HeadlessUi(float width, float height) {
+HeadlessUi::HeadlessUi(float width, float height, float scale) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {width, height};
@@ -18,7 +18,8 @@ HeadlessUi::HeadlessUi(float width, float height) {
     io.ConfigDragClickToInputText = true; // lets Tab move between fields
     mapKeys();
     applyTheme();
-    addFont(15, "");
+    ImGui::GetStyle().ScaleAllSizes(scale);
+    addFont(kFontPixels * scale, "");
     unsigned char* pixels = nullptr;
     int w = 0, h = 0;
     io.Fonts->GetTexDataAsAlpha8(&pixels, &w, &h);

@@ -11,7 +11,8 @@ namespace limn {
 struct HeadlessUi {
     InputQueue input;
 
-    HeadlessUi(float width = 1280, float height = 800);
+    /// `scale`: of fonts and spacing, as on a screen of that many times 96 dpi.
+    HeadlessUi(float width = 1280, float height = 800, float scale = 1);
     ~HeadlessUi();
     HeadlessUi(const HeadlessUi&) = delete;
     HeadlessUi& operator=(const HeadlessUi&) = delete;

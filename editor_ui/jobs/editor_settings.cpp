@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/jobs/editor_settings.h"
+
+#include "engine/core/log.h"
+#include "engine/core/read_file.h"
+#include "engine/core/replace_file.h"
+#include "engine/techniques/technique_table.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+using nlohmann::json;
+
+/// The overlay of this name; null if there is none.
+static const OverlayKind* overlayNamed(const std::string& name) {
+    const auto kinds = overlayKinds();
+    const auto at = std::ranges::find(kinds, name, [](const OverlayKind* k) { return k->name; });
+    return at == kinds.end() ? nullptr : *at;
+}
+
+EditorSettings settingsOf(const EditorState& state) {
+    const OverlayKind* overlay = state.overlay.options.kind;
+    return {.layout = state.layout,
+            .view = state.view.view,
+            .tonemap = state.view.tonemap,
+            .exposureEv = state.view.exposureEv,
+            .overlay = overlay ? overlay->name : "",
+            .showLights = state.view.showLights,
+            .autoBake = state.autoBake};
+}
+
+void useSettings(EditorState& state, const EditorSettings& settings) {
+    state.layout = settings.layout;
+    state.view.view = settings.view;
+    state.view.tonemap = settings.tonemap;
+    state.view.exposureEv = settings.exposureEv;
+    state.overlay.options.kind = overlayNamed(settings.overlay);
+    state.view.showLights = settings.showLights;
+    state.autoBake = settings.autoBake;
+}
+
+std::string settingsToJson(const EditorSettings& s) {
+    const json out = {{"left", s.layout.left},
+                      {"right", s.layout.right},
+                      {"bottom", s.layout.bottom},
+                      {"view", kViewNames[std::size_t(s.view)]},
+                      {"tonemap", kTonemapNames[std::size_t(s.tonemap)]},
+                      {"exposure", s.exposureEv},
+                      {"overlay", s.overlay},
+                      {"lightIcons", s.showLights},
+                      {"bakeWhenNeeded", s.autoBake}};
+    return out.dump(2) + '\n';
+}
+
+static void readNumber(const json& in, const char* key, float lower, float upper, float& value) {
+    const auto at = in.find(key);
+    if (at == in.end() || !at->is_number())
+        return;
+    const double number = at->get<double>();
+    if (number >= double(lower) && number <= double(upper)) // not of NaN either
+        value = float(number);
+}
+
+static void readFlag(const json& in, const char* key, bool& value) {
+    if (const auto at = in.find(key); at != in.end() && at->is_boolean())
+        value = at->get<bool>();
+}
+
+static std::string readText(const json& in, const char* key) {
+    const auto at = in.find(key);
+    return at != in.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+template <class T, class Names>
+static void readName(const json& in, const char* key, const Names& names, T& value) {
+    const std::string text = readText(in, key);
+    if (const auto at = std::ranges::find(names, text); at != names.end())
+        value = T(std::distance(names.begin(), at));
+}
+
+EditorSettings settingsFromJson(const std::string& text) {
+    EditorSettings s;
+    constexpr int kMaxDepth = 8; // the parser calls itself, and the stack ends
+    const json in = json::parse(
+        text, [](int depth, json::parse_event_t, json&) { return depth <= kMaxDepth; }, false);
+    if (!in.is_object())
+        return s;
+    constexpr float kWidest = 10000;
+    readNumber(in, "left", 0, kWidest, s.layout.left);
+    readNumber(in, "right", 0, kWidest, s.layout.right);
+    readNumber(in, "bottom", 0, kWidest, s.layout.bottom);
+    readNumber(in, "exposure", -10, 10, s.exposureEv);
+    readName(in, "view", kViewNames, s.view);
+    readName(in, "tonemap", kTonemapNames, s.tonemap);
+    if (const OverlayKind* overlay = overlayNamed(readText(in, "overlay")))
+        s.overlay = overlay->name;
+    readFlag(in, "lightIcons", s.showLights);
+    readFlag(in, "bakeWhenNeeded", s.autoBake);
+    return s;
+}
+
+EditorSettings readEditorSettings(const std::string& path) {
+    return settingsFromJson(readFile(path, 1 << 16).value_or(""));
+}
+
+void writeEditorSettings(const std::string& path, const EditorSettings& settings) {
+    std::error_code error;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+    if (const Result<void> written = replaceFile(path, settingsToJson(settings)); !written)
+        logWarning(written.error().message);
+}
+
+} // namespace limn

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editor_ui/editor_state.h"
+
+#include <string>
+
+namespace limn {
+
+/// What the editor remembers of its window from one start to the next, and from one document to the
+/// next.
+struct EditorSettings {
+    LayoutState layout;
+    View view = View::Lit;
+    Tonemap tonemap = Tonemap::Aces;
+    float exposureEv = 0; ///< [-10, 10]
+    std::string overlay;  ///< OverlayKind::name; empty: none
+    bool showLights = true;
+    bool autoBake = true;
+
+    bool operator==(const EditorSettings&) const = default;
+};
+
+EditorSettings settingsOf(const EditorState& state);
+void useSettings(EditorState& state, const EditorSettings& settings);
+
+/// Converts settings to JSON and back. Whatever is missing, of another type or out of range keeps
+/// its default, and unknown fields are ignored, so that any text yields usable settings.
+std::string settingsToJson(const EditorSettings& settings);
+EditorSettings settingsFromJson(const std::string& json);
+
+/// Reads and writes a file of settings. Defaults where it cannot be read; a failure to write is
+/// only logged. The file is replaced atomically.
+EditorSettings readEditorSettings(const std::string& path);
+void writeEditorSettings(const std::string& path, const EditorSettings& settings);
+
+} // namespace limn

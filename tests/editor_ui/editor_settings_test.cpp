@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/jobs/editor_settings.h"
+
+#include "editor_ui/panels/overlay_panel.h"
+#include "engine/techniques/technique_table.h"
+#include "tests/core/temporary_folder.h"
+#include "tests/editor_ui/headless.h"
+#include "tests/editor_ui/small_session.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+namespace limn {
+namespace {
+
+EditorSettings unusual() {
+    return {.layout = {300, 400, 100},
+            .view = View::Irradiance,
+            .tonemap = Tonemap::Agx,
+            .exposureEv = -2.5f,
+            .overlay = overlayKinds().front()->name,
+            .showLights = false,
+            .autoBake = false};
+}
+
+TEST(EditorSettings, AreReadAsTheyWereWritten) {
+    EXPECT_EQ(settingsFromJson(settingsToJson(unusual())), unusual());
+    EXPECT_EQ(settingsFromJson(settingsToJson({})), EditorSettings{});
+    EditorState state = fullEditor();
+    useSettings(state, unusual());
+    EXPECT_EQ(settingsOf(state), unusual());
+}
+
+TEST(EditorSettings, AnyTextGivesUsableOnes) {
+    const EditorSettings usual;
+    for (const std::string& text :
+         {std::string(), std::string("{"), std::string("null"), std::string("[1]"),
+          std::string(100000, '['), std::string("{\"left\": 1e999}"),
+          std::string("{\"left\": -1, \"right\": 1e30, \"bottom\": \"12\", \"exposure\": 11}"),
+          std::string("{\"view\": 3, \"tonemap\": \"\", \"overlay\": \"none such\"}"),
+          std::string("{\"lightIcons\": 0, \"bakeWhenNeeded\": \"no\", \"other\": {}}"),
+          std::string("{\"view\": \"\xff\xfe\"}")})
+        EXPECT_EQ(settingsFromJson(text), usual) << text.substr(0, 80);
+    const std::string good = settingsToJson(unusual());
+    for (std::size_t end = 0; end < good.size() - 2; ++end)
+        EXPECT_EQ(settingsFromJson(good.substr(0, end)), usual) << end;
+}
+
+TEST(EditorSettings, OutliveTheEditorAndTheDocument) {
+    const TemporaryFolder folder;
+    setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+    const SessionOptions options{.projectsFolder = LIMN_SOURCE_DIR "/projects",
+                                 .wake = [] {},
+                                 .bakeOnOpen = false,
+                                 .settingsFile = folder.file("new/editor.json")};
+    {
+        Session session(options);
+        EXPECT_EQ(settingsOf(session.state), EditorSettings{});
+        useSettings(session.state, unusual());
+        session.open("cornell");
+        ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+        EXPECT_EQ(settingsOf(session.state), unusual()) << "another document";
+        session.state.requests.push_back({Request::Kind::Quit, {}});
+        session.update();
+        ASSERT_TRUE(session.wantsQuit());
+    }
+    EXPECT_EQ(settingsOf(Session(options).state), unusual());
+}
+
+// A window that is small for a while does not cost the user's panels.
+TEST(EditorSettings, PanelsGetTheirSizesBackInALargerWindow) {
+    HeadlessUi ui(1280, 800);
+    EditorState state = fullEditor();
+    ui.frames(state);
+    const LayoutState before = state.layout;
+    const glm::vec2 picture = state.view.size;
+    for (const ImVec2 size : {ImVec2(320, 240), ImVec2(1, 1), ImVec2(1280, 800)}) {
+        ImGui::GetIO().DisplaySize = size;
+        ui.frames(state);
+    }
+    EXPECT_EQ(state.layout, before);
+    EXPECT_EQ(state.view.size, picture);
+}
+
+// At 192 dpi a window of twice the pixels looks as it does at 96.
+TEST(EditorSettings, PanelsAreAsLargeAsTheirTextAtAnyDensity) {
+    glm::vec2 usual, dense;
+    {
+        HeadlessUi ui(1280, 800);
+        EditorState state = fullEditor();
+        ui.frames(state);
+        usual = state.view.size;
+    }
+    {
+        HeadlessUi ui(2560, 1600, 2);
+        EditorState state = fullEditor();
+        ui.frames(state);
+        dense = state.view.size;
+    }
+    EXPECT_NEAR(dense.x, 2 * usual.x, 8); // borders and rounding
+    EXPECT_NEAR(dense.y, 2 * usual.y, 8);
+}
+
+} // namespace
+} // namespace limn
