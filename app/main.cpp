@@ -21,6 +21,7 @@ static int runLimn(int argc, char** argv) {
 #ifdef LIMN_EDITOR
     addEditCommand(app, run);
 #endif
+    addExplainCommand(app, run);
     addExportCommand(app, run);
     addInfoCommand(app, run);
     addReferenceCommand(app, run);

@@ -21,6 +21,7 @@ void addRenderCommand(CLI::App& app, Run& run);
 void addReferenceCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addInfoCommand(CLI::App& app, Run& run);
+void addExplainCommand(CLI::App& app, Run& run);
 void addExportCommand(CLI::App& app, Run& run);
 void addEditCommand(CLI::App& app, Run& run);
 

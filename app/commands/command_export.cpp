@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/bake_options.h"
 #include "app/commands/command.h"
+#include "app/commands/light_on_cpu.h"
 #include "app/commands/output_file.h"
 #include "app/commands/progress_line.h"
-#include "app/commands/read_bake_of.h"
 #include "app/commands/relight_options.h"
 #include "app/commands/scene_options.h"
 #include "app/commands/setting_options.h"
@@ -121,26 +121,6 @@ nlohmann::ordered_json reportJson(const ExportFormat& format, const ExportForeca
             {"files", list}};
 }
 
-/// Lights the scene from its bake, which is read or made.
-Result<ConvergedLight> lightOnCpu(const Options& options, Scene scene, const Progress& progress) {
-    const Technique& technique = *findTechnique(scene.technique.technique);
-    const Precomputation* precomputation = technique.precomputation;
-    const MemoryBudget& memory = options.scene.import.memory;
-    Result<std::shared_ptr<const Precomputed>> data;
-    if (!options.bakeFile.empty()) {
-        if (!precomputation)
-            return fail(fmt::format("--bake: the technique \"{}\" needs none", technique.name));
-        data = readBakeOf(scene, options.scene.scene, *precomputation, options.bakeFile, memory);
-    }
-    const auto shared = std::make_shared<const Scene>(std::move(scene));
-    const auto trace = std::make_shared<const TraceScene>(*shared);
-    if (precomputation && options.bakeFile.empty())
-        data = precomputation->prepare(*trace, {.memory = memory}, progress);
-    if (!data)
-        return tl::make_unexpected(data.error());
-    return convergeLight(shared, trace, technique, {*data, shared}, progress);
-}
-
 Exit runExport(const Options& options) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -160,8 +140,8 @@ Exit runExport(const Options& options) {
     applyBakeOptions(options.bake, scene.bake);
     applyRelightOptions(options.relight, scene.relight);
     const ExportSettings settings = settingsOf(options, imported->document);
-    const Result<ConvergedLight> lit = lightOnCpu(options, std::move(scene), progressOnStderr());
-    endProgressLine();
+    const Result<ConvergedLight> lit =
+        lightOnCpu(options.scene, options.bakeFile, std::move(scene));
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     const ExportScene in{imported->document, *lit->scene,  *lit->trace,

@@ -8,6 +8,7 @@
 #include "app/commands/relight_options.h"
 #include "app/commands/render_image.h"
 #include "app/commands/scene_options.h"
+#include "app/commands/technique_options.h"
 
 #include "engine/core/log.h"
 #include "engine/files/image_file.h"
@@ -32,8 +33,7 @@ struct Options {
     SceneOptions scene;
     CameraOptions camera;
     OverlayFlags overlay;
-    std::string technique;             ///< empty: the document's
-    std::vector<std::string> settings; ///< of techniques, KEY=VALUE
+    TechniqueOptions technique;
     std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
     float exposureEv = 0;
     std::uint32_t frames = 1;
@@ -322,22 +322,6 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
     return {};
 }
 
-/// Applies the command line's technique and settings to the document's choice.
-Result<void> chooseTechnique(const Options& options, TechniqueChoice& choice) {
-    if (!options.technique.empty())
-        choice.technique = options.technique;
-    for (const std::string& setting : options.settings) {
-        const std::size_t equals = setting.find('=');
-        double value = 0;
-        if (equals == std::string::npos ||
-            !CLI::detail::lexical_cast(setting.substr(equals + 1), value) || !std::isfinite(value))
-            return fail(fmt::format("--set: \"{}\" is not KEY=NUMBER", setting));
-        choice.settings[setting.substr(0, equals)] = value;
-    }
-    const std::string defect = choiceDefect(choice);
-    return defect.empty() ? Result<void>{} : fail(defect);
-}
-
 Exit runRender(const Options& options) {
     for (const Result<void>& possible :
          {checkOutputFile(options.output, {".exr", ".png"},
@@ -350,7 +334,7 @@ Exit runRender(const Options& options) {
         return failed(imported.error().message);
     Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
     applyRelightOptions(options.relighting, scene.relight);
-    if (const Result<void> chosen = chooseTechnique(options, scene.technique); !chosen)
+    if (const Result<void> chosen = chooseTechnique(options.technique, scene.technique); !chosen)
         return failed(chosen.error().message);
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
@@ -383,16 +367,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
         ->add_option("-o,--output", options->output,
                      "Picture to write, .exr (linear) or .png (tone-mapped)")
         ->required();
-    command
-        ->add_option("--technique", options->technique,
-                     "Technique that computes bounced light, instead of the document's: " +
-                         techniqueNames())
-        ->check([](const std::string& name) {
-            return findTechnique(name) ? std::string()
-                                       : fmt::format("\"{}\" is not {}", name, techniqueNames());
-        });
-    command->add_option("--set", options->settings,
-                        "Setting of the technique, KEY=NUMBER; may be repeated");
+    addTechniqueOptions(*command, options->technique);
     command->add_option("--view", options->view, "What to show")
         ->check(CLI::IsMember(strings(kViewNames)));
     command->add_option("--exposure", options->exposureEv, "Exposure before tone mapping [EV]")

@@ -15,25 +15,9 @@ namespace {
 
 using Coefficients = std::array<glm::vec3, kMaxCoefficients>;
 
-Coefficients sampleLightmap(const IndirectField& field, const LightmapLayout& layout, glm::vec2 uv,
-                            std::size_t count) {
-    const Bilinear lookup = bilinearAt(layout, uv);
-    const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
-    Coefficients c{};
-    for (std::size_t i = 0; i < count; ++i)
-        for (int k = 0; k < 4; ++k)
-            c[i] += glm::vec3(field.lightmap[i * texels + lookup.texel[k]]) * lookup.weight[k];
-    return c;
-}
-
-/// Weights of the eight cells around `p`, with sum 1: trilinear, times the visibility of `p` from
+/// The eight cells around `p`, with weights of sum 1: trilinear, times the visibility of `p` from
 /// each.
-struct GridLookup {
-    std::array<std::size_t, 8> cell;
-    std::array<float, 8> weight;
-};
-
-GridLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
+FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
     const glm::vec3 cells(field.gridSize), cellSize = field.gridBounds.size() / cells;
     const glm::vec3 x =
         glm::clamp((p - field.gridBounds.lower) / field.gridBounds.size() * cells - 0.5f,
@@ -43,21 +27,21 @@ GridLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
     const glm::vec3 clear =
         p + n * (float(GRID_DEPTH_BIAS) * std::min({cellSize.x, cellSize.y, cellSize.z}));
     const float reach = gridReach(field.gridBounds, field.gridSize);
-    GridLookup lookup;
+    FieldLookup lookup{.grid = true, .count = 8};
     float sum = 0;
     for (std::size_t corner = 0; corner < 8; ++corner) {
         const glm::uvec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
         const glm::uvec3 at = glm::min(base + step, field.gridSize - 1U);
         const glm::vec3 w = glm::mix(1.f - f, f, glm::vec3(step));
-        const std::size_t cell =
-            (std::size_t(at.z) * field.gridSize.y + at.y) * field.gridSize.x + at.x;
-        lookup.cell[corner] = cell;
+        const std::uint32_t cell = (at.z * field.gridSize.y + at.y) * field.gridSize.x + at.x;
+        lookup.index[corner] = cell;
         lookup.weight[corner] = w.x * w.y * w.z;
         if (field.gridDepth) {
             const glm::vec3 centre = field.gridBounds.lower + (glm::vec3(at) + 0.5f) * cellSize;
             lookup.weight[corner] *=
-                float(GRID_UNSEEN) + seenFromCell(field.gridDepth->data() + cell * kGridDepthTexels,
-                                                  clear - centre, reach);
+                float(GRID_UNSEEN) +
+                seenFromCell(field.gridDepth->data() + std::size_t(cell) * kGridDepthTexels,
+                             clear - centre, reach);
         }
         sum += lookup.weight[corner];
     }
@@ -66,28 +50,17 @@ GridLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
     return lookup;
 }
 
-Coefficients sampleGrid(const IndirectField& field, glm::vec3 p, glm::vec3 n,
-                        std::size_t coefficients) {
-    const GridLookup lookup = gridLookup(field, p, n);
-    const std::size_t count = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
-    Coefficients c{};
-    for (std::size_t i = 0; i < coefficients; ++i)
-        for (std::size_t k = 0; k < 8; ++k)
-            c[i] += glm::vec3(field.grid[i * count + lookup.cell[k]]) * lookup.weight[k];
-    return c;
-}
-
 /// The first bands^2 coefficients at a surface point; the others are 0.
 Coefficients sampleField(const FieldPoint& at, int bands) {
-    const auto count = std::size_t(bands * bands);
-    const LightmapLayout& layout = at.layout;
-    if (at.instance < layout.instances.size() && !layout.instances[at.instance].uv.empty())
-        return sampleLightmap(at.field, layout,
-                              lightmapUv(layout, at.instance, at.scene.instances[at.instance].mesh,
-                                         at.triangle, at.u, at.v, at.back),
-                              count);
-    return at.field.grid.empty() ? Coefficients{}
-                                 : sampleGrid(at.field, at.position, at.normal, count);
+    const FieldLookup lookup = lookUp(at);
+    const IndirectField& field = at.field;
+    const std::vector<glm::vec4>& values = lookup.grid ? field.grid : field.lightmap;
+    const std::size_t stride = values.size() / field.coefficients();
+    Coefficients c{};
+    for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
+        for (std::size_t k = 0; k < lookup.count; ++k)
+            c[i] += glm::vec3(values[i * stride + lookup.index[k]]) * lookup.weight[k];
+    return c;
 }
 
 } // namespace
@@ -99,6 +72,19 @@ bool IndirectField::operator==(const IndirectField& o) const {
            lightmapWidth == o.lightmapWidth && lightmapHeight == o.lightmapHeight &&
            lightmap == o.lightmap && gridSize == o.gridSize && gridBounds == o.gridBounds &&
            grid == o.grid && version == o.version;
+}
+
+FieldLookup lookUp(const FieldPoint& at) {
+    const LightmapLayout& layout = at.layout;
+    if (at.instance >= layout.instances.size() || layout.instances[at.instance].uv.empty())
+        return at.field.grid.empty() ? FieldLookup{} : gridLookup(at.field, at.position, at.normal);
+    const Bilinear b =
+        bilinearAt(layout, lightmapUv(layout, at.instance, at.scene.instances[at.instance].mesh,
+                                      at.triangle, at.u, at.v, at.back));
+    FieldLookup lookup{.count = 4};
+    std::copy_n(b.texel, 4, lookup.index.begin());
+    std::copy_n(b.weight, 4, lookup.weight.begin());
+    return lookup;
 }
 
 glm::vec3 sampleIrradiance(const FieldPoint& at) {

@@ -24,6 +24,15 @@ struct FieldPoint {
     bool back = false; ///< whether that side is the back of a two-sided surface
 };
 
+/// The texels or cells that a lookup blends.
+struct FieldLookup {
+    bool grid = false;     ///< whether they are cells of the grid
+    std::size_t count = 0; ///< 4 texels, 8 cells, or 0 where there is no light to look up
+    std::array<std::uint32_t, 8> index{};
+    std::array<float, 8> weight{}; ///< their sum is 1
+};
+FieldLookup lookUp(const FieldPoint& at);
+
 /// Irradiance at the point [W m^-2], >= 0.
 glm::vec3 sampleIrradiance(const FieldPoint& at);
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/field/field_reading.h"
 #include "engine/field/indirect_field.h"
+#include "engine/lighting/explanation.h"
 #include "engine/lighting/light_snapshot.h"
 #include "engine/lighting/lighting_report.h"
 #include "engine/scene/camera.h"
@@ -41,6 +43,13 @@ public:
 
     /// A copy of the light for the technique's overlays of light; null if it has none.
     virtual std::shared_ptr<const LightSnapshot> snapshot() const { return nullptr; }
+
+    /// Says where a reading of field() comes from. `scene` is that of the last update, which lit
+    /// everything that is read. Returns no rows where field() is null.
+    virtual Explanation explain(const Scene& /*scene*/, const FieldReading& /*reading*/,
+                                const ExplainOptions& /*options*/) const {
+        return {};
+    }
 };
 
 } // namespace limn

@@ -3,14 +3,10 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
-#include "engine/math/lobe.h"
+#include "engine/measure/field_lobe.h"
+#include "engine/measure/pixel_sample.h"
 #include "engine/reference/direct_light.h"
-#include "engine/reference/path.h"
-#include "engine/reference/pixel_rays.h"
-#include "engine/reference/sampler.h"
 #include "engine/reference/surface_point.h"
-#include "engine/scene/surface/receiver_bands.h"
-#include "engine/scene/surface/reflection_lobe.h"
 
 #include <cassert>
 #include <optional>
@@ -35,8 +31,7 @@ struct FieldContext {
 glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePoint& p) {
     if (!c.hasField())
         return glm::vec3(0);
-    return sampleIrradiance({c.field, c.layout, c.trace.scene(), hit.instance, hit.triangle, hit.u,
-                             hit.v, p.position, p.normal, !hit.frontFace});
+    return sampleIrradiance(fieldPoint(c.field, c.layout, c.trace.scene(), hit, p));
 }
 
 /// Specular reflection of the field's light.
@@ -44,22 +39,10 @@ glm::vec3 fieldReflection(const FieldContext& c, const Hit& hit, const GlossyPoi
     if (!c.hasField())
         return glm::vec3(0);
     const Scene& scene = c.trace.scene();
-    const int bands = c.bands[scene.instances[hit.instance].material];
-    const glm::vec3 n = g.surface.normal;
-    const ReflectionLobe lobe =
-        reflectionLobe(g.gloss.roughness, glm::clamp(glm::dot(n, g.toEye), 0.f, 1.f));
-    const auto factors = c.windowedLobes ? windowedFactors(lobe.factors, bands) : lobe.factors;
-    const glm::vec3 axis = lobeAxis(lobe, n, glm::reflect(-g.toEye, n));
-    const glm::vec3 seen = sampleLobe({c.field, c.layout, scene, hit.instance, hit.triangle, hit.u,
-                                       hit.v, g.surface.position, n, !hit.frontFace},
-                                      axis, bands, factors);
-    const bool hemisphere =
-        hit.instance < c.layout.instances.size() && !c.layout.instances[hit.instance].uv.empty();
-    const glm::vec3 radiance =
-        hemisphere
-            ? seen / hemisphereSeen(factors, bands, glm::dot(axis, g.surface.geometricNormal))
-            : seen;
-    return (g.gloss.F0 * lobe.share.x + lobe.share.y) * radiance;
+    const FieldPoint at = fieldPoint(c.field, c.layout, scene, hit, g.surface);
+    const FieldLobe lobe =
+        fieldLobe(at, g, c.bands[scene.instances[hit.instance].material], c.windowedLobes);
+    return lobe.weight * sampleLobe(at, lobe.axis, lobe.bands, lobe.factors);
 }
 
 glm::vec3 shadeLit(const FieldContext& c, const Hit& hit, const GlossyPoint& g,
@@ -104,22 +87,19 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
     assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
     constexpr std::size_t kTile = 256; // pixels
     FieldContext context{trace, field, layout, options.view, options.windowedLobes, {}};
-    const int most = int(field.bands);
-    for (const Material& m : trace.scene().materials)
-        context.bands.push_back(options.allBands ? most
-                                                 : receiverBands(*trace.scene().assets, m, most));
+    context.bands = options.allBands
+                        ? std::vector<int>(trace.scene().materials.size(), int(field.bands))
+                        : reflectedBands(trace.scene(), field);
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     ImageF image{options.width, options.height, std::vector<glm::vec3>(pixels)};
     const bool complete =
         parallelRanges(pixels, kTile, progress, "pixels", [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
-                const glm::vec2 corner(float(i % options.width), float(i / options.width));
                 glm::vec3 sum(0);
                 for (std::uint32_t s = 0; s < options.samplesPerPixel; ++s) {
-                    const Sampler sampler{mixBits(options.seed, std::uint32_t(i)), s};
-                    sum += shade(context, pixelRays.through(corner + sampler.pair(0)),
-                                 sampler.pair(1).x, sampler.pair(kOnLightDimension));
+                    const PixelSample sample(pixelRays, options.seed, std::uint32_t(i), s);
+                    sum += shade(context, sample.ray, sample.pickLight, sample.onLight);
                 }
                 image.rgb[i] = sum / float(options.samplesPerPixel);
             }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/seen_points.h"
-#include "engine/field/sample_field.h"
 
 #include "engine/core/parallel.h"
+#include "engine/field/sample_field.h"
+#include "engine/measure/field_lobe.h"
 #include "engine/reference/pixel_rays.h"
 
 namespace limn {
@@ -48,8 +49,7 @@ std::vector<glm::vec3> lookUpIrradiance(const IndirectField& field, const Lightm
     std::vector<glm::vec3> result;
     result.reserve(points.size());
     for (const auto& [hit, p] : points)
-        result.push_back(sampleIrradiance({field, layout, scene, hit.instance, hit.triangle, hit.u,
-                                           hit.v, p.position, p.normal, !hit.frontFace}));
+        result.push_back(sampleIrradiance(fieldPoint(field, layout, scene, hit, p)));
     return result;
 }
 

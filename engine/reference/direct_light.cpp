@@ -69,6 +69,17 @@ float strength(glm::vec3 e) {
     return e.x + e.y + e.z;
 }
 
+// `l` is that light's, not 0.
+DirectSample sampleShadowed(const TraceScene& trace, const SurfacePoint& p, const Light& light,
+                            const Unshadowed& l, glm::vec2 onLight, std::uint64_t& rays) {
+    ++rays;
+    if (light.kind == LightKind::Rectangle)
+        return sampleRectangle(trace, p, light, onLight);
+    if (inShadow(trace, p, l.sample))
+        return {};
+    return {l.irradiance, l.sample.toLight};
+}
+
 } // namespace
 
 glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::uint64_t& rays) {
@@ -88,6 +99,13 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
             E += l.irradiance;
     }
     return E;
+}
+
+DirectSample sampleDirectLightFrom(const TraceScene& trace, const SurfacePoint& p,
+                                   const Light& light, glm::vec2 onLight, std::uint64_t& rays) {
+    const Unshadowed l = unshadowed(light, p);
+    return strength(l.irradiance) > 0 ? sampleShadowed(trace, p, light, l, onLight, rays)
+                                      : DirectSample{};
 }
 
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
@@ -110,14 +128,8 @@ DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, f
         if (pick * total < below)
             break;
     }
-    ++rays;
-    const float weight = total / strength(chosen.irradiance); // 1 / chance
-    DirectSample s;
-    if (light->kind == LightKind::Rectangle)
-        s = sampleRectangle(trace, p, *light, onLight);
-    else if (!inShadow(trace, p, chosen.sample))
-        s = {chosen.irradiance, chosen.sample.toLight};
-    s.irradiance *= weight;
+    DirectSample s = sampleShadowed(trace, p, *light, chosen, onLight, rays);
+    s.irradiance *= total / strength(chosen.irradiance); // 1 / chance
     return s;
 }
 

@@ -21,9 +21,13 @@ struct DirectSample {
     glm::vec3 toLight{0};    ///< unit, if the irradiance is not 0
 };
 
+/// Unbiased estimate of what one light adds to directIrradiance(), with one shadow ray: exact but
+/// for rectangles. `onLight` in [0, 1)^2 is the ray's end on a rectangle, uniform in area.
+DirectSample sampleDirectLightFrom(const TraceScene& trace, const SurfacePoint& p,
+                                   const Light& light, glm::vec2 onLight, std::uint64_t& rays);
+
 /// Unbiased estimate of directIrradiance() with one shadow ray. `pick` in [0, 1) selects a light in
-/// proportion to its unshadowed contribution. `onLight` in [0, 1)^2 is the ray's end on a
-/// rectangle, uniform in area.
+/// proportion to its unshadowed contribution. `onLight` as above.
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
                                glm::vec2 onLight, std::uint64_t& rays);
 

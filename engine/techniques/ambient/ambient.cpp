@@ -61,6 +61,15 @@ public:
 
     const IndirectField* field() const override { return &m_field; }
 
+    Explanation explain(const Scene& scene, const FieldReading& reading,
+                        const ExplainOptions&) const override {
+        const bool constant = settingOf(scene.technique, kConstant) > 0;
+        const LightRow row{.kind = LightRowKind::Sky,
+                           .label = constant ? kConstant.setting.label : "Sky",
+                           .value = valueOf(reading, m_field)};
+        return {.byOrigin = {row}, .bySender = {row}};
+    }
+
 private:
     /// Everything that the field depends on.
     struct Inputs {

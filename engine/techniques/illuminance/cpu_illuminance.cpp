@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/cpu_illuminance.h"
 
+#include "engine/techniques/illuminance/explain_illuminance.h"
 #include "engine/techniques/illuminance/illuminance_snapshot.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
 
@@ -17,6 +18,11 @@ std::shared_ptr<const LightSnapshot> CpuIlluminance::snapshot() const {
     const Relighter& r = m_relighter;
     return std::make_shared<const IlluminanceSnapshot>(
         LitBake{r.radiosity(), r.cacheSh(), int(r.field().bands)});
+}
+
+Explanation CpuIlluminance::explain(const Scene& scene, const FieldReading& reading,
+                                    const ExplainOptions& options) const {
+    return explainIlluminance(m_relighter, scene, reading, options);
 }
 
 } // namespace limn

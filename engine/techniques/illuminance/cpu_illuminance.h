@@ -21,6 +21,8 @@ public:
 
     const IndirectField* field() const override { return &m_relighter.field(); }
     std::shared_ptr<const LightSnapshot> snapshot() const override;
+    Explanation explain(const Scene& scene, const FieldReading& reading,
+                        const ExplainOptions& options) const override;
 
 private:
     Relighter m_relighter;

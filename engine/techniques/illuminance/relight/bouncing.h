@@ -64,6 +64,8 @@ public:
             lightChanged();
         return !same;
     }
+    /// Those last applied.
+    const RelightSettings& settings() const { return m_settings; }
     /// Whether every change restarts from zero bounced light.
     bool restarts() const { return m_settings.maxBounces <= kFewBounces; }
 

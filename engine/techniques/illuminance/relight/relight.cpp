@@ -136,6 +136,23 @@ const std::vector<glm::vec4>& Relighter::radiosity() const {
 const std::vector<glm::vec3>& Relighter::cacheSh() const {
     return m_state->sh;
 }
+RelightState Relighter::state() const {
+    const State& s = *m_state;
+    const LinkHalfs halfs = s.halfs.empty() ? s.bake->caches.shCoefficients : s.halfs;
+    return {.bake = *s.bake,
+            .links = s.occluded.cones.links.empty() ? s.bake->caches : s.occluded.cones,
+            .halfs = s.occluded.halfs.empty() ? halfs : LinkHalfs(s.occluded.halfs),
+            .ends = s.ends,
+            .bands = s.bands,
+            .inner = s.innerBands,
+            .chroma = s.finalBands.chroma,
+            .maxBounces = s.convergence.settings().maxBounces,
+            .radiosity = s.radiosity,
+            .albedo = s.albedo,
+            .emitted = s.emitted,
+            .indirect = s.indirect,
+            .direct = s.direct};
+}
 
 /// Allocates the caches' SH in `count` bands, black.
 void Relighter::State::setBands(int count) {

@@ -5,10 +5,13 @@
 #include "engine/math/sh.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/relight/caches/cache_runs.h"
+#include "engine/techniques/illuminance/relight/caches/light_links.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace limn {
 
@@ -50,6 +53,23 @@ enum class LitBands : std::uint8_t { Needed, All };
 /// Whether some instance of `scene` is lit from the grid: dynamic, or without lightmap.
 bool needsGrid(const Scene& scene, const LightmapLayout& layout);
 
+/// What a relight() computed with and what it left, for those who follow its light backwards. Valid
+/// until the next relight().
+struct RelightState {
+    const Bake& bake;
+    const Caches& links; ///< LinkStorage::Rtp: those with what dynamic objects leave of them
+    LinkHalfs halfs;     ///< LinkStorage::Sh: the same
+    LinkEnds ends;
+    int bands;        ///< of the field
+    LightBands inner; ///< of what surfels read
+    int chroma;       ///< bands in colour of the field
+    std::uint32_t maxBounces;
+    std::span<const glm::vec4> radiosity;                 ///< per node, as withLuma [W m^-2]
+    std::span<const glm::vec3> albedo, emitted, indirect; ///< per surfel; emitted: pi L_e [W m^-2];
+                                                          ///< indirect: irradiance [W m^-2]
+    const SurfelLight& direct;
+};
+
 /// Relights a bake on the CPU, at run time. Results that did not change since the last call are
 /// kept. Not thread-safe: one thread at a time calls relight().
 class Relighter {
@@ -89,6 +109,8 @@ public:
     /// field()'s. From band chromaBandsOf(settings) on they are grey. They hold older light where
     /// field() does.
     const std::vector<glm::vec3>& cacheSh() const;
+
+    RelightState state() const;
 
 private:
     struct State;

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/command.h"
+#include "app/commands/light_on_cpu.h"
+#include "app/commands/relight_options.h"
+#include "app/commands/scene_options.h"
+#include "app/commands/technique_options.h"
+
+#include "engine/explain/explain_pixel.h"
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    CameraOptions camera;
+    TechniqueOptions technique;
+    std::string bake, light = "radiance";
+    std::vector<std::uint32_t> pick;
+    std::vector<std::string> mute;
+    std::uint32_t rows = 8;
+    GivenSettings relighting; ///< instead of the document's
+    bool json = false;
+};
+
+constexpr std::array<const char*, 2> kLightNames = {"radiance", "irradiance"};
+constexpr std::array<const char*, 2> kUnits = {"W m^-2 sr^-1", "W m^-2"};
+
+/// Luminance of linear Rec. 709.
+double luminance(glm::vec3 rgb) {
+    return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
+}
+
+double shareOf(const LightRow& row, glm::vec3 total) {
+    return luminance(total) > 0 ? luminance(row.value) / luminance(total) : 0;
+}
+
+std::uint32_t depthOf(const std::vector<LightRow>& rows, const LightRow& row) {
+    return row.parent == LightRow::kNone ? 0 : 1 + depthOf(rows, rows[row.parent]);
+}
+
+/// "light:3", as --mute names lights and surfaces, or the kind alone.
+std::string nameOfRow(const LightRow& row) {
+    return row.index == LightRow::kNone ? std::string(nameOf(row.kind))
+                                        : fmt::format("{}:{}", nameOf(row.kind), row.index);
+}
+
+/// Reads the --mute options.
+Result<Muted> mutedOf(const std::vector<std::string>& names, const Scene& scene) {
+    Muted muted;
+    for (const std::string& name : names) {
+        const std::size_t colon = name.find(':');
+        const std::string kind = name.substr(0, colon);
+        std::uint32_t index = 0;
+        const bool numbered =
+            colon != std::string::npos && CLI::detail::lexical_cast(name.substr(colon + 1), index);
+        if (name == nameOf(LightRowKind::Sky))
+            muted.sky = true;
+        else if (kind == nameOf(LightRowKind::Light) && numbered && index < scene.lights.size())
+            muted.lights.push_back(index);
+        else if (kind == nameOf(LightRowKind::Surface) && numbered &&
+                 index < scene.instances.size())
+            muted.surfaces.push_back(index);
+        else
+            return fail(
+                fmt::format("--mute: \"{}\" is not sky, light:N or surface:N of the tables", name));
+    }
+    return muted;
+}
+
+void printTable(const char* title, const std::vector<LightRow>& rows, glm::vec3 total) {
+    fmt::print("\n{:<52} {:>8}  {:>10} {:>10} {:>10}\n", title, "share", "red", "green", "blue");
+    for (const LightRow& row : rows) {
+        const std::string label = std::string(2 * depthOf(rows, row), ' ') + row.label;
+        fmt::print("{:<52} {:>7.2f}%  {:>10.4g} {:>10.4g} {:>10.4g}  {}\n", label,
+                   100 * shareOf(row, total), row.value.x, row.value.y, row.value.z,
+                   row.kind == LightRowKind::Group ? "" : nameOfRow(row));
+    }
+}
+
+nlohmann::ordered_json rgbJson(glm::vec3 rgb) {
+    return {rgb.x, rgb.y, rgb.z};
+}
+
+nlohmann::ordered_json tableJson(const std::vector<LightRow>& rows, glm::vec3 total) {
+    auto json = nlohmann::ordered_json::array();
+    for (const LightRow& row : rows) {
+        nlohmann::ordered_json r = {{"kind", nameOf(row.kind)}, {"label", row.label}};
+        if (row.index != LightRow::kNone)
+            r["index"] = row.index;
+        r["parent"] = row.parent == LightRow::kNone ? nlohmann::ordered_json()
+                                                    : nlohmann::ordered_json(row.parent);
+        r["value"] = rgbJson(row.value);
+        r["luminance"] = luminance(row.value);
+        r["share"] = shareOf(row, total);
+        json.push_back(std::move(r));
+    }
+    return json;
+}
+
+void printJson(const Options& options, const PixelExplanation& e,
+               const std::optional<glm::vec3>& without, std::size_t unit, double ms) {
+    nlohmann::ordered_json json = {{"pick", options.pick},
+                                   {"width", options.camera.width},
+                                   {"height", options.camera.height},
+                                   {"light", options.light},
+                                   {"unit", kUnits[unit]},
+                                   {"total", rgbJson(e.total)},
+                                   {"luminance", luminance(e.total)},
+                                   {"objects", e.seen},
+                                   {"bounces", e.tables.bounces},
+                                   {"ms", ms},
+                                   {"by_origin", tableJson(e.tables.byOrigin, e.total)},
+                                   {"by_sender", tableJson(e.tables.bySender, e.total)}};
+    if (without)
+        json["without"] = {{"muted", options.mute}, {"value", rgbJson(*without)}};
+    fmt::print("{}\n", json.dump());
+}
+
+Exit runExplain(const Options& options) {
+    using Clock = std::chrono::steady_clock;
+    if (options.pick[0] >= options.camera.width || options.pick[1] >= options.camera.height)
+        return failed(fmt::format("--pick: {},{} is not in a picture of {} x {} pixels",
+                                  options.pick[0], options.pick[1], options.camera.width,
+                                  options.camera.height));
+    const Result<ImportedScene> imported = openScene(options.scene);
+    if (!imported)
+        return failed(imported.error().message);
+    Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);
+    applyRelightOptions(options.relighting, scene.relight);
+    if (const Result<void> chosen = chooseTechnique(options.technique, scene.technique); !chosen)
+        return failed(chosen.error().message);
+    const Result<Camera> camera = chooseCamera(scene, options.camera);
+    if (!camera)
+        return failed(camera.error().message);
+    const Result<ConvergedLight> lit = lightOnCpu(options.scene, options.bake, std::move(scene));
+    if (!lit)
+        return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
+    const Result<Muted> muted = mutedOf(options.mute, *lit->scene);
+    if (!muted)
+        return failed(muted.error().message);
+    const std::size_t unit = options.light == kLightNames[0] ? 0 : 1;
+    const PixelQuestion question{.camera = *camera,
+                                 .width = options.camera.width,
+                                 .height = options.camera.height,
+                                 .x = options.pick[0],
+                                 .y = options.pick[1],
+                                 .light = PixelLight(unit)};
+    const Clock::time_point start = Clock::now();
+    const PixelExplanation e = explainPixel(*lit, question, {.rows = options.rows});
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const std::optional<glm::vec3> without =
+        options.mute.empty() ? std::nullopt : std::optional(lightWithout(*lit, question, *muted));
+    if (options.json) {
+        printJson(options, e, without, unit, ms);
+        return Exit::Done;
+    }
+    fmt::print("{},{}: {} {:.4g} {:.4g} {:.4g} {}, {} bounces followed, {:.0f} ms\n",
+               options.pick[0], options.pick[1], options.light, e.total.x, e.total.y, e.total.z,
+               kUnits[unit], e.tables.bounces, ms);
+    if (without)
+        fmt::print("Without {}: {:.4g} {:.4g} {:.4g}\n", fmt::join(options.mute, ", "), without->x,
+                   without->y, without->z);
+    printTable("By origin, over all bounces", e.tables.byOrigin, e.total);
+    printTable("By what sends it to here", e.tables.bySender, e.total);
+    return Exit::Done;
+}
+
+} // namespace
+
+void addExplainCommand(CLI::App& app, Run& run) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "explain", "Says where the light of a pixel comes from, in tables that sum to all of it");
+    addSceneOptions(*command, options->scene);
+    addTimeOption(*command, options->scene);
+    addCameraOptions(*command, options->camera);
+    command
+        ->add_option("--pick", options->pick,
+                     "X,Y of the pixel in a picture of --width and --height; 0,0 is the upper left")
+        ->delimiter(',')
+        ->expected(2)
+        ->required();
+    command->add_option("--bake", options->bake,
+                        ".limnbake of this scene; without it, one is made in memory if needed");
+    addTechniqueOptions(*command, options->technique);
+    command
+        ->add_option("--quantity", options->light,
+                     "radiance that reaches the eye, as limn render --device cpu shows it, or "
+                     "irradiance that arrives at what the pixel shows")
+        ->check(CLI::IsMember({"radiance", "irradiance"}));
+    command->add_option("--mute", options->mute,
+                        "sky, light:N or surface:N, as the tables name it: also says what the "
+                        "pixel would be without that light, or were that surface black; may be "
+                        "repeated");
+    command
+        ->add_option("--rows", options->rows,
+                     "number of objects, of clusters of each and of surfels of each cluster that "
+                     "are listed; one row sums up the others")
+        ->check(CLI::Range(1, 1 << 20));
+    addRelightOptions(*command, options->relighting);
+    command->add_flag("--json", options->json, "one JSON object on stdout");
+    command->callback([options, &run] { run = [options] { return runExplain(*options); }; });
+}
+
+} // namespace limn

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "engine/explain/explain_pixel.h"
+
+#include "engine/measure/field_lobe.h"
+#include "engine/measure/pixel_sample.h"
+#include "engine/reference/direct_light.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <glm/gtc/constants.hpp>
+
+namespace limn {
+
+namespace {
+
+/// What a pixel shows, as means over its samples.
+struct PixelParts {
+    glm::vec3 sky{0};               ///< seen itself
+    glm::vec3 emission{0};          ///< of the surfaces that are seen
+    std::vector<glm::vec3> byLight; ///< direct light of each of Scene::lights
+    FieldReading reading;           ///< of the field: all other light
+    std::vector<std::uint32_t> seen;
+};
+
+struct PixelReader {
+    const ConvergedLight& lit;
+    const PixelQuestion& question;
+    const ExplainOptions& options;
+    std::vector<int> bands; ///< that each material reflects
+    PixelParts parts;
+
+    float share() const { return 1 / float(question.samples); }
+
+    void add(const PixelSample& sample) {
+        const TraceScene& trace = *lit.trace;
+        const Hit hit = trace.closestHit(sample.ray);
+        if (!hit) {
+            if (question.light == PixelLight::Radiance)
+                parts.sky += share() * skyRadiance(trace.scene().sky, sample.ray.direction);
+            return;
+        }
+        const std::optional<SurfacePoint> p = surfacePoint(trace, hit);
+        if (!p)
+            return;
+        if (std::ranges::count(parts.seen, hit.instance) == 0)
+            parts.seen.push_back(hit.instance);
+        if (question.light == PixelLight::Irradiance)
+            addArriving(sample, hit, *p);
+        else
+            addLeaving(sample, hit, *p);
+    }
+
+    bool hasField() const { return lit.field().lightmapWidth > 0 || lit.field().gridSize.x > 0; }
+
+    FieldPoint pointOf(const Hit& hit, const SurfacePoint& p) const {
+        return fieldPoint(lit.field(), *lit.layout, lit.trace->scene(), hit, p);
+    }
+
+    template <class Reflect>
+    void addDirect(const PixelSample& sample, const SurfacePoint& p, const Reflect& reflect) {
+        std::uint64_t rays = 0;
+        const std::vector<Light>& lights = lit.trace->scene().lights;
+        for (std::size_t l = 0; l < lights.size(); ++l)
+            parts.byLight[l] += share() * reflect(sampleDirectLightFrom(*lit.trace, p, lights[l],
+                                                                        sample.onLight, rays));
+    }
+
+    void addArriving(const PixelSample& sample, const Hit& hit, const SurfacePoint& p) {
+        addDirect(sample, p, [](const DirectSample& d) { return d.irradiance; });
+        if (hasField())
+            addIrradiance(pointOf(hit, p), glm::vec3(share()), parts.reading);
+    }
+
+    void addLeaving(const PixelSample& sample, const Hit& hit, SurfacePoint p) {
+        if (std::ranges::count(options.black, hit.instance) > 0)
+            p.albedo = glm::vec3(0);
+        const GlossyPoint g = glossyPoint(*lit.trace, hit, sample.ray, p);
+        parts.emission += share() * p.emission;
+        addDirect(sample, p,
+                  [&](const DirectSample& d) { return g.reflect(d.irradiance, d.toLight); });
+        if (!hasField())
+            return;
+        const Scene& scene = lit.trace->scene();
+        const FieldPoint at = pointOf(hit, p);
+        addIrradiance(at, p.albedo * (share() / glm::pi<float>()), parts.reading);
+        const FieldLobe lobe =
+            fieldLobe(at, g, bands[scene.instances[hit.instance].material], true);
+        addLobe(at, lobe.axis, lobe.bands, lobe.factors, lobe.weight * share(), parts.reading);
+    }
+};
+
+/// Adds rows below one of their sum, if there are any.
+void addGroup(std::vector<LightRow>& rows, const char* label, const std::vector<LightRow>& group) {
+    if (!group.empty())
+        addRows(rows, group, addRow(rows, {.label = label, .value = totalOf(group)}));
+}
+
+/// The rows that both tables begin with.
+std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) {
+    std::vector<LightRow> rows;
+    if (parts.sky != glm::vec3(0))
+        addRow(rows, {.kind = LightRowKind::Sky, .label = "Sky behind", .value = parts.sky});
+    if (parts.emission != glm::vec3(0))
+        addRow(rows, {.label = "Emitted here", .value = parts.emission});
+    std::vector<LightRow> direct;
+    for (std::uint32_t l = 0; l < parts.byLight.size(); ++l)
+        if (parts.byLight[l] != glm::vec3(0))
+            addRow(direct, {.kind = LightRowKind::Light,
+                            .label = scene.lights[l].name,
+                            .index = l,
+                            .value = parts.byLight[l]});
+    addGroup(rows, "Direct", direct);
+    return rows;
+}
+
+} // namespace
+
+PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
+                              const ExplainOptions& options) {
+    const Scene& scene = lit.trace->scene();
+    PixelReader reader{lit, question, options, reflectedBands(scene, lit.field()), {}};
+    reader.parts.byLight.assign(scene.lights.size(), glm::vec3(0));
+    const PixelRays rays(question.camera, question.width, question.height);
+    for (std::uint32_t s = 0; s < question.samples; ++s)
+        reader.add(PixelSample(rays, question.seed, question.y * question.width + question.x, s));
+    PixelExplanation result;
+    const Explanation indirect = lit.lighting->explain(scene, reader.parts.reading, options);
+    result.tables.byOrigin = result.tables.bySender = straightRows(scene, reader.parts);
+    addGroup(result.tables.byOrigin, "Indirect", indirect.byOrigin);
+    addGroup(result.tables.bySender, "Indirect", indirect.bySender);
+    result.tables.bounces = indirect.bounces;
+    result.total = totalOf(result.tables.byOrigin);
+    result.seen = std::move(reader.parts.seen);
+    return result;
+}
+
+glm::vec3 lightWithout(const ConvergedLight& lit, const PixelQuestion& question,
+                       const Muted& muted) {
+    const PixelExplanation e = explainPixel(lit, question, {.black = muted.surfaces});
+    const auto isMuted = [&](const LightRow& row) {
+        return row.kind == LightRowKind::Sky ? muted.sky
+                                             : row.kind == LightRowKind::Light &&
+                                                   std::ranges::count(muted.lights, row.index) > 0;
+    };
+    glm::vec3 left = e.total;
+    for (const LightRow& row : e.tables.byOrigin)
+        if (isMuted(row))
+            left -= row.value;
+    return left;
+}
+
+} // namespace limn

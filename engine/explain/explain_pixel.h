@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/lighting/converged_light.h"
+#include "engine/lighting/explanation.h"
+#include "engine/scene/camera.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// What is explained of a pixel, as the mean over its samples.
+enum class PixelLight : std::uint8_t {
+    Radiance,  ///< that reaches the eye, as View::Lit shows it [W m^-2 sr^-1]
+    Irradiance ///< that arrives at the surfaces that the pixel shows [W m^-2]
+};
+
+struct PixelQuestion {
+    Camera camera;
+    std::uint32_t width = 1280, height = 720; ///< of the picture [pixels]
+    std::uint32_t x = 0, y = 0;               ///< of the pixel; (0, 0) is the upper left
+    PixelLight light = PixelLight::Radiance;
+    std::uint32_t samples = 16, seed = 1; ///< as FieldRenderOptions
+};
+
+struct PixelExplanation {
+    Explanation tables;
+    glm::vec3 total{0};              ///< of the pixel
+    std::vector<std::uint32_t> seen; ///< instances that the pixel shows, each once
+};
+
+/// Explains the pixel that renderField() draws of the same light: its rows sum to it. Direct light
+/// is that of every light, where renderField() picks one for each sample. `options.black` reflect
+/// no diffuse light where the pixel shows them, either.
+PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
+                              const ExplainOptions& options = {});
+
+/// What a scene is imagined without.
+struct Muted {
+    std::vector<std::uint32_t> lights;   ///< of Scene::lights
+    std::vector<std::uint32_t> surfaces; ///< of Scene::instances: they reflect nothing diffusely
+    bool sky = false;
+};
+
+/// The light of the pixel without what is muted, without lighting the scene again. The bounces that
+/// are not followed stay in it (ExplainOptions::tolerance).
+glm::vec3 lightWithout(const ConvergedLight& lit, const PixelQuestion& question,
+                       const Muted& muted);
+
+} // namespace limn

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "engine/field/field_reading.h"
+
+#include <algorithm>
+
+namespace limn {
+
+/// Adds, for each band l, factors[l] times the field's harmonics in `direction`, where `value` of
+/// that is above 0.
+static void addBands(const FieldPoint& at, glm::vec3 direction, int bands,
+                     const std::array<float, kMaxBands>& factors, glm::vec3 value, glm::vec3 weight,
+                     FieldReading& reading) {
+    for (int k = 0; k < 3; ++k)
+        weight[k] = value[k] > 0 ? weight[k] : 0;
+    float basis[kMaxCoefficients];
+    shBasis(bands, direction, basis);
+    for (int l = 0, i = 0; l < bands; ++l)
+        for (; i < (l + 1) * (l + 1); ++i)
+            basis[i] *= factors[std::size_t(l)];
+    const FieldLookup lookup = lookUp(at);
+    for (std::size_t k = 0; k < lookup.count; ++k) {
+        auto entry = std::ranges::find_if(reading.entries, [&](const FieldReading::Entry& e) {
+            return e.grid == lookup.grid && e.index == lookup.index[k];
+        });
+        if (entry == reading.entries.end())
+            entry = reading.entries.insert(entry, {.grid = lookup.grid, .index = lookup.index[k]});
+        for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
+            entry->weight[i] += weight * (lookup.weight[k] * basis[i]);
+    }
+}
+
+void addIrradiance(const FieldPoint& at, glm::vec3 weight, FieldReading& reading) {
+    addBands(at, at.normal, std::min(int(at.field.bands), kIrradianceBands), irradianceFactors(),
+             sampleIrradiance(at), weight, reading);
+}
+
+void addLobe(const FieldPoint& at, glm::vec3 direction, int bands,
+             const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading) {
+    addBands(at, direction, std::min(bands, int(at.field.bands)), factors,
+             sampleLobe(at, direction, bands, factors), weight, reading);
+}
+
+glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
+    glm::dvec3 value(0);
+    for (const FieldReading::Entry& entry : reading.entries) {
+        const std::vector<glm::vec4>& values = entry.grid ? field.grid : field.lightmap;
+        const std::size_t stride = values.size() / field.coefficients();
+        for (std::size_t i = 0; i < field.coefficients(); ++i)
+            value += glm::dvec3(entry.weight[i] * glm::vec3(values[i * stride + entry.index]));
+    }
+    return glm::vec3(value);
+}
+
+} // namespace limn

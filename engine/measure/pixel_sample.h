@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/reference/path.h"
+#include "engine/reference/pixel_rays.h"
+#include "engine/reference/sampler.h"
+
+#include <cstdint>
+
+namespace limn {
+
+/// Sample s of a pixel of a picture that is drawn on the CPU from a field.
+struct PixelSample {
+    Ray ray;
+    float pickLight;   ///< for sampleDirectLight()
+    glm::vec2 onLight; ///< the same
+
+    /// `pixel`: y * width + x.
+    PixelSample(const PixelRays& rays, std::uint32_t seed, std::uint32_t pixel, std::uint32_t s) {
+        const Sampler sampler{mixBits(seed, pixel), s};
+        const auto width = std::uint32_t(rays.size.x);
+        const glm::vec2 corner(float(pixel % width), float(pixel / width));
+        ray = rays.through(corner + sampler.pair(0));
+        pickLight = sampler.pair(1).x;
+        onLight = sampler.pair(kOnLightDimension);
+    }
+};
+
+} // namespace limn
