@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/files/project_file.h"
+#include "engine/gltf/gltf_import.h"
 #include "engine/measure/field_render.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 #include <random>
 
@@ -119,16 +121,20 @@ void expectPicture(const ConvergedLight& lit, const Camera& camera, std::size_t 
     }
 }
 
-/// A sample project with few surfels and texels, so that it is baked in a second.
+/// Few surfels and texels, so that a scene is baked in a second.
+void coarsen(BakeSettings& bake) {
+    bake.surfels = 3000;
+    bake.lightmapCaches = 3000;
+    bake.rays = 64;
+    bake.links = 32;
+}
+
 Scene sample(const char* name) {
     const std::string path =
         std::string(LIMN_SOURCE_DIR "/projects/") + name + "/" + name + ".limn";
     const ImportedScene project = std::move(*loadProject(path));
     Scene scene = flatten(project.document, project.assets);
-    scene.bake.surfels = 3000;
-    scene.bake.lightmapCaches = 3000;
-    scene.bake.rays = 64;
-    scene.bake.links = 32;
+    coarsen(scene.bake);
     return scene;
 }
 
@@ -172,6 +178,25 @@ TEST(ExplainPixel, SumsToThePictureOfTheAtrium) {
     Scene scene = sample("atrium");
     addLights(scene);
     expectPicture(light(scene), chooseCamera(scene, {}));
+}
+
+TEST(ExplainPixel, SumsToThePictureOfSponza) {
+    const std::string path = LIMN_SOURCE_DIR "/../shared/scenes/sponza-crytek/Sponza.gltf";
+    if (!std::filesystem::exists(path))
+        GTEST_SKIP() << "the shared scenes are not here";
+    const ImportedScene imported = std::move(*importGltf(path));
+    Scene scene = flatten(imported.document, imported.assets);
+    coarsen(scene.bake);
+    addLights(scene);
+    Light lamp;
+    lamp.position = scene.bounds.centre() - glm::vec3(0, 0.2f * scene.bounds.size().y, 0);
+    lamp.strength = 20;
+    scene.lights.push_back(lamp);
+    ASSERT_GE(scene.lights.size(), 3U);
+    Camera inside;
+    inside.eye = scene.bounds.centre() - glm::vec3(0.3f * scene.bounds.size().x, 0, 0);
+    inside.target = scene.bounds.centre();
+    expectPicture(light(scene), inside);
 }
 
 /// A room with a lamp, an emissive block, an open side to the sky, and a dynamic block between.

@@ -5,6 +5,7 @@
 #include "engine/math/cone.h"
 #include "engine/math/packing.h"
 #include "engine/math/sh_basis.h"
+#include "engine/techniques/illuminance/relight/caches/weigh_links.h"
 
 #include <algorithm>
 #include <map>
@@ -57,6 +58,17 @@ void addLinks(const RelightState& s, std::uint32_t c, const glm::vec3* weight,
             sum += scaled[i] * coefficients[i];
         nodes[cones ? s.links.links[k].node : s.links.shNode[k]] += sum;
     }
+}
+
+/// The same for a cache that surfels read.
+void addInnerLinks(const RelightState& s, std::uint32_t c, const glm::vec3* weight,
+                   std::vector<glm::vec3>& nodes) {
+    if (s.links.shNode.empty())
+        weighCones(s.links, s.ends, c, {weight, std::size_t(s.inner.luma * s.inner.luma)}, nodes);
+    else if (s.inner.luma < kIrradianceBands)
+        addLinks<2>(s, c, weight, nodes);
+    else
+        addLinks<kIrradianceBands>(s, c, weight, nodes);
 }
 
 } // namespace
@@ -162,10 +174,7 @@ std::vector<glm::vec3> BounceAdjoint::operator()(std::span<const glm::vec3> irra
                         weight[i] += w * m_factors[reader.surfel][i];
                 }
                 weighGrey(state.inner.luma, state.inner.chroma, weight);
-                if (state.inner.luma < kIrradianceBands)
-                    addLinks<2>(state, std::uint32_t(c), weight, mine);
-                else
-                    addLinks<kIrradianceBands>(state, std::uint32_t(c), weight, mine);
+                addInnerLinks(state, std::uint32_t(c), weight, mine);
             }
         }
     });
