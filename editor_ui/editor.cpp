@@ -4,6 +4,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/chrome.h"
+#include "editor_ui/panels/explain_panel.h"
 #include "editor_ui/panels/inspector_panel.h"
 #include "editor_ui/panels/no_light_hint.h"
 #include "editor_ui/panels/notice.h"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -124,9 +126,18 @@ static void splitters(LayoutState& wanted, const LayoutState& shown, const Place
 
 static void bottomPanel(EditorState& state, const Rect& place) {
     beginFixed("bottom", place);
+    state.explain.shown = false;
+    state.explain.hovered = 0;
     if (ImGui::BeginTabBar("tabs")) {
         if (ImGui::BeginTabItem("Statistics")) {
             statisticsPanel(state);
+            ImGui::EndTabItem();
+        }
+        const bool bringUp = std::exchange(state.explain.bringUp, false);
+        if (ImGui::BeginTabItem("Explain", nullptr,
+                                bringUp ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None)) {
+            state.explain.shown = true;
+            explainPanel(state);
             ImGui::EndTabItem();
         }
         const std::string label = fmt::format("Log ({})###log", state.log.size());

@@ -14,6 +14,7 @@
 #include "editor_ui/panels/statistics.h"
 #include "editor_ui/request.h"
 #include "editor_ui/view/compare_state.h"
+#include "editor_ui/view/explain_state.h"
 #include "editor_ui/view/gizmo_math.h"
 #include "editor_ui/view/overlay_state.h"
 #include "engine/scene/scene.h"
@@ -98,6 +99,7 @@ struct EditorState {
     ViewState view;
     OverlayState overlay;
     CompareState compare;
+    ExplainState explain;
     LayoutState layout;
     OutlinerState outliner;
     EulerEdit euler;

@@ -59,8 +59,8 @@ Session::Session(SessionOptions options)
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
       m_relightJob(m_options.wake), m_exportJob(m_options.wake), m_referenceJob(m_options.wake),
-      m_comparisonJob(m_options.wake), m_recovery(m_options.recoveryFolder),
-      m_followed(std::make_shared<const Document>()) {
+      m_comparisonJob(m_options.wake), m_explainJob(m_options.wake),
+      m_recovery(m_options.recoveryFolder), m_followed(std::make_shared<const Document>()) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     if (!m_options.settingsFile.empty())
@@ -355,8 +355,8 @@ void Session::takeExported() {
     log(LogLine::Level::Info, fmt::format("{} to {}", state.exporting.written, m_exportingTo));
 }
 
-/// Why the light cannot be exported now; empty: it can.
-static std::string exportRefusal(const BakeStatus& bake) {
+/// Why the light cannot be exported or explained now; empty: it can.
+static std::string lightRefusal(const BakeStatus& bake) {
     switch (bake.freshness) {
     case BakeFreshness::NotUsed:
     case BakeFreshness::UpToDate:
@@ -376,7 +376,7 @@ void Session::showExport() {
     m_exportJob.report(status);
     if (!state.exportDialog)
         return;
-    status.refusal = exportRefusal(state.bake);
+    status.refusal = lightRefusal(state.bake);
     status.forecast = {};
     const ExportFormat* format = findExportFormat(state.exportDialog->settings.format);
     if (!format || !status.refusal.empty() || !m_layout || !m_relit.trace)
@@ -390,6 +390,31 @@ void Session::showExport() {
                          lightsBake() ? m_baked.bake.get() : nullptr,
                          m_options.exportFolders};
     status.forecast = format->forecast(in, state.exportDialog->settings);
+}
+
+void Session::showExplanation() {
+    ExplainState& explain = state.explain;
+    auto result = m_explainJob.takeResult();
+    if (result && m_explained->scene->assets == state.assets) { // else of another file
+        explain.error = *result ? "" : result->error().message;
+        explain.result = *result ? **result : nullptr;
+    }
+    explain.running = m_explainJob.busy();
+    explain.refusal = lightRefusal(state.bake);
+    // While something is being dragged, each frame would light the scene anew.
+    if (!explain.shown || !explain.pick || !explain.refusal.empty() || explain.running ||
+        state.gesture)
+        return;
+    ExplainOrder order{.scene = m_scene,
+                       .prepared = lightsBake() ? m_baked.prepared() : Prepared{},
+                       .question = explain.pick->question};
+    if (m_explained == order)
+        return;
+    m_explained = order;
+    for (const auto& [id, object] : state.document.objects)
+        if (std::holds_alternative<Light>(object))
+            order.lights.push_back(id);
+    explain.running = m_explainJob.start(std::move(order));
 }
 
 void Session::followDocument() {
@@ -532,12 +557,13 @@ void Session::update() {
     bakeIfWanted();
     showExport();
     followReference();
+    showExplanation();
 }
 
 bool Session::idle() const {
     return !state.compare.reference.running && !m_comparisonJob.busy() && !m_files.busy() &&
-           !m_bakeJob.busy() && !m_exportJob.busy() && !m_bakeSoon && !state.relight.running &&
-           !m_relit.status.running && state.loading.empty();
+           !m_bakeJob.busy() && !m_exportJob.busy() && !m_explainJob.busy() && !m_bakeSoon &&
+           !state.relight.running && !m_relit.status.running && state.loading.empty();
 }
 
 double Session::bakeSeconds() const {

@@ -5,6 +5,7 @@
 #include "editor_ui/jobs/background_priority.h"
 #include "editor_ui/jobs/bake_job.h"
 #include "editor_ui/jobs/comparison_job.h"
+#include "editor_ui/jobs/explain_job.h"
 #include "editor_ui/jobs/export_job.h"
 #include "editor_ui/jobs/file_job.h"
 #include "editor_ui/jobs/recovery_job.h"
@@ -73,7 +74,7 @@ public:
     const ComparedPicture& compared() const { return m_beside; }
 
     bool wantsQuit() const { return m_quit; }
-    /// True if nothing is being opened, saved, baked, exported, relit or path-traced.
+    /// True if nothing is being opened, saved, baked, exported, explained, relit or path-traced.
     bool idle() const;
     /// Seconds of baking since the start, finished, cancelled or running.
     double bakeSeconds() const;
@@ -92,6 +93,7 @@ private:
     void startExport(const std::string& path);
     void showExport();
     void followReference();
+    void showExplanation();
     void followDocument();
     void followTime();
     void showStatus();
@@ -115,7 +117,9 @@ private:
     ComparisonJob m_comparisonJob;
     std::shared_ptr<const LinearPicture> m_picture; ///< null: none yet
     ComparedPicture m_beside;
-    double m_shownSeconds = 0; ///< time of animated textures in m_scene
+    ExplainJob m_explainJob;
+    std::optional<ExplainOrder> m_explained; ///< the newest order
+    double m_shownSeconds = 0;               ///< time of animated textures in m_scene
     RecoveryJob m_recovery;
     std::optional<Recovery> m_offered;          ///< that of state.recovery, or being opened
     bool m_started = false;                     ///< the first file has been opened, or could not be

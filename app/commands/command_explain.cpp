@@ -36,15 +36,6 @@ struct Options {
 constexpr std::array<const char*, 2> kLightNames = {"radiance", "irradiance"};
 constexpr std::array<const char*, 2> kUnits = {"W m^-2 sr^-1", "W m^-2"};
 
-/// Luminance of linear Rec. 709.
-double luminance(glm::vec3 rgb) {
-    return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
-}
-
-double shareOf(const LightRow& row, glm::vec3 total) {
-    return luminance(total) > 0 ? luminance(row.value) / luminance(total) : 0;
-}
-
 std::uint32_t depthOf(const std::vector<LightRow>& rows, const LightRow& row) {
     return row.parent == LightRow::kNone ? 0 : 1 + depthOf(rows, rows[row.parent]);
 }
@@ -83,7 +74,7 @@ void printTable(const char* title, const std::vector<LightRow>& rows, glm::vec3 
     for (const LightRow& row : rows) {
         const std::string label = std::string(2 * depthOf(rows, row), ' ') + row.label;
         fmt::print("{:<52} {:>7.2f}%  {:>10.4g} {:>10.4g} {:>10.4g}  {}\n", label,
-                   100 * shareOf(row, total), row.value.x, row.value.y, row.value.z,
+                   100 * shareOf(row.value, total), row.value.x, row.value.y, row.value.z,
                    row.kind == LightRowKind::Group ? "" : nameOfRow(row));
     }
 }
@@ -102,7 +93,7 @@ nlohmann::ordered_json tableJson(const std::vector<LightRow>& rows, glm::vec3 to
                                                     : nlohmann::ordered_json(row.parent);
         r["value"] = rgbJson(row.value);
         r["luminance"] = luminance(row.value);
-        r["share"] = shareOf(row, total);
+        r["share"] = shareOf(row.value, total);
         json.push_back(std::move(r));
     }
     return json;

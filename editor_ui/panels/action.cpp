@@ -204,6 +204,9 @@ void toggleLights(EditorState& s) {
 bool lightsShown(const EditorState& s) {
     return s.view.showLights;
 }
+void explainLight(EditorState& s) {
+    s.explain.bringUp = true;
+}
 void resetLayout(EditorState& s) {
     s.layout = {};
 }
@@ -308,6 +311,7 @@ std::vector<Action> fixedActions() {
     {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
     {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
+    {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},

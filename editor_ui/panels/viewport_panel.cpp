@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/compare_overlay.h"
+#include "editor_ui/panels/explain_panel.h"
 #include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/theme.h"
@@ -143,6 +144,8 @@ static void release(EditorState& state) {
     const OverlayKind* overlay = state.overlay.options.kind;
     if (overlay && overlay->pick != OverlayPick::None)
         pickCacheAt(state, view.pressedAt);
+    if (state.explain.shown)
+        explainAt(state, view.pressedAt);
 }
 
 static Icon lightIcon(LightKind kind) {
@@ -197,7 +200,7 @@ static void lightIcons(const EditorState& state) {
     const std::unordered_set<ObjectId> chosen(state.selection.begin(), state.selection.end());
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const auto& [id, light] = lights[i];
-        const bool selected = chosen.contains(id);
+        const bool selected = chosen.contains(id) || id == state.explain.hovered;
         const float shrink = selected ? 1 : scales[i], scale = shrink * uiScale();
         const ImU32 ink = selected         ? color::kHandleLit
                           : light->enabled ? IM_COL32(255, 255, 255, 230)
@@ -218,7 +221,7 @@ static void lightIcons(const EditorState& state) {
 }
 
 static void boxOutline(ImDrawList& list, const Picture& picture, const Bounds& b,
-                       const glm::mat4& toWorld) {
+                       const glm::mat4& toWorld, ImU32 color, float width) {
     std::array<std::optional<glm::vec2>, 8> corner;
     for (std::size_t i = 0; i < 8; ++i)
         corner[i] = toPixel(picture, toWorld * glm::vec4(i & 1 ? b.upper.x : b.lower.x,
@@ -228,7 +231,7 @@ static void boxOutline(ImDrawList& list, const Picture& picture, const Bounds& b
         for (std::size_t bit : {1u, 2u, 4u})
             if (!(i & bit) && corner[i] && corner[i | bit])
                 list.AddLine({corner[i]->x, corner[i]->y}, {corner[i | bit]->x, corner[i | bit]->y},
-                             IM_COL32(255, 225, 110, 130));
+                             color, width);
 }
 
 /// Box of the node's meshes in its own space, or of the one that was clicked.
@@ -244,21 +247,43 @@ static std::optional<Bounds> meshBox(const EditorState& state, ObjectId id, cons
     return box;
 }
 
+/// Box of a node's meshes in the world, or nothing if the id is no node's.
+static void nodeBox(const EditorState& state, Placements& placements, ObjectId id, ImU32 color,
+                    float width) {
+    const auto it = state.document.objects.find(id);
+    const Node* node =
+        it == state.document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
+    if (const auto box = node ? meshBox(state, id, *node) : std::nullopt)
+        boxOutline(*ImGui::GetWindowDrawList(), state.view.picture(), *box,
+                   glm::mat4(placements.of(id).toWorld), color, width);
+}
+
 /// A box for each selected node, so that a picked one can be seen; one box for a large selection.
+/// Another one for the row under the mouse in the table that explains a pixel.
 static void selectionBoxes(const EditorState& state) {
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const Picture picture = state.view.picture();
-    if (state.selection.size() > kMaxBoxes) {
-        boxOutline(list, picture, selectionBounds(state), glm::mat4(1));
-        return;
-    }
+    constexpr ImU32 kInk = IM_COL32(255, 225, 110, 130);
     Placements placements(state.document);
-    for (ObjectId id : state.selection) {
-        const auto it = state.document.objects.find(id);
-        const Node* node =
-            it == state.document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
-        if (const auto box = node ? meshBox(state, id, *node) : std::nullopt)
-            boxOutline(list, picture, *box, glm::mat4(placements.of(id).toWorld));
+    if (state.selection.size() > kMaxBoxes)
+        boxOutline(*ImGui::GetWindowDrawList(), state.view.picture(), selectionBounds(state),
+                   glm::mat4(1), kInk, 1);
+    else
+        for (ObjectId id : state.selection)
+            nodeBox(state, placements, id, kInk, 1);
+    nodeBox(state, placements, state.explain.hovered, color::kAccent, 2);
+}
+
+/// A cross at the surface whose light the table explains.
+static void explainedPoint(const EditorState& state) {
+    if (!state.explain.shown || !state.explain.pick)
+        return;
+    const auto pixel = toPixel(state.view.picture(), state.explain.pick->point);
+    if (!pixel)
+        return;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (const auto& [color, width] : {std::pair(IM_COL32(20, 22, 26, 255), 4.f),
+                                       std::pair(IM_COL32(255, 255, 255, 255), 2.f)}) {
+        list.AddLine({pixel->x - 7, pixel->y}, {pixel->x + 7, pixel->y}, color, width);
+        list.AddLine({pixel->x, pixel->y - 7}, {pixel->x, pixel->y + 7}, color, width);
     }
 }
 
@@ -316,6 +341,7 @@ void viewportPanel(EditorState& state) {
         wheel(state);
     ImGui::PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
     selectionBoxes(state);
+    explainedPoint(state);
     if (state.view.showLights)
         lightIcons(state);
     moveGizmo(state, hovered && state.view.navigation == Navigation::None && !state.view.placing);

@@ -136,6 +136,14 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
     return result;
 }
 
+double luminance(glm::vec3 rgb) {
+    return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
+}
+
+double shareOf(glm::vec3 value, glm::vec3 total) {
+    return luminance(total) > 0 ? luminance(value) / luminance(total) : 0;
+}
+
 glm::vec3 lightWithout(const ConvergedLight& lit, const PixelQuestion& question,
                        const Muted& muted) {
     const PixelExplanation e = explainPixel(lit, question, {.black = muted.surfaces});

@@ -22,6 +22,8 @@ struct PixelQuestion {
     std::uint32_t x = 0, y = 0;               ///< of the pixel; (0, 0) is the upper left
     PixelLight light = PixelLight::Radiance;
     std::uint32_t samples = 16, seed = 1; ///< as FieldRenderOptions
+
+    bool operator==(const PixelQuestion&) const = default;
 };
 
 struct PixelExplanation {
@@ -35,6 +37,12 @@ struct PixelExplanation {
 /// no diffuse light where the pixel shows them, either.
 PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
                               const ExplainOptions& options = {});
+
+/// Luminance of linear Rec. 709.
+double luminance(glm::vec3 rgb);
+
+/// Luminance of a row's value as a share of the total's; 0 where that is black.
+double shareOf(glm::vec3 value, glm::vec3 total);
 
 /// What a scene is imagined without.
 struct Muted {

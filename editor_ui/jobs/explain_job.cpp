@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/jobs/explain_job.h"
+
+#include "editor_ui/jobs/background_priority.h"
+#include "engine/techniques/technique_table.h"
+
+#include <chrono>
+#include <utility>
+
+namespace limn {
+
+ExplainJob::ExplainJob(std::function<void()> wake) : m_wake(std::move(wake)) {}
+
+ExplainJob::~ExplainJob() {
+    m_cancel = true;
+    if (m_thread.joinable())
+        m_thread.join();
+}
+
+bool ExplainJob::start(ExplainOrder order) {
+    if (m_running)
+        return false;
+    if (m_thread.joinable())
+        m_thread.join(); // has finished
+    m_running = true;
+    m_thread = std::thread([this, order = std::move(order)] {
+        lowerThreadPriority();
+        Explained explained = explain(order);
+        {
+            const std::lock_guard lock(m_mutex);
+            m_result = std::move(explained);
+        }
+        m_running = false;
+        m_wake();
+    });
+    return true;
+}
+
+ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
+    if (!m_litFor || !m_litFor->sameLight(order)) {
+        m_litFor.reset();
+        m_lit.reset();
+        const Technique* technique = findTechnique(order.scene->technique.technique);
+        if (!technique)
+            return fail("the technique is unknown");
+        Progress progress;
+        progress.cancel = &m_cancel;
+        auto lit = convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene),
+                                 *technique, order.prepared, progress);
+        if (!lit)
+            return tl::make_unexpected(lit.error());
+        m_lit = std::move(*lit);
+        m_litFor = order;
+    }
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    auto explained = std::make_shared<ExplainedPixel>();
+    explained->explanation = explainPixel(*m_lit, order.question);
+    explained->light = order.question.light;
+    explained->lights = order.lights;
+    for (const Instance& instance : order.scene->instances)
+        explained->nodes.push_back(instance.node);
+    explained->ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return explained;
+}
+
+bool ExplainJob::busy() const {
+    const std::lock_guard lock(m_mutex);
+    return m_running || m_result;
+}
+
+std::optional<ExplainJob::Explained> ExplainJob::takeResult() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_result, {});
+}
+
+} // namespace limn

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/explain_panel.h"
+
+#include "editor_ui/panels/field.h"
+#include "editor_ui/panels/theme.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+namespace limn {
+
+void explainAt(EditorState& state, glm::vec2 mouse) {
+    if (!state.trace)
+        return;
+    const Picture picture = state.view.picture();
+    const Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
+    if (!hit)
+        return;
+    const glm::uvec2 size(picture.size);
+    const glm::uvec2 pixel(glm::clamp(mouse - picture.origin, glm::vec2(0), picture.size - 1.f));
+    state.explain.pick = {.question = {.camera = picture.camera,
+                                       .width = size.x,
+                                       .height = size.y,
+                                       .x = std::min(pixel.x, size.x - 1),
+                                       .y = std::min(pixel.y, size.y - 1)},
+                          .point = hit.position};
+}
+
+namespace {
+
+const char* unitOf(PixelLight light) {
+    switch (light) {
+    case PixelLight::Radiance:
+        return "W m^-2 sr^-1";
+    case PixelLight::Irradiance:
+        return "W m^-2";
+    }
+    return "";
+}
+
+/// The object that a row names, or, where it names none, the nearest row above it.
+ObjectId objectOf(const ExplainedPixel& pixel, const std::vector<LightRow>& rows,
+                  const LightRow& row) {
+    if (row.kind == LightRowKind::Light && row.index < pixel.lights.size())
+        return pixel.lights[row.index];
+    if (row.kind == LightRowKind::Surface && row.index < pixel.nodes.size())
+        return pixel.nodes[row.index];
+    return row.parent == LightRow::kNone ? 0 : objectOf(pixel, rows, rows[row.parent]);
+}
+
+/// The hue of light at full brightness, in sRGB.
+ImU32 hueOf(glm::vec3 light) {
+    const glm::vec3 positive = glm::max(light, glm::vec3(0));
+    const float most = std::max({positive.x, positive.y, positive.z});
+    const glm::vec3 c = most > 0 ? glm::pow(positive / most, glm::vec3(1 / 2.2f)) : glm::vec3(0);
+    return ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1});
+}
+
+void swatch(glm::vec3 light) {
+    const float side = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 from(at.x, at.y + 2), to(at.x + side, at.y + side - 1);
+    list.AddRectFilled(from, to, hueOf(light), 2);
+    list.AddRect(from, to, color::kDim, 2);
+    ImGui::Dummy({side, side});
+    ImGui::SameLine();
+}
+
+std::string rgbText(glm::vec3 light) {
+    return fmt::format("{:.3g}  {:.3g}  {:.3g}", light.x, light.y, light.z);
+}
+
+void shareBar(double share) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+    const float filled = width * float(std::clamp(share, 0., 1.));
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 1}, {at.x + filled, at.y + height},
+                                              (color::kAccent & 0x00ffffffU) | 0x70000000U, 2);
+    ImGui::Text("%5.1f %%", 100 * share);
+}
+
+struct Table {
+    EditorState& state;
+    const ExplainedPixel& pixel;
+    const std::vector<LightRow>& rows;
+    std::vector<std::vector<std::uint32_t>> below; ///< indices of the rows below each row
+
+    void row(std::uint32_t k) {
+        const LightRow& r = rows[k];
+        const ObjectId object = objectOf(pixel, rows, r);
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::PushID(int(k));
+        ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanFullWidth |
+                                   ImGuiTreeNodeFlags_OpenOnArrow |
+                                   ImGuiTreeNodeFlags_OpenOnDoubleClick;
+        if (below[k].empty())
+            flags |= ImGuiTreeNodeFlags_Leaf;
+        if (r.parent == LightRow::kNone)
+            flags |= ImGuiTreeNodeFlags_DefaultOpen;
+        const float label = ImGui::GetCursorPosX() + ImGui::GetTreeNodeToLabelSpacing();
+        const bool open = ImGui::TreeNodeEx("##row", flags);
+        if (ImGui::IsItemHovered() && object != 0)
+            state.explain.hovered = object;
+        if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen() &&
+            state.document.objects.contains(object))
+            state.selection = {object};
+        ImGui::SameLine();
+        ImGui::SetCursorPosX(label);
+        elidedText(r.label, ImGui::GetContentRegionAvail().x);
+        ImGui::TableNextColumn();
+        shareBar(shareOf(r.value, pixel.explanation.total));
+        ImGui::TableNextColumn();
+        swatch(r.value);
+        elidedText(rgbText(r.value), ImGui::GetContentRegionAvail().x);
+        if (open) {
+            for (const std::uint32_t child : below[k])
+                row(child);
+            ImGui::TreePop();
+        }
+        ImGui::PopID();
+    }
+};
+
+/// A heading that says what the column shows.
+void heading(int column, const char* tooltip) {
+    ImGui::TableSetColumnIndex(column);
+    ImGui::TableHeader(ImGui::TableGetColumnName(column));
+    wrappedTooltip(tooltip);
+}
+
+void table(EditorState& state, const ExplainedPixel& pixel) {
+    const Explanation& tables = pixel.explanation.tables;
+    const std::vector<LightRow>& rows = state.explain.bySender ? tables.bySender : tables.byOrigin;
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
+    if (!ImGui::BeginTable(state.explain.bySender ? "sender" : "origin", 3, kFlags))
+        return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("Where from", ImGuiTableColumnFlags_WidthStretch, 0.5f);
+    ImGui::TableSetupColumn("Share", ImGuiTableColumnFlags_WidthStretch, 0.2f);
+    ImGui::TableSetupColumn("Red, green, blue", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    heading(0, "Lights, objects and the sky. A click selects the object");
+    heading(1, "Of the luminance of all light of the pixel [%]");
+    heading(2, pixel.light == PixelLight::Radiance
+                   ? "Radiance that reaches the eye by this row [W m^-2 sr^-1]"
+                   : "Irradiance that arrives by this row [W m^-2]");
+    Table all{state, pixel, rows, std::vector<std::vector<std::uint32_t>>(rows.size())};
+    for (std::uint32_t k = 0; k < rows.size(); ++k)
+        if (rows[k].parent != LightRow::kNone)
+            all.below[rows[k].parent].push_back(k);
+    for (std::uint32_t k = 0; k < rows.size(); ++k)
+        if (rows[k].parent == LightRow::kNone)
+            all.row(k);
+    ImGui::EndTable();
+}
+
+template <class Value>
+void choice(const char* label, Value& value, Value choice, const char* tooltip) {
+    if (ImGui::RadioButton(label, value == choice))
+        value = choice;
+    wrappedTooltip(tooltip);
+    ImGui::SameLine();
+}
+
+void choices(ExplainState& explain) {
+    choice("By origin", explain.bySender, false,
+           "Which lights, sky and emissive surfaces the light comes from, over all bounces");
+    choice("By sender", explain.bySender, true,
+           "What sends the light to this place, however it got there: lights, sky, objects, and "
+           "of these clusters and surfels");
+    ImGui::SameLine(0, ImGui::GetFontSize() * 1.5f);
+    choice("Radiance", explain.light, PixelLight::Radiance,
+           "The light that reaches the eye [W m^-2 sr^-1]");
+    choice("Irradiance", explain.light, PixelLight::Irradiance,
+           "The light that arrives at the surface [W m^-2]");
+    ImGui::SameLine(0, ImGui::GetFontSize() * 1.5f);
+}
+
+} // namespace
+
+void explainPanel(EditorState& state) {
+    ExplainState& explain = state.explain;
+    choices(explain);
+    if (explain.pick)
+        explain.pick->question.light = explain.light;
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (!explain.refusal.empty() || !explain.error.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
+        elidedText(explain.refusal.empty() ? explain.error : explain.refusal, width);
+        ImGui::PopStyleColor();
+    } else if (!explain.pick) {
+        elidedText("Click a surface in the picture to see where its light comes from", width);
+    } else if (const ExplainedPixel* pixel = explain.result.get()) {
+        const glm::vec3 total = pixel->explanation.total;
+        elidedText(fmt::format("{}  {}, {} bounces followed{}", rgbText(total),
+                               unitOf(pixel->light), pixel->explanation.tables.bounces,
+                               explain.running ? ", updating" : ""),
+                   width);
+    } else {
+        elidedText("Working", width);
+    }
+    if (explain.result && explain.pick)
+        table(state, *explain.result);
+}
+
+} // namespace limn

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/explain/explain_pixel.h"
+#include "engine/scene/document.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// A pixel explained, with what its rows name.
+struct ExplainedPixel {
+    PixelExplanation explanation;
+    PixelLight light = PixelLight::Radiance;
+    std::vector<ObjectId> lights; ///< of Scene::lights
+    std::vector<ObjectId> nodes;  ///< of Scene::instances
+    double ms = 0;                ///< that explaining took, without lighting the scene
+};
+
+/// The table that explains a pixel of the picture.
+struct ExplainState {
+    bool shown = false;    ///< the table is on screen, and clicks in the picture choose the pixel
+    bool bringUp = false;  ///< bring the table to the front in the next frame
+    bool bySender = false; ///< which of the tables
+    PixelLight light = PixelLight::Radiance;
+    struct Pick {
+        PixelQuestion question;
+        glm::vec3 point{0}; ///< of the surface that the pixel shows, world
+    };
+    std::optional<Pick> pick;
+    bool running = false;
+    std::string refusal; ///< why nothing can be explained now; empty: it can
+    std::string error;   ///< of the last explanation
+    std::shared_ptr<const ExplainedPixel> result; ///< the newest; null: none yet
+    ObjectId hovered = 0;                         ///< object of the row under the mouse; 0: none
+};
+
+} // namespace limn
