@@ -13,6 +13,7 @@
 #include "engine/core/parallel.h"
 #include "engine/export/export_table.h"
 #include "engine/lighting/converged_light.h"
+#include "engine/scene/export_settings_fields.h"
 #include "engine/scene/setting_text.h"
 #include "engine/techniques/technique_table.h"
 

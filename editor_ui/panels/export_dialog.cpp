@@ -7,6 +7,7 @@
 #include "editor_ui/panels/setting_row.h"
 #include "editor_ui/panels/theme.h"
 #include "engine/export/export_table.h"
+#include "engine/scene/export_settings_fields.h"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>

@@ -17,20 +17,16 @@ namespace {
 
 constexpr std::uint32_t kGroups = 7;
 
-std::size_t cellsOf(const IndirectField& field) {
-    return std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
-}
-
 } // namespace
 
 Result<void> checkGrid(const IndirectField& field) {
-    if (field.grid.empty() || cellsOf(field) == 0)
+    if (field.grid.empty() || field.cells() == 0)
         return fail("the light has no grid: bake one, with --grid 8x8x8 or the bake settings");
     return {};
 }
 
 Sh3 gridCell(const IndirectField& field, std::size_t cell) {
-    const std::size_t cells = cellsOf(field), count = std::min(field.coefficients(), 9U);
+    const std::size_t cells = field.cells(), count = std::min(field.coefficients(), 9U);
     Sh3 c{};
     for (std::size_t i = 0; i < count; ++i)
         c[i] = glm::vec3(field.grid[i * cells + cell]);
@@ -38,7 +34,7 @@ Sh3 gridCell(const IndirectField& field, std::size_t cell) {
 }
 
 Sh3 meanProbe(const IndirectField& field) {
-    const std::size_t cells = cellsOf(field);
+    const std::size_t cells = field.cells();
     std::array<glm::dvec3, 9> sum{};
     for (std::size_t cell = 0; cell < cells; ++cell) {
         const Sh3 c = gridCell(field, cell);
@@ -53,7 +49,7 @@ Sh3 meanProbe(const IndirectField& field) {
 
 Result<std::string> gridKtx2(const IndirectField& field, bool zstd) {
     const glm::uvec3 n = field.gridSize;
-    const std::size_t cells = cellsOf(field), plane = std::size_t(n.x) * n.y;
+    const std::size_t cells = field.cells(), plane = std::size_t(n.x) * n.y;
     if (const Result<void> exists = checkGrid(field); !exists)
         return tl::make_unexpected(exists.error());
     Ktx2Shape shape{.width = n.x, .height = n.y, .depth = kGroups * (n.z + 2), .zstd = zstd};

@@ -4,6 +4,7 @@
 #include "engine/export/gltf_scene.h"
 #include "engine/export/ktx2.h"
 #include "engine/files/image_file.h"
+#include "engine/scene/export_settings_fields.h"
 
 #include <algorithm>
 #include <array>

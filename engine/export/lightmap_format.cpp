@@ -3,6 +3,7 @@
 
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
+#include "engine/scene/export_settings_fields.h"
 
 #include <array>
 

@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -37,6 +38,7 @@ struct IndirectField {
     std::uint64_t version = 0; ///< incremented with every change of the values above
 
     std::uint32_t coefficients() const { return bands * bands; }
+    std::size_t cells() const { return std::size_t(gridSize.x) * gridSize.y * gridSize.z; }
     std::uint32_t chroma() const {
         return chromaBands == 0 || chromaBands > bands ? bands : chromaBands;
     }

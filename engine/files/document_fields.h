@@ -4,6 +4,7 @@
 #include "engine/files/material_fields.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/document.h"
+#include "engine/scene/export_settings_fields.h"
 
 #include <span>
 #include <string_view>

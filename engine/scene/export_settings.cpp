@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/export_settings.h"
 
+#include "engine/scene/export_settings_fields.h"
 #include "engine/scene/setting_text.h"
 
 #include <fmt/format.h>
@@ -18,6 +19,11 @@ std::string settingsDefect(const ExportSettings& settings) {
     if (defect.empty() && settings.detail % 2 == 0)
         defect = fmt::format("--detail: {} is not odd", settings.detail);
     return defect;
+}
+
+bool writesKtx2(const ExportSettings& settings) {
+    return settings.encoding != TextureEncoding::Exr || settings.format == "grid" ||
+           settings.format == "three";
 }
 
 std::string setExportSetting(ExportSettings& settings, std::string_view key,

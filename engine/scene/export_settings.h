@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/setting.h"
-
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,10 +13,6 @@ enum class TextureEncoding : std::uint8_t {
     Ktx2Half,   ///< RGBA, binary16
     Ktx2Rgb9e5, ///< 32 bits per texel: 9 bits per channel with a shared exponent
 };
-inline constexpr std::array<std::string_view, 3> kTextureEncodingNames = {"exr", "ktx2-half",
-                                                                          "ktx2-rgb9e5"};
-inline constexpr std::array<const char*, 3> kTextureEncodingLabels = {"EXR", "KTX2, half float",
-                                                                      "KTX2, shared exponent"};
 
 /// Quantity that the texels of a lightmap hold. E is irradiance [W m^-2], rho the albedo.
 enum class LightmapQuantity : std::uint8_t {
@@ -27,15 +20,9 @@ enum class LightmapQuantity : std::uint8_t {
     IrradianceOverPi, ///< E / pi
     Radiance,         ///< rho E / pi [W m^-2 sr^-1]
 };
-inline constexpr std::array<std::string_view, 3> kLightmapQuantityNames = {
-    "irradiance", "irradiance-over-pi", "radiance"};
-inline constexpr std::array<const char*, 3> kLightmapQuantityLabels = {
-    "Irradiance E", "Irradiance E / \u03c0", "Radiance \u03c1 E / \u03c0"};
 
 /// How the coefficients of a lightmap of spherical harmonics are stacked in a texture.
 enum class ShLayers : std::uint8_t { Array, Volume };
-inline constexpr std::array<std::string_view, 2> kShLayersNames = {"array", "volume"};
-inline constexpr std::array<const char*, 2> kShLayersLabels = {"Texture array", "3D texture"};
 
 /// How a document's light is exported. Each format reads some of the settings:
 /// ExportFormat::settings.
@@ -57,79 +44,12 @@ struct ExportSettings {
 /// cache. Empty: nothing.
 std::string settingsDefect(const ExportSettings& settings);
 
+/// Whether the export has KTX2 files. The grid is one whatever the encoding of the lightmap.
+bool writesKtx2(const ExportSettings& settings);
+
 /// Parses a value of the setting of that key, as setting_text.h does. Returns what is wrong with
 /// the text; empty: nothing.
 std::string setExportSetting(ExportSettings& settings, std::string_view key,
                              const std::string& text);
-
-/// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
-/// other setting; the format is not one. `s` is an ExportSettings, const or not.
-template <class S, class Visit>
-void visitExportSettings(S& s, const Visit& visit) {
-    visit(Setting{.key = "encoding",
-                  .flag = "--encoding",
-                  .label = "Texture files",
-                  .help = "File format of textures",
-                  .tooltip = "File format of the light's textures. KTX2 loads fastest; EXR is "
-                             "read by most tools",
-                  .invalidates = Invalidates::Light},
-          s.encoding, SettingChoices{kTextureEncodingNames, kTextureEncodingLabels});
-    visit(Setting{.key = "compress",
-                  .flag = "--compress",
-                  .label = "Zstandard",
-                  .help = "Compress KTX2 files with Zstandard",
-                  .tooltip = "Compresses KTX2 files with Zstandard. The consumer must support it",
-                  .invalidates = Invalidates::Light},
-          s.compress);
-    visit(Setting{.key = "quantity",
-                  .flag = "--quantity",
-                  .label = "Texels hold",
-                  .help = "Quantity of the lightmap's texels",
-                  .tooltip = "Irradiance E [W/m\u00b2], E / \u03c0, or the radiance \u03c1 E / "
-                             "\u03c0 that a surface of albedo \u03c1 sends [W/m\u00b2/sr]",
-                  .invalidates = Invalidates::Light},
-          s.quantity, SettingChoices{kLightmapQuantityNames, kLightmapQuantityLabels});
-    visit(Setting{.key = "direct",
-                  .flag = "--direct",
-                  .label = "Direct light",
-                  .help = "Add the lights' direct light to the lightmap",
-                  .tooltip = "Adds the direct light of the scene's lights, with shadows. Leave it "
-                             "off where the engine computes direct light itself",
-                  .invalidates = Invalidates::Light},
-          s.direct);
-    visit(Setting{.key = "bands",
-                  .flag = "--lightmap-bands",
-                  .label = "Lightmap's SH bands",
-                  .help = "Bands of spherical harmonics per texel; 1: irradiance only",
-                  .tooltip = "1: texels hold one colour. 2 or 3: texels hold spherical harmonics "
-                             "of incident radiance, so that normal maps are lit by them",
-                  .invalidates = Invalidates::Light},
-          s.bands, SettingRange{1, 3});
-    visit(Setting{.key = "layers",
-                  .flag = "--layers",
-                  .label = "Harmonics as",
-                  .help = "How a texture stacks the harmonics' coefficients",
-                  .tooltip = "How a texture stacks the harmonics' coefficients: as layers of an "
-                             "array or as slices of a 3D texture",
-                  .invalidates = Invalidates::Light,
-                  .applies = s.bands > 1},
-          s.layers, SettingChoices{kShLayersNames, kShLayersLabels});
-    visit(Setting{.key = "detail",
-                  .flag = "--detail",
-                  .label = "Texels per cache",
-                  .help = "Texels per cache along each side; odd",
-                  .tooltip = "Texels per light cache along each side, an odd number. More texels "
-                             "keep light from leaking where walls meet, and take more memory",
-                  .invalidates = Invalidates::Light},
-          s.detail, SettingRange{1, 9});
-    visit(Setting{.key = "maxSize",
-                  .flag = "--max-size",
-                  .label = "Largest texture (texels)",
-                  .help = "Maximum width and height of a texture",
-                  .tooltip = "Maximum width and height of a texture [texels]. Fewer texels per "
-                             "cache are used where a lightmap would be larger",
-                  .invalidates = Invalidates::Light},
-          s.maxSize, SettingRange{64, 16384});
-}
 
 } // namespace limn

@@ -455,7 +455,7 @@ IndirectField GpuRelighter::readField() const {
     out.lightmap = unpackField(packed, field.bands, field.chroma, field.scale);
     if (s.gridLit && !s.bake->gridDepth.empty())
         out.gridDepth = {s.bake, &s.bake->gridDepth};
-    packed.resize(std::size_t(out.gridSize.x) * out.gridSize.y * out.gridSize.z * layers);
+    packed.resize(out.cells() * layers);
     if (!packed.empty())
         gpu::readBuffer(s.device, field.grid, std::as_writable_bytes(std::span(packed)));
     out.grid = unpackField(packed, field.bands, field.chroma, field.scale);

@@ -293,7 +293,7 @@ void Relighter::State::writeField(const CacheFlags& which, bool grid) {
         if (which[c] != 0)
             write(c, field.lightmap, texels);
     field.gridSize = gridLit ? bake->gridSize : glm::uvec3(0);
-    const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
+    const std::size_t cells = field.cells();
     field.grid.resize(cells * coefficients, glm::vec4(0));
     field.gridDepth =
         gridLit ? std::shared_ptr<const std::vector<std::uint16_t>>(bake, &bake->gridDepth)

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/export_settings_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace limn {
+namespace {
+
+bool applies(const ExportSettings& settings, std::string_view key) {
+    bool does = false;
+    visitExportSettings(settings, [&](const Setting& setting, const auto&, const auto&...) {
+        if (setting.key == key)
+            does = setting.applies;
+    });
+    return does;
+}
+
+TEST(ExportSettings, CompressionAppliesWhereAFileIsKtx2) {
+    EXPECT_FALSE(applies({.format = "gltf"}, "compress"));
+    EXPECT_TRUE(applies({.format = "gltf", .encoding = TextureEncoding::Ktx2Rgb9e5}, "compress"));
+    EXPECT_TRUE(applies({.format = "grid"}, "compress")); // the grid is never an EXR
+    EXPECT_TRUE(applies({.format = "three"}, "compress"));
+}
+
+TEST(ExportSettings, LayersApplyToHarmonics) {
+    EXPECT_FALSE(applies({.bands = 1}, "layers"));
+    EXPECT_TRUE(applies({.bands = 2}, "layers"));
+}
+
+TEST(ExportSettings, EveryOneHasAKeyAndAFlagOfItsOwn) {
+    std::set<std::string> keys, flags;
+    int count = 0;
+    const ExportSettings defaults;
+    visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
+        ++count;
+        keys.insert(setting.key);
+        flags.insert(setting.flag);
+    });
+    EXPECT_EQ(keys.size(), std::size_t(count));
+    EXPECT_EQ(flags.size(), std::size_t(count));
+}
+
+TEST(ExportSettings, ADefectNamesTheFlag) {
+    EXPECT_EQ(settingsDefect({}), "");
+    EXPECT_TRUE(settingsDefect({.detail = 2}).starts_with("--detail"));
+    EXPECT_TRUE(settingsDefect({.maxSize = 1}).starts_with("--max-size"));
+}
+
+} // namespace
+} // namespace limn
