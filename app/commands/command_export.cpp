@@ -50,6 +50,17 @@ bool reads(const ExportFormat& format, std::string_view key) {
     return std::ranges::find(format.settings, key) != format.settings.end();
 }
 
+/// "--max-size" of "maxSize".
+const char* flagOf(std::string_view key) {
+    const char* flag = "";
+    const ExportSettings defaults;
+    visitExportSettings(defaults, [&](const Setting& setting, const auto&...) {
+        if (setting.key == key)
+            flag = setting.flag;
+    });
+    return flag;
+}
+
 Exit listFormats(const Options& options) {
     auto json = nlohmann::ordered_json::array();
     for (const ExportFormat* format : exportFormats()) {
@@ -85,7 +96,8 @@ Result<const ExportFormat*> chooseFormat(const Options& options) {
     const ExportFormat* format = findExportFormat(options.format);
     for (const auto& [key, text] : options.given)
         if (!reads(*format, key))
-            return fail(fmt::format("{}: the format {} does not use it", key, format->name));
+            return fail(
+                fmt::format("{}: the format {} does not use it", flagOf(key), format->name));
     if (const std::string defect = settingsDefect(settingsOf(options, {})); !defect.empty())
         return fail(defect);
     if (const Result<void> possible = checkExportPath(options.output, *format); !possible)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/command.h"
+#include "app/commands/describe_transport.h"
 #include "app/commands/scene_options.h"
 #include "app/techniques/technique_program.h"
 
@@ -118,6 +119,8 @@ static Result<Json> describeFile(const std::string& file) {
         return read ? Result<Json>(programOf((*read)->technique()).describe(**read))
                     : tl::make_unexpected(read.error());
     }
+    if (extension == ".limnrt")
+        return describeTransport(file);
     return describeResult(openAny(file, projectsFolder()));
 }
 
@@ -149,8 +152,8 @@ void addInfoCommand(CLI::App& app, Run& run) {
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("info", "Print what a scene, project, bake or image contains");
+    CLI::App* command = app.add_subcommand(
+        "info", "Print what a scene, project, bake, transport or image contains");
     command->add_option("file", options->file, "File, or name of a sample project")->required();
     command->add_flag("--json", options->json, "Print one JSON object to stdout");
     command->callback([options, &run] {

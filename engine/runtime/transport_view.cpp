@@ -23,17 +23,10 @@ struct Header {
 };
 static_assert(sizeof(Header) == kHeader);
 
-struct Entry {
-    char tag[4];
-    std::uint32_t elementSize;
-    std::uint64_t offset, bytes, hash;
-};
-static_assert(sizeof(Entry) == 32);
-
 /// An opened table of sections.
 struct Table {
     const unsigned char* bytes;
-    const Entry* entries;
+    const SectionEntry* entries;
     std::uint32_t count;
     ErrorText error;
 
@@ -42,7 +35,7 @@ struct Table {
             std::snprintf(error.text, error.size, "section %.4s: %s", tag, what);
         return false;
     }
-    const Entry* find(const char* tag) const {
+    const SectionEntry* find(const char* tag) const {
         for (std::uint32_t k = 0; k < count; ++k)
             if (std::memcmp(entries[k].tag, tag, 4) == 0)
                 return &entries[k];
@@ -51,7 +44,7 @@ struct Table {
     /// Sets `out` to a section of `n` elements.
     template <class T>
     bool take(const char* tag, std::uint64_t elementSize, std::uint64_t n, const T*& out) const {
-        const Entry* entry = find(tag);
+        const SectionEntry* entry = find(tag);
         if (!entry)
             return fail(tag, "missing");
         if (entry->elementSize != elementSize)
@@ -62,7 +55,7 @@ struct Table {
         return true;
     }
     bool takeText(const char* tag, const char*& out, std::size_t& size) const {
-        const Entry* entry = find(tag);
+        const SectionEntry* entry = find(tag);
         if (!entry)
             return fail(tag, "missing");
         size = std::size_t(entry->bytes);
@@ -99,7 +92,7 @@ const char* headerDefect(const void* bytes, std::size_t size) {
                                      : "an unknown version";
     if (header.bytes != size)
         return header.bytes > size ? "truncated" : "bytes follow the end of the file";
-    if (header.sections > kMaxSections || (size - kHeader) / sizeof(Entry) < header.sections)
+    if (header.sections > kMaxSections || (size - kHeader) / sizeof(SectionEntry) < header.sections)
         return "truncated in its table of sections";
     return nullptr;
 }
@@ -109,13 +102,14 @@ bool openTable(const void* bytes, std::size_t size, bool skipHashes, Table& tabl
         return failWith(table.error, defect);
     const auto& header = *static_cast<const Header*>(bytes);
     table.bytes = static_cast<const unsigned char*>(bytes);
-    table.entries = reinterpret_cast<const Entry*>(table.bytes + kHeader);
+    table.entries = reinterpret_cast<const SectionEntry*>(table.bytes + kHeader);
     table.count = header.sections;
-    if (!skipHashes && xxhash64(table.entries, header.sections * sizeof(Entry)) != header.tableHash)
+    if (!skipHashes &&
+        xxhash64(table.entries, header.sections * sizeof(SectionEntry)) != header.tableHash)
         return failWith(table.error, "the table of sections is damaged");
-    std::uint64_t end = kHeader + header.sections * sizeof(Entry);
+    std::uint64_t end = kHeader + header.sections * sizeof(SectionEntry);
     for (std::uint32_t k = 0; k < table.count; ++k) {
-        const Entry& entry = table.entries[k];
+        const SectionEntry& entry = table.entries[k];
         if (entry.offset % kAlignment != 0 || entry.offset < end || entry.offset > size ||
             entry.bytes > size - entry.offset)
             return table.fail(entry.tag, "lies outside of its place");
@@ -194,12 +188,15 @@ bool viewTransport(const void* bytes, std::size_t size, bool skipHashes, Transpo
     const Dims* dims = nullptr;
     if (!openTable(bytes, size, skipHashes, table))
         return false;
-    const Entry* entry = table.find("DIMS");
+    const SectionEntry* entry = table.find("DIMS");
     if (!entry || entry->elementSize != 4 || entry->bytes != sizeof(Dims))
         return table.fail("DIMS", "missing, or of another length");
     dims = reinterpret_cast<const Dims*>(table.bytes + entry->offset);
     if (const char* defect = dimsDefect(*dims))
         return table.fail("DIMS", defect);
+    view.sections = table.entries;
+    view.sectionCount = table.count;
+    view.minor = static_cast<const Header*>(bytes)->minor;
     view.dims = *dims;
     return takeSenders(table, view) && takeReceivers(table, view) &&
            table.take("SPAC", sizeof(Space), 1, view.space) &&

@@ -50,8 +50,18 @@ struct Space {
 static_assert(sizeof(Space) == 32);
 static_assert(sizeof(limnrt_light) == 80);
 
+/// An entry of the table of sections.
+struct SectionEntry {
+    char tag[4];
+    std::uint32_t elementSize; ///< [bytes]
+    std::uint64_t offset, bytes, hash;
+};
+static_assert(sizeof(SectionEntry) == 32);
+
 /// The sections of a file, where they lie.
 struct TransportView {
+    const SectionEntry* sections; ///< the whole table
+    std::uint32_t sectionCount, minor;
     Dims dims;
     const Space* space;
     const float *surfelPosition, *surfelNormal, *surfelAlbedo, *surfelEmission, *surfelArea;

@@ -34,9 +34,44 @@ TEST_F(CommandLine, ExportRefusesBeforeTheWorkWhatItCannotWrite) {
     expectRefusal("export cornell --format gltf -o " + path("x.png"), ".gltf");
     expectRefusal("export cornell --format gltf --detail 2 -o " + path("x.gltf"), "--detail");
     expectRefusal("export cornell --format limnrt --compress -o " + path("x.limnrt"),
-                  "does not use it");
+                  "--compress: the format limnrt does not use it");
+    expectRefusal("export cornell --format filament --max-size 512 -o " + path("x.txt"),
+                  "--max-size: the format filament does not use it");
     EXPECT_EQ(limn("export cornell --format nothing -o x.gltf").exit, 2);
     EXPECT_EQ(limn("export cornell").exit, 2);
+}
+
+TEST_F(CommandLine, TransportOfStoredHarmonicsIsRefusedWithTheOptionThatHelps) {
+    const Outcome run =
+        limn("export cornell --format limnrt --storage sh -o " + path("x.limnrt") + kCoarse);
+    EXPECT_EQ(run.exit, 1);
+    EXPECT_NE(run.err.find("bake with --storage rtp"), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(path("x.limnrt")));
+}
+
+TEST_F(CommandLine, InfoSaysWhatATransportFileHoldsAndWhatIsWrongWithIt) {
+    const std::string file = path("box.limnrt");
+    json("export cornell --format limnrt --detail 1 --json -o " + file + kCoarse);
+    const nlohmann::json info = json("info --json " + file);
+    EXPECT_EQ(info["kind"], "transport");
+    EXPECT_EQ(info["version"], "1.0");
+    EXPECT_NEAR(info["surfels"].get<double>(), 500, 10);
+    EXPECT_EQ(info["triangles"], 38);
+    EXPECT_EQ(info["bytes"]["total"], fs::file_size(file));
+    EXPECT_EQ(info["bytes"]["LINK"], 12 * info["links"].get<std::uint64_t>());
+    EXPECT_EQ(info["bytes"]["SPOS"], 12 * info["surfels"].get<std::uint64_t>());
+    EXPECT_NE(limn("info " + file).out.find("LINK"), std::string::npos);
+
+    const std::string whole = contents(file), broken = path("broken.limnrt");
+    write(broken, whole.substr(0, whole.size() / 2));
+    expectRefusal("info " + broken, "broken.limnrt: truncated");
+    std::string damaged = whole;
+    damaged.back() = char(damaged.back() ^ 1);
+    write(broken, damaged);
+    expectRefusal("info " + broken, "broken.limnrt: section OTRI: damaged");
+    write(broken, "{}");
+    expectRefusal("info " + broken, "broken.limnrt: not a transport file");
+    expectRefusal("info " + path("nowhere.limnrt"), "nowhere.limnrt: no such file");
 }
 
 } // namespace

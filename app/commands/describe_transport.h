@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// What `limn info` says of a relightable transport file: its version, its counts and the bytes of
+/// each section. The message of a failure names the file and what is wrong with it, for instance
+/// the section that is damaged.
+Result<nlohmann::ordered_json> describeTransport(const std::string& file);
+
+} // namespace limn
