@@ -381,14 +381,16 @@ void Session::showExport() {
     const ExportFormat* format = findExportFormat(state.exportDialog->settings.format);
     if (!format || !status.refusal.empty() || !m_layout || !m_relit.trace)
         return;
-    const IndirectField none;
-    const ExportScene in{state.document,
-                         *m_scene,
-                         *m_relit.trace,
-                         *m_layout,
-                         none,
-                         lightsBake() ? m_baked.bake.get() : nullptr,
-                         m_options.exportFolders};
+    const Precomputed* data = lightsBake() ? m_baked.bake.get() : nullptr;
+    IndirectField shape; // a forecast reads no light, and a device keeps it
+    shape.lightmapWidth = m_layout->width;
+    shape.lightmapHeight = m_layout->height;
+    if (data)
+        shape.gridSize = data->gridSize();
+    else if (m_relit.field)
+        shape.gridSize = m_relit.field->gridSize;
+    const ExportScene in{state.document, *m_scene, *m_relit.trace,         *m_layout,
+                         shape,          data,     m_options.exportFolders};
     status.forecast = format->forecast(in, state.exportDialog->settings);
 }
 

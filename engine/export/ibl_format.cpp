@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/engine_formats.h"
 
-#include "engine/export/engine_scene.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
 #include "engine/files/image_file.h"
@@ -80,8 +79,8 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene, const Exp
     return files;
 }
 
-static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    return {.bytes = litSceneForecast(scene, settings).bytes};
+static ExportForecast forecast(const ExportScene& scene, const ExportSettings&) {
+    return {.bytes = gltfBytes(scene)};
 }
 
 constinit const ExportFormat kIblFormat = {

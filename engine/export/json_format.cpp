@@ -160,7 +160,7 @@ void putMeshes(ObjectWriter& json, const ExportScene& in) {
 }
 
 void putGrid(ObjectWriter& json, const IndirectField& field) {
-    const std::size_t cells = std::size_t(field.gridSize.x) * field.gridSize.y * field.gridSize.z;
+    const std::size_t cells = field.cells();
     const std::size_t coefficients = std::min(field.coefficients(), 9U);
     json.begin("grid");
     json.member("bounds", boundsOf(field.gridBounds));
@@ -204,8 +204,7 @@ ExportForecast forecast(const ExportScene& scene, const ExportSettings&) {
     const IndirectField& field = scene.field;
     const std::uint64_t coefficients = std::min(field.coefficients(), 9U);
     const std::uint64_t texels = std::uint64_t(field.lightmapWidth) * field.lightmapHeight;
-    std::uint64_t numbers =
-        3 * coefficients * texels + 3 * coefficients * (field.grid.size() / field.coefficients());
+    std::uint64_t numbers = 3 * coefficients * (texels + field.cells());
     for (const Mesh& mesh : scene.scene.assets->meshes)
         numbers += mesh.positions.size() * 8 + mesh.indices.size() * 2;
     for (const InstanceLightmap& instance : scene.layout.instances)

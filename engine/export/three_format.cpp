@@ -48,7 +48,8 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
     ExportForecast f = litSceneForecast(scene, ownSettings(settings));
-    f.bytes += gridKtx2Bytes(scene.field);
+    if (scene.field.cells() > 0)
+        f.bytes += gridKtx2Bytes(scene.field);
     return f;
 }
 

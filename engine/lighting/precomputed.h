@@ -62,6 +62,8 @@ public:
     virtual std::uint64_t hash() const = 0;
     /// The lightmap that the light is computed for.
     virtual const LightmapLayout& layout() const = 0;
+    /// Cells along the axes of the grid that the light is computed for; 0: none.
+    virtual glm::uvec3 gridSize() const = 0;
     virtual PrecomputedReport report() const = 0;
 
     /// Names the size on which the time of an update depends, coarsely: "links 4^12". Measured

@@ -87,6 +87,28 @@ TEST_F(Exporting, IsRefusedWithoutABake) {
     EXPECT_NE(session.state.exporting.refusal.find("bake"), std::string::npos);
 }
 
+TEST_F(Exporting, ItsForecastCountsTheGridThatWillBeWritten) {
+    Document document = smallDocument();
+    for (auto& [id, object] : document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object))
+            settings->grid = {6, 5, 7};
+    ASSERT_TRUE(saveProject(project, document));
+    Session session(options());
+    openBaked(session);
+    openExportDialog(session.state);
+    session.state.exportDialog->settings.format = "grid";
+    session.update();
+    const auto forecast = double(session.state.exporting.forecast.bytes);
+    session.state.exportDialog.reset();
+    const std::string path = folder.file("air.json");
+    order(session, {.format = "grid"}, path);
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    ASSERT_TRUE(session.state.exporting.error.empty()) << session.state.exporting.error;
+    const auto texture = double(std::filesystem::file_size(folder.file("air.ktx2")));
+    EXPECT_GT(texture, 8 * 6 * 5 * 7 * 7);
+    EXPECT_NEAR(forecast, texture, 0.1 * texture);
+}
+
 TEST_F(Exporting, ItsSettingsAreSavedInTheProjectAndUndone) {
     Session session(options(false));
     session.open(project);

@@ -241,6 +241,25 @@ TEST(EngineFormats, WithoutAGridThereIsNoProbe) {
         EXPECT_TRUE(format->write(light.view(), {}, nameFor(*format), {})) << format->name;
 }
 
+TEST(EngineFormats, ForecastsCountALightmapOnlyWhereOneIsWritten) {
+    KnownLight small(constantLight), large(constantLight);
+    large.layout.width = large.layout.height = 1024;
+    const auto grown = [&](const ExportFormat& format) {
+        return format.forecast(large.view(), {}).bytes > format.forecast(small.view(), {}).bytes;
+    };
+    for (const ExportFormat* format : {&kIblFormat, &kFilamentFormat, &kGridFormat})
+        EXPECT_FALSE(grown(*format)) << format->name;
+    for (const ExportFormat* format : {&kThreeFormat, &kBlenderFormat, &kGodotFormat})
+        EXPECT_TRUE(grown(*format)) << format->name;
+}
+
+TEST(EngineFormats, TheForecastOfAGridIsTheSizeOfItsTexture) {
+    const KnownLight light(constantLight, {12, 10, 14});
+    const auto files = exported(light, kGridFormat);
+    const auto bytes = double(bytesOf(files, "room.ktx2").size());
+    EXPECT_NEAR(double(kGridFormat.forecast(light.view(), {}).bytes), bytes, 0.01 * bytes);
+}
+
 TEST(EngineFormats, ACancelledExportFails) {
     const KnownLight light(constantLight);
     const std::atomic<bool> stop = true;

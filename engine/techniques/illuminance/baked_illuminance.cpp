@@ -44,6 +44,10 @@ const Technique& BakedIlluminance::technique() const {
     return kIlluminanceTechnique;
 }
 
+glm::uvec3 BakedIlluminance::gridSize() const {
+    return m_bake->caches.size() > m_bake->caches.lightmapCount ? m_bake->gridSize : glm::uvec3(0);
+}
+
 PrecomputedReport BakedIlluminance::report() const {
     return {countersOf(m_bake->counts), countersOf(bytesOf(*m_bake)), m_bake->seconds,
             m_bake->notes};

@@ -21,6 +21,7 @@ public:
     std::uint64_t inputHash() const override { return m_bake->sceneHash; }
     std::uint64_t hash() const override { return m_bake->hash(); }
     const LightmapLayout& layout() const override { return m_bake->lightmap; }
+    glm::uvec3 gridSize() const override;
     PrecomputedReport report() const override;
     std::string sizeClass() const override;
     StageSeconds expectedSeconds(const BakeSettings& wanted) const override;
