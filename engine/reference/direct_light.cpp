@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/direct_light.h"
 
+#include "engine/math/sh.h"
 #include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -80,6 +82,27 @@ DirectSample sampleShadowed(const TraceScene& trace, const SurfacePoint& p, cons
     return {l.irradiance, l.sample.toLight};
 }
 
+/// Calls add(radiance times solid angle, direction) for what is visible of a rectangle.
+template <class Add>
+void addRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
+                  const Add& add, std::uint64_t& rays) {
+    const LightRectangle rectangle = lightRectangle(light);
+    if (!light.enabled || !(glm::dot(rectangle.normal, p.position - rectangle.centre) > 0))
+        return;
+    const SphericalRectangle sphere(rectangle, p.position);
+    const glm::vec3 share =
+        light.color * light.strength * float(sphere.solidAngle() / kRectanglePoints);
+    for (std::uint32_t i = 0; i < kRectanglePoints; ++i) {
+        const glm::vec3 onLight = sphere.at(pointOnLight(i, kRectanglePoints, glm::vec2(0)));
+        const glm::vec3 way = onLight - p.position;
+        if (!(glm::dot(p.geometricNormal, way) > 0))
+            continue;
+        ++rays;
+        if (!trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal)))
+            add(share, glm::normalize(way));
+    }
+}
+
 } // namespace
 
 glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::uint64_t& rays) {
@@ -106,6 +129,28 @@ DirectSample sampleDirectLightFrom(const TraceScene& trace, const SurfacePoint& 
     const Unshadowed l = unshadowed(light, p);
     return strength(l.irradiance) > 0 ? sampleShadowed(trace, p, light, l, onLight, rays)
                                       : DirectSample{};
+}
+
+void addDirectHarmonics(const TraceScene& trace, const SurfacePoint& p, int bands, glm::vec3* c,
+                        std::uint64_t& rays) {
+    const auto add = [&](glm::vec3 light, glm::vec3 direction) {
+        std::array<float, kMaxCoefficients> y;
+        shBasis(bands, direction, y.data());
+        for (int i = 0; i < bands * bands; ++i)
+            c[i] += light * y[std::size_t(i)];
+    };
+    for (const Light& light : trace.scene().lights) {
+        if (light.kind == LightKind::Rectangle) {
+            addRectangle(trace, p, light, add, rays);
+            continue;
+        }
+        const LightSample s = sampleLight(light, p.position);
+        if (!(strength(s.irradiance) > 0) || !(glm::dot(p.geometricNormal, s.toLight) > 0))
+            continue;
+        ++rays;
+        if (!inShadow(trace, p, s))
+            add(s.irradiance, s.toLight);
+    }
 }
 
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,

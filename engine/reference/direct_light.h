@@ -15,6 +15,12 @@ inline constexpr std::uint32_t kRectanglePoints = 64;
 /// three are hard. Adds the number of shadow rays to `rays`.
 glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::uint64_t& rays);
 
+/// Adds the same lights' radiance [W m^-2 sr^-1] as spherical harmonics to `c`, bands^2 of them, as
+/// in sh.h: the sum over directions of light times Y_i. Only light from above the surface counts.
+/// Irradiance evaluated from them is that of light limited to these bands. Bands in [1, kMaxBands].
+void addDirectHarmonics(const TraceScene& trace, const SurfacePoint& p, int bands, glm::vec3* c,
+                        std::uint64_t& rays);
+
 /// Direct light at a point from one light.
 struct DirectSample {
     glm::vec3 irradiance{0}; ///< [W m^-2]

@@ -7,21 +7,22 @@
 
 namespace limn {
 
+glm::vec2 pointOnLight(std::uint32_t i, std::uint32_t points, glm::vec2 shift) {
+    constexpr float kInset = 1e-3f;
+    const glm::vec2 hammersley((float(i) + 0.5f) / float(points), radicalInverse(i, 2));
+    return glm::mix(glm::vec2(kInset), glm::vec2(1 - kInset), glm::fract(hammersley + shift));
+}
+
 float shadowedIrradiance(const TraceScene& trace, const LightRectangle& rectangle, glm::vec3 p,
                          glm::vec3 n, std::uint32_t points, glm::vec2 shift, std::uint64_t& rays) {
     const float whole = rectangleIrradiance(rectangle, p, n);
     if (!(whole > 0))
         return 0;
     const glm::vec3 origin = trace.clearOf(p, n);
-    constexpr float kInset = 1e-3f;
     const SphericalRectangle sphere(rectangle, p);
     double sum = 0, seen = 0;
     for (std::uint32_t i = 0; i < points; ++i) {
-        const glm::vec2 hammersley((float(i) + 0.5f) / float(points), radicalInverse(i, 2));
-        // Not on the edge, where walls that bound the light would hide it.
-        const glm::vec2 uv =
-            glm::mix(glm::vec2(kInset), glm::vec2(1 - kInset), glm::fract(hammersley + shift));
-        const glm::vec3 onLight = sphere.at(uv);
+        const glm::vec3 onLight = sphere.at(pointOnLight(i, points, shift));
         const double share = double(glm::dot(glm::normalize(onLight - p), n));
         if (!(share > 0))
             continue;

@@ -8,11 +8,14 @@
 
 namespace limn {
 
+/// Point `i` of `points` in the unit square, Hammersley's shifted by `shift` in [0, 1)^2. None lies
+/// on the edge, where walls that bound a light would hide it.
+glm::vec2 pointOnLight(std::uint32_t i, std::uint32_t points, glm::vec2 shift);
+
 /// Irradiance per unit of radiance from a rectangle at surface point `p` with unit normal `n`, with
 /// shadow: rectangleIrradiance() times the visible share of `points` points on it, which are
-/// uniform in solid angle and weighted by their cosines. Exact if all or nothing is visible. The
-/// points are Hammersley's, shifted by `shift` in [0, 1)^2. Adds the number of shadow rays to
-/// `rays`.
+/// uniform in solid angle and weighted by their cosines. Exact if all or nothing is visible. Adds
+/// the number of shadow rays to `rays`.
 float shadowedIrradiance(const TraceScene& trace, const LightRectangle& rectangle, glm::vec3 p,
                          glm::vec3 n, std::uint32_t points, glm::vec2 shift, std::uint64_t& rays);
 
