@@ -111,8 +111,17 @@ Result<const ExportFormat*> chooseFormat(const Options& options) {
     return format;
 }
 
+/// ", lightmap of 2 textures of 4096 x 4096 texels"; empty without a lightmap.
+std::string lightmapText(const ExportForecast& f) {
+    if (f.width == 0)
+        return {};
+    const std::string pages = f.pages > 1 ? fmt::format("{} textures of ", f.pages) : "";
+    return fmt::format(", lightmap of {}{} x {} texels", pages, f.width, f.height);
+}
+
 nlohmann::ordered_json forecastJson(const ExportForecast& forecast) {
     return {{"bytes", forecast.bytes},
+            {"pages", forecast.pages},
             {"width", forecast.width},
             {"height", forecast.height},
             {"detail", forecast.detail}};
@@ -162,12 +171,12 @@ Exit runExport(const Options& options) {
                          options.folders};
     const ExportForecast forecast = (*format)->forecast(in, settings);
     if (forecast.detail > 0 && forecast.detail < settings.detail)
-        logWarning(fmt::format("{} texels per cache a side instead of {}: the lightmap would be "
-                               "larger than --max-size",
-                               forecast.detail, settings.detail));
+        logWarning(
+            fmt::format("{} texels per cache a side instead of {}: a texture would be larger "
+                        "than --max-size",
+                        forecast.detail, settings.detail));
     if (!options.json)
-        fmt::print("About {}, lightmap of {} x {} texels\n", bytesText(forecast.bytes),
-                   forecast.width, forecast.height);
+        fmt::print("About {}{}\n", bytesText(forecast.bytes), lightmapText(forecast));
     const Result<std::vector<ExportedFile>> files =
         exportLight(options.output, **format, in, settings, progressOnStderr());
     endProgressLine();

@@ -117,7 +117,9 @@ static void forecastLine(const ExportForecast& f) {
         return;
     std::string text = "About " + byteText(f.bytes);
     if (f.width > 0)
-        text += fmt::format(", lightmap of {} \u00d7 {} texels", f.width, f.height);
+        text += fmt::format(", lightmap of {}{} \u00d7 {} texels",
+                            f.pages > 1 ? fmt::format("{} textures of ", f.pages) : "", f.width,
+                            f.height);
     ImGui::TextDisabled("%s", text.c_str());
 }
 

@@ -5,6 +5,8 @@
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace limn {
@@ -17,19 +19,24 @@ static void replaceAll(std::string& text, std::string_view what, std::string_vie
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
                                          nlohmann::ordered_json extras, const std::string& name,
                                          const Progress& progress) {
-    const Result<LightmapImage> image = lightmapImage(scene, settings, progress);
-    if (!image)
-        return tl::make_unexpected(image.error());
-    Result<ExportFile> lightmap = lightmapFile(*image, settings, stemOf(name) + "-lightmap");
+    const Result<LightmapPages> pages = exportPages(scene, settings);
+    if (!pages)
+        return tl::make_unexpected(pages.error());
+    const Result<std::vector<LightmapImage>> images =
+        lightmapImages(scene, settings, *pages, progress);
+    if (!images)
+        return tl::make_unexpected(images.error());
+    Result<std::vector<ExportFile>> lightmap =
+        lightmapFiles(*images, settings, stemOf(name) + "-lightmap");
     if (!lightmap)
         return tl::make_unexpected(lightmap.error());
-    GltfOptions options;
-    options.extras["lightmap"] = lightmapJson(*image, settings, lightmap->name);
+    GltfOptions options{.pages = &*pages, .extras = {}};
+    options.extras["lightmap"] = lightmapJson(images->front(), settings, *lightmap);
     if (!extras.is_null())
         options.extras.update(extras);
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
     if (files)
-        files->push_back(std::move(*lightmap));
+        std::ranges::move(*lightmap, std::back_inserter(*files));
     return files;
 }
 
@@ -44,7 +51,7 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
 }
 
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings) {
-    ExportForecast f = forecastLightmap(scene.layout, settings);
+    ExportForecast f = forecastPages(scene, settings);
     f.bytes += gltfBytes(scene);
     return f;
 }

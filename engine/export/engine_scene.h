@@ -14,8 +14,9 @@
 namespace limn {
 
 /// The scene as glTF with its lightmap beside it, "room-lightmap.ktx2" of "room.gltf", encoded and
-/// with the quantity that `settings` ask for, as what engines load. asset.extras.limn describes the
-/// lightmap and holds the members of `extras`.
+/// with the quantity that `settings` ask for, as what engines load. A lightmap above
+/// settings.maxSize becomes several textures. asset.extras.limn describes the lightmap and holds
+/// the members of `extras`.
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
                                          nlohmann::ordered_json extras, const std::string& name,
                                          const Progress& progress);

@@ -46,7 +46,8 @@ struct ExportFile {
 /// An exported size before anything is computed.
 struct ExportForecast {
     std::uint64_t bytes = 0;             ///< of all files, about
-    std::uint32_t width = 0, height = 0; ///< of the lightmap [texels]; 0: there is none
+    std::uint32_t width = 0, height = 0; ///< of a lightmap's texture [texels]; 0: there is none
+    std::uint32_t pages = 1;             ///< number of such textures, about
     std::uint32_t detail = 0;            ///< texels per cache along each side, after maxSize
 };
 

@@ -58,8 +58,9 @@ Json GltfMaterials::texture(const TextureRef& ref) {
     return info;
 }
 
-std::size_t GltfMaterials::index(const Material& source, std::uint32_t number, bool oneSided) {
-    const auto [known, isNew] = m_known.try_emplace({number, oneSided}, materials.size());
+std::size_t GltfMaterials::index(const Material& source, std::uint32_t number, bool oneSided,
+                                 std::uint32_t page) {
+    const auto [known, isNew] = m_known.try_emplace({number, oneSided, page}, materials.size());
     if (!isNew)
         return known->second;
     Json json;
@@ -96,6 +97,8 @@ std::size_t GltfMaterials::index(const Material& source, std::uint32_t number, b
     }
     json["doubleSided"] = source.doubleSided && !oneSided;
     json["extras"]["limn"]["material"] = number;
+    if (page > 0)
+        json["extras"]["limn"]["lightmapPage"] = page;
     materials.push_back(std::move(json));
     return known->second;
 }

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -29,12 +29,14 @@ struct GltfMaterials {
     std::set<std::string> extensions; ///< that they use
 
     /// Index of the exported material: `source`, which has that index in Scene::materials, or a
-    /// one-sided version of it, with `number` in extras.limn.material. Animated textures show their
-    /// first frame.
-    std::size_t index(const Material& source, std::uint32_t number, bool oneSided);
+    /// one-sided version of it, with `number` in extras.limn.material. For surfaces on another page
+    /// of the lightmap than the first, it is another material, with the page in
+    /// extras.limn.lightmapPage. Animated textures show their first frame.
+    std::size_t index(const Material& source, std::uint32_t number, bool oneSided,
+                      std::uint32_t page);
 
 private:
-    std::map<std::pair<std::uint32_t, bool>, std::size_t> m_known;
+    std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, std::size_t> m_known;
 
     nlohmann::ordered_json texture(const TextureRef& ref);
 };

@@ -7,7 +7,6 @@
 #include "engine/export/gltf_material_json.h"
 #include "engine/export/vector_json.h"
 #include "engine/files/image_file.h"
-#include "engine/lightmap/atlas.h"
 
 #include <array>
 #include <cctype>
@@ -42,11 +41,14 @@ struct GltfScene {
     std::map<std::pair<std::uint32_t, Side>, Json> primitives; ///< without material and lightmap
 
     bool hasLightmap(std::uint32_t instance) const {
-        return options.lightmap && instance < in.layout.instances.size() &&
-               !in.layout.instances[instance].uv.empty();
+        return options.pages && instance < options.pages->instances.size() &&
+               !options.pages->instances[instance][0].uv.empty();
     }
     const Json& primitive(std::uint32_t mesh, Side side);
     Json lightmapPrimitive(std::uint32_t instance, bool back);
+    Json onPage(Json primitive, std::uint32_t instance, bool back, std::uint32_t page);
+    void addNode(std::uint32_t instance, Json primitiveList);
+    void addLightmapped(std::uint32_t instance);
     void addInstance(std::uint32_t instance);
     void addLights();
     void addCameras();
@@ -111,31 +113,34 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
     return primitives[{meshIndex, side}] = std::move(json);
 }
 
+/// One side of an instance, whatever the pages of its charts.
 Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
     Json json = primitive(in.scene.instances[instance].mesh, back ? Side::Back : Side::Front);
-    std::vector<glm::vec2> uv = in.layout.instances[instance].uv;
-    if (back)
-        for (glm::vec2& p : uv)
-            p.y += backOffset(in.layout, instance);
-    json["attributes"]["TEXCOORD_1"] = buffer.add(uv);
+    json["attributes"]["TEXCOORD_1"] = buffer.add(options.pages->instances[instance][back].uv);
     if (!json["attributes"].contains("TEXCOORD_0")) // sets of coordinates are numbered without gaps
         json["attributes"]["TEXCOORD_0"] = json["attributes"]["TEXCOORD_1"];
     return json;
 }
 
-void GltfScene::addInstance(std::uint32_t i) {
+/// The triangles of that primitive whose charts lie on a page; null if there is none.
+Json GltfScene::onPage(Json primitive, std::uint32_t instance, bool back, std::uint32_t page) {
+    const std::vector<std::uint32_t>& pageOfChart = options.pages->instances[instance][back].page;
+    const MeshCharts& charts = in.layout.meshes[in.scene.instances[instance].mesh];
+    std::vector<std::uint32_t> indices;
+    for (std::size_t t = 0; t < charts.chartOfTriangle.size(); ++t)
+        if (pageOfChart[charts.chartOfTriangle[t]] == page)
+            indices.insert(indices.end(), {charts.indices[3 * t], charts.indices[3 * t + 1],
+                                           charts.indices[3 * t + 2]});
+    if (indices.empty())
+        return {};
+    if (indices.size() < charts.indices.size())
+        primitive["indices"] =
+            buffer.addIndices(back ? turnedRound(indices) : indices, charts.sourceVertex.size());
+    return primitive;
+}
+
+void GltfScene::addNode(std::uint32_t i, Json primitiveList) {
     const Instance& instance = in.scene.instances[i];
-    const Material& material = in.scene.materialOf(instance);
-    Json list = Json::array();
-    const bool map = hasLightmap(i), both = map && in.layout.instances[i].backRows > 0;
-    for (const bool back : {false, true}) {
-        if (back && !both)
-            continue;
-        Json json = map ? lightmapPrimitive(i, back) : primitive(instance.mesh, Side::Whole);
-        json["material"] = materials.index(material, instance.material, both);
-        list.push_back(std::move(json));
-    }
-    const Mesh& mesh = in.scene.meshOf(instance);
     Json node;
     const auto object = in.document.objects.find(instance.node);
     if (object != in.document.objects.end())
@@ -143,8 +148,39 @@ void GltfScene::addInstance(std::uint32_t i) {
     node["mesh"] = meshes.size();
     if (instance.toWorld != glm::mat4(1))
         node["matrix"] = matrixJson(instance.toWorld);
-    meshes.push_back({{"name", mesh.name}, {"primitives", std::move(list)}});
+    meshes.push_back(
+        {{"name", in.scene.meshOf(instance).name}, {"primitives", std::move(primitiveList)}});
     nodes.push_back(std::move(node));
+}
+
+void GltfScene::addLightmapped(std::uint32_t i) {
+    const Instance& instance = in.scene.instances[i];
+    const bool both = !options.pages->instances[i][1].uv.empty();
+    std::vector<Json> sides = {lightmapPrimitive(i, false)};
+    if (both)
+        sides.push_back(lightmapPrimitive(i, true));
+    for (std::uint32_t page = 0; page < options.pages->count; ++page) {
+        Json list = Json::array();
+        for (std::size_t side = 0; side < sides.size(); ++side) {
+            Json json = onPage(sides[side], i, side == 1, page);
+            if (json.is_null())
+                continue;
+            json["material"] =
+                materials.index(in.scene.materialOf(instance), instance.material, both, page);
+            list.push_back(std::move(json));
+        }
+        if (!list.empty())
+            addNode(i, std::move(list));
+    }
+}
+
+void GltfScene::addInstance(std::uint32_t i) {
+    if (hasLightmap(i))
+        return addLightmapped(i);
+    const Instance& instance = in.scene.instances[i];
+    Json json = primitive(instance.mesh, Side::Whole);
+    json["material"] = materials.index(in.scene.materialOf(instance), instance.material, false, 0);
+    addNode(i, Json::array({std::move(json)}));
 }
 
 void GltfScene::addLights() {

@@ -4,6 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
+#include "engine/lightmap/lightmap_pages.h"
 
 #include <string>
 #include <vector>
@@ -14,14 +15,18 @@ namespace limn {
 
 /// How a scene is written as glTF.
 struct GltfOptions {
-    bool lightmap = true; ///< with TEXCOORD_1 of the layout, and both sides of two-sided surfaces
+    /// Where TEXCOORD_1 leads, and which texture each material reads. Null: there is no lightmap,
+    /// and two-sided surfaces stay as they are.
+    const LightmapPages* pages = nullptr;
     nlohmann::ordered_json extras; ///< asset.extras.limn: what the light beside the file means
 };
 
 /// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files. Each instance is a node
 /// with a mesh of its own, because texture coordinates of a lightmap belong to instances;
 /// attributes that instances share are stored once. Vertices are split along the lightmap's charts.
-/// Two-sided surfaces with a lightmap become two one-sided ones. Lights, cameras and emission are
+/// Two-sided surfaces with a lightmap become two one-sided ones. An instance whose charts lie on
+/// several pages of the lightmap becomes a node for each; materials exist once for each page, and
+/// extras.limn.lightmapPage says which, unless it is the first. Lights, cameras and emission are
 /// written by KHR_lights_punctual, glTF cameras and KHR_materials_emissive_strength. Fails for a
 /// scene without surfaces, and when cancelled.
 Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOptions& options,

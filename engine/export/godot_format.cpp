@@ -148,7 +148,9 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
     const Result<LightmapImage> image = lightmapImage(scene, ownSettings(settings), progress);
     if (!image)
         return tl::make_unexpected(image.error());
-    Result<std::vector<ExportFile>> files = gltfFiles(scene, GltfOptions{}, name, progress);
+    const LightmapPages page = onePage(scene.scene, scene.layout, 1);
+    Result<std::vector<ExportFile>> files =
+        gltfFiles(scene, {.pages = &page, .extras = {}}, name, progress);
     if (!files)
         return files;
     const std::string stem = stemOf(name);
@@ -159,12 +161,11 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
 
 ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
     const ExportSettings own = ownSettings(settings);
-    ExportForecast f = litSceneForecast(scene, own);
+    ExportForecast f = forecastLightmap(scene.layout, own);
     const std::uint64_t layers = own.bands > 1 ? 4 : 1;
-    f.bytes += layers * f.width * f.height * 11; // 8 bytes in base64
-    const std::uint64_t cells =
-        std::uint64_t(scene.field.gridSize.x) * scene.field.gridSize.y * scene.field.gridSize.z;
-    f.bytes += std::min(cells, std::uint64_t(kMaxGodotProbes)) * 800; // a probe and its tetrahedra
+    f.bytes = gltfBytes(scene) + layers * f.width * f.height * 11; // 8 bytes in base64
+    f.bytes += std::min<std::uint64_t>(scene.field.cells(), kMaxGodotProbes) *
+               800; // a probe and its tetrahedra
     return f;
 }
 

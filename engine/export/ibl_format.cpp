@@ -61,7 +61,7 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene, const Exp
     if (const Result<void> exists = checkGrid(scene.field); !exists)
         return tl::make_unexpected(exists.error());
     Result<std::vector<ExportFile>> files =
-        gltfFiles(scene, GltfOptions{.lightmap = false, .extras = {}}, name, progress);
+        gltfFiles(scene, {}, name, progress);
     if (!files)
         return files;
     const Sh3 mean = meanProbe(scene.field);

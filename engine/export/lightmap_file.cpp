@@ -68,24 +68,42 @@ Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings
     return ExportFile{name, std::move(*bytes)};
 }
 
+Result<std::vector<ExportFile>> lightmapFiles(const std::vector<LightmapImage>& pages,
+                                              const ExportSettings& settings,
+                                              const std::string& stem) {
+    std::vector<ExportFile> files;
+    for (const LightmapImage& page : pages) {
+        Result<ExportFile> file = lightmapFile(
+            page, settings, files.empty() ? stem : fmt::format("{}-{}", stem, files.size() + 1));
+        if (!file)
+            return tl::make_unexpected(file.error());
+        files.push_back(std::move(*file));
+    }
+    return files;
+}
+
 nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
-                                    const std::string& fileName) {
+                                    const std::vector<ExportFile>& files) {
     constexpr std::array<const char*, 3> kUnits = {"W m^-2", "W m^-2 sr^-1", "W m^-2 sr^-1"};
     constexpr std::array<const char*, 3> kEquations = {"L = albedo / pi * texel",
                                                        "L = albedo * texel", "L = texel"};
     const auto quantity = std::size_t(settings.quantity);
     const bool harmonics = image.layers > 1;
-    nlohmann::ordered_json json = {
-        {"uri", uriOf(fileName)},
-        {"texCoord", 1},
-        {"width", image.width},
-        {"height", image.height},
-        {"firstRow", "top"},
-        {"colors", "linear Rec. 709"},
-        {"quantity", harmonics ? "harmonics" : kLightmapQuantityNames[quantity]},
-        {"unit", harmonics ? kUnits[2] : kUnits[quantity]},
-        {"outgoingRadiance", harmonics ? "L = albedo / pi * E(n)" : kEquations[quantity]},
-        {"includesDirectLight", settings.direct}};
+    nlohmann::ordered_json json;
+    if (files.size() == 1)
+        json["uri"] = uriOf(files.front().name);
+    else
+        for (const ExportFile& file : files)
+            json["uris"].push_back(uriOf(file.name));
+    json.update({{"texCoord", 1},
+                 {"width", image.width},
+                 {"height", image.height},
+                 {"firstRow", "top"},
+                 {"colors", "linear Rec. 709"},
+                 {"quantity", harmonics ? "harmonics" : kLightmapQuantityNames[quantity]},
+                 {"unit", harmonics ? kUnits[2] : kUnits[quantity]},
+                 {"outgoingRadiance", harmonics ? "L = albedo / pi * E(n)" : kEquations[quantity]},
+                 {"includesDirectLight", settings.direct}});
     if (harmonics) {
         json["bands"] = image.layers == 4 ? 2 : 3;
         json["stackedAs"] = kShLayersNames[std::size_t(settings.layers)];

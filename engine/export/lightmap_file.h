@@ -5,6 +5,7 @@
 #include "engine/export/lightmap_image.h"
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,11 +18,18 @@ namespace limn {
 Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings& settings,
                                 const std::string& stem);
 
+/// The same for every page of a lightmap: "room.exr", "room-2.exr", and so on.
+Result<std::vector<ExportFile>> lightmapFiles(const std::vector<LightmapImage>& pages,
+                                              const ExportSettings& settings,
+                                              const std::string& stem);
+
 /// ".exr" or ".ktx2".
 const char* textureExtension(TextureEncoding encoding);
 
-/// What a lightmap means, for asset.extras.limn.lightmap of a glTF file.
+/// What a lightmap means, for asset.extras.limn.lightmap of a glTF file. `image` is any of its
+/// pages and `files` are those of all. One file is its `uri`; several are `uris`, of which a
+/// material's extras.limn.lightmapPage chooses one, the first where it has none.
 nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
-                                    const std::string& fileName);
+                                    const std::vector<ExportFile>& files);
 
 } // namespace limn

@@ -32,17 +32,18 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene, const Exp
     const Result<ExportSettings> settings = settingsFor(wanted, name);
     if (!settings)
         return tl::make_unexpected(settings.error());
-    const Result<LightmapImage> image = lightmapImage(scene, *settings, progress);
-    if (!image)
-        return tl::make_unexpected(image.error());
-    Result<ExportFile> file = lightmapFile(*image, *settings, stemOf(name));
-    if (!file)
-        return tl::make_unexpected(file.error());
-    return std::vector<ExportFile>{std::move(*file)};
+    const Result<LightmapPages> pages = exportPages(scene, *settings);
+    if (!pages)
+        return tl::make_unexpected(pages.error());
+    const Result<std::vector<LightmapImage>> images =
+        lightmapImages(scene, *settings, *pages, progress);
+    if (!images)
+        return tl::make_unexpected(images.error());
+    return lightmapFiles(*images, *settings, stemOf(name));
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    return forecastLightmap(scene.layout, settings);
+    return forecastPages(scene, settings);
 }
 
 constinit const ExportFormat kLightmapFormat = {

@@ -11,6 +11,7 @@
 #include <array>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -20,6 +21,9 @@
 namespace limn {
 
 namespace {
+
+/// Coefficients of three bands.
+constexpr std::size_t kMaxLayers = 9;
 
 glm::vec2 cornerOf(const LightmapLayout& layout, const PlainTexel& t, std::uint32_t mesh, float u,
                    float v) {
@@ -84,15 +88,34 @@ struct Evaluation {
         return glm::max(shIrradiance(bands, c.data(), p.normal), glm::vec3(0));
     }
 
-    glm::vec3 directLight(const PlainTexel& t) const {
+    /// Calls visit(surface point) for points of the texel.
+    template <class Visit>
+    void forEachPoint(const PlainTexel& t, const Visit& visit) const {
         const glm::vec2 size(plain.width, plain.height);
         const TexelPoints points(in.layout, t, in.scene.instances[t.instance].mesh, size);
-        glm::vec3 sum(0);
-        std::uint64_t rays = 0;
         for (const glm::vec2 uv : points.uv)
             if (const auto p = surfacePoint(in.trace, hitAt(in.scene, t, uv)))
-                sum += directIrradiance(in.trace, *p, rays);
+                visit(*p);
+    }
+
+    glm::vec3 directLight(const PlainTexel& t) const {
+        glm::vec3 sum(0);
+        std::uint64_t rays = 0;
+        forEachPoint(t, [&](const SurfacePoint& p) { sum += directIrradiance(in.trace, p, rays); });
         return sum / float(TexelPoints::kCount);
+    }
+
+    std::array<glm::vec3, kMaxLayers> harmonics(const PlainTexel& t) const {
+        const std::size_t count = settings.bands * settings.bands;
+        std::array<glm::vec3, kMaxLayers> c{};
+        std::uint64_t rays = 0;
+        if (settings.direct)
+            forEachPoint(t, [&](const SurfacePoint& p) {
+                addDirectHarmonics(in.trace, p, int(settings.bands), c.data(), rays);
+            });
+        for (std::size_t i = 0; i < count; ++i)
+            c[i] = c[i] / float(TexelPoints::kCount) + coefficient(t, i);
+        return c;
     }
 
     glm::vec3 color(const PlainTexel& t) const {
@@ -118,11 +141,72 @@ Result<void> checkSettings(const ExportScene& scene, const ExportSettings& setti
     if (settings.bands > scene.field.bands)
         return fail(fmt::format("lightmap bands: the light has {}, not {}", scene.field.bands,
                                 settings.bands));
-    if (settings.bands > 1 && settings.direct)
-        return fail("direct: harmonics hold bounced light only; use one band");
     if (settings.bands > 1 && settings.quantity != LightmapQuantity::Irradiance)
         return fail("quantity: harmonics hold incident radiance; leave it at irradiance");
     return {};
+}
+
+/// The colours of the plain lightmap's texels: values[layer * texels + texel]. Incomplete when
+/// cancelled.
+std::vector<glm::vec3> evaluate(const ExportScene& scene, const ExportSettings& settings,
+                                const PlainLightmap& plain, std::uint32_t layers,
+                                const Progress& progress) {
+    const Evaluation evaluation{scene, settings, plain,
+                                std::min(int(scene.field.bands), kIrradianceBands)};
+    const std::size_t count = plain.texels.size();
+    std::vector<glm::vec3> values(count * layers);
+    constexpr std::size_t kStep = 16384; // texels between two reports of progress
+    for (std::size_t first = 0; first < count && !progress.cancelled(); first += kStep) {
+        progress.at("lightmap", float(first) / float(count));
+        parallelRanges(std::min(kStep, count - first), 256,
+                       [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t i = first + begin; i < first + end; ++i) {
+                               std::array<glm::vec3, kMaxLayers> c{};
+                               if (layers > 1)
+                                   c = evaluation.harmonics(plain.texels[i]);
+                               else
+                                   c[0] = evaluation.color(plain.texels[i]);
+                               for (std::uint32_t l = 0; l < layers; ++l)
+                                   values[l * count + i] = c[l];
+                           }
+                       });
+    }
+    return values;
+}
+
+LightmapImage imageOf(const PlainLightmap& plain, const LightmapPages& pages, std::uint32_t page,
+                      std::uint32_t layers, const std::vector<glm::vec3>& values) {
+    const std::vector<std::uint32_t> texelAt = pageTexels(plain, pages, page);
+    LightmapImage image{.width = pages.width, .height = pages.height, .layers = layers};
+    image.rgb.resize(texelAt.size() * layers);
+    for (std::uint32_t l = 0; l < layers; ++l)
+        for (std::size_t t = 0; t < texelAt.size(); ++t)
+            image.rgb[l * texelAt.size() + t] = values[l * plain.texels.size() + texelAt[t]];
+    return image;
+}
+
+std::string nameOfInstance(const ExportScene& scene, std::uint32_t instance) {
+    const auto object = scene.document.objects.find(scene.scene.instances[instance].node);
+    return object != scene.document.objects.end() ? objectName(object->second) : std::string();
+}
+
+/// Number of texels per cache along each side with which every chart fits into a texture.
+Result<std::uint32_t> pagedDetail(const ExportScene& scene, const ExportSettings& settings) {
+    if (const std::string defect = settingsDefect(settings); !defect.empty())
+        return fail(defect);
+    std::uint32_t detail = settings.detail;
+    const std::uint32_t whole = std::max(scene.layout.width, scene.layout.height);
+    if (std::uint64_t(whole) * detail <= settings.maxSize)
+        return detail;
+    const LargestChart chart = largestChart(scene.scene, scene.layout);
+    while (detail > 1 && chart.side * detail > settings.maxSize)
+        detail -= 2;
+    if (chart.side > settings.maxSize)
+        return fail(fmt::format("max size: a chart of \"{}\" is {} texels long, more than {}; bake "
+                                "fewer texels",
+                                nameOfInstance(scene, chart.instance), chart.side,
+                                settings.maxSize));
+    return detail;
 }
 
 } // namespace
@@ -141,52 +225,71 @@ Result<std::uint32_t> lightmapDetail(const LightmapLayout& layout, const ExportS
     return detail;
 }
 
-Result<LightmapImage> lightmapImage(const ExportScene& scene, const ExportSettings& settings,
-                                    const Progress& progress) {
+Result<LightmapPages> exportPages(const ExportScene& scene, const ExportSettings& settings) {
+    const Result<std::uint32_t> detail = pagedDetail(scene, settings);
+    if (!detail)
+        return tl::make_unexpected(detail.error());
+    return lightmapPages(scene.scene, scene.layout, *detail, settings.maxSize);
+}
+
+Result<std::vector<LightmapImage>> lightmapImages(const ExportScene& scene,
+                                                  const ExportSettings& settings,
+                                                  const LightmapPages& pages,
+                                                  const Progress& progress) {
     if (const Result<void> ok = checkSettings(scene, settings); !ok)
         return tl::make_unexpected(ok.error());
+    progress.at("lightmap", 0);
+    const PlainLightmap plain = plainLightmap(scene.scene, scene.layout, pages.factor);
+    const std::uint32_t layers = settings.bands > 1 ? settings.bands * settings.bands : 1;
+    const std::vector<glm::vec3> values = evaluate(scene, settings, plain, layers, progress);
+    std::vector<LightmapImage> images;
+    for (std::uint32_t page = 0; page < pages.count && !progress.cancelled(); ++page)
+        images.push_back(imageOf(plain, pages, page, layers, values));
+    if (progress.cancelled())
+        return fail("cancelled");
+    return images;
+}
+
+Result<LightmapImage> lightmapImage(const ExportScene& scene, const ExportSettings& settings,
+                                    const Progress& progress) {
     const Result<std::uint32_t> detail = lightmapDetail(scene.layout, settings);
     if (!detail)
         return tl::make_unexpected(detail.error());
-    progress.at("lightmap", 0);
-    const PlainLightmap plain = plainLightmap(scene.scene, scene.layout, *detail);
-    const Evaluation evaluation{scene, settings, plain,
-                                std::min(int(scene.field.bands), kIrradianceBands)};
-    const bool harmonics = settings.bands > 1;
-    const std::uint32_t layers = harmonics ? settings.bands * settings.bands : 1;
-    const std::size_t count = plain.texels.size();
-    std::vector<glm::vec3> values(count * layers);
-    constexpr std::size_t kStep = 16384; // texels between two reports of progress
-    for (std::size_t first = 0; first < count && !progress.cancelled(); first += kStep) {
-        progress.at("lightmap", float(first) / float(count));
-        parallelRanges(std::min(kStep, count - first), 256,
-                       [&](std::size_t begin, std::size_t end) {
-                           for (std::size_t i = first + begin; i < first + end; ++i)
-                               for (std::uint32_t l = 0; l < layers; ++l)
-                                   values[l * count + i] =
-                                       harmonics ? evaluation.coefficient(plain.texels[i], l)
-                                                 : evaluation.color(plain.texels[i]);
-                       });
-    }
-    if (progress.cancelled())
-        return fail("cancelled");
-    LightmapImage image{.width = plain.width, .height = plain.height, .layers = layers};
-    image.rgb.resize(plain.texelAt.size() * layers);
-    for (std::uint32_t l = 0; l < layers; ++l)
-        for (std::size_t t = 0; t < plain.texelAt.size(); ++t)
-            image.rgb[l * plain.texelAt.size() + t] = values[l * count + plain.texelAt[t]];
-    return image;
+    Result<std::vector<LightmapImage>> images =
+        lightmapImages(scene, settings, onePage(scene.scene, scene.layout, *detail), progress);
+    if (!images)
+        return tl::make_unexpected(images.error());
+    return std::move(images->front());
+}
+
+/// Bytes of that many texels.
+static std::uint64_t encodedBytes(std::uint64_t texels, const ExportSettings& settings) {
+    constexpr std::array<std::uint64_t, 3> kBytes = {12, 8, 4}; // per texel, by TextureEncoding
+    const std::uint64_t layers = settings.bands > 1 ? settings.bands * settings.bands : 1;
+    return kBytes[std::size_t(settings.encoding)] * layers * texels;
 }
 
 ExportForecast forecastLightmap(const LightmapLayout& layout, const ExportSettings& settings) {
     const Result<std::uint32_t> detail = lightmapDetail(layout, settings);
     if (!detail)
         return {};
-    constexpr std::array<std::uint64_t, 3> kBytes = {12, 8, 4}; // per texel, by TextureEncoding
-    const std::uint64_t layers = settings.bands > 1 ? settings.bands * settings.bands : 1;
     ExportForecast f{
         .width = layout.width * *detail, .height = layout.height * *detail, .detail = *detail};
-    f.bytes = kBytes[std::size_t(settings.encoding)] * layers * f.width * f.height;
+    f.bytes = encodedBytes(std::uint64_t(f.width) * f.height, settings);
+    return f;
+}
+
+ExportForecast forecastPages(const ExportScene& scene, const ExportSettings& settings) {
+    const Result<std::uint32_t> detail = pagedDetail(scene, settings);
+    if (!detail)
+        return {};
+    const std::uint32_t pages = expectedPages(scene.scene, scene.layout, *detail, settings.maxSize);
+    const std::uint32_t side = settings.maxSize / *detail * *detail;
+    ExportForecast f{.width = pages > 1 ? side : scene.layout.width * *detail,
+                     .height = pages > 1 ? side : scene.layout.height * *detail,
+                     .pages = pages,
+                     .detail = *detail};
+    f.bytes = encodedBytes(std::uint64_t(f.width) * f.height * pages, settings);
     return f;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
+#include "engine/lightmap/lightmap_pages.h"
 #include "engine/lightmap/plain_lightmap.h"
 
 #include <cstdint>
@@ -23,19 +24,35 @@ struct LightmapImage {
     std::vector<glm::vec3> rgb;
 };
 
-/// Number of texels per cache along each side: settings.detail, or the largest odd number below it
-/// with which the lightmap stays within settings.maxSize. Fails where no number does, and for
-/// settings with a settingsDefect().
+/// Number of texels per cache along each side of a lightmap that has to be a single texture:
+/// settings.detail, or the largest odd number below it with which the lightmap stays within
+/// settings.maxSize. Fails where no number does, and for settings with a settingsDefect().
 Result<std::uint32_t> lightmapDetail(const LightmapLayout& layout, const ExportSettings& settings);
 
-/// Evaluates the lightmap. Every texel holds the light at its centre, at the interpolated normal
-/// there. Direct light is the mean of four points of the texel. Fails if no instance has a
-/// lightmap, where harmonics of direct light are asked for, or of light that has fewer bands, and
-/// when cancelled.
+/// The lightmap divided over as many textures as settings.maxSize demands. Its factor is
+/// settings.detail, or the largest odd number below it with which every chart stays within
+/// settings.maxSize. Fails, with the name of the object, where no number does, and for settings
+/// with a settingsDefect().
+Result<LightmapPages> exportPages(const ExportScene& scene, const ExportSettings& settings);
+
+/// Evaluates the lightmap of those pages, one image for each. Every texel holds the light at its
+/// centre, at the interpolated normal there. Direct light is the mean of four points of the texel;
+/// in harmonics it is limited to their bands. Fails if no instance has a lightmap, where more bands
+/// are asked for than the light has, and when cancelled.
+Result<std::vector<LightmapImage>> lightmapImages(const ExportScene& scene,
+                                                  const ExportSettings& settings,
+                                                  const LightmapPages& pages,
+                                                  const Progress& progress);
+
+/// The same for a lightmap in a single texture, with lightmapDetail().
 Result<LightmapImage> lightmapImage(const ExportScene& scene, const ExportSettings& settings,
                                     const Progress& progress);
 
-/// Width, height and size of that lightmap, encoded as `settings` ask, before it is evaluated.
+/// Width, height and size of the lightmap of lightmapImage(), encoded as `settings` ask, before it
+/// is evaluated.
 ExportForecast forecastLightmap(const LightmapLayout& layout, const ExportSettings& settings);
+
+/// The same of lightmapImages(), with about the number of pages.
+ExportForecast forecastPages(const ExportScene& scene, const ExportSettings& settings);
 
 } // namespace limn

@@ -73,7 +73,9 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
     Result<std::string> transport = transportBytes(scene, settings, progress);
     if (!transport)
         return tl::make_unexpected(transport.error());
-    Result<std::vector<ExportFile>> gltf = gltfFiles(scene, {}, "scene.gltf", progress);
+    const LightmapPages page = onePage(scene.scene, scene.layout, 1);
+    Result<std::vector<ExportFile>> gltf =
+        gltfFiles(scene, {.pages = &page, .extras = {}}, "scene.gltf", progress);
     if (!gltf)
         return gltf;
     const nlohmann::ordered_json description = {

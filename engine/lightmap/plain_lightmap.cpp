@@ -16,7 +16,6 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kNobody = ~0U;
 /// Weights up to this are roundings at the border of a chart, beyond which lies another's texel.
 constexpr float kRounding = 1e-4f;
 
@@ -132,11 +131,11 @@ struct Claims {
 
 Claims claimTexels(const Scene& scene, const LightmapLayout& layout, glm::uvec2 size) {
     Claims claims;
-    claims.texelAt.assign(std::size_t(size.x) * size.y, kNobody);
+    claims.texelAt.assign(std::size_t(size.x) * size.y, kNoTexel);
     forEachTriangle(scene, layout, size, [&](const SideTriangle& t, std::uint32_t chart) {
         forEachTexel(t, size, [&](std::uint32_t at, const Closest& near) {
             std::uint32_t& index = claims.texelAt[at];
-            if (index == kNobody) {
+            if (index == kNoTexel) {
                 index = std::uint32_t(claims.texels.size());
                 claims.texels.emplace_back();
                 claims.chart.push_back(chart);
@@ -161,25 +160,25 @@ bool readsOnly(const LightmapLayout& layout, const Claims& own, glm::vec2 uv, st
     const Bilinear lookup = bilinearAt(layout, uv);
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t index = own.texelAt[lookup.texel[k]];
-        if (lookup.weight[k] > kRounding && (index == kNobody || own.chart[index] != chart))
+        if (lookup.weight[k] > kRounding && (index == kNoTexel || own.chart[index] != chart))
             return false;
     }
     return true;
 }
 
-/// Gives every texel without an index that of its nearest neighbour, counted in steps along rows
-/// and columns.
-void dilate(std::vector<std::uint32_t>& texelAt, glm::uvec2 size) {
+} // namespace
+
+void repeatNearest(std::vector<std::uint32_t>& texelAt, glm::uvec2 size) {
     std::vector<std::uint32_t> front, next;
     for (std::uint32_t at = 0; at < texelAt.size(); ++at)
-        if (texelAt[at] != kNobody)
+        if (texelAt[at] != kNoTexel)
             front.push_back(at);
     while (!front.empty()) {
         next.clear();
         for (const std::uint32_t at : front) {
             const std::uint32_t x = at % size.x, y = at / size.x;
             const auto give = [&](bool inside, std::uint32_t to) {
-                if (!inside || texelAt[to] != kNobody)
+                if (!inside || texelAt[to] != kNoTexel)
                     return;
                 texelAt[to] = texelAt[at];
                 next.push_back(to);
@@ -193,8 +192,6 @@ void dilate(std::vector<std::uint32_t>& texelAt, glm::uvec2 size) {
     }
 }
 
-} // namespace
-
 PlainLightmap plainLightmap(const Scene& scene, const LightmapLayout& layout,
                             std::uint32_t factor) {
     const glm::uvec2 size(layout.width * factor, layout.height * factor);
@@ -207,7 +204,7 @@ PlainLightmap plainLightmap(const Scene& scene, const LightmapLayout& layout,
         return {};
     std::vector<std::uint32_t> placeOf(claims.texels.size());
     for (std::uint32_t at = 0; at < claims.texelAt.size(); ++at)
-        if (claims.texelAt[at] != kNobody)
+        if (claims.texelAt[at] != kNoTexel)
             placeOf[claims.texelAt[at]] = at;
     parallelRanges(claims.texels.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -228,7 +225,7 @@ PlainLightmap plainLightmap(const Scene& scene, const LightmapLayout& layout,
             texel.weight /= glm::dot(texel.weight, glm::vec4(1));
         }
     });
-    dilate(claims.texelAt, size);
+    repeatNearest(claims.texelAt, size);
     return {.width = size.x,
             .height = size.y,
             .texels = std::move(claims.texels),

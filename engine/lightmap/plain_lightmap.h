@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 namespace limn {
@@ -31,6 +32,13 @@ struct PlainLightmap {
     std::vector<PlainTexel> texels;     ///< those that a lookup can read
     std::vector<std::uint32_t> texelAt; ///< index into `texels`, at y * width + x
 };
+
+/// An element of PlainLightmap::texelAt before it has an index.
+inline constexpr std::uint32_t kNoTexel = ~0U;
+
+/// Gives every texel with kNoTexel, in `size.x` columns and `size.y` rows, the index of its nearest
+/// neighbour that has one, counted in steps along rows and columns.
+void repeatNearest(std::vector<std::uint32_t>& texelAt, glm::uvec2 size);
 
 /// Maximum factor of plainLightmap().
 inline constexpr std::uint32_t kMaxPlainFactor = 9;

@@ -35,7 +35,7 @@ struct ExportSettings {
     std::uint32_t bands = 1;
     ShLayers layers = ShLayers::Array;
     std::uint32_t detail = 3;
-    std::uint32_t maxSize = 8192;
+    std::uint32_t maxSize = 4096;
 
     bool operator==(const ExportSettings&) const = default;
 };

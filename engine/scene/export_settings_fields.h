@@ -88,8 +88,9 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .flag = "--max-size",
                   .label = "Largest texture (texels)",
                   .help = "Maximum width and height of a texture",
-                  .tooltip = "Maximum width and height of a texture [texels]. Fewer texels per "
-                             "cache are used where a lightmap would be larger",
+                  .tooltip = "Maximum width and height of a texture [texels]. A larger lightmap is "
+                             "divided into several textures. Formats with a single texture take "
+                             "fewer texels per cache instead",
                   .invalidates = Invalidates::Light},
           s.maxSize, SettingRange{64, 16384});
 }

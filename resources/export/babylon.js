@@ -51,24 +51,25 @@ function environment(BABYLON, probe, scene) {
     return cube;
 }
 
-/** Imports the glTF file at `url` with its light; resolves to the importer's result, lightmap and environment. */
+/** Imports the glTF file at `url` with its light; resolves to the importer's result, lightmaps and environment. */
 export async function loadLimn(BABYLON, url, scene) {
     const address = new URL(url, document.baseURI);
     const limn = (await (await fetch(address)).json()).asset.extras.limn;
     const beside = async (uri) => (await fetch(new URL(uri, address))).arrayBuffer();
-    const map = limn.lightmap ? lightmapTexture(BABYLON, readKtx2(await beside(limn.lightmap.uri)), scene) : null;
+    const uris = limn.lightmap ? limn.lightmap.uris ?? [limn.lightmap.uri] : [];
+    const lightmaps = await Promise.all(uris.map(async (uri) => lightmapTexture(BABYLON, readKtx2(await beside(uri)), scene)));
     const probe = limn.probe && limn.probe[scene.useRightHandedSystem ? 'rightHanded' : 'leftHanded'];
     const cube = probe ? environment(BABYLON, probe, scene) : null;
     const imported = await BABYLON.SceneLoader.ImportMeshAsync('', new URL('.', address).href, address.pathname.split('/').pop(), scene);
-    const factor = map && { irradiance: 1 / Math.PI, 'irradiance-over-pi': 1 }[limn.lightmap.quantity];
+    const factor = limn.lightmap && { irradiance: 1 / Math.PI, 'irradiance-over-pi': 1 }[limn.lightmap.quantity];
     const copies = new Map();
     for (const mesh of imported.meshes) {
         const material = mesh.material;
         if (!material || material.lightmapTexture) continue;
-        if (map && mesh.isVerticesDataPresent(BABYLON.VertexBuffer.UV2Kind)) {
+        if (lightmaps.length > 0 && mesh.isVerticesDataPresent(BABYLON.VertexBuffer.UV2Kind)) {
             if (!copies.has(material)) {
                 const copy = material.clone(material.name);
-                copy.lightmapTexture = map;
+                copy.lightmapTexture = lightmaps[material.metadata?.gltf?.extras?.limn?.lightmapPage ?? 0];
                 if (factor) multiplyByAlbedo(BABYLON, copy, factor);
                 copies.set(material, copy);
             }
@@ -77,5 +78,5 @@ export async function loadLimn(BABYLON, url, scene) {
             material.reflectionTexture = cube;
         }
     }
-    return { ...imported, lightmap: map, environment: cube };
+    return { ...imported, lightmaps, environment: cube };
 }

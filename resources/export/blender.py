@@ -106,6 +106,13 @@ def part_sides(mesh):
         vertex.co += normal * (2e-4 * size)
 
 
+def linear_image(path):
+    image = bpy.data.images.load(path)
+    names = [s.identifier for s in image.colorspace_settings.bl_rna.properties['name'].enum_items]
+    image.colorspace_settings.name = 'Linear Rec.709' if 'Linear Rec.709' in names else 'Linear'
+    return image
+
+
 def show(path):
     """Imports the glTF file and wires its lightmap; returns the objects that have one."""
     with open(path, encoding='utf-8') as file:
@@ -116,9 +123,8 @@ def show(path):
     lightmap = limn.get('lightmap')
     if not lightmap:
         return []
-    image = bpy.data.images.load(os.path.join(os.path.dirname(path), urllib.parse.unquote(lightmap['uri'])))
-    names = [s.identifier for s in image.colorspace_settings.bl_rna.properties['name'].enum_items]
-    image.colorspace_settings.name = 'Linear Rec.709' if 'Linear Rec.709' in names else 'Linear'
+    images = [linear_image(os.path.join(os.path.dirname(path), urllib.parse.unquote(uri)))
+              for uri in lightmap.get('uris') or [lightmap['uri']]]
     copies, lit, parted = {}, [], []
     for thing in imported:
         if thing.type == 'LIGHT' and lightmap['includesDirectLight']:
@@ -128,7 +134,8 @@ def show(path):
             continue
         for slot in thing.material_slots:
             if slot.material not in copies:
-                copies[slot.material] = emission_of(slot.material, image, 'UVMap.001')
+                page = slot.material.get('limn', {}).get('lightmapPage', 0)
+                copies[slot.material] = emission_of(slot.material, images[int(page)], 'UVMap.001')
             slot.material = copies[slot.material]
         if thing.data not in parted:
             part_sides(thing.data)

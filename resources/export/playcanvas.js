@@ -16,24 +16,30 @@ function lightMapTexture(pc, device, file) {
     });
 }
 
-/** An entity with the glTF file at `url`, its lightmap, and the probe, a Float32Array or null. */
+/** An entity with the glTF file at `url`, the textures of its lightmap, and the probe, a Float32Array or null. */
 export async function loadLimn(pc, app, url) {
     const address = new URL(url, document.baseURI);
-    const limn = (await (await fetch(address)).json()).asset.extras.limn;
+    const gltf = await (await fetch(address)).json(), limn = gltf.asset.extras.limn;
     const beside = async (uri) => (await fetch(new URL(uri, address))).arrayBuffer();
-    const map = limn.lightmap ? lightMapTexture(pc, app.graphicsDevice, readKtx2(await beside(limn.lightmap.uri))) : null;
+    const uris = limn.lightmap ? limn.lightmap.uris ?? [limn.lightmap.uri] : [];
+    const lightMaps = await Promise.all(uris.map(async (uri) => lightMapTexture(pc, app.graphicsDevice, readKtx2(await beside(uri)))));
     const probe = limn.probe ? new Float32Array(limn.probe.ambientSH.flat()) : null;
     const asset = await new Promise((resolve, reject) => app.assets.loadFromUrl(address.href, 'container',
         (error, loaded) => (error ? reject(new Error(error)) : resolve(loaded))));
     const entity = asset.resource.instantiateRenderEntity();
+    const pageOf = (material) => { // the container's materials are those of the file, in its order
+        const index = asset.resource.materials.findIndex((m) => m.resource === material);
+        return gltf.materials[index]?.extras?.limn?.lightmapPage ?? 0;
+    };
     const copies = new Map();
     for (const render of entity.findComponents('render')) {
         for (const instance of render.meshInstances) {
-            const hasMap = map && instance.mesh.vertexBuffer.format.elements.some((e) => e.name === pc.SEMANTIC_TEXCOORD1);
+            const hasMap = lightMaps.length > 0 && instance.mesh.vertexBuffer.format.elements.some((e) => e.name === pc.SEMANTIC_TEXCOORD1);
             const key = `${instance.material.id} ${hasMap}`;
             if (!copies.has(key)) {
                 const copy = instance.material.clone();
-                if (hasMap) Object.assign(copy, { lightMap: map, lightMapUv: 1, lightMapChannel: 'rgb' });
+                const lightMap = lightMaps[pageOf(instance.material)];
+                if (hasMap) Object.assign(copy, { lightMap, lightMapUv: 1, lightMapChannel: 'rgb' });
                 else if (probe) copy.ambientSH = probe;
                 copy.update();
                 copies.set(key, copy);
@@ -41,5 +47,5 @@ export async function loadLimn(pc, app, url) {
             instance.material = copies.get(key);
         }
     }
-    return { entity, asset, lightMap: map, probe };
+    return { entity, asset, lightMaps, probe };
 }

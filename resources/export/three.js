@@ -61,18 +61,19 @@ function lit(material, map, bands) {
     return copy;
 }
 
-/** The scene of a glTF file, with its lightmap, and the grid, which is null where there is none. */
+/** The scene of a glTF file, with the textures of its lightmap, and the grid, which is null where there is none. */
 export async function loadLimn(url, renderer) {
     const gltf = await new GLTFLoader().loadAsync(url);
     const limn = gltf.asset.extras.limn;
-    const map = limn.lightmap ? await lightMap(beside(limn.lightmap.uri, url), renderer) : null;
+    const uris = limn.lightmap ? limn.lightmap.uris ?? [limn.lightmap.uri] : [];
+    const lightMaps = await Promise.all(uris.map((uri) => lightMap(beside(uri, url), renderer)));
     const copies = new Map();
     gltf.scene.traverse((object) => {
-        if (!object.isMesh || !object.geometry.attributes.uv1 || !map) return;
-        const material = object.material;
-        if (!copies.has(material)) copies.set(material, lit(material, map, limn.lightmap.bands ?? 1));
+        if (!object.isMesh || !object.geometry.attributes.uv1 || lightMaps.length === 0) return;
+        const material = object.material, page = material.userData.limn?.lightmapPage ?? 0;
+        if (!copies.has(material)) copies.set(material, lit(material, lightMaps[page], limn.lightmap.bands ?? 1));
         object.material = copies.get(material);
     });
     const grid = limn.grid ? await loadLimnGrid(beside(limn.grid.uri, url), renderer) : null;
-    return { scene: gltf.scene, gltf, lightMap: map, grid };
+    return { scene: gltf.scene, gltf, lightMaps, grid };
 }

@@ -8,6 +8,7 @@
 #include "engine/files/image_file.h"
 #include "engine/gltf/gltf_import.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/math/sh.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/export/exported_room.h"
@@ -124,11 +125,10 @@ glm::vec3 bakedIrradiance(const ExportedRoom& room, glm::vec3 p, glm::vec3 n) {
                              hit.triangle, hit.u, hit.v, hit.position, n, !hit.frontFace});
 }
 
-TEST_F(Gltf, ItsLightmapHoldsTheLightOfItsSurfaces) {
-    const ImportedScene again = reimported();
-    const Scene scene = flatten(again.document, again.assets);
-    const Result<ImageF> map = readFloatImage(folder.file("room-lightmap.exr"));
-    ASSERT_TRUE(map) << map.error().message;
+/// Relative mean error of the light that the exported textures hold on the imported surfaces.
+double errorOfLight(const ExportedRoom& room, const ImportedScene& imported,
+                    const nlohmann::json& gltf, const std::vector<ImageF>& pages) {
+    const Scene scene = flatten(imported.document, imported.assets);
     std::mt19937 rng(3);
     std::uniform_real_distribution<float> unit(0, 1);
     double error = 0, sum = 0;
@@ -136,7 +136,9 @@ TEST_F(Gltf, ItsLightmapHoldsTheLightOfItsSurfaces) {
     for (int k = 0; k < 4000; ++k) {
         const Instance& instance = scene.instances[rng() % scene.instances.size()];
         const Mesh& mesh = scene.meshOf(instance);
-        ASSERT_EQ(mesh.uv1.size(), mesh.positions.size());
+        EXPECT_EQ(mesh.uv1.size(), mesh.positions.size());
+        const nlohmann::json& extras = gltf["materials"][instance.material]["extras"]["limn"];
+        const ImageF& map = pages.at(extras.value("lightmapPage", std::size_t(0)));
         const std::size_t t = rng() % mesh.triangleCount();
         const float root = std::sqrt(unit(rng)), v = unit(rng) * root, u = 1 - root;
         const auto [a, b, c] = mesh.triangle(t);
@@ -145,15 +147,50 @@ TEST_F(Gltf, ItsLightmapHoldsTheLightOfItsSurfaces) {
         const glm::vec3 geometric =
             glm::normalize(instance.normalToWorld * triangleNormal(mesh, t));
         const glm::vec3 n = shadingNormal(mesh, instance, t, {u, v}, geometric);
-        const glm::vec3 expected = bakedIrradiance(*room, p, n);
+        const glm::vec3 expected = bakedIrradiance(room, p, n);
         if (expected.x < 0)
             continue;
-        error += double(glm::length(lookup(*map, uv) - expected));
+        error += double(glm::length(lookup(map, uv) - expected));
         sum += double(glm::length(expected));
         ++points;
     }
     EXPECT_GT(points, 3500);
-    EXPECT_LT(error / sum, 0.02);
+    return error / sum;
+}
+
+TEST_F(Gltf, ItsLightmapHoldsTheLightOfItsSurfaces) {
+    const ImportedScene again = reimported();
+    const Result<ImageF> map = readFloatImage(folder.file("room-lightmap.exr"));
+    ASSERT_TRUE(map) << map.error().message;
+    EXPECT_LT(errorOfLight(*room, again, json(), {*map}), 0.02);
+}
+
+TEST_F(Gltf, ALightmapAboveTheLimitIsDividedOverTextures) {
+    const ImportedScene again = reimported({.maxSize = 64});
+    const nlohmann::json lightmap = json()["asset"]["extras"]["limn"]["lightmap"];
+    EXPECT_FALSE(lightmap.contains("uri"));
+    ASSERT_GT(lightmap["uris"].size(), 1U);
+    EXPECT_EQ(lightmap["uris"][1], "room-lightmap-2.exr");
+    std::vector<ImageF> pages;
+    for (const std::string name : lightmap["uris"]) {
+        const Result<ImageF> map = readFloatImage(folder.file(name));
+        ASSERT_TRUE(map) << map.error().message;
+        EXPECT_LE(std::max(map->width, map->height), 64U);
+        pages.push_back(*map);
+    }
+    EXPECT_LT(errorOfLight(*room, again, json(), pages), 0.02);
+}
+
+TEST_F(Gltf, AChartAboveTheLimitIsNamedByItsObject) {
+    LightmapLayout layout = room->baked->lightmap;
+    layout.width *= 100; // a hundred times as many texels
+    layout.height *= 100;
+    const ExportScene all = room->view();
+    const ExportScene in{all.document, all.scene, all.trace, layout, all.field};
+    const auto refused = exportPages(in, {.maxSize = 64});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("\"node 0"), std::string::npos)
+        << refused.error().message;
 }
 
 TEST_F(Gltf, TexelsHoldTheQuantityAskedFor) {
@@ -189,6 +226,45 @@ TEST_F(Gltf, DirectLightIsAddedWhereAskedFor) {
         added += double(with.rgb[t].y - without.rgb[t].y);
     }
     EXPECT_GT(added, 0);
+}
+
+TEST(DirectLightInALightmap, IsThatOfASunLimitedToTheBands) {
+    Document d;
+    addObject(d, simple::lambert(glm::vec3(0.5f)));
+    Node node;
+    node.meshes = {0};
+    addObject(d, node);
+    Light sun{.name = "sun", .kind = LightKind::Directional, .strength = 4};
+    sun.direction = glm::normalize(glm::vec3(0.6f, -0.8f, 0));
+    addObject(d, sun);
+    BakeSettings bake;
+    bake.surfels = 64;
+    bake.lightmapCaches = 100;
+    bake.rays = 16;
+    addObject(d, bake);
+    auto assets = std::make_shared<Assets>();
+    assets->meshes = {simple::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})};
+    const ExportedRoom floor(d, assets);
+    // A_l (2 l + 1) / (4 pi) P_l(0.8) for l = 0, 1, 2
+    const std::array<double, 3> bandsOfCosine = {0.25, 0.4, 0.3125 * (1.5 * 0.64 - 0.5)};
+    double limited = bandsOfCosine[0];
+    for (const std::uint32_t bands : {2U, 3U}) {
+        limited += bandsOfCosine[bands - 1];
+        const auto image =
+            lightmapImage(floor.view(), {.direct = true, .bands = bands, .detail = 1}, {});
+        ASSERT_TRUE(image) << image.error().message;
+        ASSERT_EQ(image->layers, bands * bands);
+        const std::size_t texels = std::size_t(image->width) * image->height;
+        for (std::size_t t = 0; t < texels; ++t) {
+            std::array<glm::vec3, 9> c{};
+            for (std::size_t i = 0; i < image->layers; ++i)
+                c[i] = image->rgb[i * texels + t];
+            EXPECT_NEAR(shIrradiance(int(bands), c.data(), {0, 1, 0}).x, 4 * limited, 1e-4);
+        }
+    }
+    const auto one = lightmapImage(floor.view(), {.direct = true, .detail = 1}, {});
+    ASSERT_TRUE(one);
+    EXPECT_NEAR(one->rgb.front().x, 4 * 0.8, 1e-4);
 }
 
 TEST_F(Gltf, KeepsTheRulesOfTheFormat) {
