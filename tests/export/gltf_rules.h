@@ -59,7 +59,7 @@ private:
             require(buffer["byteLength"] == m_buffers.back().size(), "byteLength of " + uri);
         }
         for (const auto& image : m_gltf.value("images", Json::array()))
-            require(m_files.contains(image["uri"]), image["uri"].dump() + " is not exported");
+            checkImage(image);
         for (const auto& accessor : m_gltf["accessors"])
             checkAccessor(accessor);
         for (const auto& mesh : m_gltf["meshes"])
@@ -67,6 +67,22 @@ private:
                 checkPrimitive(primitive);
         checkNodes();
         checkExtensions();
+    }
+
+    void checkImage(const Json& image) {
+        if (image.contains("uri")) {
+            require(m_files.contains(image["uri"]), image["uri"].dump() + " is not exported");
+            return;
+        }
+        index(image["bufferView"], "bufferViews");
+        require(image["mimeType"] == "image/png", "an image in a buffer has no type");
+        const Json& view = m_gltf["bufferViews"].at(image["bufferView"].get<std::size_t>());
+        index(view["buffer"], "buffers");
+        const std::string& buffer = m_buffers.at(view["buffer"].get<std::size_t>());
+        const auto begin = view["byteOffset"].get<std::size_t>();
+        require(begin + view["byteLength"].get<std::size_t>() <= buffer.size(),
+                "an image leaves its buffer");
+        require(buffer.compare(begin, 4, "\x89PNG") == 0, "an image is no PNG");
     }
 
     void checkAccessor(const Json& accessor) {
