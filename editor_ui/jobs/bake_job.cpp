@@ -123,8 +123,9 @@ void BakeJob::report(BakeStatus& status) const {
     status.secondsLeft = secondsLeft(m_expected, m_stage, double(m_stageFraction),
                                      std::chrono::duration<double>(now - m_stageStart).count());
     const double total = status.elapsedSeconds + status.secondsLeft;
-    const float fraction =
-        status.secondsLeft < 0 || total <= 0 ? 0 : float(status.elapsedSeconds / total);
+    const float fraction = status.secondsLeft < 0 || total <= 0
+                               ? 0
+                               : std::min(float(status.elapsedSeconds / total), 0.99f); // it runs
     // Estimates get longer, too; what was done stays done.
     status.fraction = ranBefore ? std::max(status.fraction, fraction) : fraction;
 }

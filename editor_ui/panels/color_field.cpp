@@ -52,8 +52,9 @@ bool colorField(const char* id, glm::vec3& linear) {
     if (ImGui::BeginPopup("picker")) {
         ImGui::SetNextItemWidth(ImGui::GetFontSize() * 14);
         if (ImGui::ColorPicker3("##picker", &displayed.x,
-                                ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel |
-                                    ImGuiColorEditFlags_DisplayRGB |
+                                ImGuiColorEditFlags_NoSidePreview |
+                                    ImGuiColorEditFlags_NoSmallPreview |
+                                    ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_DisplayRGB |
                                     ImGuiColorEditFlags_DisplayHex)) {
             linear = linearOfDisplayed(displayed, linear);
             edited = true;
