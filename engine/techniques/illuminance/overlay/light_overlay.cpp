@@ -20,9 +20,7 @@ constexpr std::uint32_t kMaxLobes = 500;                 // when no cache is pic
 constexpr std::uint32_t kDots = 192, kPickedDots = 1536; // of a lobe
 constexpr float kPickedScale = 3;                        // a picked lobe may reach into others
 
-// Colours that the colour-blind can distinguish. Dots that face down are darker, so that the shape
-// is visible.
-const glm::vec3 kPositive(0.35f, 0.7f, 1), kNegative(1, 0.55f, 0.1f);
+const glm::vec3 kNegative(1, 0, 0.8f); // magenta, which hardly any light is
 
 float luma(glm::vec3 c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
@@ -31,6 +29,15 @@ float luma(glm::vec3 c) {
 /// Maps radiosity to a colour that is never white, of half the full brightness at `middle`.
 glm::vec3 toColor(glm::vec3 radiosity, float middle) {
     return encodeSrgb(glm::clamp(radiosity / (luma(radiosity) + middle), 0.f, 1.f));
+}
+
+/// The colour of a dot of a lobe for `radiance`: that of the light, as bright as can be; `shade`
+/// darkens it.
+std::uint32_t dotColor(glm::vec3 radiance, float shade) {
+    const glm::vec3 light = glm::max(radiance, 0.f);
+    const float brightest = std::max({light.x, light.y, light.z});
+    const bool negative = luma(radiance) < 0 || !(brightest > 0);
+    return packColor((negative ? kNegative : encodeSrgb(light / brightest)) * shade);
 }
 
 OverlayData note(std::string title, std::string text) {
@@ -56,9 +63,9 @@ OverlayData radiosityOverlay(const Bake& bake, const LitBake& lit, std::string t
     out.legend.title = std::move(title);
     for (const float times : {0.f, 0.1f, 0.3f, 1.f, 3.f, 10.f})
         out.legend.entries.push_back({packColor(toColor(glm::vec3(times * middle), middle)),
-                                      fmt::format("{:.3g} W/m²", times * middle)});
+                                      fmt::format("{:.3g} lux", times * middle)});
     out.legend.notes = {
-        fmt::format("Radiosity, {:.3g} W/m² on average; {:.4g} W in all", middle, sum),
+        fmt::format("Radiosity, {:.3g} lux on average; {:.4g} lm in all", middle, sum),
         "A colour's brightness rises ever slower"};
     return out;
 }
@@ -70,22 +77,23 @@ struct Lobe {
     float reach = 0; ///< distance of the farthest dot [m]
 };
 
-void addLobe(const Lobe& lobe, const std::vector<float>& radiance, const DirectionSet& directions,
-             std::vector<OverlayMark>& marks) {
+void addLobe(const Lobe& lobe, const std::vector<glm::vec3>& radiance,
+             const DirectionSet& directions, std::vector<OverlayMark>& marks) {
     float most = 0;
-    for (const float L : radiance)
-        most = std::max(most, std::abs(L));
+    for (const glm::vec3& L : radiance)
+        most = std::max(most, std::abs(luma(L)));
     if (!(most > 0))
         return;
     // With this ratio of radius to distance, the dots of a sphere touch each other.
     const float spread = std::sqrt(4 / float(directions.count));
     for (std::uint32_t k = 0; k < directions.count; ++k) {
-        const float r = std::abs(radiance[k]) / most * lobe.reach;
+        const float r = std::abs(luma(radiance[k])) / most * lobe.reach;
+        // Dots that face down are darker, so that the shape is visible.
         const float shade = 0.7f + 0.3f * directions[k].y;
         OverlayMark m;
         m.position = lobe.position + directions[k] * r;
         m.radius = spread * std::max(r, 0.05f * lobe.reach);
-        m.color = packColor((radiance[k] < 0 ? kNegative : kPositive) * shade);
+        m.color = dotColor(radiance[k], shade);
         marks.push_back(m);
     }
 }
@@ -119,17 +127,17 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
     OverlayData out;
     std::uint32_t lobes = 0;
     double least = 0, most = 0;
-    std::vector<float> radiance(directions.count);
+    std::vector<glm::vec3> radiance(directions.count);
     for (std::uint32_t c = one ? picked : 0; c < (one ? picked + 1 : caches.lightmapCount); ++c) {
         if (!one && mixBits(c) % every != 0) // regular steps would pick texels in rows
             continue;
         const glm::vec3* sh = lit.cacheSh.data() + c * coefficients;
         for (std::uint32_t k = 0; k < directions.count; ++k) {
-            radiance[k] = 0;
+            radiance[k] = glm::vec3(0);
             for (std::size_t i = 0; i < coefficients; ++i)
-                radiance[k] += luma(sh[i]) * basis[k * coefficients + i];
-            least = std::min(least, double(radiance[k]));
-            most = std::max(most, double(radiance[k]));
+                radiance[k] += sh[i] * basis[k * coefficients + i];
+            least = std::min(least, double(luma(radiance[k])));
+            most = std::max(most, double(luma(radiance[k])));
         }
         const bool cell = caches.kind[c] == CacheKind::Grid;
         addLobe({caches.position[c] + (cell ? 0.f : 0.1f * reach) * caches.normal[c], reach},
@@ -139,8 +147,9 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
     out.legend.title = one ? fmt::format("Light at cache {}, {} bands", picked, lit.bands)
                            : fmt::format("Light at caches, {} bands", lit.bands);
     out.legend.entries = {
-        {packColor(kPositive), fmt::format("light from there, up to {:.3g} W/m²/sr", most)},
-        {packColor(kNegative), fmt::format("less than none, to {:.3g} W/m²/sr", least)}};
+        {packColor(glm::vec3(1)),
+         fmt::format("light from there, in its own colour, up to {:.3g} nits", most)},
+        {packColor(kNegative), fmt::format("less than none, to {:.3g} nits", least)}};
     out.legend.notes = {
         one ? "The longest ray of the lobe is the brightest direction"
             : fmt::format("{} of {} lightmap texels; each lobe's longest ray has the same length; "

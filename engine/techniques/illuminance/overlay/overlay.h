@@ -27,7 +27,7 @@ enum class Overlay : std::uint32_t {
     Overlap,       ///< surfaces, colour: texels used more than once
     LitSurfels,    ///< colour: radiosity
     LitClusters,   ///< surfels, colour: radiosity of the cluster at a depth of the tree
-    Lobes,         ///< the lit caches' spherical harmonics, colour: sign
+    Lobes,         ///< the lit caches' spherical harmonics, colour: the light's own
 };
 
 /// The overlays by their number in Overlay.

@@ -327,7 +327,7 @@ TEST(LightOverlays, EqualRadiosityIsOneColourAndTwiceAsMuchIsBrighter) {
         EXPECT_EQ(m.color, root.marks[0].color);
 }
 
-TEST(LightOverlays, ALobeReachesAsFarAsTheLightAndIsOrangeWhereThatIsNegative) {
+TEST(LightOverlays, ALobeReachesAsFarAsTheLightAndIsMagentaWhereThatIsNegative) {
     const Bake& bake = room().bake;
     const std::uint32_t cache = firstCache(true);
     LitBake lit{std::vector<glm::vec4>(bake.tree.size(), glm::vec4(0)),
@@ -339,8 +339,8 @@ TEST(LightOverlays, ALobeReachesAsFarAsTheLightAndIsOrangeWhereThatIsNegative) {
     glm::vec3 centre(0); // the figure is symmetric
     for (const OverlayMark& m : data.marks)
         centre += m.position / float(data.marks.size());
-    const auto isOrange = [](const OverlayMark& m) {
-        return (m.color & 255) > (m.color >> 16 & 255);
+    const auto isMagenta = [](const OverlayMark& m) {
+        return (m.color & 255) > 0 && (m.color >> 8 & 255) == 0;
     };
     float reach = 0;
     for (const OverlayMark& m : data.marks)
@@ -350,9 +350,38 @@ TEST(LightOverlays, ALobeReachesAsFarAsTheLightAndIsOrangeWhereThatIsNegative) {
         const float r = glm::length(d);
         if (r < 0.1f * reach)
             continue;
-        EXPECT_EQ(isOrange(m), d.y < 0);
+        EXPECT_EQ(isMagenta(m), d.y < 0);
         EXPECT_NEAR(r / reach, std::abs(d.y) / r, 0.02f); // r = cos
     }
+}
+
+TEST(LightOverlays, ALobeHasTheColourOfItsLightAndTheUnitsOfTheEditor) {
+    const Bake& bake = room().bake;
+    const std::uint32_t cache = firstCache(true);
+    LitBake lit{std::vector<glm::vec4>(bake.tree.size(), glm::vec4(0)),
+                std::vector<glm::vec3>(bake.caches.size() * 4, glm::vec3(0)), 2};
+    // Green light from everywhere, and red light from +X, of which -X has less than none.
+    lit.cacheSh[std::size_t(cache) * 4] = {0, 1, 0};
+    lit.cacheSh[std::size_t(cache) * 4 + 3] = {0.5f, 0, 0};
+    const OverlayOptions options{.kind = Overlay::Lobes, .cache = cache};
+    const OverlayData data = makeOverlay(bake, room().scene, options, &lit);
+    const auto red = [](const OverlayMark& m) { return m.color & 255; };
+    const auto byX = [](const OverlayMark& a, const OverlayMark& b) {
+        return a.position.x < b.position.x;
+    };
+    const auto [left, right] = std::ranges::minmax_element(data.marks, byX);
+    EXPECT_EQ(red(*left), 0U);
+    EXPECT_GT(red(*right), 150U);
+    for (const OverlayMark& m : data.marks) {
+        EXPECT_GT(m.color >> 8 & 255, red(m)); // green is the brightest
+        EXPECT_EQ(m.color >> 16 & 255, 0U);
+    }
+    ASSERT_EQ(data.legend.entries.size(), 2U);
+    for (const OverlayLegend::Entry& entry : data.legend.entries)
+        EXPECT_TRUE(entry.text.ends_with(" nits")) << entry.text;
+    const OverlayData lamps = makeOverlay(bake, room().scene, {.kind = Overlay::LitSurfels}, &lit);
+    for (const OverlayLegend::Entry& entry : lamps.legend.entries)
+        EXPECT_TRUE(entry.text.ends_with(" lux")) << entry.text;
 }
 
 TEST(Palette, ViridisGrowsLighterAndDistinctColoursDiffer) {
