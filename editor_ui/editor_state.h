@@ -78,11 +78,6 @@ struct EulerEdit {
     glm::vec3 degrees{0};
 };
 
-struct LogLine {
-    enum class Level { Info, Warning, Error } level = Level::Info;
-    std::string text;
-};
-
 /// Everything the panels share. Owned by the session; no globals, no back pointers.
 struct EditorState {
     Document document;

@@ -82,4 +82,10 @@ struct FrameStatus {
         0; ///< from the event to the submitted frame, waits for the GPU included
 };
 
+/// A line of the log.
+struct LogLine {
+    enum class Level { Info, Warning, Error } level = Level::Info;
+    std::string text;
+};
+
 } // namespace limn
