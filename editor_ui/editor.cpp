@@ -6,6 +6,7 @@
 #include "editor_ui/panels/chrome.h"
 #include "editor_ui/panels/explain_panel.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/mixer_panel.h"
 #include "editor_ui/panels/no_light_hint.h"
 #include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
@@ -131,6 +132,11 @@ static void bottomPanel(EditorState& state, const Rect& place) {
     if (ImGui::BeginTabBar("tabs")) {
         if (ImGui::BeginTabItem("Statistics")) {
             statisticsPanel(state);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Lights")) {
+            state.explain.shown = true; // shares are those of the pixel that is clicked
+            mixerPanel(state);
             ImGui::EndTabItem();
         }
         const bool bringUp = std::exchange(state.explain.bringUp, false);

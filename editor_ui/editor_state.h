@@ -94,6 +94,7 @@ struct EditorState {
     ViewState view;
     OverlayState overlay;
     CompareState compare;
+    std::set<ObjectId> solo; ///< lights and the sky that alone are shown; empty: all. See solo.h
     ExplainState explain;
     LayoutState layout;
     OutlinerState outliner;

@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/first_light.h"
+#include "editor_ui/document/solo.h"
 #include "editor_ui/jobs/editor_settings.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
@@ -420,12 +421,15 @@ void Session::showExplanation() {
 }
 
 void Session::followDocument() {
-    if (state.document.objects == m_followed->objects)
+    if (state.document.objects == m_followed->objects && state.solo == m_solo)
         return;
     m_followed = std::make_shared<const Document>(state.document);
+    m_solo = state.solo;
     m_shownSeconds = state.seconds;
-    auto scene =
-        std::make_shared<const Scene>(flatten(state.document, state.assets, m_shownSeconds));
+    Scene flat = flatten(state.document, state.assets, m_shownSeconds);
+    state.unlit = nothingShines(flat);
+    applySolo(flat, state.document, m_solo);
+    auto scene = std::make_shared<const Scene>(std::move(flat));
     if (!sameLight(*m_scene, *scene)) {
         m_bakeSecondsAtLightEdit = bakeSeconds();
         m_lightEdited = true;
@@ -436,7 +440,6 @@ void Session::followDocument() {
         state.prediction = predictionFor(*scene);
     m_scene = std::move(scene);
     state.sceneBounds = m_scene->bounds;
-    state.unlit = nothingShines(*m_scene);
     if (!sameList)
         fitLayout();
     m_relightJob.setScene(m_scene);

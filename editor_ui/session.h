@@ -124,6 +124,7 @@ private:
     std::optional<Recovery> m_offered;          ///< that of state.recovery, or being opened
     bool m_started = false;                     ///< the first file has been opened, or could not be
     std::shared_ptr<const Document> m_followed; ///< the document as m_scene shows it; never null
+    std::set<ObjectId> m_solo;                  ///< EditorState::solo, as m_scene shows it
     std::shared_ptr<const Scene> m_scene;
     std::shared_ptr<const LightmapLayout> m_layout;
     BakedScene m_baked;
