@@ -89,10 +89,10 @@ Result<std::vector<ExportedFile>> exportLight(const std::string& path, const Exp
         return tl::make_unexpected(possible.error());
     const Result<std::vector<ExportFile>> files =
         format.write(scene, settings, nameOf(path), progress);
-    if (!files)
-        return fail(fmt::format("{}: {}", path, files.error().message));
     if (progress.cancelled())
         return fail("cancelled");
+    if (!files)
+        return fail(fmt::format("{}: {}", path, files.error().message));
     if (const Result<void> written = writeExport(path, format, *files); !written)
         return tl::make_unexpected(written.error());
     std::vector<ExportedFile> written;

@@ -4,10 +4,12 @@
 #include "engine/export/export_table.h"
 #include "engine/export/ktx2.h"
 #include "engine/export/sh_conventions.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/export/gltf_rules.h"
 #include "tests/export/known_light.h"
 
 #include <atomic>
+#include <filesystem>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -260,11 +262,17 @@ TEST(EngineFormats, TheForecastOfAGridIsTheSizeOfItsTexture) {
     EXPECT_NEAR(double(kGridFormat.forecast(light.view(), {}).bytes), bytes, 0.01 * bytes);
 }
 
-TEST(EngineFormats, ACancelledExportFails) {
+TEST(EngineFormats, ACancelledExportSaysSoAndWritesNothing) {
     const KnownLight light(constantLight);
     const std::atomic<bool> stop = true;
-    for (const ExportFormat* format : {&kThreeFormat, &kGodotFormat, &kBlenderFormat})
-        EXPECT_FALSE(format->write(light.view(), {}, nameFor(*format), {.cancel = &stop}));
+    const TemporaryFolder folder;
+    for (const ExportFormat* format : exportFormats()) {
+        const auto files = exportLight(folder.file(nameFor(*format)), *format, light.view(), {},
+                                       {.report = {}, .cancel = &stop});
+        ASSERT_FALSE(files) << format->name;
+        EXPECT_EQ(files.error().message, "cancelled") << format->name;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
 } // namespace limn
