@@ -6,6 +6,7 @@
 #include "app/commands/technique_options.h"
 
 #include "engine/explain/explain_pixel.h"
+#include "engine/math/luminance.h"
 
 #include <array>
 #include <chrono>
@@ -92,7 +93,7 @@ nlohmann::ordered_json tableJson(const std::vector<LightRow>& rows, glm::vec3 to
         r["parent"] = row.parent == LightRow::kNone ? nlohmann::ordered_json()
                                                     : nlohmann::ordered_json(row.parent);
         r["value"] = rgbJson(row.value);
-        r["luminance"] = luminance(row.value);
+        r["luminance"] = luminance(glm::dvec3(row.value));
         r["share"] = shareOf(row.value, total);
         json.push_back(std::move(r));
     }
@@ -107,7 +108,7 @@ void printJson(const Options& options, const PixelExplanation& e,
                                    {"light", options.light},
                                    {"unit", kUnits[unit]},
                                    {"total", rgbJson(e.total)},
-                                   {"luminance", luminance(e.total)},
+                                   {"luminance", luminance(glm::dvec3(e.total))},
                                    {"objects", e.seen},
                                    {"bounces", e.tables.bounces},
                                    {"ms", ms},

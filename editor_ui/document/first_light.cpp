@@ -2,6 +2,7 @@
 #include "editor_ui/document/first_light.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/light_angles.h"
 #include "editor_ui/editor_state.h"
 #include "engine/scene/mesh/input_hash.h"
 
@@ -33,7 +34,7 @@ void addSunAndSky(EditorState& state) {
     sun.name = "Sun";
     sun.strength = 4;
     sun.position = state.view.camera.target;
-    sun.direction = {-0.48f, -0.8f, -0.36f}; // unit
+    sun.direction = kNewSunDirection;
     Sky sky = singleton<Sky>(state.document);
     if (isBlack(sky)) {
         sky.kind = SkyKind::Color;

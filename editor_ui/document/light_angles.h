@@ -14,6 +14,9 @@ struct LightAngles {
 /// Largest elevation that lightDirection() gives: beyond it an azimuth would be lost [degrees].
 inline constexpr float kMaxElevation = 89.9f;
 
+/// Unit vector along which the light of a new sun travels: from 53 degrees above the horizon.
+inline constexpr glm::vec3 kNewSunDirection{-0.48f, -0.8f, -0.36f};
+
 /// Angles of a light that travels along the unit vector `direction`. The azimuth of a light from
 /// the zenith or the nadir is 0.
 LightAngles lightAngles(glm::vec3 direction);

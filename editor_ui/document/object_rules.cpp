@@ -112,7 +112,7 @@ std::string* nameOf(Object& object) {
     return nullptr;
 }
 
-static const char* lightKindName(LightKind kind) {
+const char* lightKindName(LightKind kind) {
     switch (kind) {
     case LightKind::Directional:
         return "Sun light";

@@ -17,6 +17,9 @@ bool canDelete(const Object& object);
 /// The name, or null for objects without one.
 std::string* nameOf(Object& object);
 
+/// Name of a kind of light for users: "Spot light".
+const char* lightKindName(LightKind kind);
+
 /// "Node", "Point light", "Material", ...
 const char* kindName(const Object& object);
 

@@ -52,6 +52,8 @@ void pruneSelection(EditorState& state) {
 std::vector<ObjectId> selectionWithChildren(const EditorState& state) {
     const Ids selected = selectedIds(state);
     std::vector<ObjectId> ids;
+    if (selected.empty()) // asked in every frame
+        return ids;
     for (const auto& [id, object] : state.document.objects)
         if (canDelete(object) && inOrBelow(state.document, id, selected))
             ids.push_back(id);

@@ -56,15 +56,15 @@ void ReferenceJob::set(std::optional<ReferenceOrder> order) {
         const std::lock_guard lock(m_mutex);
         if (!order && !m_order)
             return;
-        if (order && m_order && samePicture(*order, *m_order) && order->noise == m_order->noise) {
+        const bool same = order && m_order && samePicture(*order, *m_order);
+        if (same && order->noise == m_order->noise) {
             m_order->scene = order->scene; // the next comparison is by pointer
             return;
         }
-        const bool refineOnly = order && m_order && samePicture(*order, *m_order);
         m_order = std::move(order);
         m_fresh = m_order.has_value();
         m_cancel = true;
-        if (!refineOnly)
+        if (!same)
             m_progress = {};
         m_progress.running = m_fresh;
     }

@@ -123,14 +123,16 @@ void startRename(EditorState& s) {
 void addSun(EditorState& s) {
     addLight(s, lightBeforeCamera(s, LightKind::Directional));
 }
-template <LightKind kind>
-void startPlacing(EditorState& s) {
-    s.view.placing = kind;
+/// Sets a choice of the view, and tells whether it is that.
+template <auto member, auto value>
+void choose(EditorState& s) {
+    s.view.*member = value;
 }
-template <LightKind kind>
-bool isPlacing(const EditorState& s) {
-    return s.view.placing == kind;
+template <auto member, auto value>
+bool isChosen(const EditorState& s) {
+    return s.view.*member == value;
 }
+
 bool placing(const EditorState& s) {
     return s.view.placing.has_value();
 }
@@ -152,30 +154,6 @@ template <Side side>
 void lookFromSide(EditorState& s) {
     aimAtMiddle(s);
     lookFrom(s.view.camera, side);
-}
-template <View view>
-void showView(EditorState& s) {
-    s.view.view = view;
-}
-template <View view>
-bool showsView(const EditorState& s) {
-    return s.view.view == view;
-}
-template <Tool tool>
-void setTool(EditorState& s) {
-    s.view.tool = tool;
-}
-template <Tool tool>
-bool hasTool(const EditorState& s) {
-    return s.view.tool == tool;
-}
-template <GizmoPlace place>
-void setGizmoPlace(EditorState& s) {
-    s.view.gizmoPlace = place;
-}
-template <GizmoPlace place>
-bool hasGizmoPlace(const EditorState& s) {
-    return s.view.gizmoPlace == place;
 }
 template <Compare mode>
 void toggleCompare(EditorState& s) {
@@ -283,16 +261,16 @@ std::vector<Action> fixedActions() {
     {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
     {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
     {"add.sun_and_sky", "Sun and sky", Menu::Add, kNoKey, kNoKey, false, always, addSunAndSky},
-    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Point>, isPlacing<LightKind::Point>},
-    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Spot>, isPlacing<LightKind::Spot>},
-    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, startPlacing<LightKind::Rectangle>, isPlacing<LightKind::Rectangle>},
+    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, choose<&ViewState::placing, LightKind::Point>, isChosen<&ViewState::placing, LightKind::Point>},
+    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, choose<&ViewState::placing, LightKind::Spot>, isChosen<&ViewState::placing, LightKind::Spot>},
+    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, choose<&ViewState::placing, LightKind::Rectangle>, isChosen<&ViewState::placing, LightKind::Rectangle>},
     {"add.place", "Place it before the camera", Menu::Add, plain(key::kEnter), plain(key::kPadEnter), true, placing, placeBeforeCamera},
-    {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, showView<View::Lit>, showsView<View::Lit>},
-    {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Direct>, showsView<View::Direct>},
-    {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, showView<View::Indirect>, showsView<View::Indirect>},
-    {"view.irradiance", "Irradiance", Menu::View, kNoKey, kNoKey, false, always, showView<View::Irradiance>, showsView<View::Irradiance>},
-    {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, showView<View::Albedo>, showsView<View::Albedo>},
-    {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, showView<View::Normals>, showsView<View::Normals>},
+    {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Lit>, isChosen<&ViewState::view, View::Lit>},
+    {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Direct>, isChosen<&ViewState::view, View::Direct>},
+    {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Indirect>, isChosen<&ViewState::view, View::Indirect>},
+    {"view.irradiance", "Irradiance", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Irradiance>, isChosen<&ViewState::view, View::Irradiance>},
+    {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Albedo>, isChosen<&ViewState::view, View::Albedo>},
+    {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Normals>, isChosen<&ViewState::view, View::Normals>},
     {"compare.reference", "Path-traced reference beside it", Menu::View, shift('R'), kNoKey, true, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
     {"compare.difference", "Difference to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
     {"view.focus", "Focus selection", Menu::View, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
@@ -303,11 +281,11 @@ std::vector<Action> fixedActions() {
     {"view.left", "From the left", Menu::View, ctrl(key::kPad3), kNoKey, false, always, lookFromSide<Side::Left>},
     {"view.top", "From the top", Menu::View, plain(key::kPad7), kNoKey, false, always, lookFromSide<Side::Top>},
     {"view.bottom", "From below", Menu::View, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
-    {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, setTool<Tool::Select>, hasTool<Tool::Select>},
-    {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, setTool<Tool::Move>, hasTool<Tool::Move>},
-    {"gizmo.middle", "Gizmo in the middle of the selection", Menu::View, kNoKey, kNoKey, true, always, setGizmoPlace<GizmoPlace::Middle>, hasGizmoPlace<GizmoPlace::Middle>},
-    {"gizmo.origins", "Gizmo at the objects' origins", Menu::View, kNoKey, kNoKey, false, always, setGizmoPlace<GizmoPlace::Origins>, hasGizmoPlace<GizmoPlace::Origins>},
-    {"gizmo.click", "Gizmo where the object was clicked", Menu::View, kNoKey, kNoKey, false, always, setGizmoPlace<GizmoPlace::Click>, hasGizmoPlace<GizmoPlace::Click>},
+    {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, choose<&ViewState::tool, Tool::Select>, isChosen<&ViewState::tool, Tool::Select>},
+    {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, choose<&ViewState::tool, Tool::Move>, isChosen<&ViewState::tool, Tool::Move>},
+    {"gizmo.middle", "Gizmo in the middle of the selection", Menu::View, kNoKey, kNoKey, true, always, choose<&ViewState::gizmoPlace, GizmoPlace::Middle>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Middle>},
+    {"gizmo.origins", "Gizmo at the objects' origins", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Origins>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Origins>},
+    {"gizmo.click", "Gizmo where the object was clicked", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Click>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Click>},
     {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
     {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},

@@ -3,6 +3,7 @@
 
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/theme.h"
+#include "editor_ui/view/picking.h"
 
 #include <imgui.h>
 
@@ -15,12 +16,10 @@
 namespace limn {
 
 void explainAt(EditorState& state, glm::vec2 mouse) {
-    if (!state.trace)
-        return;
-    const Picture picture = state.view.picture();
-    const Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
+    const Hit hit = hitUnder(state, mouse);
     if (!hit)
         return;
+    const Picture picture = state.view.picture();
     const glm::uvec2 size(picture.size);
     const glm::uvec2 pixel(glm::clamp(mouse - picture.origin, glm::vec2(0), picture.size - 1.f));
     state.explain.pick = {.question = {.camera = picture.camera,

@@ -3,6 +3,7 @@
 
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/theme.h"
+#include "editor_ui/view/picking.h"
 #include "engine/techniques/technique_table.h"
 
 #include <imgui.h>
@@ -33,10 +34,7 @@ void setOverlayBake(OverlayState& overlay, std::shared_ptr<const Precomputed> ba
 
 void pickCacheAt(EditorState& state, glm::vec2 mouse) {
     OverlayState& overlay = state.overlay;
-    if (!state.trace || !overlay.bake)
-        return;
-    const Picture picture = state.view.picture();
-    Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
+    Hit hit = overlay.bake ? hitUnder(state, mouse) : Hit{};
     if (!hit)
         return;
     const Instance& seen = state.trace->scene().instances[hit.instance];

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/view/light_placement.h"
 
+#include "editor_ui/document/light_angles.h"
+#include "editor_ui/document/object_rules.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/picking.h"
 #include "editor_ui/view/pivot.h"
 #include "engine/math/sampling.h"
 
@@ -24,20 +27,6 @@ constexpr float kRectangleSide = 0.2f; // of the distance to what it lights
 /// How far off a surface a light stands, as a fraction of the free distance before the surface.
 float clearance(LightKind kind) {
     return kind == LightKind::Rectangle ? 0.01f : 0.1f;
-}
-
-const char* nameOf(LightKind kind) {
-    switch (kind) {
-    case LightKind::Directional:
-        return "Sun";
-    case LightKind::Point:
-        return "Point light";
-    case LightKind::Spot:
-        return "Spot light";
-    case LightKind::Rectangle:
-        return "Rectangle light";
-    }
-    return "Light";
 }
 
 } // namespace
@@ -117,22 +106,21 @@ static Light fitted(const EditorState& state, Light light) {
 static Light newLight(LightKind kind) {
     Light light;
     light.kind = kind;
-    light.name = nameOf(kind);
-    if (kind == LightKind::Directional)
-        light.direction = {-0.48f, -0.8f, -0.36f}; // unit: 0.48^2 + 0.8^2 + 0.36^2 = 1
+    const bool sun = kind == LightKind::Directional;
+    light.name = sun ? "Sun" : lightKindName(kind);
+    if (sun)
+        light.direction = kNewSunDirection;
     return light;
 }
 
 Light lightAtPixel(const EditorState& state, LightKind kind, glm::vec2 pixel) {
     Light light = newLight(kind);
-    const glm::vec3 ray = pixelDirection(state.view.picture(), pixel);
-    const Hit hit = state.trace ? state.trace->closestHit({state.view.camera.eye, ray}) : Hit{};
+    const Hit hit = hitUnder(state, pixel);
     if (!hit) {
         light.position = pivotUnder(state, pixel);
         return fitted(state, light);
     }
-    const glm::vec3 normal =
-        glm::dot(hit.geometricNormal, ray) > 0 ? -hit.geometricNormal : hit.geometricNormal;
+    const glm::vec3 normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal;
     // The ray's end may lie behind the surface by rounding; it begins clear of it.
     const glm::vec3 start = hit.position + normal * (1e-4f * sceneRadius(state));
     const float room =

@@ -22,11 +22,15 @@ static ObjectId iconAt(const EditorState& state, const Picture& picture, glm::ve
     return found;
 }
 
-std::optional<PickedSurface> surfaceAt(const EditorState& state, glm::vec2 mouse) {
+Hit hitUnder(const EditorState& state, glm::vec2 pixel) {
     if (!state.trace)
-        return std::nullopt;
+        return {};
     const Picture picture = state.view.picture();
-    const Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, mouse)});
+    return state.trace->closestHit({picture.camera.eye, pixelDirection(picture, pixel)});
+}
+
+std::optional<PickedSurface> surfaceAt(const EditorState& state, glm::vec2 mouse) {
+    const Hit hit = hitUnder(state, mouse);
     if (!hit)
         return std::nullopt;
     const Instance& instance = state.trace->scene().instances[hit.instance];

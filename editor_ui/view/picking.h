@@ -5,6 +5,10 @@
 
 namespace limn {
 
+/// The nearest surface under a pixel of the window, in the scene that state.trace was built from; a
+/// miss if there is no scene to trace yet.
+Hit hitUnder(const EditorState& state, glm::vec2 pixel);
+
 /// The nearest surface under the mouse; std::nullopt if there is none.
 std::optional<PickedSurface> surfaceAt(const EditorState& state, glm::vec2 mouse);
 

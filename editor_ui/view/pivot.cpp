@@ -4,6 +4,7 @@
 #include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/picking.h"
 
 #include <glm/geometric.hpp>
 
@@ -34,10 +35,7 @@ static float depthWithoutSurface(const EditorState& state, const Picture& pictur
 }
 
 std::optional<glm::vec3> surfaceUnder(const EditorState& state, glm::vec2 pixel) {
-    if (!state.trace)
-        return std::nullopt;
-    const Picture picture = state.view.picture();
-    const Hit hit = state.trace->closestHit({picture.camera.eye, pixelDirection(picture, pixel)});
+    const Hit hit = hitUnder(state, pixel);
     return hit ? std::optional(hit.position) : std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/explain/explain_pixel.h"
 
+#include "engine/math/luminance.h"
 #include "engine/measure/field_lobe.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/direct_light.h"
@@ -136,12 +137,9 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
     return result;
 }
 
-double luminance(glm::vec3 rgb) {
-    return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
-}
-
 double shareOf(glm::vec3 value, glm::vec3 total) {
-    return luminance(total) > 0 ? luminance(value) / luminance(total) : 0;
+    const double all = luminance(glm::dvec3(total));
+    return all > 0 ? luminance(glm::dvec3(value)) / all : 0;
 }
 
 glm::vec3 lightWithout(const ConvergedLight& lit, const PixelQuestion& question,

@@ -38,9 +38,6 @@ struct PixelExplanation {
 PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
                               const ExplainOptions& options = {});
 
-/// Luminance of linear Rec. 709.
-double luminance(glm::vec3 rgb);
-
 /// Luminance of a row's value as a share of the total's; 0 where that is black.
 double shareOf(glm::vec3 value, glm::vec3 total);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/compare.h"
 
+#include "engine/math/luminance.h"
 #include "engine/measure/flip.h"
 #include "engine/measure/ssim.h"
 
@@ -27,10 +28,6 @@ constexpr float kHeatmapFloor = 0.05f;   ///< of mean(ref), keeps black pixels f
 
 bool isValid(glm::vec3 p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-float luminance(glm::vec3 c) {
-    return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
 double channelMean(glm::dvec3 c) {

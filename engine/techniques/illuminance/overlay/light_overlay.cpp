@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/overlay/light_overlay.h"
 
+#include "engine/math/luminance.h"
 #include "engine/math/sampling.h"
 #include "engine/math/sh.h"
 #include "engine/overlay/palette.h"
@@ -22,13 +23,9 @@ constexpr float kPickedScale = 3;                        // a picked lobe may re
 
 const glm::vec3 kNegative(1, 0, 0.8f); // magenta, which hardly any light is
 
-float luma(glm::vec3 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
-
 /// Maps radiosity to a colour that is never white, of half the full brightness at `middle`.
 glm::vec3 toColor(glm::vec3 radiosity, float middle) {
-    return encodeSrgb(glm::clamp(radiosity / (luma(radiosity) + middle), 0.f, 1.f));
+    return encodeSrgb(glm::clamp(radiosity / (luminance(radiosity) + middle), 0.f, 1.f));
 }
 
 /// The colour of a dot of a lobe for `radiance`: that of the light, as bright as can be; `shade`
@@ -36,7 +33,7 @@ glm::vec3 toColor(glm::vec3 radiosity, float middle) {
 std::uint32_t dotColor(glm::vec3 radiance, float shade) {
     const glm::vec3 light = glm::max(radiance, 0.f);
     const float brightest = std::max({light.x, light.y, light.z});
-    const bool negative = luma(radiance) < 0 || !(brightest > 0);
+    const bool negative = luminance(radiance) < 0 || !(brightest > 0);
     return packColor((negative ? kNegative : encodeSrgb(light / brightest)) * shade);
 }
 
@@ -51,7 +48,7 @@ OverlayData radiosityOverlay(const Bake& bake, const LitBake& lit, std::string t
     const Surfels& s = bake.surfels;
     double sum = 0, area = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
-        sum += double(luma(lit.radiosity[i]) * s.area[i]);
+        sum += double(luminance(glm::vec3(lit.radiosity[i])) * s.area[i]);
         area += double(s.area[i]);
     }
     const float middle = area > 0 && sum > 0 ? float(sum / area) : 1;
@@ -81,13 +78,13 @@ void addLobe(const Lobe& lobe, const std::vector<glm::vec3>& radiance,
              const DirectionSet& directions, std::vector<OverlayMark>& marks) {
     float most = 0;
     for (const glm::vec3& L : radiance)
-        most = std::max(most, std::abs(luma(L)));
+        most = std::max(most, std::abs(luminance(L)));
     if (!(most > 0))
         return;
     // With this ratio of radius to distance, the dots of a sphere touch each other.
     const float spread = std::sqrt(4 / float(directions.count));
     for (std::uint32_t k = 0; k < directions.count; ++k) {
-        const float r = std::abs(luma(radiance[k])) / most * lobe.reach;
+        const float r = std::abs(luminance(radiance[k])) / most * lobe.reach;
         // Dots that face down are darker, so that the shape is visible.
         const float shade = 0.7f + 0.3f * directions[k].y;
         OverlayMark m;
@@ -136,8 +133,8 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
             radiance[k] = glm::vec3(0);
             for (std::size_t i = 0; i < coefficients; ++i)
                 radiance[k] += sh[i] * basis[k * coefficients + i];
-            least = std::min(least, double(luma(radiance[k])));
-            most = std::max(most, double(luma(radiance[k])));
+            least = std::min(least, double(luminance(radiance[k])));
+            most = std::max(most, double(luminance(radiance[k])));
         }
         const bool cell = caches.kind[c] == CacheKind::Grid;
         addLobe({caches.position[c] + (cell ? 0.f : 0.1f * reach) * caches.normal[c], reach},
