@@ -4,6 +4,7 @@
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "tests/app/virtual_screen.h"
+#include "tests/core/source_path.h"
 #include "tests/editor_ui/headless.h"
 
 #include <chrono>
@@ -28,7 +29,7 @@ constexpr int kWidth = 1024, kHeight = 768;
 
 /// Cornell with a point light, baked in a second or two.
 Document testDocument(ObjectId& light) {
-    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
+    Document document = loadProject(sourcePath("projects/cornell/cornell.limn"))->document;
     for (auto& [id, object] : document.objects)
         if (auto* settings = std::get_if<BakeSettings>(&object)) {
             settings->surfels = 512;

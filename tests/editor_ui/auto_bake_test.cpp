@@ -4,6 +4,7 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "editor_ui/panels/action.h"
+#include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
@@ -25,7 +26,7 @@ struct AutoBake : testing::Test {
         setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
         ASSERT_TRUE(saveProject(folder.file("small.limn"), smallDocument()));
         session = std::make_unique<Session>(SessionOptions{
-            .projectsFolder = LIMN_SOURCE_DIR "/projects", .wake = [] {}, .bakeOnOpen = true});
+            .projectsFolder = sourcePath("projects"), .wake = [] {}, .bakeOnOpen = true});
         session->open(folder.file("small.limn"));
         ASSERT_TRUE(isBaked());
         bakes = 0;

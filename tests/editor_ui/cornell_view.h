@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/files/project_file.h"
+#include "tests/core/source_path.h"
 #include "tests/editor_ui/headless.h"
 
 #include <memory>
@@ -17,7 +18,7 @@ struct CornellView {
 
     /// With Cornell and the view `scale` times as large.
     explicit CornellView(float scale = 1) {
-        const auto project = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn");
+        const auto project = loadProject(sourcePath("projects/cornell/cornell.limn"));
         state.document = project->document;
         Assets assets = *project->assets;
         for (Mesh& mesh : assets.meshes)

@@ -3,6 +3,7 @@
 
 #include "editor_ui/panels/overlay_panel.h"
 #include "engine/techniques/technique_table.h"
+#include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
@@ -52,7 +53,7 @@ TEST(EditorSettings, AnyTextGivesUsableOnes) {
 TEST(EditorSettings, OutliveTheEditorAndTheDocument) {
     const TemporaryFolder folder;
     setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
-    const SessionOptions options{.projectsFolder = LIMN_SOURCE_DIR "/projects",
+    const SessionOptions options{.projectsFolder = sourcePath("projects"),
                                  .wake = [] {},
                                  .bakeOnOpen = false,
                                  .settingsFile = folder.file("new/editor.json")};

@@ -3,6 +3,7 @@
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/explain_panel.h"
 #include "engine/files/project_file.h"
+#include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
@@ -20,7 +21,7 @@ namespace {
 struct Explaining : testing::Test {
     TemporaryFolder folder;
     HeadlessUi ui{1280, 720};
-    Session session{SessionOptions{LIMN_SOURCE_DIR "/projects", [] {}, true}};
+    Session session{SessionOptions{sourcePath("projects"), [] {}, true}};
     EditorState& state = session.state;
 
     void SetUp() override {

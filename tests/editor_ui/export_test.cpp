@@ -5,6 +5,7 @@
 #include "engine/files/document_json.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
+#include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
@@ -29,7 +30,7 @@ struct Exporting : testing::Test {
         ASSERT_TRUE(saveProject(project, smallDocument()));
     }
     static SessionOptions options(bool bakes = true) {
-        return {LIMN_SOURCE_DIR "/projects", [] {}, bakes};
+        return {sourcePath("projects"), [] {}, bakes};
     }
     void openBaked(Session& session) {
         session.open(project);

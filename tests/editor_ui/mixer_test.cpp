@@ -2,6 +2,7 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/solo.h"
 #include "editor_ui/panels/mixer_panel.h"
+#include "tests/core/source_path.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
 
@@ -58,9 +59,8 @@ TEST_F(SoloTest, OfALightThatWasDeletedNothingIsLeftOut) {
 }
 
 TEST(SoloSession, ChangesWhatIsShownAndNeitherTheDocumentNorItsHistory) {
-    Session session(
-        {.projectsFolder = LIMN_SOURCE_DIR "/projects", .wake = [] {}, .bakeOnOpen = false});
-    session.open(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn");
+    Session session({.projectsFolder = sourcePath("projects"), .wake = [] {}, .bakeOnOpen = false});
+    session.open(sourcePath("projects/cornell/cornell.limn"));
     ASSERT_TRUE(runUntil(session, [&] { return session.idle() && session.state.trace; }));
     const ObjectId first = addLight(session.state, Light{.name = "First"});
     addLight(session.state, Light{.name = "Second"});

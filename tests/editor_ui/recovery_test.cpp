@@ -4,6 +4,7 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/jobs/recovery_folder.h"
 #include "editor_ui/panels/action.h"
+#include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
@@ -31,7 +32,7 @@ struct RecoveryTest : testing::Test {
     }
 
     SessionOptions options() const {
-        return {.projectsFolder = LIMN_SOURCE_DIR "/projects",
+        return {.projectsFolder = sourcePath("projects"),
                 .wake = [] {},
                 .bakeOnOpen = false,
                 .recoveryFolder = root};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/comparison_job.h"
 #include "editor_ui/jobs/reference_job.h"
+#include "tests/core/source_path.h"
 #include "tests/editor_ui/small_session.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 constexpr std::uint32_t kWidth = 24, kHeight = 18;
 
 std::shared_ptr<const Scene> smallScene(float lamp = 1) {
-    const auto project = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn");
+    const auto project = loadProject(sourcePath("projects/cornell/cornell.limn"));
     Document document = project->document;
     addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = lamp});
     return std::make_shared<const Scene>(flatten(document, project->assets));
@@ -149,10 +150,9 @@ TEST_F(ComparisonTest, TheDifferenceToItselfIsOneColour) {
 }
 
 TEST(SessionReference, StandsBesideThePictureAndIsTakenAwayAgain) {
-    Session session(
-        {.projectsFolder = LIMN_SOURCE_DIR "/projects", .wake = [] {}, .bakeOnOpen = false});
+    Session session({.projectsFolder = sourcePath("projects"), .wake = [] {}, .bakeOnOpen = false});
     session.state.view.size = {float(kWidth), float(kHeight)};
-    session.open(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn");
+    session.open(sourcePath("projects/cornell/cornell.limn"));
     ASSERT_TRUE(runUntil(session, [&] { return session.idle() && session.state.trace; }));
     session.state.compare.mode = Compare::Reference;
     session.state.compare.noise = 0.5;

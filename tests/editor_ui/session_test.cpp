@@ -6,6 +6,7 @@
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/techniques/technique_table.h"
+#include "tests/core/source_path.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
 
@@ -46,7 +47,7 @@ struct SessionTest : testing::Test {
     void TearDown() override { fs::remove_all(folder); }
 
     static SessionOptions options() {
-        return {LIMN_SOURCE_DIR "/projects", [] {}, true};
+        return {sourcePath("projects"), [] {}, true};
     }
     static bool runUntilIdle(Session& session) {
         return runUntil(session, [&] { return session.idle() && session.state.relight.converged; });

@@ -3,6 +3,7 @@
 
 #include "editor_ui/session.h"
 #include "engine/files/project_file.h"
+#include "tests/core/source_path.h"
 
 #include <chrono>
 #include <functional>
@@ -12,7 +13,7 @@ namespace limn {
 
 /// Cornell with a lamp and a bake of a fraction of a second.
 inline Document smallDocument() {
-    Document document = loadProject(LIMN_SOURCE_DIR "/projects/cornell/cornell.limn")->document;
+    Document document = loadProject(sourcePath("projects/cornell/cornell.limn"))->document;
     for (auto& [id, object] : document.objects)
         if (auto* settings = std::get_if<BakeSettings>(&object)) {
             settings->surfels = 256;

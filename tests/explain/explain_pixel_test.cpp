@@ -6,6 +6,7 @@
 #include "engine/gltf/gltf_import.h"
 #include "engine/measure/field_render.h"
 #include "engine/techniques/technique_table.h"
+#include "tests/core/source_path.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
@@ -123,15 +124,14 @@ void expectPicture(const ConvergedLight& lit, const Camera& camera, std::size_t 
 
 /// Few surfels and texels, so that a scene is baked in a second.
 void coarsen(BakeSettings& bake) {
-    bake.surfels = 3000;
-    bake.lightmapCaches = 3000;
+    bake.surfels = 1500;
+    bake.lightmapCaches = 1500;
     bake.rays = 64;
     bake.links = 32;
 }
 
 Scene sample(const char* name) {
-    const std::string path =
-        std::string(LIMN_SOURCE_DIR "/projects/") + name + "/" + name + ".limn";
+    const std::string path = sourcePath(std::string("projects/") + name + "/" + name + ".limn");
     const ImportedScene project = std::move(*loadProject(path));
     Scene scene = flatten(project.document, project.assets);
     coarsen(scene.bake);
@@ -181,7 +181,7 @@ TEST(ExplainPixel, SumsToThePictureOfTheAtrium) {
 }
 
 TEST(ExplainPixel, SumsToThePictureOfSponza) {
-    const std::string path = LIMN_SOURCE_DIR "/../shared/scenes/sponza-crytek/Sponza.gltf";
+    const std::string path = sourcePath("../shared/scenes/sponza-crytek/Sponza.gltf");
     if (!std::filesystem::exists(path))
         GTEST_SKIP() << "the shared scenes are not here";
     const ImportedScene imported = std::move(*importGltf(path));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_import.h"
+#include "tests/core/source_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kScenes = fs::path(LIMN_SOURCE_DIR) / ".." / "shared" / "scenes";
+const fs::path kScenes = sourcePath("../shared/scenes");
 
 std::vector<fs::path> gltfFilesUnder(const fs::path& folder) {
     std::vector<fs::path> files;

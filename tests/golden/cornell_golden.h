@@ -5,6 +5,7 @@
 #include "engine/files/project_file.h"
 #include "engine/measure/compare.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "tests/core/source_path.h"
 
 #include <cmath>
 #include <memory>
@@ -26,7 +27,7 @@ struct LitCornell {
 };
 
 inline LitCornell litCornell() {
-    const Result<ImportedScene> imported = openAny("cornell", LIMN_SOURCE_DIR "/projects");
+    const Result<ImportedScene> imported = openAny("cornell", sourcePath("projects"));
     if (!imported)
         throw std::runtime_error(imported.error().message);
     LitCornell lit;
@@ -51,8 +52,7 @@ inline LitCornell litCornell() {
 /// an nRMSE of 0.10 and a bias of 3 %; the truth's own noise is a sixteenth of that and takes no
 /// part. A failure leaves picture and error map behind.
 inline void expectCornellIrradiance(const ImageF& picture, const std::string& name) {
-    const Result<ImageF> truth =
-        readFloatImage(LIMN_SOURCE_DIR "/tests/golden/cornell_irradiance.exr");
+    const Result<ImageF> truth = readFloatImage(sourcePath("tests/golden/cornell_irradiance.exr"));
     ASSERT_TRUE(truth) << truth.error().message;
     const Result<Comparison> error = compareImages(picture, *truth);
     ASSERT_TRUE(error) << error.error().message;

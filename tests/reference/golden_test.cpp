@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/core/source_path.h"
 #include "tests/golden/cornell_golden.h"
 
 #include "engine/measure/field_render.h"
@@ -19,7 +20,7 @@ TEST(Golden, TheFieldOfTheCornellBoxIsCloseToItsPathTracedPicture) {
 }
 
 TEST(Golden, AFewPathsOfTheCornellBoxAgreeWithinTheirOwnNoise) {
-    const Result<ImportedScene> imported = openAny("cornell", LIMN_SOURCE_DIR "/projects");
+    const Result<ImportedScene> imported = openAny("cornell", sourcePath("projects"));
     ASSERT_TRUE(imported) << imported.error().message;
     const Scene scene = flatten(imported->document, imported->assets);
     ReferenceOptions options;
@@ -29,8 +30,7 @@ TEST(Golden, AFewPathsOfTheCornellBoxAgreeWithinTheirOwnNoise) {
     options.samplesPerPixel = 32;
     options.seed = 11;
     const ReferenceResult few = renderReference(TraceScene(scene), options);
-    const Result<ImageF> truth =
-        readFloatImage(LIMN_SOURCE_DIR "/tests/golden/cornell_irradiance.exr");
+    const Result<ImageF> truth = readFloatImage(sourcePath("tests/golden/cornell_irradiance.exr"));
     ASSERT_TRUE(truth) << truth.error().message;
     const Result<Comparison> error = compareImages(few.image, *truth);
     ASSERT_TRUE(error) << error.error().message;

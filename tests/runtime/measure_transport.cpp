@@ -8,6 +8,7 @@
 #include "engine/files/project_file.h"
 #include "engine/techniques/illuminance/bake/bake_file.h"
 #include "engine/trace/trace_scene.h"
+#include "tests/core/source_path.h"
 #include "tests/runtime/open_file.h"
 
 #include <algorithm>
@@ -113,8 +114,7 @@ void printErrors(limnrt_scene* file, const std::shared_ptr<const Bake>& bake, Sc
 }
 
 int measure(int count, char** arguments) {
-    const Result<ImportedScene> imported =
-        openAny(arguments[1], std::string(LIMN_SOURCE_DIR) + "/projects");
+    const Result<ImportedScene> imported = openAny(arguments[1], sourcePath("projects"));
     Result<Bake> read = readBake(arguments[2]);
     if (!imported || !read) {
         fmt::print(stderr, "{}\n", imported ? read.error().message : imported.error().message);

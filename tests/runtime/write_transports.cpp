@@ -5,6 +5,7 @@
 #include "engine/files/project_file.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/transport/transport_file.h"
+#include "tests/core/source_path.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -28,8 +29,7 @@ std::vector<Light> lightingOf(int k) {
 }
 
 Result<void> write(const std::string& folder) {
-    const Result<ImportedScene> imported =
-        openAny("cornell", std::string(LIMN_SOURCE_DIR) + "/projects");
+    const Result<ImportedScene> imported = openAny("cornell", sourcePath("projects"));
     if (!imported)
         return tl::make_unexpected(imported.error());
     Scene scene = flatten(imported->document, imported->assets);
