@@ -27,6 +27,12 @@ WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t
     return p;
 }
 
+RaisedPoint raise(const TraceScene& trace, const WorldPoint& point, float height) {
+    const glm::vec3 from = trace.clearOf(point.position, point.normal);
+    const Hit above = trace.closestHit({from, point.normal, 0, 2 * height}, TraceMask::Static);
+    return {from + point.normal * (above ? above.t / 2 : height), bool(above)};
+}
+
 std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel) {
     const Instance& instance = scene.instances[texel.instance];
     const MeshPoint& point = texel.points[0];

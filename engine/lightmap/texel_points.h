@@ -3,6 +3,7 @@
 
 #include "engine/lightmap/atlas.h"
 #include "engine/scene/scene.h"
+#include "engine/trace/trace_scene.h"
 
 #include <cstdint>
 
@@ -16,6 +17,17 @@ WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPo
 
 /// Point k of a texel, with the normal of the side that the texel represents.
 WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t k);
+
+/// A point above a surface, from which segments along the surface start.
+struct RaisedPoint {
+    glm::vec3 position;
+    bool covered; ///< whether a static surface lies closely above
+};
+
+/// Raises a point by `height` [m], or half way to the next static surface above where that is
+/// closer than twice the height, so that no thin object closely above is jumped over. Traces one
+/// ray.
+RaisedPoint raise(const TraceScene& trace, const WorldPoint& point, float height);
 
 /// Seed that rotates a texel's ray directions. It depends on the position in the mesh only, so a
 /// texel keeps its rays when objects are added, removed or moved.

@@ -84,10 +84,7 @@ Lifted Sides::lift(const WorldPoint& point, float reach, std::uint32_t instance,
                    std::uint32_t chart) const {
     constexpr float kHeight = 0.25f; // [texels]
     ++rays;
-    const glm::vec3 from = trace.clearOf(point.position, point.normal);
-    const float height = kHeight * reach;
-    const Hit above = trace.closestHit({from, point.normal, 0, 2 * height}, TraceMask::Static);
-    return {from + point.normal * (above ? above.t / 2 : height), instance, chart};
+    return {raise(trace, point, kHeight * reach).position, instance, chart};
 }
 
 Lifted Sides::lift(const MeshPoint& point, const AtlasTexel& texel, std::uint32_t chart) const {

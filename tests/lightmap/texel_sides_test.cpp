@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lightmap/charts.h"
+#include "engine/lightmap/texel_points.h"
 #include "engine/math/sampling.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "tests/techniques/illuminance/bake/parted_hall.h"
@@ -49,6 +50,25 @@ Reach reachOf(const Scene& scene, const AtlasTexel& texel, float wall) {
         reach.right |= x > kWall + wall;
     }
     return reach;
+}
+
+TEST(RaisedPoint, StopsHalfWayToWhatIsCloselyAbove) {
+    using namespace simple;
+    for (const float gap : {0.001f, 0.3f, 1.9f, 2.1f}) { // [heights]
+        constexpr float kHeight = 0.5f;
+        SceneBuilder b;
+        b.addMaterial(lambert(glm::vec3(0.5f)));
+        b.add(quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}, 0));
+        b.add(box({1, gap * kHeight, 1}, {3, gap * kHeight + 0.01f, 3}, false));
+        const TraceScene trace(b.build());
+        const RaisedPoint below = raise(trace, {{2, 0, 2}, {0, 1, 0}}, kHeight),
+                          beside = raise(trace, {{0.5f, 0, 2}, {0, 1, 0}}, kHeight);
+        const bool covered = gap < 2;
+        EXPECT_EQ(below.covered, covered) << gap;
+        EXPECT_NEAR(below.position.y, covered ? gap * kHeight / 2 : kHeight, 1e-4f) << gap;
+        EXPECT_FALSE(beside.covered);
+        EXPECT_NEAR(beside.position.y, kHeight, 1e-4f);
+    }
 }
 
 TEST(TexelSides, NoTexelHasPointsOnBothSidesOfAWall) {

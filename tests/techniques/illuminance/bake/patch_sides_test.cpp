@@ -59,6 +59,73 @@ TEST(PatchSides, PatchesEndAtWalls) {
     }
 }
 
+/// A room of 8 x 3 x 4 m and a plate of 2 x 2 m, 10 mm thick, that hangs 0.2 mm below its ceiling:
+/// both are far less than a quarter of the surfels' spacing.
+constexpr float kPlateBegin = 3, kPlateEnd = 5, kPlateNear = 1, kPlateFar = 3;
+
+Scene roomWithPlate() {
+    using namespace simple;
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.7f)));
+    b.add(box(glm::vec3(0), glm::vec3(8, 3, 4), true));
+    b.add(box({kPlateBegin, 2.9898f, kPlateNear}, {kPlateEnd, 2.9998f, kPlateFar}, false));
+    return b.build();
+}
+
+/// How far a place lies outside the plate; negative below it [m].
+float outsidePlate(glm::vec3 p) {
+    return std::max(std::max(kPlateBegin - p.x, p.x - kPlateEnd),
+                    std::max(kPlateNear - p.z, p.z - kPlateFar));
+}
+
+/// Of random points of the ceiling, those that belong to surfels on the other side of the plate's
+/// edge.
+struct Strangers {
+    int open = 0;    ///< anywhere beside the plate
+    int openFar = 0; ///< the same, further from its edge than half a cell of the table
+    int covered = 0; ///< in the gap, further from its edge than a cell and a half
+};
+
+Strangers acrossPlateEdge(const Scene& scene, const SurfelSet& set, const OwnerTables& owners) {
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const Mesh& mesh = scene.assets->meshes[0];
+    Strangers result;
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+        float cells = 0;
+        owners.of(0).forCellsOf(t, [&](std::uint32_t, glm::vec2, double) { ++cells; });
+        const float cell = 8 / std::floor(std::sqrt(2 * cells));
+        for (int i = 0; i < 20000; ++i) {
+            const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
+            const glm::vec3 p = worldPoint(scene, scene.instances[0], {t, uv}).position;
+            if (p.y < 2.999f)
+                break;
+            const float outside = outsidePlate(p);
+            const std::uint32_t owner = owners.at(0, t, uv.x, uv.y, false);
+            if ((outsidePlate(set.surfels.position[owner]) > 0) == (outside > 0))
+                continue;
+            result.open += outside > 0;
+            result.openFar += outside > cell / 2;
+            result.covered += outside < -1.5f * cell;
+        }
+    }
+    return result;
+}
+
+TEST(PatchSides, CeilingsBesideThinPlatesDoNotBelongToSurfelsInTheGap) {
+    const Scene scene = roomWithPlate();
+    const TraceScene trace(scene);
+    const SurfelSet set = placeSurfels(scene, 4000);
+    OwnerTables owners(scene, set);
+    const Strangers before = acrossPlateEdge(scene, set, owners);
+    EXPECT_GT(before.openFar, 0) << "nothing to cut";
+    owners.part(findPatchSides(trace, set, owners, {}));
+    const Strangers after = acrossPlateEdge(scene, set, owners);
+    EXPECT_EQ(after.openFar, 0);
+    EXPECT_LT(after.open, before.open / 10) << before.open; // cells that the edge cuts
+    EXPECT_EQ(after.covered, 0);
+}
+
 TEST(PatchSides, SayWhichSurfelsTheyChange) {
     const Scene scene = partedHall(0, 500);
     const TraceScene trace(scene);

@@ -13,12 +13,15 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
 namespace limn {
 
 namespace {
+
+constexpr float kHeight = 0.25f; ///< above the surface at which segments run [spacings]
 
 /// The patches of one instance.
 struct Patches {
@@ -28,45 +31,83 @@ struct Patches {
     std::uint32_t instance;
     const NearestPoint& nearest;
     std::atomic<std::uint64_t>& rays;
+    std::vector<glm::vec3> raised = {}; ///< per surfel of the instance: its place, raised
 
     const MeshSurfels& surfels() const {
         return set.meshes[trace.scene().instances[instance].mesh];
     }
-    bool together(const WorldPoint& cell, std::uint32_t surfel) const;
-    std::uint32_t ownerOf(std::uint32_t triangle, glm::vec2 uv, std::uint32_t nearestOwner,
+    float heightOf(std::uint32_t surfel) const {
+        return kHeight * std::sqrt(set.surfels.area[set.instanceBegin[instance] + surfel]);
+    }
+    void raiseSurfels();
+    RaisedPoint raisedCell(const MeshPoint& middle, float size, bool back, float height) const;
+    bool together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
+    std::uint32_t ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
                           bool back) const;
 };
 
-bool Patches::together(const WorldPoint& cell, std::uint32_t surfel) const {
-    constexpr float kHeight = 0.25f, kAlike = 0.5f; // [spacings]; cosine of 60 degrees
-    const std::uint32_t s = set.instanceBegin[instance] + surfel;
-    const glm::vec3 normal = set.surfels.normal[s];
-    const float height = kHeight * std::sqrt(set.surfels.area[s]);
-    ++rays;
-    return clearAlong(trace, trace.clearOf(cell.position, cell.normal) + cell.normal * height,
-                      trace.clearOf(set.surfels.position[s], normal) + normal * height,
-                      [&](const Hit& hit) {
-                          return hit.instance == instance &&
-                                 std::abs(glm::dot(hit.geometricNormal, cell.normal)) > kAlike;
-                      });
+void Patches::raiseSurfels() {
+    const std::uint32_t first = set.instanceBegin[instance];
+    raised.resize(set.instanceBegin[instance + 1] - first);
+    parallelRanges(raised.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (auto s = std::uint32_t(begin); s < end; ++s)
+            raised[s] =
+                raise(trace, {set.surfels.position[first + s], set.surfels.normal[first + s]},
+                      heightOf(s))
+                    .position;
+    });
+    rays += raised.size();
 }
 
-std::uint32_t Patches::ownerOf(std::uint32_t triangle, glm::vec2 uv, std::uint32_t nearestOwner,
+/// A place of a cell: its middle or, where that is covered, one closer to the corners that is not.
+RaisedPoint Patches::raisedCell(const MeshPoint& middle, float size, bool back,
+                                float height) const {
+    constexpr std::array<glm::vec2, 5> kPlaces = {glm::vec2(0), glm::vec2(-1), glm::vec2(1, -1),
+                                                  glm::vec2(-1, 1), glm::vec2(1)};
+    constexpr float kToCorner = 0.45f; // [cells]
+    const Scene& scene = trace.scene();
+    std::optional<RaisedPoint> first;
+    for (const glm::vec2 place : kPlaces) {
+        const glm::vec2 uv = middle.barycentric + place * (kToCorner * size);
+        if (uv.x + uv.y > 1)
+            continue;
+        WorldPoint p = worldPoint(scene, scene.instances[instance], {middle.triangle, uv});
+        if (back)
+            p.normal = -p.normal;
+        ++rays;
+        const RaisedPoint point = raise(trace, p, height);
+        if (!point.covered)
+            return point;
+        if (!first)
+            first = point;
+    }
+    return *first;
+}
+
+bool Patches::together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const {
+    constexpr float kAlike = 0.5f; // cosine of 60 degrees
+    ++rays;
+    return clearAlong(trace, cell.position, raised[surfel], [&](const Hit& hit) {
+        return hit.instance == instance && std::abs(glm::dot(hit.geometricNormal, normal)) > kAlike;
+    });
+}
+
+std::uint32_t Patches::ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
                                bool back) const {
     constexpr std::size_t kCompared = 8;
     const Scene& scene = trace.scene();
     const std::uint32_t first = back ? surfels().frontCount : 0;
-    WorldPoint cell = worldPoint(scene, scene.instances[instance], {triangle, uv});
-    if (back)
-        cell.normal = -cell.normal;
-    if (together(cell, first + nearestOwner))
+    const RaisedPoint cell = raisedCell(middle, size, back, heightOf(first + nearestOwner));
+    const glm::vec3 normal = worldPoint(scene, scene.instances[instance], middle).normal;
+    if (together(cell, normal, first + nearestOwner))
         return first + nearestOwner;
     const Mesh& mesh = scene.meshOf(scene.instances[instance]);
     std::array<NearestPoint::Near, kCompared> near;
     const std::size_t count =
-        nearest.findSome(trianglePoint(mesh, triangle, uv), triangleNormal(mesh, triangle), near);
+        nearest.findSome(trianglePoint(mesh, middle.triangle, middle.barycentric),
+                         triangleNormal(mesh, middle.triangle), near);
     for (std::size_t k = 0; k < count; ++k)
-        if (near[k].point != nearestOwner && together(cell, first + near[k].point))
+        if (near[k].point != nearestOwner && together(cell, normal, first + near[k].point))
             return first + near[k].point;
     return first + nearestOwner;
 }
@@ -86,9 +127,11 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
         for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
             for (std::uint32_t side = 0; side < sides; ++side) {
                 const std::uint32_t first = side * patches.surfels().frontCount;
-                owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
+                owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
+                    const auto size = float(std::sqrt(share / 2)); // smaller where it is cut
                     const std::uint32_t near = owners.front(cell),
-                                        own = patches.ownerOf(t, uv * 0.999f, near, side == 1);
+                                        own = patches.ownerOf({t, uv * 0.999f}, size, near,
+                                                              side == 1);
                     result[side * owners.cells() + cell] = own;
                     if (own != first + near)
                         differs = true;
@@ -129,7 +172,9 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
         const NearestPoint nearest(std::span(surfels.position.data(), surfels.frontCount),
                                    std::span(surfels.normal.data(), surfels.frontCount),
                                    std::sqrt(std::max(surfels.area, 1e-30f)));
-        result.owner[i] = partedOwners({trace, set, owners.of(mesh), i, nearest, rays}, progress);
+        Patches patches{trace, set, owners.of(mesh), i, nearest, rays};
+        patches.raiseSurfels();
+        result.owner[i] = partedOwners(patches, progress);
         if (result.owner[i].empty())
             continue;
         result.changed.resize(set.surfels.size());

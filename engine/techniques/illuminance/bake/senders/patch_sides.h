@@ -24,10 +24,13 @@ struct PatchSides {
 };
 
 /// Assigns each cell of a patch to the nearest surfel of like normal on the same side of all walls:
-/// a segment between the two, a quarter of the surfels' spacing above the surface, meets only
-/// surfaces of the same instance that face alike. A cell for which none of the nearest few surfels
-/// qualifies keeps the nearest. Without this, the floor on both sides of a wall would be as bright
-/// as one surfel on one side of it. The result is meaningless when cancelled.
+/// a segment between the two meets only surfaces of the same instance that face alike. It runs a
+/// quarter of the surfels' spacing above the surface, or half way to the next surface above where
+/// that is closer, so the gap above a lamp that hangs closely below a ceiling lies on another side
+/// than the ceiling beside it. A cell that is partly covered in that way belongs to the open side,
+/// which is seen from more places. A cell for which none of the nearest few surfels qualifies keeps
+/// the nearest. Without this, the floor on both sides of a wall would be as bright as one surfel on
+/// one side of it. The result is meaningless when cancelled.
 PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const OwnerTables& owners,
                           const Progress& progress);
 
