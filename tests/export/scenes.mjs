@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js, Babylon.js and Blender, renders them there beside
+// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js, Babylon.js, Godot and Blender, renders them there beside
 // `limn render` of the same camera, and prints the nRMSE. Pictures stay in OUT/scenes/SCENE.
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -7,6 +7,7 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { openBrowser, serve, visit } from './browser.mjs';
 import { encodeExr } from './exr.mjs';
+import { pack } from './godot/pack.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, '../..');
 const shared = path.join(root, '../shared/scenes'), width = 384, height = 288;
@@ -32,6 +33,17 @@ function report(scene, consumer, view, { nrmse, most }) {
     console.log(`| ${scene} | ${consumer.trim()} | limn render --view ${view} | ${nrmse.toFixed(4)} | ${most.toFixed(4)} |`);
 }
 
+/** Puts what was exported for Godot into a project that shows it. Godot takes exposures up to 16. */
+function packGodot(folder, exported, from) {
+    const settings = path.join(folder, 'godot-scene.json');
+    fs.writeFileSync(settings, JSON.stringify({ width, height, from, exposures: [-4, -3, -2, -1, 0, 1, 2].map((k) => 4 ** k) }));
+    const files = { 'scene.json': settings };
+    for (const [name, file] of [['project.godot', 'project.godot'], ['main.tscn', 'scene.tscn'], ['scene.gd', 'scene.gd']])
+        files[name] = path.join(here, 'godot', file);
+    for (const { name } of exported) files[name] = path.join(folder, name);
+    pack(path.join(folder, 'godot.pck'), files);
+}
+
 const server = await serve({ '/node_modules/': path.join(here, 'node_modules') + '/', '/scenes/': path.resolve(out, 'scenes') + '/', '/': path.join(here, 'pages') + '/' });
 const browser = await openBrowser(), address = `http://127.0.0.1:${server.address().port}`;
 let failed = 0;
@@ -52,8 +64,10 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         limn('render', ...scene, '--bake', bake, '--view', view, '--width', width, '--height', height, ...eye,
             ...(end === 'png' ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${view}.${end}`));
     for (const [engine, view, options] of [
-        ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []]]) {
-        limn('export', ...scene, '--bake', bake, '--format', engine, ...options, '-o', path.join(folder, `${engine}.gltf`));
+        ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []],
+        ['godot', 'irradiance', []], ['godot', 'irradiance', ['--lightmap-bands', 2]]]) {
+        const { files } = JSON.parse(limn('export', ...scene, '--bake', bake, '--format', engine, ...options, '--json', '-o', path.join(folder, `${engine}.gltf`)));
+        if (engine === 'godot') packGodot(folder, files, from);
         const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}${from ? `&from=${JSON.stringify(from)}` : ''}`;
         const result = await visit(browser, url, path.join(folder, `${engine}.png`), { timeout: 600000, keep: true, width, height });
         if (!result.ok) {

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+# Loads a whole exported scene and hands over pictures of its bounced light: first on white surfaces, exposed by each of
+# scene.json's numbers, then once on the scene's own materials.
+extends Node3D
+
+# White, with the holes of the material that it stands for.
+const HOLES := "shader_type spatial;
+render_mode %s;
+uniform sampler2D color_map : source_color, filter_linear_mipmap, repeat_enable;
+uniform float alpha, threshold;
+void fragment() {
+	if (texture(color_map, UV).a * alpha < threshold) discard;
+	ALBEDO = vec3(1.0);
+}"
+
+var viewport := SubViewport.new()
+var environment := Environment.new()
+
+func _ready() -> void:
+	await get_tree().process_frame
+	var wanted: Dictionary = JSON.parse_string(FileAccess.get_file_as_string("res://scene.json"))
+	viewport.size = Vector2i(wanted.width, wanted.height)
+	viewport.own_world_3d = true
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	add_child(viewport)
+	environment.background_mode = Environment.BG_COLOR
+	environment.background_color = Color.BLACK
+	environment.ambient_light_source = Environment.AMBIENT_SOURCE_DISABLED
+	environment.reflected_light_source = Environment.REFLECTION_SOURCE_DISABLED
+	environment.tonemap_mode = Environment.TONE_MAPPER_LINEAR
+	var world := WorldEnvironment.new()
+	world.environment = environment
+	viewport.add_child(world)
+
+	var document := GLTFDocument.new()
+	var state := GLTFState.new()
+	if document.append_from_file("res://godot.gltf", state) != OK:
+		JavaScriptBridge.eval("window.received('failed', 'godot.gltf')")
+		return
+	var room := document.generate_scene(state)
+	viewport.add_child(room)
+	look(room, wanted.get("from"))
+	for lamp: Light3D in room.find_children("*", "Light3D", true, false):
+		lamp.visible = false
+	var light := LightmapGI.new()
+	light.set_script(load("res://godot-godot.gd"))
+	light.source = load("res://godot.tres")
+	viewport.add_child(light)
+
+	var meshes := room.find_children("*", "MeshInstance3D", true, false)
+	for mesh: MeshInstance3D in meshes:
+		var lit: bool = mesh.mesh.surface_get_format(0) & Mesh.ARRAY_FORMAT_TEX_UV2
+		mesh.gi_mode = GeometryInstance3D.GI_MODE_STATIC if lit else GeometryInstance3D.GI_MODE_DYNAMIC
+		for surface in mesh.mesh.get_surface_count():
+			mesh.set_surface_override_material(surface, white(mesh.mesh.surface_get_material(surface)))
+	for exposure: float in wanted.exposures:
+		await picture("white %s" % exposure, exposure)
+	for mesh: MeshInstance3D in meshes:
+		for surface in mesh.mesh.get_surface_count():
+			var material: BaseMaterial3D = mesh.mesh.surface_get_material(surface)
+			material.metallic_specular = 0.0
+			material.emission_enabled = false
+			mesh.set_surface_override_material(surface, null)
+	await picture("scene", 1.0)
+	JavaScriptBridge.eval("window.received('done', '')")
+
+## The scene's first camera, or one of its own.
+func look(room: Node, from: Variant) -> void:
+	var camera: Camera3D
+	if from:
+		camera = Camera3D.new()
+		viewport.add_child(camera)
+		var eye := Vector3(from.eye[0], from.eye[1], from.eye[2])
+		camera.look_at_from_position(eye, Vector3(from.target[0], from.target[1], from.target[2]))
+		camera.fov = from.fov
+		camera.near = 0.1
+		camera.far = 1000.0
+	else:
+		camera = room.find_children("*", "Camera3D", true, false)[0]
+	camera.keep_aspect = Camera3D.KEEP_HEIGHT
+	camera.make_current()
+
+func white(material: BaseMaterial3D) -> Material:
+	if material.transparency != BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR:
+		var plain := StandardMaterial3D.new()
+		plain.metallic_specular = 0.0
+		plain.cull_mode = material.cull_mode
+		plain.normal_enabled = material.normal_enabled
+		plain.normal_scale = material.normal_scale
+		plain.normal_texture = material.normal_texture
+		return plain
+	var holes := ShaderMaterial.new()
+	holes.shader = Shader.new()
+	holes.shader.code = HOLES % ("cull_disabled" if material.cull_mode == BaseMaterial3D.CULL_DISABLED else "cull_back")
+	holes.set_shader_parameter("threshold", material.alpha_scissor_threshold)
+	holes.set_shader_parameter("alpha", material.albedo_color.a)
+	holes.set_shader_parameter("color_map", material.albedo_texture)
+	return holes
+
+func picture(title: String, exposure: float) -> void:
+	environment.tonemap_exposure = exposure
+	for k in 3:
+		await RenderingServer.frame_post_draw
+	var image := viewport.get_texture().get_image()
+	image.convert(Image.FORMAT_RGBA8)
+	JavaScriptBridge.eval("window.received('%s', '%s')" % [title, Marshalls.raw_to_base64(image.get_data())])
