@@ -23,11 +23,18 @@ public:
     /// `skyChanged`: the change reaches the surfels' radiosity only in the second bounce.
     void lightChanged(bool skyChanged) {
         const std::uint32_t unseen = skyChanged ? 2 : m_unseen;
+        const double tolerance = m_tolerance;
         *this = {};
         m_unseen = unseen;
+        m_tolerance = tolerance;
+    }
+    /// Change that converged light may still be due, relative to all of it.
+    void setTolerance(double tolerance) {
+        m_reached = m_reached && tolerance >= m_tolerance;
+        m_tolerance = tolerance;
     }
     void addRound(const RoundChange& round) {
-        constexpr double kChange = 1e-4, kMaxPassedOn = 0.999, kRounding = 1.001, kGrown = 1e6;
+        constexpr double kMaxPassedOn = 0.999, kRounding = 1.001, kGrown = 1e6;
         constexpr std::uint32_t kBringing = 2, kGrowing = 12;
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         const double passedOn = reflects ? round.change / m_before : 0;
@@ -36,7 +43,7 @@ public:
         const double q = std::min(*std::max_element(m_latest, m_latest + 4), kMaxPassedOn);
         const double toCome = std::max(q / (1 - q), 1.);
         const bool converged =
-            round.ofAll() * toCome < kChange && round.relative * toCome < kChange;
+            round.ofAll() * toCome < m_tolerance && round.relative * toCome < m_tolerance;
         const bool more = passedOn > kRounding && !converged;
         m_growing = more ? m_growing + 1 : 0;
         m_grown = more ? m_grown * passedOn : 1;
@@ -48,6 +55,7 @@ public:
 private:
     bool m_reached = false;
     std::uint32_t m_unseen = 0, m_rounds = 0, m_growing = 0;
+    double m_tolerance = 1e-4;
     double m_before = 0, m_grown = 1, m_latest[4] = {};
 };
 

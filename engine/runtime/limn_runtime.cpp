@@ -223,6 +223,13 @@ int limnrt_set_sky(limnrt_scene* s, const float* rgb) {
     return 1;
 }
 
+int limnrt_set_tolerance(limnrt_scene* s, float tolerance) {
+    if (!finiteWithin(&tolerance, 1, 1e-7f, 1))
+        return 0;
+    s->convergence.setTolerance(double(tolerance));
+    return 1;
+}
+
 float limnrt_step(limnrt_scene* s) {
     const RoundChange round = bounce(*s);
     s->convergence.addRound(round);

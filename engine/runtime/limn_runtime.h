@@ -63,8 +63,7 @@ typedef struct limnrt_counts {
 /* Opens a file that lies uncompressed in memory. `bytes` is aligned to 16 bytes and outlives the
    scene, which reads it in place. Every count, offset and index is checked here. `options` may be
    0. On failure returns 0 and writes a message of at most error_size - 1 bytes to `error`, which
-   may be 0. The scene starts with the file's lights, albedo, emission and sky, and without bounced
-   light. */
+   may be 0. The scene starts with the file's lights, albedo, emission, sky and no bounced light. */
 limnrt_scene* limnrt_open(const void* bytes, size_t size, const limnrt_options* options,
                           char* error, size_t error_size);
 void limnrt_close(limnrt_scene*); /* 0 is allowed */
@@ -112,8 +111,9 @@ int limnrt_set_sky(limnrt_scene*, const float* rgb);
 /* One bounce: surfels send what they receive, caches gather it, surfels read it. Returns the change
    of what is sent, relative to all of it, in [0, 1]. */
 float limnrt_step(limnrt_scene*);
-/* Bounces until another one would change next to nothing, at most `max_bounces`. Returns their
-   number, 0 where nothing has changed since the last time. */
+/* Share of all light that may still be missing when it has converged, [1e-7, 1]; at first 1e-4. */
+int limnrt_set_tolerance(limnrt_scene*, float tolerance);
+/* Bounces until light has converged, at most `max_bounces`; their number, 0 if nothing changed. */
 uint32_t limnrt_converge(limnrt_scene*, uint32_t max_bounces);
 int limnrt_converged(const limnrt_scene*); /* 1 where limnrt_converge() would do nothing */
 void limnrt_reset(limnrt_scene*); /* forgets bounced light: n steps then bring n bounces exactly */

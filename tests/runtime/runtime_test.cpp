@@ -9,7 +9,9 @@
 #include "tests/techniques/illuminance/relight/relit.h"
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <new>
 #include <numbers>
@@ -118,6 +120,31 @@ TEST(Runtime, AConvergedSceneIsDoneAndAChangeIsNot) {
     const float red[3] = {0.8f, 0.1f, 0.1f};
     EXPECT_EQ(limnrt_set_material_albedo(file, 0, red), 1);
     EXPECT_EQ(limnrt_converged(file), 0);
+}
+
+TEST(Runtime, ASmallerToleranceIsReachedByMoreBouncesAndComesNearer) {
+    const auto lit = [](std::initializer_list<float> tolerances) {
+        const OpenFile file(room().bytes);
+        std::uint32_t bounces = 0;
+        for (const float tolerance : tolerances) {
+            EXPECT_EQ(limnrt_set_tolerance(file, tolerance), 1);
+            bounces += limnrt_converge(file, 1000);
+        }
+        EXPECT_EQ(limnrt_converged(file), 1);
+        EXPECT_EQ(limnrt_set_tolerance(file, tolerances.begin()[0]), 1);
+        EXPECT_EQ(limnrt_converged(file), 1) << "a larger tolerance asks for nothing more";
+        return std::pair(bounces, double(limnrt_radiosity(file)[0]));
+    };
+    const auto exact = lit({1e-7f}), usual = lit({1e-4f}), coarse = lit({0.1f});
+    EXPECT_LT(usual.first, exact.first);
+    EXPECT_LT(coarse.first, usual.first);
+    EXPECT_GT(std::abs(coarse.second - exact.second), std::abs(usual.second - exact.second));
+    EXPECT_EQ(lit({0.1f, 1e-4f}).first, usual.first) << "bounces go on where they ended";
+    const OpenFile unchanged(room().bytes);
+    EXPECT_EQ(limnrt_converge(unchanged, 1000), usual.first);
+    for (const float wrong : {0.f, -1.f, 1.5f, std::numeric_limits<float>::quiet_NaN()})
+        EXPECT_EQ(limnrt_set_tolerance(unchanged, wrong), 0);
+    EXPECT_EQ(limnrt_converged(unchanged), 1);
 }
 
 // Rays that are traced after the occluders were taken away meet nothing.
