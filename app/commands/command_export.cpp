@@ -12,6 +12,7 @@
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/export/export_table.h"
+#include "engine/export/lightmap_file.h"
 #include "engine/lighting/converged_light.h"
 #include "engine/scene/export_settings_fields.h"
 #include "engine/scene/setting_text.h"
@@ -88,7 +89,16 @@ ExportSettings settingsOf(const Options& options, const Document& document) {
     for (const auto& [key, text] : options.given)
         setExportSetting(settings, key, text);
     settings.format = options.format;
+    settings.encoding = encodingFor(settings, options.output);
     return settings;
+}
+
+/// The given setting that has no effect beside the others; empty: there is none.
+std::string uselessSetting(const Options& options, const ExportSettings& settings) {
+    for (const auto& [key, text] : options.given)
+        if (const std::string missing = missingFor(settings, key); !missing.empty())
+            return fmt::format("{}: has no effect without {}", flagOf(key), missing);
+    return {};
 }
 
 /// Checks everything that can be checked before the scene is read.
@@ -158,10 +168,12 @@ Exit runExport(const Options& options) {
     std::error_code error;
     if (std::filesystem::equivalent(options.output, imported->document.scenePath, error))
         return failed(fmt::format("{}: is the scene itself", options.output));
+    const ExportSettings settings = settingsOf(options, imported->document);
+    if (const std::string useless = uselessSetting(options, settings); !useless.empty())
+        return failed(useless);
     Scene scene = flatten(imported->document, imported->assets);
     applyBakeOptions(options.bake, scene.bake);
     applyRelightOptions(options.relight, scene.relight);
-    const ExportSettings settings = settingsOf(options, imported->document);
     const Result<ConvergedLight> lit =
         lightOnCpu(options.scene, options.bakeFile, std::move(scene));
     if (!lit)

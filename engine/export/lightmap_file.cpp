@@ -40,6 +40,11 @@ const char* textureExtension(TextureEncoding encoding) {
     return encoding == TextureEncoding::Exr ? ".exr" : ".ktx2";
 }
 
+TextureEncoding encodingFor(const ExportSettings& settings, std::string_view name) {
+    const bool asked = settings.encoding != TextureEncoding::Exr;
+    return asked || !name.ends_with(".ktx2") ? settings.encoding : TextureEncoding::Ktx2Half;
+}
+
 Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings& settings,
                                 const std::string& stem) {
     const std::string name = stem + textureExtension(settings.encoding);

@@ -5,6 +5,7 @@
 #include "engine/export/lightmap_image.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,10 @@ Result<std::vector<ExportFile>> lightmapFiles(const std::vector<LightmapImage>& 
 
 /// ".exr" or ".ktx2".
 const char* textureExtension(TextureEncoding encoding);
+
+/// The encoding of textures beside or in the main file `name`: half floats where it is a KTX2 file
+/// and the settings do not ask for KTX2.
+TextureEncoding encodingFor(const ExportSettings& settings, std::string_view name);
 
 /// What a lightmap means, for asset.extras.limn.lightmap of a glTF file. `image` is any of its
 /// pages and `files` are those of all. One file is its `uri`; several are `uris`, of which a

@@ -15,11 +15,9 @@ static constexpr std::array<std::string_view, 2> kExtensions = {".exr", ".ktx2"}
 static constexpr std::array<std::string_view, 8> kSettings = {
     "encoding", "compress", "quantity", "direct", "bands", "layers", "detail", "maxSize"};
 
-/// The settings with an encoding that the file's extension allows: half floats where it asks for
-/// KTX2 and the settings do not.
+/// The settings with the encoding that the file's extension asks for.
 static Result<ExportSettings> settingsFor(ExportSettings settings, const std::string& name) {
-    if (name.ends_with(".ktx2") && settings.encoding == TextureEncoding::Exr)
-        settings.encoding = TextureEncoding::Ktx2Half;
+    settings.encoding = encodingFor(settings, name);
     if (!name.ends_with(textureExtension(settings.encoding)))
         return fail(fmt::format("encoding: {} is written to {} files",
                                 kTextureEncodingNames[std::size_t(settings.encoding)],

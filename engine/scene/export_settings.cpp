@@ -26,6 +26,14 @@ bool writesKtx2(const ExportSettings& settings) {
            settings.format == "three";
 }
 
+std::string missingFor(const ExportSettings& settings, std::string_view key) {
+    if (key == "compress" && !writesKtx2(settings))
+        return "--encoding ktx2-half or ktx2-rgb9e5, since EXR is not compressed with Zstandard";
+    if (key == "layers" && settings.bands < 2)
+        return "--lightmap-bands 2 or 3";
+    return {};
+}
+
 std::string setExportSetting(ExportSettings& settings, std::string_view key,
                              const std::string& text) {
     std::string defect;

@@ -5,6 +5,7 @@
 #include "engine/scene/setting.h"
 
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace limn {
@@ -22,6 +23,10 @@ inline constexpr std::array<const char*, 3> kLightmapQuantityLabels = {
     "Irradiance E", "Irradiance E / \u03c0", "Radiance \u03c1 E / \u03c0"};
 inline constexpr std::array<std::string_view, 2> kShLayersNames = {"array", "volume"};
 inline constexpr std::array<const char*, 2> kShLayersLabels = {"Texture array", "3D texture"};
+
+/// What the setting of that key needs beside it and the other settings do not give: without that,
+/// it has no effect. Empty: nothing.
+std::string missingFor(const ExportSettings& settings, std::string_view key);
 
 /// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
 /// other setting; the format is not one. `s` is an ExportSettings, const or not.
@@ -41,7 +46,7 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .help = "Compress KTX2 files with Zstandard",
                   .tooltip = "Compresses KTX2 files with Zstandard. The consumer must support it",
                   .invalidates = Invalidates::Light,
-                  .applies = writesKtx2(s)},
+                  .applies = missingFor(s, "compress").empty()},
           s.compress);
     visit(Setting{.key = "quantity",
                   .flag = "--quantity",
@@ -74,7 +79,7 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .tooltip = "How a texture stacks the harmonics' coefficients: as layers of an "
                              "array or as slices of a 3D texture",
                   .invalidates = Invalidates::Light,
-                  .applies = s.bands > 1},
+                  .applies = missingFor(s, "layers").empty()},
           s.layers, SettingChoices{kShLayersNames, kShLayersLabels});
     visit(Setting{.key = "detail",
                   .flag = "--detail",

@@ -37,8 +37,21 @@ TEST_F(CommandLine, ExportRefusesBeforeTheWorkWhatItCannotWrite) {
                   "--compress: the format limnrt does not use it");
     expectRefusal("export cornell --format filament --max-size 512 -o " + path("x.txt"),
                   "--max-size: the format filament does not use it");
+    expectRefusal("export cornell --format gltf --compress -o " + path("x.gltf"),
+                  "--compress: has no effect without --encoding");
+    expectRefusal("export cornell --format lightmap --compress -o " + path("x.exr"),
+                  "--compress: has no effect without --encoding");
+    expectRefusal("export cornell --format lightmap --layers volume -o " + path("x.ktx2"),
+                  "--layers: has no effect without --lightmap-bands");
     EXPECT_EQ(limn("export cornell --format nothing -o x.gltf").exit, 2);
     EXPECT_EQ(limn("export cornell").exit, 2);
+}
+
+TEST_F(CommandLine, ExportCompressesALightmapThatIsKtx2ByItsName) {
+    const std::string export_ = "export cornell --format lightmap --detail 1 --json" + kCoarse;
+    const nlohmann::json plain = json(export_ + "-o " + path("plain.ktx2"));
+    const nlohmann::json packed = json(export_ + "--compress -o " + path("packed.ktx2"));
+    EXPECT_LT(packed["bytes"], plain["bytes"]);
 }
 
 TEST_F(CommandLine, TransportOfStoredHarmonicsIsRefusedWithTheOptionThatHelps) {

@@ -30,6 +30,13 @@ TEST(ExportSettings, LayersApplyToHarmonics) {
     EXPECT_TRUE(applies({.bands = 2}, "layers"));
 }
 
+TEST(ExportSettings, WithoutEffectSayWhatTheyNeed) {
+    EXPECT_NE(missingFor({.format = "gltf"}, "compress").find("--encoding"), std::string::npos);
+    EXPECT_NE(missingFor({}, "layers").find("--lightmap-bands"), std::string::npos);
+    EXPECT_EQ(missingFor({.encoding = TextureEncoding::Ktx2Half}, "compress"), "");
+    EXPECT_EQ(missingFor({}, "encoding"), "");
+}
+
 TEST(ExportSettings, EveryOneHasAKeyAndAFlagOfItsOwn) {
     std::set<std::string> keys, flags;
     int count = 0;
