@@ -7,8 +7,6 @@
 #include "editor_ui/jobs/editor_settings.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
-#include "editor_ui/panels/overlay_panel.h"
-#include "engine/lightmap/atlas.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -21,25 +19,6 @@
 #include <glm/geometric.hpp>
 
 namespace limn {
-
-static bool sameInstances(const Scene& a, const Scene& b) {
-    return std::ranges::equal(a.instances, b.instances, [](const Instance& x, const Instance& y) {
-        return x.mesh == y.mesh && x.node == y.node;
-    });
-}
-
-LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapLayout& layout) {
-    LightmapLayout fitted = layout;
-    fitted.instances.assign(scene.instances.size(), {});
-    std::map<std::pair<ObjectId, std::uint32_t>, std::size_t> known;
-    for (std::size_t i = 0; i < baked.instances.size(); ++i)
-        known.emplace(std::pair(baked.instances[i].node, baked.instances[i].mesh), i);
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (const auto at = known.find({scene.instances[i].node, scene.instances[i].mesh});
-            at != known.end())
-            fitted.instances[i] = layout.instances[at->second];
-    return fitted;
-}
 
 /// Adds a default object where the document has none of its kind. Older documents lack some of the
 /// kinds that every document has one of, and no edit adds them.
@@ -270,61 +249,6 @@ void Session::takeSaved() {
     log(LogLine::Level::Info, "Saved " + m_savingTo);
 }
 
-void Session::useBake(BakedScene baked) {
-    m_baked = std::move(baked);
-    state.relightPlace.refusal.clear(); // of the bake before
-    const BakeStatus before = std::exchange(state.bake, {});
-    state.bake.running = before.running; // after the preview, the bar goes on where it is
-    state.bake.fraction = before.fraction;
-    m_compared = nullptr;
-    if (m_baked.bake) {
-        state.bake.last = m_baked.bake->report();
-        state.bake.preview = m_baked.preview;
-    }
-    setOverlayBake(state.overlay, m_baked.bake, m_baked.scene);
-    fitLayout();
-    m_relightJob.setBake(m_baked);
-}
-
-bool Session::lightsBake() const {
-    const Technique* technique = findTechnique(m_scene->technique.technique);
-    return technique && technique->precomputation;
-}
-
-void Session::fitLayout() {
-    if (!lightsBake())
-        m_layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(*m_scene));
-    else if (!m_baked.bake)
-        m_layout = nullptr;
-    else if (sameInstances(*m_scene,
-                           *m_baked.scene)) // a pointer into the bake, which it keeps alive
-        m_layout = std::shared_ptr<const LightmapLayout>(m_baked.bake, &m_baked.bake->layout());
-    else
-        m_layout = std::make_shared<const LightmapLayout>(
-            layoutFor(*m_scene, *m_baked.scene, m_baked.bake->layout()));
-}
-
-void Session::takeBaked() {
-    auto result = m_bakeJob.takeResult();
-    if (!result)
-        return;
-    const bool preview = *result && (*result)->preview;
-    if (!preview)
-        m_bakeSecondsDone += std::exchange(m_bakeSecondsRunning, 0);
-    if (!*result && m_superseded)
-        return; // a newer one follows
-    if (!*result) {
-        m_notBaked = m_bakingHash;
-        state.bake.error = result->error().message;
-        log(LogLine::Level::Warning, "Bake: " + state.bake.error);
-    } else if ((*result)->scene->assets == state.assets) {
-        useBake(std::move(**result));
-        if (!preview)
-            for (const std::string& note : state.bake.last.notes)
-                log(LogLine::Level::Info, "Baked. " + note);
-    }
-}
-
 void Session::startExport(const std::string& path) {
     state.exporting.error.clear();
     state.exporting.written.clear();
@@ -434,7 +358,7 @@ void Session::followDocument() {
         m_bakeSecondsAtLightEdit = bakeSeconds();
         m_lightEdited = true;
     }
-    const bool sameList = sameInstances(*m_scene, *scene) &&
+    const bool sameList = sameInstanceList(*m_scene, *scene) &&
                           m_scene->technique.technique == scene->technique.technique;
     if (!sameBakeInputs(*m_scene, *scene))
         state.prediction = predictionFor(*scene);
@@ -454,71 +378,6 @@ void Session::followTime() {
         return;
     m_scene = std::make_shared<const Scene>(std::move(scene));
     m_relightJob.setScene(m_scene);
-}
-
-static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, const Scene& scene) {
-    if (!baked.bake)
-        return BakeFreshness::None;
-    if (!relit.hashedScene || !sameBakeInputs(*relit.hashedScene, scene))
-        return BakeFreshness::Checking;
-    return relit.inputHash == baked.bake->inputHash() ? BakeFreshness::UpToDate
-                                                      : BakeFreshness::Needed;
-}
-
-void Session::showStatus() {
-    m_relit = m_relightJob.result();
-    state.trace = m_relit.trace;
-    m_relightJob.setLighting(!viewportRelights());
-    const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
-    m_relightJob.setView({state.view.camera, size.x / size.y});
-    const OverlayKind* overlay = state.overlay.options.kind;
-    m_relightJob.keepLit(overlay && overlay->showsLight && !viewportRelights());
-    if (!viewportRelights())
-        state.relight = m_relit.status;
-    m_bakeJob.report(state.bake);
-    if (state.bake.running)
-        m_bakeSecondsRunning = state.bake.elapsedSeconds;
-    state.bake.freshness =
-        lightsBake() ? freshness(m_baked, m_relit, *m_scene) : BakeFreshness::NotUsed;
-    state.bake.lightEdited = m_lightEdited;
-    state.bake.secondsSinceLightEdit = m_lightEdited ? bakeSeconds() - m_bakeSecondsAtLightEdit : 0;
-    showChanges();
-}
-
-void Session::showChanges() {
-    if (state.bake.freshness != BakeFreshness::Needed) {
-        state.bake.changes.clear();
-        m_compared = nullptr;
-    } else if (m_compared != m_scene) {
-        m_compared = m_scene;
-        state.bake.changes = bakeInputChanges(*m_baked.scene, *m_scene, state.document);
-    }
-}
-
-/// Starts the bake that the user has asked for, or that the document needs. The latter waits until
-/// no drag changes the document any more, and takes the place of a bake of an older document.
-void Session::bakeIfWanted() {
-    if (!m_relit.hashedScene || !sameBakeInputs(*m_relit.hashedScene, *m_scene))
-        return; // the hash is being computed
-    const bool automatic = state.autoBake && !state.gesture && m_notBaked != m_relit.inputHash;
-    if (m_bakeJob.busy()) {
-        m_superseded |= automatic && m_bakeJob.running() && m_relit.inputHash != m_bakingHash;
-        if (m_superseded) {
-            m_bakeSoon = state.bake.freshness != BakeFreshness::UpToDate;
-            m_bakeJob.cancel();
-        }
-        return;
-    }
-    if (!m_bakeSoon && !(automatic && state.bake.freshness == BakeFreshness::Needed))
-        return;
-    m_bakeSoon = m_superseded = false;
-    m_notBaked.reset();
-    m_bakingHash = m_relit.inputHash;
-    state.bake.error.clear();
-    // The baker reads the settings of the scene that the rays meet.
-    const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
-    m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr, m_baked.bake == nullptr);
-    m_bakeJob.report(state.bake);
 }
 
 void Session::followReference() {

@@ -11,21 +11,9 @@
 #include "editor_ui/jobs/recovery_job.h"
 #include "editor_ui/jobs/reference_job.h"
 #include "editor_ui/jobs/relight_job.h"
+#include "editor_ui/session_options.h"
 
 namespace limn {
-
-struct SessionOptions {
-    std::string projectsFolder;
-    std::function<void()> wake; ///< called from any thread when there is something new for update()
-    bool bakeOnOpen = true;     ///< a scene without a bake is baked as soon as it is open
-    std::string bakeFolder;     ///< for finished stages of bakes; empty: they are kept in memory
-    ImportOptions
-        import; ///< for every scene that is opened; its memory limit is also that of bakes
-    ExportFolders exportFolders = {};
-    std::string recoveryFolder = {}; ///< for copies of unsaved documents; empty: none are kept
-    std::string settingsFile =
-        {}; ///< of the window, read at the start, written at the end; or empty
-};
 
 /// The document being edited and the jobs beside it: opening and saving, baking, relighting. No
 /// Vulkan, no window. One thread calls it.

@@ -119,6 +119,12 @@ bool sameStaticGeometry(const Scene& a, const Scene& b) {
            std::ranges::equal(a.materials, b.materials, sameSurface);
 }
 
+bool sameInstanceList(const Scene& a, const Scene& b) {
+    return std::ranges::equal(a.instances, b.instances, [](const Instance& x, const Instance& y) {
+        return x.mesh == y.mesh && x.node == y.node;
+    });
+}
+
 bool sameLight(const Scene& a, const Scene& b) {
     return a.lights == b.lights && a.materials == b.materials && a.sky == b.sky;
 }

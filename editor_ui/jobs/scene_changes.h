@@ -14,6 +14,9 @@ bool sameBakeInputs(const Scene& a, const Scene& b);
 bool sameGeometry(const Scene& a, const Scene& b);
 bool sameStaticGeometry(const Scene& a, const Scene& b);
 
+/// True if the scenes list instances of the same meshes and nodes in the same order.
+bool sameInstanceList(const Scene& a, const Scene& b);
+
 /// True if the lights, the materials and the sky are equal.
 bool sameLight(const Scene& a, const Scene& b);
 
