@@ -5,6 +5,7 @@
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/chrome.h"
 #include "editor_ui/panels/explain_panel.h"
+#include "editor_ui/panels/help_sheet.h"
 #include "editor_ui/panels/inspector_panel.h"
 #include "editor_ui/panels/mixer_panel.h"
 #include "editor_ui/panels/no_light_hint.h"
@@ -13,6 +14,7 @@
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/save_dialog.h"
+#include "editor_ui/panels/start_screen.h"
 #include "editor_ui/panels/statistics_panel.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/viewport_panel.h"
@@ -102,7 +104,7 @@ static float splitter(const char* name, const Rect& r, bool vertical) {
     if (held || ImGui::IsItemHovered()) {
         ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
         ImGui::GetWindowDrawList()->AddRectFilled({r.x, r.y}, {r.x + r.w, r.y + r.h},
-                                                  color::kAccent);
+                                                  color::accent());
     }
     ImGui::End();
     ImGui::PopStyleVar(3);
@@ -197,6 +199,7 @@ static void panels(EditorState& state, float menuHeight) {
     viewBar(state);
     ImGui::End();
     picturePanel(state, p.picture);
+    startScreen(state);
     noLightHint(state);
     noticeBox(state);
     beginFixed("status", p.status, kNoScroll);
@@ -239,10 +242,12 @@ static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
 void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {
     if (state.playing) // after a sleep: no leap
         state.seconds += double(std::min(ImGui::GetIO().DeltaTime, 0.25f));
+    setThemeColors(state.lightTheme);
     shortcuts(state, pressed);
     menuBar(state);
     panels(state, ImGui::GetFrameHeight());
     palettePopup(state);
+    helpSheet(state);
     fileBrowserDialog(state);
     exportDialog(state);
     saveDialog(state);

@@ -86,6 +86,7 @@ struct EditorState {
     std::string projectPath;              ///< empty: never saved
     bool sample = false;                  ///< the scene came with the program
     std::vector<std::string> recent;      ///< newest first
+    std::vector<std::string> samples;     ///< names of scenes that come with the program
     EditHistory history;
     ObjectsById saved;               ///< the objects as they are in the file
     std::vector<ObjectId> selection; ///< last element is the active object
@@ -97,6 +98,7 @@ struct EditorState {
     std::set<ObjectId> solo; ///< lights and the sky that alone are shown; empty: all. See solo.h
     ExplainState explain;
     LayoutState layout;
+    bool lightTheme = false; ///< light panels instead of dark ones
     OutlinerState outliner;
     EulerEdit euler;
     std::optional<FileBrowser> fileBrowser;

@@ -34,17 +34,39 @@ static Prediction predictionFor(const Scene& scene) {
     return precomputingTechnique(scene.technique).precomputation->predict(scene, true);
 }
 
+static EditorSettings settingsIn(const std::string& file) {
+    return file.empty() ? EditorSettings{} : readEditorSettings(file);
+}
+
+/// Names of the projects in a folder NAME/NAME.limn each, in order.
+static std::vector<std::string> samplesIn(const std::string& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+         it.increment(error)) {
+        const std::filesystem::path& path = it->path();
+        std::error_code absent;
+        const std::string name = path.filename().string();
+        if (std::filesystem::exists(path / (name + ".limn"), absent))
+            names.push_back(name);
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
 Session::Session(SessionOptions options)
     : m_options(std::move(options)),
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
       m_relightJob(m_options.wake), m_exportJob(m_options.wake), m_referenceJob(m_options.wake),
       m_comparisonJob(m_options.wake), m_explainJob(m_options.wake),
-      m_recovery(m_options.recoveryFolder), m_followed(std::make_shared<const Document>()) {
+      m_recovery(m_options.recoveryFolder),
+      m_settings(m_options.settingsFile, settingsIn(m_options.settingsFile)),
+      m_followed(std::make_shared<const Document>()) {
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
-    if (!m_options.settingsFile.empty())
-        useSettings(state, readEditorSettings(m_options.settingsFile));
+    state.samples = samplesIn(m_options.projectsFolder);
+    useSettings(state, settingsIn(m_options.settingsFile));
     m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
 }
 
@@ -114,8 +136,6 @@ void Session::handle(const Request& request) {
         break;
     case Request::Kind::Quit:
         m_quit = true;
-        if (!m_options.settingsFile.empty())
-            writeEditorSettings(m_options.settingsFile, settingsOf(state));
         break;
     case Request::Kind::Screenshot:
         state.requests.push_back(request);
@@ -152,6 +172,7 @@ void Session::show(OpenedFile file) {
     state.meshBounds = std::move(file.meshBounds);
     state.projectPath = std::move(file.projectPath);
     state.sample = file.sample;
+    state.samples = before.samples;
     state.recent = addRecentFile(before.recent, documentPath(state));
     log(LogLine::Level::Info, (file.recovered ? "Recovered " : "Opened ") + file.what);
     if (const std::string defect = choiceDefect(singleton<TechniqueChoice>(state.document));
@@ -422,6 +443,7 @@ void Session::update() {
     showExport();
     followReference();
     showExplanation();
+    m_settings.keep(settingsOf(state));
 }
 
 bool Session::idle() const {

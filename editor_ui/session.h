@@ -11,6 +11,7 @@
 #include "editor_ui/jobs/recovery_job.h"
 #include "editor_ui/jobs/reference_job.h"
 #include "editor_ui/jobs/relight_job.h"
+#include "editor_ui/jobs/settings_job.h"
 #include "editor_ui/session_options.h"
 
 namespace limn {
@@ -109,6 +110,7 @@ private:
     std::optional<ExplainOrder> m_explained; ///< the newest order
     double m_shownSeconds = 0;               ///< time of animated textures in m_scene
     RecoveryJob m_recovery;
+    SettingsJob m_settings;
     std::optional<Recovery> m_offered;          ///< that of state.recovery, or being opened
     bool m_started = false;                     ///< the first file has been opened, or could not be
     std::shared_ptr<const Document> m_followed; ///< the document as m_scene shows it; never null

@@ -19,7 +19,7 @@ struct SessionOptions {
     ExportFolders exportFolders = {};
     std::string recoveryFolder = {}; ///< for copies of unsaved documents; empty: none are kept
     std::string settingsFile =
-        {}; ///< of the window, read at the start, written at the end; or empty
+        {}; ///< of the window, read at the start, written soon after they change; or empty
 };
 
 } // namespace limn

@@ -31,6 +31,7 @@ EditorSettings settingsOf(const EditorState& state) {
             .exposureEv = state.view.exposureEv,
             .overlay = overlay ? overlay->name : "",
             .showLights = state.view.showLights,
+            .lightTheme = state.lightTheme,
             .autoBake = state.autoBake};
 }
 
@@ -41,6 +42,7 @@ void useSettings(EditorState& state, const EditorSettings& settings) {
     state.view.exposureEv = settings.exposureEv;
     state.overlay.options.kind = overlayNamed(settings.overlay);
     state.view.showLights = settings.showLights;
+    state.lightTheme = settings.lightTheme;
     state.autoBake = settings.autoBake;
 }
 
@@ -53,6 +55,7 @@ std::string settingsToJson(const EditorSettings& s) {
                       {"exposure", s.exposureEv},
                       {"overlay", s.overlay},
                       {"lightIcons", s.showLights},
+                      {"lightTheme", s.lightTheme},
                       {"bakeWhenNeeded", s.autoBake}};
     return out.dump(2) + '\n';
 }
@@ -100,6 +103,7 @@ EditorSettings settingsFromJson(const std::string& text) {
     if (const OverlayKind* overlay = overlayNamed(readText(in, "overlay")))
         s.overlay = overlay->name;
     readFlag(in, "lightIcons", s.showLights);
+    readFlag(in, "lightTheme", s.lightTheme);
     readFlag(in, "bakeWhenNeeded", s.autoBake);
     return s;
 }

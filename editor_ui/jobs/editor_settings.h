@@ -16,6 +16,7 @@ struct EditorSettings {
     float exposureEv = 0; ///< [-10, 10]
     std::string overlay;  ///< OverlayKind::name; empty: none
     bool showLights = true;
+    bool lightTheme = false;
     bool autoBake = true;
 
     bool operator==(const EditorSettings&) const = default;

@@ -185,11 +185,20 @@ bool lightsShown(const EditorState& s) {
 void explainLight(EditorState& s) {
     s.explain.bringUp = true;
 }
+void toggleTheme(EditorState& s) {
+    s.lightTheme = !s.lightTheme;
+}
+bool hasLightTheme(const EditorState& s) {
+    return s.lightTheme;
+}
 void resetLayout(EditorState& s) {
     s.layout = {};
 }
 void screenshot(EditorState& s) {
     request(s, Request::Kind::Screenshot);
+}
+void askHelp(EditorState& s) {
+    s.palette.helpAsked = true;
 }
 void openPalette(EditorState& s) {
     s.palette.open = true;
@@ -290,10 +299,12 @@ std::vector<Action> fixedActions() {
     {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
+    {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
+    {"help.keys", "Keys and mouse", Menu::Help, plain(key::kF1), kNoKey, false, always, askHelp},
     };
 }
 // clang-format on

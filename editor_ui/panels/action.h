@@ -12,7 +12,7 @@ namespace limn {
 struct EditorState;
 
 /// Menus that list actions, in the order of the menu bar; Overlay is a part of View.
-enum class Menu { File, Edit, Add, View, Overlay, Bake };
+enum class Menu { File, Edit, Add, View, Overlay, Bake, Help };
 
 /// One thing the user can do. Menus, shortcuts and the palette read the same table.
 struct Action {

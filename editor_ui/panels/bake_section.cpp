@@ -60,24 +60,24 @@ static void bakeStateLine(EditorState& state) {
             ImGui::TextDisabled("The technique of bounced light needs no bake.");
             break;
         case BakeFreshness::None:
-            ImGui::TextColored(ImColor(color::kWarning),
+            ImGui::TextColored(ImColor(color::warning()),
                                "Bake needed: nothing is baked yet, so there is no bounced light.");
             break;
         case BakeFreshness::Checking:
             ImGui::TextDisabled("Comparing with the last bake...");
             break;
         case BakeFreshness::UpToDate:
-            ImGui::TextColored(ImColor(color::kGood), "The bake is up to date.");
+            ImGui::TextColored(ImColor(color::good()), "The bake is up to date.");
             break;
         case BakeFreshness::Needed:
-            ImGui::TextColored(ImColor(color::kWarning), "Bake needed: %s.",
+            ImGui::TextColored(ImColor(color::warning()), "Bake needed: %s.",
                                bakeReason(bake).c_str());
             break;
         }
     for (const std::string& note : bake.last.notes)
         ImGui::TextDisabled("%s", note.c_str());
     if (!bake.error.empty())
-        ImGui::TextColored(ImColor(color::kError), "Last bake: %s", bake.error.c_str());
+        ImGui::TextColored(ImColor(color::error()), "Last bake: %s", bake.error.c_str());
     ImGui::PopTextWrapPos();
     const Action& action = actionById(bake.running ? "bake.cancel" : "bake.start");
     ImGui::BeginDisabled(!action.enabled(state));

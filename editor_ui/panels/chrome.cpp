@@ -69,12 +69,13 @@ void menuBar(EditorState& state) {
     menu(state, "Add", Menu::Add);
     menu(state, "View", Menu::View);
     menu(state, "Bake", Menu::Bake);
+    menu(state, "Help", Menu::Help);
     const std::string title = documentTitle(state);
     const float room = ImGui::GetContentRegionAvail().x;
     const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, room - 20);
     if (width > 20) {
         ImGui::SameLine(ImGui::GetCursorPosX() + room - width - 4);
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+        ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
         elidedText(title, width + 1);
         ImGui::PopStyleColor();
     }
@@ -166,7 +167,7 @@ static void bakeWords(EditorState& state) {
     case BakeFreshness::NotUsed:
         return;
     case BakeFreshness::None:
-        ImGui::TextColored(ImColor(color::kWarning), "Bake needed: nothing baked yet");
+        ImGui::TextColored(ImColor(color::warning()), "Bake needed: nothing baked yet");
         break;
     case BakeFreshness::Checking:
         ImGui::TextDisabled("Checking the bake");
@@ -175,7 +176,7 @@ static void bakeWords(EditorState& state) {
         ImGui::TextDisabled("Bake up to date");
         break;
     case BakeFreshness::Needed:
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
+        ImGui::PushStyleColor(ImGuiCol_Text, color::warning());
         elidedText("Bake needed: " + bakeReason(state.bake), ImGui::GetFontSize() * 24);
         ImGui::PopStyleColor();
         break;

@@ -66,7 +66,7 @@ void swatch(glm::vec3 light) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 from(at.x, at.y + 2), to(at.x + side, at.y + side - 1);
     list.AddRectFilled(from, to, hueOf(light), 2);
-    list.AddRect(from, to, color::kDim, 2);
+    list.AddRect(from, to, color::dim(), 2);
     ImGui::Dummy({side, side});
     ImGui::SameLine();
 }
@@ -80,7 +80,7 @@ void shareBar(double share) {
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     const float filled = width * float(std::clamp(share, 0., 1.));
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 1}, {at.x + filled, at.y + height},
-                                              (color::kAccent & 0x00ffffffU) | 0x70000000U, 2);
+                                              (color::accent() & 0x00ffffffU) | 0x70000000U, 2);
     ImGui::Text("%5.1f %%", 100 * share);
 }
 
@@ -192,7 +192,7 @@ void explainPanel(EditorState& state) {
         explain.pick->question.light = explain.light;
     const float width = ImGui::GetContentRegionAvail().x;
     if (!explain.refusal.empty() || !explain.error.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
+        ImGui::PushStyleColor(ImGuiCol_Text, color::warning());
         elidedText(explain.refusal.empty() ? explain.error : explain.refusal, width);
         ImGui::PopStyleColor();
     } else if (!explain.pick) {

@@ -151,11 +151,11 @@ static void startExport(EditorState& state, ExportDialog& dialog) {
 static void outcomeLines(const ExportStatus& status, const ExportDialog& dialog) {
     ImGui::PushTextWrapPos(0);
     if (!dialog.problem.empty())
-        ImGui::TextColored(ImColor(color::kWarning), "%s", dialog.problem.c_str());
+        ImGui::TextColored(ImColor(color::warning()), "%s", dialog.problem.c_str());
     else if (!status.refusal.empty())
-        ImGui::TextColored(ImColor(color::kWarning), "%s", status.refusal.c_str());
+        ImGui::TextColored(ImColor(color::warning()), "%s", status.refusal.c_str());
     else if (!status.error.empty())
-        ImGui::TextColored(ImColor(color::kWarning), "%s", status.error.c_str());
+        ImGui::TextColored(ImColor(color::warning()), "%s", status.error.c_str());
     else if (!status.written.empty())
         ImGui::TextUnformatted(status.written.c_str());
     else

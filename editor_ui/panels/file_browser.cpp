@@ -207,7 +207,7 @@ void fileBrowserDialog(EditorState& state) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     accept |= ImGui::InputTextWithHint("##name", "File name", &browser.name,
                                        ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kWarning);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::warning());
     elidedText(browser.error.empty() ? " " : browser.error, ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
     accept |= ImGui::Button(acceptLabel(browser.purpose));

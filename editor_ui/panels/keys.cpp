@@ -16,6 +16,10 @@ static std::string keyText(int k) {
         return "Esc";
     if (k == key::kEnter)
         return "Enter";
+    if (k == key::kPadEnter)
+        return "Numpad Enter";
+    if (k == key::kSpace)
+        return "Space";
     return std::string(1, char(k));
 }
 

@@ -20,14 +20,14 @@ void noticeBox(EditorState& state) {
     ImGui::SetNextWindowPos({view.origin.x + view.size.x / 2, view.origin.y + margin},
                             ImGuiCond_Always, {0.5f, 0});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(view.size.y - margin, 1.f)});
-    ImGui::PushStyleColor(ImGuiCol_Border, color::kError);
+    ImGui::PushStyleColor(ImGuiCol_Border, color::error());
     ImGui::Begin("notice", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleColor();
     ImGui::PushTextWrapPos(0);
-    ImGui::TextColored(ImColor(color::kError), "%s", state.notice->title.c_str());
+    ImGui::TextColored(ImColor(color::error()), "%s", state.notice->title.c_str());
     ImGui::TextUnformatted(state.notice->text.c_str());
     ImGui::PopTextWrapPos();
     const bool dismissed = ImGui::Button("Dismiss");

@@ -179,10 +179,10 @@ static void triangle(ImVec2 at, bool collapsed) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (collapsed)
         list.AddTriangleFilled({c.x - r * 0.7f, c.y - r}, {c.x + r, c.y}, {c.x - r * 0.7f, c.y + r},
-                               color::kDim);
+                               color::dim());
     else
         list.AddTriangleFilled({c.x - r, c.y - r * 0.7f}, {c.x + r, c.y - r * 0.7f}, {c.x, c.y + r},
-                               color::kDim);
+                               color::dim());
 }
 
 static void expander(EditorState& state, const Row& row) {
@@ -219,7 +219,7 @@ static void eyeButton(EditorState& state, ObjectId id, const Object& object) {
     const bool hovered = ImGui::IsItemHovered();
     drawIcon(*ImGui::GetWindowDrawList(), shown ? Icon::Shown : Icon::Hidden,
              {at.x + h / 2, at.y + h / 2}, h * 0.9f,
-             hovered ? ImGui::GetColorU32(ImGuiCol_Text) : color::kDim);
+             hovered ? ImGui::GetColorU32(ImGuiCol_Text) : color::dim());
     wrappedTooltip(shown ? "Shown. Click to hide (H)" : "Hidden. Click to show (H)");
     if (!pressed)
         return;
@@ -269,7 +269,7 @@ static void objectRow(EditorState& state, const std::vector<Row>& rows, const Ro
     expander(state, row);
     ImGui::SameLine(0, 4);
     const bool shown = isShown(object);
-    iconItem(iconOf(object), shown ? ImGui::GetColorU32(ImGuiCol_Text) : color::kDim);
+    iconItem(iconOf(object), shown ? ImGui::GetColorU32(ImGuiCol_Text) : color::dim());
     ImGui::SameLine(0, 6);
     if (state.outliner.renaming == row.id) {
         nameField(state, row.id);
@@ -277,7 +277,7 @@ static void objectRow(EditorState& state, const std::vector<Row>& rows, const Ro
         const float room = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX() -
                            (hideable ? lineHeight + 8 : 0);
         ImGui::PushStyleColor(ImGuiCol_Text,
-                              shown ? ImGui::GetColorU32(ImGuiCol_Text) : color::kDim);
+                              shown ? ImGui::GetColorU32(ImGuiCol_Text) : color::dim());
         elidedText(objectName(object), std::max(room, 10.f));
         ImGui::PopStyleColor();
         if (hideable)
@@ -296,7 +296,7 @@ static void headingRow(EditorState& state, const Row& row) {
         closed.insert(row.heading);
     triangle(at, isClosed(state, row.heading));
     ImGui::SetCursorPos({start.x + h, start.y});
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
     ImGui::Text("%s  %zu", row.heading, row.count);
     ImGui::PopStyleColor();
 }

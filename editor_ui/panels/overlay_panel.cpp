@@ -78,7 +78,7 @@ static void legendRows(const OverlayLegend& legend) {
         ImGui::SameLine();
         ImGui::TextUnformatted(entry.text.c_str());
     }
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
     for (const std::string& note : legend.notes)
         ImGui::TextWrapped("%s", note.c_str());
     ImGui::PopStyleColor();
@@ -128,7 +128,7 @@ void overlayPanel(EditorState& state) {
     wrappedTooltip(kind.tooltip);
     ImGui::Separator();
     if (!overlay.bake) {
-        ImGui::TextColored(ImColor(color::kWarning), "Nothing baked yet");
+        ImGui::TextColored(ImColor(color::warning()), "Nothing baked yet");
         return;
     }
     if (kind.hasDepth)

@@ -7,11 +7,13 @@ namespace limn {
 
 struct EditorState;
 
-/// The palette of all actions: a filter and the actions that match it.
+/// The palette of all actions: a filter and the actions that match it. Also the sheet of their
+/// keys.
 struct Palette {
     bool open = false; ///< asks palettePopup() to open it; cleared there
     std::string filter;
-    int chosen = 0; ///< row of the list that Enter runs
+    int chosen = 0;         ///< row of the list that Enter runs
+    bool helpAsked = false; ///< asks helpSheet() to open its sheet; cleared there
 };
 
 /// Draws the palette while it is open. Up and Down choose an action, Enter or a click runs it.

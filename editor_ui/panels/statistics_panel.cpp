@@ -18,7 +18,7 @@ static void row(const char* label, const std::string& value, const char* tooltip
                 std::uint32_t square = 0) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
     elidedText(label, ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
     wrappedTooltip(tooltip);
@@ -99,7 +99,7 @@ static void placeRow(RelightPlace& place) {
                                       : "CPU";
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
     elidedText("Relight on", ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
     wrappedTooltip("Where bounced light is computed");
@@ -255,10 +255,10 @@ void logPanel(const EditorState& state) {
                 ImGui::TextUnformatted(line.text.c_str());
                 break;
             case LogLine::Level::Warning:
-                ImGui::TextColored(ImColor(color::kWarning), "Warning: %s", line.text.c_str());
+                ImGui::TextColored(ImColor(color::warning()), "Warning: %s", line.text.c_str());
                 break;
             case LogLine::Level::Error:
-                ImGui::TextColored(ImColor(color::kError), "Error: %s", line.text.c_str());
+                ImGui::TextColored(ImColor(color::error()), "Error: %s", line.text.c_str());
                 break;
             }
         }

@@ -7,6 +7,7 @@
 #include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/theme.h"
+#include "editor_ui/panels/viewport_corner.h"
 #include "editor_ui/view/camera_control.h"
 #include "editor_ui/view/gizmo.h"
 #include "editor_ui/view/icon_scales.h"
@@ -299,15 +300,6 @@ static void pictureText(const EditorState& state, const char* text, float y, ImU
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text, nullptr, wrap);
 }
 
-static void emptyHint(const EditorState& state) {
-    const bool anything = std::ranges::any_of(state.document.objects, [](const auto& entry) {
-        return std::holds_alternative<Node>(entry.second);
-    });
-    if (!anything && state.loading.empty())
-        pictureText(state, "Drop a .gltf, .glb or .limn here, or press Ctrl-O",
-                    state.view.size.y / 2, color::kDim);
-}
-
 /// Where the light would stand if one clicked now.
 static void placingHint(const EditorState& state, bool hovered) {
     if (!state.view.placing)
@@ -333,7 +325,10 @@ void viewportPanel(EditorState& state) {
     state.view.origin = {origin.x, origin.y};
     state.view.size = {std::max(size.x, 1.f), std::max(size.y, 1.f)};
     const bool over = ImGui::IsWindowHovered();
-    const bool hovered = !compareHandle(state, over) && over;
+    ImGui::PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
+    const bool axes = axisWidget(state, over);
+    ImGui::PopClipRect();
+    const bool hovered = !compareHandle(state, over && !axes) && over && !axes;
     if (hovered)
         startNavigation(state);
     navigate(state);
@@ -346,7 +341,7 @@ void viewportPanel(EditorState& state) {
         lightIcons(state);
     moveGizmo(state, hovered && state.view.navigation == Navigation::None && !state.view.placing);
     compareOverlay(state);
-    emptyHint(state);
+    pictureReadout(state);
     placingHint(state, hovered && state.view.navigation == Navigation::None);
     ImGui::PopClipRect();
     if (hovered)

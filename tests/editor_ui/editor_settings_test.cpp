@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/editor_settings.h"
+#include "editor_ui/jobs/settings_job.h"
 
 #include "editor_ui/panels/overlay_panel.h"
 #include "engine/techniques/technique_table.h"
@@ -8,8 +9,10 @@
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -24,6 +27,7 @@ EditorSettings unusual() {
             .exposureEv = -2.5f,
             .overlay = overlayKinds().front()->name,
             .showLights = false,
+            .lightTheme = true,
             .autoBake = false};
 }
 
@@ -69,6 +73,28 @@ TEST(EditorSettings, OutliveTheEditorAndTheDocument) {
         ASSERT_TRUE(session.wantsQuit());
     }
     EXPECT_EQ(settingsOf(Session(options).state), unusual());
+}
+
+// A crash loses at most the last second's settings.
+TEST(EditorSettings, AreWrittenSoonAfterTheyChange) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("editor.json");
+    SettingsJob job(file, {});
+    job.keep({});
+    job.keep(unusual());
+    for (int i = 0; i < 6000 && readEditorSettings(file) != unusual(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(readEditorSettings(file), unusual());
+}
+
+TEST(EditorSettings, OfTheLastSecondAreWrittenWhenTheEditorEnds) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("editor.json");
+    {
+        SettingsJob job(file, {});
+        job.keep(unusual());
+    }
+    EXPECT_EQ(readEditorSettings(file), unusual());
 }
 
 // A window that is small for a while does not cost the user's panels.

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -34,6 +36,39 @@ TEST(Theme, AFontThatComesWithTheProgramGoesBeforeThatOfTheSystem) {
     EXPECT_TRUE(hasGreek(folder.string(), own));
     EXPECT_EQ(own, (folder / "DejaVuSans.ttf").string());
     fs::remove_all(folder);
+}
+
+/// Contrast of two opaque sRGB colours, as WCAG 2.1 defines it; 1 to 21.
+static float contrast(ImVec4 a, ImVec4 b) {
+    const auto luminance = [](ImVec4 c) {
+        const auto linear = [](float v) {
+            return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+        };
+        return 0.2126f * linear(c.x) + 0.7152f * linear(c.y) + 0.0722f * linear(c.z);
+    };
+    const float brighter = std::max(luminance(a), luminance(b)),
+                darker = std::min(luminance(a), luminance(b));
+    return (brighter + 0.05f) / (darker + 0.05f);
+}
+
+TEST(Theme, TextOfEveryColourIsReadableOnPanelsOfBothThemes) {
+    ImGui::CreateContext();
+    applyTheme();
+    for (const bool light : {false, true}) {
+        setThemeColors(light);
+        const ImVec4* c = ImGui::GetStyle().Colors;
+        const auto of = [](ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); };
+        for (const ImGuiCol ground : {ImGuiCol_WindowBg, ImGuiCol_PopupBg}) {
+            for (const ImVec4 ink :
+                 {c[ImGuiCol_Text], c[ImGuiCol_TextDisabled], of(color::warning()),
+                  of(color::error()), of(color::good()), of(color::dim()), of(color::accent())})
+                EXPECT_GE(contrast(ink, c[ground]), 4.5f) << light << ground;
+        }
+        for (const ImGuiCol ground : {ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_MenuBarBg,
+                                      ImGuiCol_TitleBg, ImGuiCol_TabActive, ImGuiCol_ButtonHovered})
+            EXPECT_GE(contrast(c[ImGuiCol_Text], c[ground]), 4.5f) << light << ground;
+    }
+    ImGui::DestroyContext();
 }
 
 } // namespace limn

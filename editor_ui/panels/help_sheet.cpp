@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/panels/help_sheet.h"
+
+#include "editor_ui/editor_state.h"
+#include "editor_ui/panels/action.h"
+#include "editor_ui/panels/field.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace limn {
+
+namespace {
+
+struct Habit {
+    const char *what, *how;
+};
+constexpr Habit kMouse[] = {
+    {"Select", "Click; Ctrl or Shift adds"},
+    {"Turn the view", "Middle button, or Alt and left button"},
+    {"Shift the view", "Shift and middle button"},
+    {"Zoom towards the mouse", "Wheel"},
+    {"Fly", "Right button held, with W A S D, Q E; Shift fast, Ctrl slow, wheel for the speed"},
+    {"Take a drag back", "Esc"},
+    {"Type into a slider", "Ctrl and click, or double-click"}};
+
+constexpr std::pair<Menu, const char*> kGroups[] = {{Menu::File, "File"}, {Menu::Edit, "Edit"},
+                                                    {Menu::Add, "Add"},   {Menu::View, "View"},
+                                                    {Menu::Bake, "Bake"}, {Menu::Help, "Help"}};
+
+void row(const char* what, const std::string& how) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(what);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(how.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+void heading(const char* text) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", text);
+}
+
+std::string keysOf(const Action& action) {
+    std::string keys = shortcutText(action.shortcut);
+    if (const std::string other = shortcutText(action.alternative); !other.empty())
+        keys += ", " + other;
+    return keys;
+}
+
+void rows() {
+    heading("Mouse");
+    for (const Habit& habit : kMouse)
+        row(habit.what, habit.how);
+    for (const auto& [menu, title] : kGroups) {
+        bool first = true;
+        for (const Action& action : actions()) {
+            const std::string keys = keysOf(action);
+            if (action.menu != menu || keys.empty())
+                continue;
+            if (std::exchange(first, false))
+                heading(title);
+            row(action.label, keys);
+        }
+    }
+}
+
+} // namespace
+
+void helpSheet(EditorState& state) {
+    if (std::exchange(state.palette.helpAsked, false))
+        ImGui::OpenPopup("Keys and mouse");
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize(
+        {std::min(font * 38, display.x), std::min(font * 40, display.y * 0.9f)});
+    if (!ImGui::BeginPopup("Keys and mouse"))
+        return;
+    ImGui::TextUnformatted("Keys and mouse");
+    wrappedTooltip("Esc closes this sheet");
+    ImGui::Separator();
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) {
+        rows();
+        ImGui::EndTable();
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace limn

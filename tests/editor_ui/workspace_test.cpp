@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Start screen, sheet of keys, axes and read-out over the picture, and that nothing is clipped.
+#include "editor_ui/panels/action.h"
+#include "tests/editor_ui/headless.h"
+
+#include <imgui_internal.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+const ImGuiWindow* windowNamed(const char* name) {
+    const ImGuiWindow* window = ImGui::FindWindowByName(name);
+    return window && window->WasActive ? window : nullptr;
+}
+
+void click(HeadlessUi& ui, EditorState& state, ImVec2 at) {
+    ui.mouse(at.x, at.y);
+    ui.frames(state);
+    ui.button(true);
+    ui.button(false);
+    ui.frames(state);
+    ui.frames(state);
+}
+
+TEST(StartScreen, ListsSamplesAndRecentDocumentsWhichAClickOpens) {
+    HeadlessUi ui;
+    EditorState state = emptyEditor();
+    state.samples = {"atrium", "cornell"};
+    state.recent = {"/scenes/house.limn", "/scenes/" + std::string(200, 'W') + ".gltf"};
+    ui.frames(state);
+    ui.frames(state);
+    ui.frames(state);
+    const ImGuiWindow* start = windowNamed("start");
+    ASSERT_TRUE(start);
+    std::set<std::string> opened;
+    for (float x : {0.2f, 0.8f})
+        for (float y = start->Pos.y; y < start->Pos.y + start->Size.y; y += 6) {
+            click(ui, state, {start->Pos.x + x * start->Size.x, y});
+            for (const Request& request : state.requests)
+                if (request.kind == Request::Kind::Open)
+                    opened.insert(request.path);
+            state.requests.clear();
+            state.fileBrowser.reset();
+            ImGui::ClosePopupsOverWindow(nullptr, false);
+            ui.frames(state);
+        }
+    EXPECT_EQ(opened,
+              (std::set<std::string>{"atrium", "cornell", state.recent[0], state.recent[1]}));
+}
+
+TEST(StartScreen, IsGoneWhileSomethingIsOpenOrBeingOpened) {
+    HeadlessUi ui;
+    EditorState full = fullEditor();
+    ui.frames(full);
+    EXPECT_FALSE(windowNamed("start"));
+    EditorState loading = emptyEditor();
+    loading.loading = "cornell";
+    ui.frames(loading);
+    ui.frames(loading);
+    EXPECT_FALSE(windowNamed("start"));
+    loading.loading.clear();
+    ui.frames(loading);
+    ui.frames(loading);
+    EXPECT_TRUE(windowNamed("start"));
+}
+
+TEST(HelpSheet, OpensByItsKeyAndEscClosesIt) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    state.selection = {idNamed(state, "Lamp")};
+    ui.frames(state);
+    ui.tap(key::kF1);
+    ui.frames(state);
+    ui.frames(state);
+    EXPECT_TRUE(
+        ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
+    ui.tap(key::kEscape);
+    ui.frames(state);
+    ui.frames(state);
+    EXPECT_FALSE(
+        ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
+    EXPECT_FALSE(state.selection.empty()) << "Esc closed the sheet and nothing else";
+}
+
+// Every key that is not a character has a name of its own.
+TEST(HelpSheet, EveryShortcutHasAText) {
+    std::set<std::string> texts;
+    for (const Action& action : actions())
+        for (const Shortcut& s : {action.shortcut, action.alternative})
+            if (s.key != key::kNone) {
+                const std::string text = shortcutText(s);
+                EXPECT_TRUE(texts.insert(text).second) << text;
+                for (const char c : text)
+                    EXPECT_TRUE(c >= ' ' && c <= '~') << action.id;
+                EXPECT_NE(text.back(), ' ') << action.id;
+            }
+}
+
+/// The places of the widget's ends for a view from the front: X to the right, Y up.
+TEST(AxisWidget, AClickOnAnEndLooksFromThereAndPicksNothing) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    state.view.camera = {.eye = {0, 0, 6}, .target = {0, 0, 0}};
+    ui.frames(state);
+    const ViewState& view = state.view;
+    const float reach = 28 + 9 + 8;
+    const ImVec2 centre(view.origin.x + view.size.x - reach, view.origin.y + reach);
+    state.selection = {idNamed(state, "Lamp")};
+    click(ui, state, {centre.x + 28, centre.y});
+    EXPECT_GT(state.view.camera.eye.x, 5) << "from +X, the right";
+    EXPECT_EQ(state.selection.size(), 1U);
+    // From the right, -Z is to the right of the picture and Y is still up.
+    click(ui, state, {centre.x, centre.y - 28});
+    EXPECT_GT(state.view.camera.eye.y, 4) << "from the top";
+    EXPECT_TRUE(state.history.edits.empty());
+}
+
+/// An editor in which everything that may be long is long.
+EditorState longEditor() {
+    EditorState state = fullEditor();
+    state.projectPath =
+        "/Szenen/Donaudampfschifffahrtselektrizitätenhauptbetriebswerkbauunter"
+        "beamtengesellschaftsgebäude (Kopie, endgültige Fassung, überarbeitet).limn";
+    state.bake.freshness = BakeFreshness::Needed;
+    state.bake.changes = "Donaudampfschifffahrtsgesellschaftskapitänskajütentür moved, Rays per "
+                         "cache changed, and 12 more";
+    state.bake.last.seconds = {{"charts", 1.2}, {"trace", 123.4}, {"cut", 3}};
+    state.frame.pictures = 3;
+    state.frame.width = 1920, state.frame.height = 1080;
+    return state;
+}
+
+/// No window's content is wider than it is, or higher where it cannot scroll. The menu bar lays its
+/// items out from both of its ends.
+void expectNothingClipped(const std::string& where) {
+    for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
+        const std::string name = w->Name;
+        if (!w->WasActive || w->Hidden || name == "##MainMenuBar" || name.starts_with("Debug"))
+            continue;
+        const ImVec2 room = w->InnerRect.GetSize();
+        if (!(w->Flags & ImGuiWindowFlags_HorizontalScrollbar)) {
+            EXPECT_LE(w->WindowPadding.x + w->ContentSize.x, room.x + 1) << name << ": " << where;
+        }
+        if (w->Flags & ImGuiWindowFlags_NoScrollbar) {
+            EXPECT_LE(w->WindowPadding.y + w->ContentSize.y, room.y + 1) << name << ": " << where;
+        }
+    }
+}
+
+TEST(Workspace, NothingIsClippedAtAnySizeOfTheScreenAndInBothThemes) {
+    struct Screen {
+        float width, height, scale;
+    };
+    for (const Screen& screen : {Screen{1280, 720, 1}, Screen{1920, 1080, 1}, Screen{2560, 1440, 2},
+                                 Screen{3840, 2160, 2}})
+        for (const bool light : {false, true})
+            for (const bool empty : {false, true}) {
+                HeadlessUi ui(screen.width, screen.height, screen.scale);
+                EditorState state = empty ? emptyEditor() : longEditor();
+                state.lightTheme = light;
+                state.recent = {longEditor().projectPath};
+                state.samples = {"atrium", "cornell"};
+                std::vector<ObjectId> ids = {0};
+                for (const auto& [id, object] : state.document.objects)
+                    ids.push_back(id);
+                for (const ObjectId id : ids) {
+                    state.selection.clear();
+                    if (id != 0)
+                        state.selection = {id};
+                    for (int i = 0; i < 3; ++i)
+                        ui.frames(state);
+                    expectNothingClipped(std::to_string(screen.width) + " x " +
+                                         std::to_string(screen.height) + ", object " +
+                                         std::to_string(id));
+                }
+            }
+}
+
+} // namespace
+} // namespace limn
