@@ -110,6 +110,7 @@ struct EditorState {
     std::optional<Notice> notice; ///< the newest one that was not dismissed
     Palette palette;
     bool autoBake = true;                    ///< bakes whenever that is needed and nothing is held
+    float bakeError = 0.2f;                  ///< maximum nRMSE of a bake to an error
     double seconds = 0;                      ///< since the start of animated textures
     bool playing = false;                    ///< `seconds` advances
     Prediction prediction;                   ///< of a bake of the document
@@ -122,7 +123,6 @@ struct EditorState {
     FrameStatus frame;
     std::string loading; ///< what is being opened; empty: nothing
     std::vector<LogLine> log;
-
     std::vector<Request> requests; ///< taken by the session each frame
 };
 

@@ -13,6 +13,7 @@ struct Request {
         OpenSkyImage,
         Save,
         Bake,
+        BakeToError, ///< EditorState::bakeError
         CancelBake,
         Export,
         CancelExport,

@@ -121,10 +121,16 @@ void Session::handle(const Request& request) {
         answerRecovery(request.kind);
         break;
     case Request::Kind::Bake:
+        m_bakeGoal.reset();
+        m_bakeSoon = true;
+        break;
+    case Request::Kind::BakeToError:
+        m_bakeGoal = {double(state.bakeError), state.view.camera};
         m_bakeSoon = true;
         break;
     case Request::Kind::CancelBake:
         m_bakeSoon = false;
+        m_bakeGoal.reset();
         m_notBaked = m_relit.inputHash;
         m_bakeJob.cancel();
         break;
@@ -157,6 +163,7 @@ void Session::takeOpened() {
 
 void Session::show(OpenedFile file) {
     m_bakeJob.cancel();
+    m_bakeJob.takeUpdate();
     const EditorState before = std::exchange(state, {});
     useSettings(state, settingsOf(before));
     state.view.origin = before.view.origin;
@@ -194,6 +201,7 @@ void Session::show(OpenedFile file) {
     state.unlit = nothingShines(*m_scene);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
+    m_bakeGoal.reset();
     m_bakeSoon = !hasBake && m_options.bakeOnOpen && lightsBake() && !m_scene->instances.empty();
     m_lightEdited = false;
 }
@@ -381,9 +389,12 @@ void Session::followDocument() {
     }
     const bool sameList = sameInstanceList(*m_scene, *scene) &&
                           m_scene->technique.technique == scene->technique.technique;
-    if (!sameBakeInputs(*m_scene, *scene))
-        state.prediction = predictionFor(*scene);
+    const bool sameInputs = sameBakeInputs(*m_scene, *scene);
     m_scene = std::move(scene);
+    if (!sameInputs) {
+        state.prediction = predictionFor(*m_scene);
+        expectCost();
+    }
     state.sceneBounds = m_scene->bounds;
     if (!sameList)
         fitLayout();

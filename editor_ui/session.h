@@ -78,6 +78,7 @@ private:
     void takeSky();
     void takeSaved();
     void takeBaked();
+    void showGoal(const std::string& goal);
     void takeExported();
     void startExport(const std::string& path);
     void showExport();
@@ -91,6 +92,8 @@ private:
     /// True if the document's technique lights bakes.
     bool lightsBake() const;
     void useBake(BakedScene baked);
+    void measureCost(const BakedScene& before);
+    void expectCost();
     void fitLayout();
     void log(LogLine::Level level, std::string text);
     /// Logs an error and shows it in the picture.
@@ -120,9 +123,11 @@ private:
     BakedScene m_baked;
     Relit m_relit;
     bool m_bakeSoon = false;                 ///< start once the trace scene exists
+    std::optional<ErrorGoal> m_bakeGoal;     ///< of that bake; none: the document's settings
     std::uint64_t m_bakingHash = 0;          ///< input hash of the last bake that was started
     bool m_superseded = false;               ///< it was cancelled because its scene is out of date
     std::optional<std::uint64_t> m_notBaked; ///< input hash that the user cancelled or that failed
+    PrecomputedCost m_cost;                  ///< of m_baked, as BakeStatus::measured
     std::shared_ptr<const Scene> m_compared; ///< the scene that state.bake.changes speaks of
     bool m_quit = false;
     std::string m_savingTo, m_exportingTo;

@@ -2,6 +2,7 @@
 // The part of the session that bakes.
 #include "editor_ui/session.h"
 
+#include "editor_ui/document/document_edit.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "engine/lightmap/atlas.h"
@@ -28,8 +29,31 @@ LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapL
     return fitted;
 }
 
+/// Sets the cost of m_baked. `before`: the bake whose cost is known.
+void Session::measureCost(const BakedScene& before) {
+    const PrecomputedReport report = m_baked.bake->report();
+    PrecomputedCost known;
+    if (before.bake && before.scene->assets == m_baked.scene->assets &&
+        &before.bake->technique() == &m_baked.bake->technique())
+        known = before.bake->expectedCost(*before.scene, m_baked.bake->settings(), m_cost);
+    m_cost = {report.seconds, totalOf(report.bytes), known.update, known.updateMs};
+    for (auto& [stage, seconds] : m_cost.seconds) {
+        if (std::ranges::find(report.keptStages, stage) == report.keptStages.end())
+            continue;
+        const auto at = std::ranges::find(known.seconds, stage, [](auto& s) { return s.first; });
+        seconds = at == known.seconds.end() ? 0 : at->second;
+    }
+}
+
+void Session::expectCost() {
+    state.bake.measured = m_cost;
+    state.bake.expected = m_baked.bake
+                              ? m_baked.bake->expectedCost(*m_baked.scene, m_scene->bake, m_cost)
+                              : PrecomputedCost{};
+}
+
 void Session::useBake(BakedScene baked) {
-    m_baked = std::move(baked);
+    const BakedScene previous = std::exchange(m_baked, std::move(baked));
     state.relightPlace.refusal.clear(); // of the bake before
     const BakeStatus before = std::exchange(state.bake, {});
     state.bake.running = before.running; // after the preview, the bar goes on where it is
@@ -38,7 +62,11 @@ void Session::useBake(BakedScene baked) {
     if (m_baked.bake) {
         state.bake.last = m_baked.bake->report();
         state.bake.preview = m_baked.preview;
+        measureCost(previous);
+    } else {
+        m_cost = {};
     }
+    expectCost();
     setOverlayBake(state.overlay, m_baked.bake, m_baked.scene);
     fitLayout();
     m_relightJob.setBake(m_baked);
@@ -64,8 +92,14 @@ void Session::fitLayout() {
 
 void Session::takeBaked() {
     auto result = m_bakeJob.takeResult();
-    if (!result)
+    if (!result) {
+        if (std::optional<LightingReport> update = m_bakeJob.takeUpdate()) {
+            m_cost.update = std::move(update->steps);
+            m_cost.updateMs = update->totalMs;
+            expectCost();
+        }
         return;
+    }
     const bool preview = *result && (*result)->preview;
     if (!preview)
         m_bakeSecondsDone += std::exchange(m_bakeSecondsRunning, 0);
@@ -76,11 +110,21 @@ void Session::takeBaked() {
         state.bake.error = result->error().message;
         log(LogLine::Level::Warning, "Bake: " + state.bake.error);
     } else if ((*result)->scene->assets == state.assets) {
+        const std::string goal = (*result)->goal;
         useBake(std::move(**result));
+        if (!goal.empty())
+            showGoal(goal);
         if (!preview)
             for (const std::string& note : state.bake.last.notes)
                 log(LogLine::Level::Info, "Baked. " + note);
     }
+}
+
+/// Says what a bake to an error came to, whose settings become the document's.
+void Session::showGoal(const std::string& goal) {
+    setBakeSettings(state, m_baked.bake->settings(), "Bake until the error holds");
+    state.bake.goal = goal;
+    log(LogLine::Level::Info, goal);
 }
 
 static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, const Scene& scene) {
@@ -144,7 +188,10 @@ void Session::bakeIfWanted() {
     state.bake.error.clear();
     // The baker reads the settings of the scene that the rays meet.
     const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
-    m_bakeJob.start(m_scene, current ? m_relit.trace : nullptr, m_baked.bake == nullptr);
+    m_bakeJob.start({.scene = m_scene,
+                     .trace = current ? m_relit.trace : nullptr,
+                     .preview = m_baked.bake == nullptr,
+                     .goal = std::exchange(m_bakeGoal, {})});
     m_bakeJob.report(state.bake);
 }
 

@@ -19,16 +19,6 @@ std::vector<Light> pointsOver(const Scene& scene, std::span<const glm::vec3> pos
     return lights;
 }
 
-std::vector<Light> movedLights(std::vector<Light> lights, int k) {
-    const float a = 0.01f * float(k);
-    const glm::vec3 d(std::sin(a), 0, std::cos(a) - 1);
-    for (Light& light : lights) {
-        light.position += d * 0.1f;
-        light.direction = glm::normalize(light.direction + d * 0.1f);
-    }
-    return lights;
-}
-
 void moveObjects(Scene& scene, const Scene& standing, int k) {
     const float a = 0.1f * float(k), radius = 0.05f * glm::length(standing.bounds.size());
     const glm::vec4 by(radius * std::sin(a), 0, radius * (std::cos(a) - 1), 0);

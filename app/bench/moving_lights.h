@@ -15,9 +15,6 @@ namespace limn {
 std::vector<Light> pointsOver(const Scene& scene, std::span<const glm::vec3> positions,
                               std::span<const glm::vec3> normals, std::uint32_t count);
 
-/// The lights as placed in run k: a directional light turns a little, any other moves a little.
-std::vector<Light> movedLights(std::vector<Light> lights, int k);
-
 /// Moves the dynamic instances of `scene` to their places in run k: along a circle of a twentieth
 /// of the scene's size, by a tenth of a radian per run.
 void moveObjects(Scene& scene, const Scene& standing, int k);

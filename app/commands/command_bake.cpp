@@ -104,25 +104,6 @@ void printStep(const MeasuredBake& made) {
     std::fflush(stdout);
 }
 
-/// Why the requested error was not reached; empty if it was.
-std::string shortfall(const MeasuredBake& made, double error) {
-    const char* why = "";
-    switch (made.end) {
-    case MeasuredBake::End::Held:
-        return {};
-    case MeasuredBake::End::NoBetter:
-        why = "more texels hardly reduce it";
-        break;
-    case MeasuredBake::End::Memory:
-        why = "a finer bake would need more memory than is allowed (--memory)";
-        break;
-    case MeasuredBake::End::Finest:
-        why = "no settings are finer";
-        break;
-    }
-    return fmt::format("the error is {:.3f}, not {:g}: {}", made.error.nrmse, error, why);
-}
-
 /// The bake, and with `error` its measured error.
 Result<MeasuredBake> make(const BakeCommand& command, const Technique& technique,
                           const Camera& camera, const TraceScene& trace, StageStore* store) {

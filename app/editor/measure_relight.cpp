@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/editor/measure_relight.h"
 
-#include "app/bench/moving_lights.h"
+#include "engine/lighting/fastest_update.h"
 
 #include <algorithm>
 #include <array>
@@ -12,23 +12,12 @@ namespace {
 
 constexpr int kRuns = 3;
 
-// The sky changes too: there may be no light.
-Scene sceneAt(const Scene& scene, int k) {
-    Scene moved = scene;
-    moved.lights = movedLights(scene.lights, k);
-    if (moved.lights.empty()) { // every kind of sky reads one of these
-        moved.sky.radiance += 0.01f * float(k);
-        moved.sky.strength += 0.01f * float(k);
-    }
-    return moved;
-}
-
 template <class Relight>
 double medianMs(const Scene& scene, const Relight& relight) {
     std::array<double, kRuns> ms{};
-    relight(sceneAt(scene, 0)); // lights the materials too
+    relight(withMovedLights(scene, 0)); // lights the materials too
     for (int k = 0; k < kRuns; ++k)
-        ms[std::size_t(k)] = relight(sceneAt(scene, k + 1)).totalMs;
+        ms[std::size_t(k)] = relight(withMovedLights(scene, k + 1)).totalMs;
     std::sort(ms.begin(), ms.end());
     return ms[kRuns / 2];
 }

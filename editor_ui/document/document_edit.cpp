@@ -79,6 +79,13 @@ void setExportSettings(EditorState& state, const ExportSettings& settings) {
         applyEdit(state, {"Export settings", {change}});
 }
 
+void setBakeSettings(EditorState& state, const BakeSettings& settings, const char* label) {
+    commitGesture(state);
+    const Change change = changeOfSingle(state.document, settings);
+    if (change.before != change.after)
+        applyEdit(state, {label, {change}});
+}
+
 static std::string labelFor(const EditorState& state, const char* verb,
                             const std::vector<ObjectId>& ids) {
     if (state.selection.size() == 1 && !ids.empty())

@@ -24,6 +24,9 @@ void setSkyImage(EditorState& state, const Sky& image);
 /// Makes `settings` those of the document. Records nothing where they are already.
 void setExportSettings(EditorState& state, const ExportSettings& settings);
 
+/// Makes these the document's bake settings, if they differ; `label` names the edit.
+void setBakeSettings(EditorState& state, const BakeSettings& settings, const char* label);
+
 /// Deletes the selected nodes (with everything below them), lights and cameras.
 void deleteSelection(EditorState& state);
 

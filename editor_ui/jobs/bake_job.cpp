@@ -2,10 +2,14 @@
 #include "editor_ui/jobs/bake_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
+#include "editor_ui/panels/field.h"
+#include "engine/lighting/fastest_update.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace limn {
 
@@ -20,9 +24,8 @@ BakeJob::~BakeJob() {
         m_thread.join();
 }
 
-bool BakeJob::start(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
-                    bool preview) {
-    if (m_running)
+bool BakeJob::start(BakeOrder order) {
+    if (m_running || m_measuring)
         return false;
     if (m_thread.joinable())
         m_thread.join(); // has finished
@@ -32,24 +35,25 @@ bool BakeJob::start(std::shared_ptr<const Scene> scene, std::shared_ptr<const Tr
     {
         const std::lock_guard lock(m_mutex);
         m_stage.clear();
+        m_step.clear();
         m_stageFraction = 0;
         m_stageStart = m_start;
         m_result.reset();
+        m_update.reset();
     }
-    m_thread =
-        std::thread([this, preview, scene = std::move(scene), trace = std::move(trace)]() mutable {
-            work(std::move(scene), std::move(trace), preview);
-        });
+    m_thread = std::thread([this, order = std::move(order)]() mutable {
+        lowerThreadPriority();
+        if (!order.trace)
+            order.trace = std::make_shared<const TraceScene>(*order.scene);
+        work(order);
+    });
     return true;
 }
 
-Result<std::shared_ptr<const Precomputed>> BakeJob::bakeWith(const Precomputation& precomputation,
-                                                             const BakeSettings& settings,
-                                                             const TraceScene& trace) {
-    auto shown = Clock::now();
+Progress BakeJob::progress() {
     Progress progress;
     progress.cancel = &m_cancel;
-    progress.report = [&](const char* stage, float fraction) {
+    progress.report = [this, shown = Clock::now()](const char* stage, float fraction) mutable {
         const auto now = Clock::now();
         {
             const std::lock_guard lock(m_mutex);
@@ -63,8 +67,19 @@ Result<std::shared_ptr<const Precomputed>> BakeJob::bakeWith(const Precomputatio
             m_wake();
         }
     };
+    return progress;
+}
+
+Result<std::shared_ptr<const Precomputed>> BakeJob::bakeWith(const Precomputation& precomputation,
+                                                             const BakeSettings& settings,
+                                                             const TraceScene& trace) {
     return precomputation.prepare(
-        trace, {.settings = &settings, .store = &m_store, .memory = m_memory}, progress);
+        trace, {.settings = &settings, .store = &m_store, .memory = m_memory}, progress());
+}
+
+void BakeJob::setStep(std::string step) {
+    const std::lock_guard lock(m_mutex);
+    m_step = std::move(step);
 }
 
 void BakeJob::put(Result<BakedScene> result) {
@@ -72,38 +87,89 @@ void BakeJob::put(Result<BakedScene> result) {
     m_result = std::move(result);
 }
 
-void BakeJob::work(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
-                   bool preview) {
-    lowerThreadPriority();
-    if (!trace)
-        trace = std::make_shared<const TraceScene>(*scene);
+Result<BakedScene> BakeJob::bakeScene(const BakeOrder& order) {
+    const std::shared_ptr<const Scene>& scene = order.scene;
     const Precomputation& precomputation = *precomputingTechnique(scene->technique).precomputation;
     const BakeSettings first = precomputation.preview(scene->bake);
-    if (preview && first != scene->bake)
-        if (const auto rough = bakeWith(precomputation, first, *trace)) {
+    if (order.preview && first != scene->bake)
+        if (const auto rough = bakeWith(precomputation, first, *order.trace)) {
+            const PrecomputedCost cost = (*rough)->expectedCost(
+                *scene, scene->bake, {.seconds = (*rough)->report().seconds});
             {
                 const std::lock_guard lock(m_mutex);
-                m_expected = (*rough)->expectedSeconds(scene->bake);
+                m_expected = cost.seconds;
             }
-            put(BakedScene{*rough, scene, trace, true});
+            put(BakedScene{*rough, scene, order.trace, true});
             m_wake();
         }
-    const auto result = bakeWith(precomputation, scene->bake, *trace);
-    if (result) {
+    const auto baked = bakeWith(precomputation, scene->bake, *order.trace);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
+    return BakedScene{*baked, scene, order.trace};
+}
+
+static std::string texelsText(const BakeSettings& settings) {
+    return groupedNumber(settings.lightmapCaches) + " texels";
+}
+
+Result<BakedScene> BakeJob::bakeToGoal(const BakeOrder& order) {
+    Scene draft = *order.scene;
+    kBakePresets.front().applyTo(draft.bake);
+    setStep(texelsText(draft.bake));
+    const TraceScene trace(draft, *order.trace);
+    const auto next = [&](const MeasuredBake& made) {
+        setStep(fmt::format("{}, after an error of {:.2f}",
+                            texelsText(finerSettings(made.bake->settings())), made.error.nrmse));
+    };
+    const auto made = bakeToError(precomputingTechnique(draft.technique), trace, *order.goal,
+                                  progress(), &m_store, m_memory, next);
+    if (!made)
+        return tl::make_unexpected(made.error());
+    auto scene = std::make_shared<Scene>(*order.scene);
+    scene->bake = made->bake->settings();
+    const std::string why = shortfall(*made, order.goal->nrmse);
+    return BakedScene{made->bake, std::move(scene), order.trace, false,
+                      fmt::format("Error {:.3f} with {}{}", made->error.nrmse,
+                                  texelsText(made->bake->settings()),
+                                  why.empty() ? why : "; " + why)};
+}
+
+void BakeJob::work(const BakeOrder& order) {
+    const Result<BakedScene> baked = order.goal ? bakeToGoal(order) : bakeScene(order);
+    if (baked) {
         const std::lock_guard lock(m_mutex);
-        m_expected = (*result)->expectedSeconds(scene->bake);
+        m_expected = baked->bake->report().seconds;
+        m_measuring = true;
     }
-    if (result)
-        put(BakedScene{*result, scene, trace});
-    else
-        put(tl::make_unexpected(result.error()));
+    put(baked);
     m_running = false;
     m_wake();
+    if (!baked)
+        return;
+    measureUpdate(*baked);
+    m_measuring = false;
+    m_wake();
+}
+
+void BakeJob::measureUpdate(const BakedScene& baked) {
+    Progress progress;
+    progress.cancel = &m_cancel;
+    constexpr int kRuns = 3;
+    const auto lighting = baked.bake->technique().light(baked.prepared());
+    LightingReport update = fastestUpdate(*lighting, *baked.scene, *baked.trace, kRuns, progress);
+    const std::lock_guard lock(m_mutex);
+    if (!update.steps.empty())
+        m_update = std::move(update);
+}
+
+std::optional<LightingReport> BakeJob::takeUpdate() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_update, {});
 }
 
 bool BakeJob::busy() const {
     const std::lock_guard lock(m_mutex);
-    return m_running || m_result;
+    return m_running || m_measuring || m_result || m_update;
 }
 
 std::optional<Result<BakedScene>> BakeJob::takeResult() {
@@ -117,6 +183,7 @@ void BakeJob::report(BakeStatus& status) const {
         return;
     const std::lock_guard lock(m_mutex);
     status.stage = m_stage;
+    status.step = m_step;
     status.stageFraction = m_stageFraction;
     const auto now = Clock::now();
     status.elapsedSeconds = std::chrono::duration<double>(now - m_start).count();

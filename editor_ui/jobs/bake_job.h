@@ -5,6 +5,7 @@
 #include "editor_ui/panels/statistics.h"
 #include "engine/core/result.h"
 #include "engine/lighting/technique.h"
+#include "engine/measure/bake_to_error.h"
 #include "engine/stages/stage_store.h"
 
 #include <atomic>
@@ -23,8 +24,22 @@ struct BakedScene {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const TraceScene> trace;
     bool preview = false; ///< made with few rays; the full bake follows
+    /// What a bake to an error came to, in words; empty: its settings were given.
+    std::string goal;
 
     Prepared prepared() const { return {bake, scene}; }
+};
+
+/// What to bake.
+struct BakeOrder {
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const TraceScene> trace; ///< of the scene; null: it is built on the thread
+    /// Two results, the first with Precomputation::preview() settings, to have something to look
+    /// at.
+    bool preview = false;
+    /// Bakes become finer until this error holds; they begin with the counts of draft instead of
+    /// the scene's. The result's scene has the settings found.
+    std::optional<ErrorGoal> goal = {};
 };
 
 /// Bakes in the background, one bake at a time. No call waits for the baker except the destructor,
@@ -38,15 +53,16 @@ public:
     BakeJob(const BakeJob&) = delete;
     BakeJob& operator=(const BakeJob&) = delete;
 
-    /// Starts a bake; returns false if one is running. `trace` belongs to `scene`; if null, it is
-    /// built on the thread. With `preview` there are two results, the first with
-    /// Precomputation::preview() settings, to have something to look at.
-    bool start(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
-               bool preview);
+    /// Starts a bake; returns false if one is running.
+    bool start(BakeOrder order);
     void cancel() { m_cancel = true; }
     bool running() const { return m_running; }
-    /// True while a bake is running or its result has not been taken.
+    /// True while a bake is running or being measured, or something of it has not been taken.
     bool busy() const;
+
+    /// Returns, once, the fastest of a few updates of one bounce of the last bake's light with all
+    /// lights moved. It comes after the bake; with none if the job was cancelled meanwhile.
+    std::optional<LightingReport> takeUpdate();
 
     /// Returns the result of the last bake once: the bake, its preview, or the error ("cancelled").
     std::optional<Result<BakedScene>> takeResult();
@@ -56,25 +72,30 @@ public:
     void report(BakeStatus& status) const;
 
 private:
-    void work(std::shared_ptr<const Scene> scene, std::shared_ptr<const TraceScene> trace,
-              bool preview);
+    void work(const BakeOrder& order);
+    Result<BakedScene> bakeScene(const BakeOrder& order);
+    Result<BakedScene> bakeToGoal(const BakeOrder& order);
     Result<std::shared_ptr<const Precomputed>> bakeWith(const Precomputation& precomputation,
                                                         const BakeSettings& settings,
                                                         const TraceScene& trace);
+    Progress progress();
+    void setStep(std::string step);
     void put(Result<BakedScene> result);
+    void measureUpdate(const BakedScene& baked);
 
     std::function<void()> m_wake;
     StageStore m_store;
     MemoryBudget m_memory;
     std::thread m_thread;
-    std::atomic<bool> m_cancel{false}, m_running{false};
+    std::atomic<bool> m_cancel{false}, m_running{false}, m_measuring{false};
     std::chrono::steady_clock::time_point m_start;
     mutable std::mutex m_mutex; ///< guards the members below
-    std::string m_stage;
+    std::string m_stage, m_step;
     float m_stageFraction = 0;
     std::chrono::steady_clock::time_point m_stageStart;
     StageSeconds m_expected; ///< of the running bake
     std::optional<Result<BakedScene>> m_result;
+    std::optional<LightingReport> m_update;
 };
 
 } // namespace limn

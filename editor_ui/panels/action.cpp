@@ -206,6 +206,9 @@ void openPalette(EditorState& s) {
 void startBake(EditorState& s) {
     request(s, Request::Kind::Bake);
 }
+void bakeToErrorAction(EditorState& s) {
+    request(s, Request::Kind::BakeToError);
+}
 void cancelBake(EditorState& s) {
     request(s, Request::Kind::CancelBake);
 }
@@ -302,6 +305,7 @@ std::vector<Action> fixedActions() {
     {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
+    {"bake.error", "Bake until the error holds", Menu::Bake, kNoKey, kNoKey, false, canBake, bakeToErrorAction},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
     {"help.keys", "Keys and mouse", Menu::Help, plain(key::kF1), kNoKey, false, always, askHelp},

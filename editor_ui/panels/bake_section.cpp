@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/bake_cost_table.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
 #include "editor_ui/panels/setting_row.h"
@@ -25,26 +26,22 @@ static void lightmapSizeRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Lightmap size");
 }
 
-static void memoryLine(const EditorState& state) {
-    const Prediction& p = state.prediction;
-    ImGui::Spacing();
-    ImGui::TextDisabled("About %s, %s while baking",
-                        byteText(std::uint64_t(totalOf(p.bytes))).c_str(),
-                        byteText(p.working).c_str());
-    std::string tooltip = "Memory of a bake with these settings, and the peak while baking, "
-                          "without the scene; about " +
-                          byteText(p.file) + " as a file.";
-    for (const LightingCounter& part : p.bytes)
-        tooltip += std::string(&part == &p.bytes.front() ? " " : ", ") + part.label + " " +
-                   byteText(std::uint64_t(part.value));
-    wrappedTooltip((tooltip + "; about " + groupedNumber(p.caches) + " caches").c_str());
-    if (p.minTexels > 0) {
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextDisabled("The objects need at least about %s texels: one for each direction "
-                            "that an object faces.",
-                            groupedNumber(p.minTexels).c_str());
-        ImGui::PopTextWrapPos();
-    }
+static void minTexelsLine(const Prediction& p) {
+    if (p.minTexels == 0)
+        return;
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("The objects need at least about %s texels: one for each direction "
+                        "that an object faces.",
+                        groupedNumber(p.minTexels).c_str());
+    ImGui::PopTextWrapPos();
+}
+
+static void actionButton(EditorState& state, const char* id) {
+    const Action& action = actionById(id);
+    ImGui::BeginDisabled(!action.enabled(state));
+    if (ImGui::Button(action.label, {-FLT_MIN, 0}))
+        runAction(state, action);
+    ImGui::EndDisabled();
 }
 
 static void bakeStateLine(EditorState& state) {
@@ -76,14 +73,23 @@ static void bakeStateLine(EditorState& state) {
         }
     for (const std::string& note : bake.last.notes)
         ImGui::TextDisabled("%s", note.c_str());
+    if (!bake.goal.empty())
+        ImGui::TextDisabled("%s", bake.goal.c_str());
     if (!bake.error.empty())
         ImGui::TextColored(ImColor(color::error()), "Last bake: %s", bake.error.c_str());
     ImGui::PopTextWrapPos();
-    const Action& action = actionById(bake.running ? "bake.cancel" : "bake.start");
-    ImGui::BeginDisabled(!action.enabled(state));
-    if (ImGui::Button(action.label, {-FLT_MIN, 0}))
-        runAction(state, action);
-    ImGui::EndDisabled();
+    actionButton(state, bake.running ? "bake.cancel" : "bake.start");
+}
+
+static void errorRow(EditorState& state) {
+    fieldLabel("Error (nRMSE)",
+               "Instead of a quality, an error: bakes begin with the counts of Draft and get finer "
+               "until the irradiance that this view shows differs from path tracing by at most "
+               "this share of its root mean square");
+    ImGui::SliderFloat("##error", &state.bakeError, 0.02f, 1, "%.2f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    if (!state.bake.running)
+        actionButton(state, "bake.error");
 }
 
 static void presetRow(FieldEdit& edit, BakeSettings& s) {
@@ -104,20 +110,32 @@ static void presetRow(FieldEdit& edit, BakeSettings& s) {
     fieldEdited(edit, "Quality");
 }
 
+static void settingRows(FieldEdit& edit, BakeSettings& s, int group) {
+    visitBakeSettings(s, [&](const Setting& setting, auto& value, const auto&... limits) {
+        if (setting.group == group && setting.applies)
+            settingRow(edit, setting, value, limits...);
+    });
+}
+
 void bakeSection(FieldEdit& edit, BakeSettings& s) {
+    bakeStateLine(edit.state);
+    ImGui::Separator();
     presetRow(edit, s);
-    for (int group = 0; group <= kLastSettingGroup; ++group) {
-        if (group > 0)
-            ImGui::Separator();
+    for (int group = 0; group < kResearchGroup; ++group) {
         if (group == kLightmapGroup)
             lightmapSizeRow(edit, s);
-        visitBakeSettings(s, [&](const Setting& setting, auto& value, const auto&... limits) {
-            if (setting.group == group && setting.applies)
-                settingRow(edit, setting, value, limits...);
-        });
+        settingRows(edit, s, group);
     }
-    memoryLine(edit.state);
-    bakeStateLine(edit.state);
+    const bool advanced = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_SpanAvailWidth);
+    wrappedTooltip("The method's variants, for research: the defaults are best in most scenes");
+    if (advanced) {
+        settingRows(edit, s, kResearchGroup);
+        ImGui::TreePop();
+    }
+    minTexelsLine(edit.state.prediction);
+    errorRow(edit.state);
+    ImGui::Separator();
+    bakeCostTable(edit.state);
 }
 
 } // namespace limn

@@ -143,11 +143,16 @@ static void bakeProgress(EditorState& state) {
     ImGui::Text("%s: %s", bake.preview ? "Refining" : "Baking",
                 bake.stage.empty() ? "starting" : bake.stage.c_str());
     ImGui::SameLine(ImGui::GetFontSize() * 11);
-    const std::string percent = fmt::format("{:.0f} % of the stage, {:.0f} % in all",
-                                            100 * bake.stageFraction, 100 * bake.fraction);
-    ImGui::ProgressBar(bake.fraction, {ImGui::GetFontSize() * 18, 0}, percent.c_str());
+    const bool toError = !bake.step.empty();
+    const std::string text = toError ? bake.step
+                                     : fmt::format("{:.0f} % of the stage, {:.0f} % in all",
+                                                   100 * bake.stageFraction, 100 * bake.fraction);
+    const float width = ImGui::GetFontSize() * (toError ? 24.f : 18.f);
+    ImGui::ProgressBar(toError ? bake.stageFraction : bake.fraction, {width, 0}, text.c_str());
     ImGui::SameLine();
-    if (bake.secondsLeft >= 1)
+    if (toError)
+        ImGui::Text("until %.2f", double(state.bakeError));
+    else if (bake.secondsLeft >= 1)
         ImGui::Text("about %s left", durationText(bake.secondsLeft).c_str());
     else
         ImGui::TextUnformatted(bake.secondsLeft < 0 ? "estimating..." : "nearly done");

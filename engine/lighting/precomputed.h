@@ -29,7 +29,17 @@ struct PrecomputedReport {
     std::vector<LightingCounter> counts;
     std::vector<LightingCounter> bytes; ///< memory that updates read, part by part [bytes]
     StageSeconds seconds;
-    std::vector<std::string> notes; ///< what was recomputed and why
+    std::vector<std::string> keptStages; ///< of them: found in the store rather than computed
+    std::vector<std::string> notes;      ///< what was recomputed and why
+};
+
+/// What a precomputation and the updates of its light cost.
+struct PrecomputedCost {
+    StageSeconds seconds;             ///< of every stage, computed anew
+    double bytes = 0;                 ///< memory that updates read
+    std::vector<LightingStep> update; ///< steps of one update of one bounce on the CPU with all
+                                      ///< lights moved; empty: not known
+    double updateMs = 0;              ///< of that update
 };
 
 /// Sum of the counters' values.
@@ -69,8 +79,11 @@ public:
     /// Names the size on which the time of an update depends, coarsely: "links 4^12". Measured
     /// times are remembered by it.
     virtual std::string sizeClass() const = 0;
-    /// Expected duration of each stage with other settings for the same scene [s].
-    virtual StageSeconds expectedSeconds(const BakeSettings& wanted) const = 0;
+    /// Expected cost with other settings for the scene that this was made from, where this cost
+    /// `measured` on the same machine. `limn bench predict` compares such predictions with what is
+    /// then measured.
+    virtual PrecomputedCost expectedCost(const Scene& scene, const BakeSettings& wanted,
+                                         const PrecomputedCost& measured) const = 0;
 
     /// Describes the first defect that makes it unsafe to light `scene` with it; empty: none.
     virtual std::string defect(const Scene& scene) const = 0;

@@ -11,6 +11,8 @@
 #include <limits>
 #include <optional>
 
+#include <fmt/format.h>
+
 namespace limn {
 
 namespace {
@@ -93,6 +95,24 @@ bool fits(const Technique& technique, const Scene& scene, const BakeSettings& se
 }
 
 } // namespace
+
+std::string shortfall(const MeasuredBake& made, double error) {
+    const char* why = "";
+    switch (made.end) {
+    case MeasuredBake::End::Held:
+        return {};
+    case MeasuredBake::End::NoBetter:
+        why = "more texels hardly reduce it";
+        break;
+    case MeasuredBake::End::Memory:
+        why = "a finer bake would need more memory than is allowed";
+        break;
+    case MeasuredBake::End::Finest:
+        why = "no settings are finer";
+        break;
+    }
+    return fmt::format("the error is {:.3f}, not {:g}: {}", made.error.nrmse, error, why);
+}
 
 BakeSettings finerSettings(const BakeSettings& settings) {
     BakeSettings s = settings;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace limn {
 
@@ -26,6 +27,9 @@ struct ErrorGoal {
     double nrmse = 0.1; ///< maximum Comparison::nrmse
     Camera camera;      ///< camera whose visible points are compared
 };
+
+/// Why the error of `made` exceeds `error`; empty if it does not.
+std::string shortfall(const MeasuredBake& made, double error);
 
 /// Settings with twice as many texels, and with more surfels and links in the proportion of the
 /// presets. Equal to `settings` where none are finer.

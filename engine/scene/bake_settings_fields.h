@@ -7,8 +7,9 @@
 
 namespace limn {
 
-/// Setting::group of the lightmap's settings, and the last group of all.
-inline constexpr int kLightmapGroup = 2, kLastSettingGroup = kLightmapGroup;
+/// Setting::group of the lightmap's settings, of those for research, which are seldom changed, and
+/// the last group of all.
+inline constexpr int kLightmapGroup = 1, kResearchGroup = 2, kLastSettingGroup = kResearchGroup;
 
 /// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
 /// other setting, once for each, in the order of bake files. `s` is a BakeSettings, const or not.
@@ -74,7 +75,7 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .tooltip =
                "How a cache finds what it sees. Gather: by rays that leave it. Form factor: by "
                "a ray towards every surfel, many times slower; for comparison",
-           .group = 1},
+           .group = kResearchGroup},
           s.linker, SettingChoices{kLinkerNames, kLinkerLabels});
     visit({.key = "cut",
            .flag = "--cut",
@@ -83,7 +84,7 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .tooltip = "Which clusters a cache links. Detail: those whose inner differences would "
                       "change its light most; caches of varied light get more links. Solid "
                       "angle: those of the largest solid angle, the same number for every cache",
-           .group = 1},
+           .group = kResearchGroup},
           s.cut, SettingChoices{kCutNames, kCutLabels});
     visit({.key = "storage",
            .flag = "--storage",
@@ -92,7 +93,7 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .tooltip = "How links are stored. Cones (RTP): 12 bytes each, projected to SH whenever "
                       "light changes. SH: projected once by the bake, 4 + 2 l\u00b2 bytes each. "
                       "Both give the same light",
-           .group = 1},
+           .group = kResearchGroup},
           s.storage, SettingChoices{kStorageNames, kStorageLabels});
     visit({.key = "chromaBands",
            .flag = "--chroma-bands",
@@ -107,7 +108,7 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .help = "How surfels are clustered",
            .tooltip = "How surfels are clustered. Agglomerative: the closest pair is joined "
                       "repeatedly; slower. Kd-tree: split at medians",
-           .group = 1},
+           .group = kResearchGroup},
           s.clustering, SettingChoices{kClusteringNames, kClusteringLabels});
     visit({.key = "clusterNormalWeight",
            .flag = "--cluster-normal-weight",
@@ -116,7 +117,7 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .tooltip =
                "Weight of the difference of normals. More: clusters of surfels that face the "
                "same direction",
-           .group = 1},
+           .group = kResearchGroup},
           s.clusterNormalWeight, SettingRange{0, 100});
     visit({.key = "clusterBalanceWeight",
            .flag = "--cluster-balance-weight",
@@ -124,7 +125,7 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .help = "C_b, weight of balance in the clusters' metric; agglomerative only",
            .tooltip = "Weight of balance: clusters of similar area are joined first. More: a "
                       "shallower tree",
-           .group = 1,
+           .group = kResearchGroup,
            .applies = s.clustering == Clustering::Agglomerative},
           s.clusterBalanceWeight, SettingRange{0, 100});
     visit({.key = "grid",

@@ -159,6 +159,7 @@ struct StageStore::Impl {
     std::list<std::pair<std::uint64_t, Packed>> recent; ///< latest first
     std::unordered_map<std::uint64_t, decltype(recent)::iterator> known;
     std::uint64_t memoryBytes = 0;
+    Traffic traffic;
 
     std::deque<std::pair<std::uint64_t, Packed>> queue; ///< the front one is being written
     std::condition_variable changed;
@@ -172,6 +173,7 @@ struct StageStore::Impl {
     }
     void remember(std::uint64_t key, Packed file);
     Packed recall(std::uint64_t key);
+    std::optional<std::string> find(std::uint64_t key);
     void write();
     void writeFile(std::uint64_t key, const std::string& file);
 };
@@ -258,12 +260,12 @@ StageStore::~StageStore() {
     m_impl->writer.join();
 }
 
-std::optional<std::string> StageStore::find(std::uint64_t key) {
-    if (const Packed packed = m_impl->recall(key))
+std::optional<std::string> StageStore::Impl::find(std::uint64_t key) {
+    if (const Packed packed = recall(key))
         return unpack(key, *packed);
-    if (m_impl->options.folder.empty())
+    if (options.folder.empty())
         return {};
-    const fs::path path = m_impl->pathOf(key);
+    const fs::path path = pathOf(key);
     Result<std::string> read = readFile(path.string());
     std::optional<std::string> bytes = read ? unpack(key, *read) : std::nullopt;
     if (!bytes)
@@ -271,14 +273,22 @@ std::optional<std::string> StageStore::find(std::uint64_t key) {
     auto file = std::make_shared<const std::string>(std::move(*read));
     std::error_code gone;
     fs::last_write_time(path, fs::file_time_type::clock::now(), gone); // used just now
+    const std::lock_guard lock(mutex);
+    remember(key, std::move(file));
+    return bytes;
+}
+
+std::optional<std::string> StageStore::find(std::uint64_t key) {
+    std::optional<std::string> bytes = m_impl->find(key);
     const std::lock_guard lock(m_impl->mutex);
-    m_impl->remember(key, std::move(file));
+    m_impl->traffic.found += bytes.has_value();
     return bytes;
 }
 
 void StageStore::put(std::uint64_t key, const std::string& bytes) {
     auto file = std::make_shared<const std::string>(pack(key, bytes));
     std::unique_lock lock(m_impl->mutex);
+    ++m_impl->traffic.stored;
     m_impl->remember(key, file);
     if (m_impl->options.folder.empty())
         return;
@@ -292,6 +302,11 @@ void StageStore::put(std::uint64_t key, const std::string& bytes) {
 void StageStore::flush() {
     std::unique_lock lock(m_impl->mutex);
     m_impl->changed.wait(lock, [&] { return m_impl->queue.empty(); });
+}
+
+StageStore::Traffic StageStore::traffic() const {
+    const std::lock_guard lock(m_impl->mutex);
+    return m_impl->traffic;
 }
 
 std::string StageStore::defect() const {

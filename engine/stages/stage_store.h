@@ -36,6 +36,12 @@ public:
     /// Waits until everything put so far has been written to disk.
     void flush();
 
+    /// Number of results that find() returned and that put() stored so far.
+    struct Traffic {
+        std::uint64_t found = 0, stored = 0;
+    };
+    Traffic traffic() const;
+
     /// Why the folder cannot be written; empty if it can or if there is no folder. Results are then
     /// kept in memory only.
     std::string defect() const;

@@ -131,6 +131,9 @@ EditorState longEditor() {
     state.bake.changes = "Donaudampfschifffahrtsgesellschaftskapitänskajütentür moved, Rays per "
                          "cache changed, and 12 more";
     state.bake.last.seconds = {{"charts", 1.2}, {"trace", 123.4}, {"cut", 3}};
+    state.bake.last.keptStages = {"charts"};
+    state.bake.measured = {state.bake.last.seconds, 3e9, {}, 1234};
+    state.bake.expected = state.bake.measured;
     state.frame.pictures = 3;
     state.frame.width = 1920, state.frame.height = 1080;
     return state;

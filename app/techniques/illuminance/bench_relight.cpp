@@ -4,6 +4,7 @@
 #include "app/techniques/illuminance/bench_relight_gpu.h"
 #include "app/techniques/illuminance/illuminance_program.h"
 
+#include "engine/lighting/fastest_update.h"
 #include "engine/measure/read_bandwidth.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/relight.h"

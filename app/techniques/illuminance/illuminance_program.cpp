@@ -85,6 +85,7 @@ static void addBenches(CLI::App& bench, Run& run) {
     addErrorBench(bench, run);
     addGlossyBench(bench, run);
     addLinksBench(bench, run);
+    addPredictBench(bench, run);
     addRelightBench(bench, run);
     addStressBench(bench, run);
 #ifdef LIMN_HAS_VIEWPORT

@@ -14,6 +14,7 @@ void addErrorBench(CLI::App& bench, Run& run);
 void addFrameBench(CLI::App& bench, Run& run);
 void addGlossyBench(CLI::App& bench, Run& run);
 void addLinksBench(CLI::App& bench, Run& run);
+void addPredictBench(CLI::App& bench, Run& run);
 void addRelightBench(CLI::App& bench, Run& run);
 void addStressBench(CLI::App& bench, Run& run);
 

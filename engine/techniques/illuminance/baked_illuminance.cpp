@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/baked_illuminance.h"
 
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/bake/bake_cost.h"
 #include "engine/techniques/illuminance/bake/bake_defect.h"
 #include "engine/techniques/illuminance/bake/bake_file.h"
 #include "engine/techniques/illuminance/illuminance.h"
@@ -50,7 +51,7 @@ glm::uvec3 BakedIlluminance::gridSize() const {
 
 PrecomputedReport BakedIlluminance::report() const {
     return {countersOf(m_bake->counts), countersOf(bytesOf(*m_bake)), m_bake->seconds,
-            m_bake->notes};
+            m_bake->keptStages, m_bake->notes};
 }
 
 // The power of four that the bytes of the links reach.
@@ -58,15 +59,23 @@ std::string BakedIlluminance::sizeClass() const {
     return fmt::format("links 4^{}", std::bit_width(bytesOf(*m_bake).links) / 2);
 }
 
-// Tracing scales with the rays, the cut with their square root (measured: 0.17 s at 64 rays, 0.84 s
-// at 1024), the rest with the surfels.
-StageSeconds BakedIlluminance::expectedSeconds(const BakeSettings& wanted) const {
-    const double rays = double(wanted.rays) / m_bake->settings.rays;
-    const double surfels = double(wanted.surfels) / m_bake->settings.surfels;
-    StageSeconds expected = m_bake->seconds;
-    for (auto& [stage, seconds] : expected)
-        seconds *= stage == "trace" ? rays : stage == "cut" ? std::sqrt(rays) : surfels;
-    return expected;
+PrecomputedCost BakedIlluminance::expectedCost(const Scene& scene, const BakeSettings& wanted,
+                                               const PrecomputedCost& measured) const {
+    if (wanted == m_bake->settings)
+        return measured; // without the rounding of what follows
+    Scene with = scene;
+    with.bake = m_bake->settings;
+    const BakeWork expected = expectedWork(with), made = workOf(*m_bake, expected);
+    with.bake = wanted;
+    const BakeWork next = expectedWork(with) * (made / expected);
+    PrecomputedCost cost = measured;
+    for (auto& [stage, seconds] : cost.seconds)
+        seconds *= stageWork(stage, next) / stageWork(stage, made);
+    cost.updateMs = 0;
+    for (LightingStep& step : cost.update)
+        cost.updateMs += step.ms *= updateWork(step.id, next) / updateWork(step.id, made);
+    cost.bytes *= next.bytes / made.bytes;
+    return cost;
 }
 
 std::string BakedIlluminance::defect(const Scene& scene) const {

@@ -24,7 +24,8 @@ public:
     glm::uvec3 gridSize() const override;
     PrecomputedReport report() const override;
     std::string sizeClass() const override;
-    StageSeconds expectedSeconds(const BakeSettings& wanted) const override;
+    PrecomputedCost expectedCost(const Scene& scene, const BakeSettings& wanted,
+                                 const PrecomputedCost& measured) const override;
     std::string defect(const Scene& scene) const override;
     Result<void> write(const std::string& path) const override;
 

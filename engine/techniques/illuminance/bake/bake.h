@@ -124,12 +124,14 @@ struct Bake {
     BakeCounts counts;
     std::vector<std::pair<std::string, double>>
         seconds; ///< per stage in order; not part of the hash
+    /// Stages found in the store, of which `seconds` says nothing. Not in the hash or the file.
+    std::vector<std::string> keptStages;
     /// Messages that say what was recomputed and why: "2 instances moved: 1 204 of 10 585 caches
     /// re-traced". Not part of the hash or the file.
     std::vector<std::string> notes;
 
-    /// Hash of everything but `counts`, `seconds` and `notes`. It is equal for equal documents,
-    /// whatever the stage store held.
+    /// Hash of everything but `counts`, `seconds`, `keptStages` and `notes`. It is equal for equal
+    /// documents, whatever the stage store held.
     std::uint64_t hash() const;
 };
 

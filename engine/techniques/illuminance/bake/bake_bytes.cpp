@@ -190,7 +190,7 @@ BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std:
     return b;
 }
 
-std::uint64_t expectedCaches(const Scene& scene) {
+static std::uint64_t expectedGrid(const Scene& scene) {
     LightmapLayout layout; // filled only as to which instances have a lightmap
     for (const Instance& i : scene.instances) {
         layout.instances.emplace_back();
@@ -198,9 +198,13 @@ std::uint64_t expectedCaches(const Scene& scene) {
             layout.instances.back().uv.emplace_back(0);
     }
     const glm::uvec3 grid = chooseGridSize(scene, layout, scene.bake);
+    return std::uint64_t(grid.x) * grid.y * grid.z;
+}
+
+std::uint64_t expectedCaches(const Scene& scene) {
     double texels = wantedTexels(scene);
     texels += texels / kCachesPerOwn;
-    return std::uint64_t(std::min(texels, 1e15)) + std::uint64_t(grid.x) * grid.y * grid.z;
+    return std::uint64_t(std::min(texels, 1e15)) + expectedGrid(scene);
 }
 
 std::uint64_t minTexels(const Scene& scene) {
@@ -219,6 +223,7 @@ BakePrediction predictBake(const Scene& scene, bool stored) {
     const BakeSettings& s = scene.bake;
     BakePrediction p;
     p.caches = expectedCaches(scene);
+    p.gridCaches = expectedGrid(scene);
     if (const std::uint64_t least = minTexels(scene); least > s.lightmapCaches) {
         const std::uint64_t more = least - s.lightmapCaches;
         p.minTexels = s.texelsPerMetre > 0 ? 0 : least;
@@ -226,6 +231,8 @@ BakePrediction predictBake(const Scene& scene, bool stored) {
     }
     const Expected e = expect(scene);
     p.bytes = predictBytes(s, s.surfels, p.caches);
+    p.leaves = e.leaves;
+    p.links = double(p.caches) * e.links;
     p.bytes.links = linkBytes(s, p.caches, e.links);
     p.file = fileBytes(p.bytes, e);
     p.working = workingBytes(s, p, e, stored);

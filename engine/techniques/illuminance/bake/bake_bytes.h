@@ -42,10 +42,13 @@ std::uint64_t minTexels(const Scene& scene);
 /// third. The least certain quantities are how many lamp surfels the caches see and how many caches
 /// a scene of fine parts gets.
 struct BakePrediction {
-    std::uint64_t caches = 0;    ///< expectedCaches(), but at least minTexels()
-    std::uint64_t minTexels = 0; ///< needed, where more than were asked for; else 0
-    BakeBytes bytes;             ///< of the bake; links are the expected number, not a bound
-    std::uint64_t file = 0;      ///< size of its file [bytes]
+    std::uint64_t caches = 0;     ///< expectedCaches(), but at least minTexels()
+    std::uint64_t gridCaches = 0; ///< of those, caches of the grid
+    double leaves = 0;            ///< senders that a cache sees
+    double links = 0;             ///< expected number of links of all caches
+    std::uint64_t minTexels = 0;  ///< needed, where more than were asked for; else 0
+    BakeBytes bytes;              ///< of the bake; links are the expected number, not a bound
+    std::uint64_t file = 0;       ///< size of its file [bytes]
     std::uint64_t working = 0; ///< peak memory while baking and writing, besides the scene [bytes]
 };
 

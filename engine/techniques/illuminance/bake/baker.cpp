@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,16 +37,26 @@ namespace {
 
 class StageClock {
 public:
-    explicit StageClock(std::vector<std::pair<std::string, double>>& seconds)
-        : m_seconds(seconds) {}
+    /// `store` may be null.
+    StageClock(Bake& bake, const StageStore* store) : m_bake(bake), m_store(store) {
+        if (store)
+            m_traffic = store->traffic();
+    }
     void finish(const char* stage) {
         const auto now = std::chrono::steady_clock::now();
-        m_seconds.emplace_back(stage, std::chrono::duration<double>(now - m_last).count());
+        m_bake.seconds.emplace_back(stage, std::chrono::duration<double>(now - m_last).count());
         m_last = now;
+        if (!m_store)
+            return;
+        const StageStore::Traffic before = std::exchange(m_traffic, m_store->traffic());
+        if (m_traffic.found > before.found && m_traffic.stored == before.stored)
+            m_bake.keptStages.emplace_back(stage);
     }
 
 private:
-    std::vector<std::pair<std::string, double>>& m_seconds;
+    Bake& m_bake;
+    const StageStore* m_store;
+    StageStore::Traffic m_traffic;
     std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
 };
 
@@ -70,7 +81,7 @@ struct BakeRun {
     StageStore* store;                       ///< may be null
     const std::vector<std::uint64_t> meshes; ///< hashMeshes() of the scene
     Bake bake;
-    StageClock clock{bake.seconds};
+    StageClock clock{bake, store};
     std::uint64_t rays = 0; ///< traced so far
     PlacedAtlas placed{};
     SurfelSet set{};

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// What a bake is expected to take and took, and bakes to an error, in the editor.
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/panels/action.h"
+#include "tests/core/temporary_folder.h"
+#include "tests/editor_ui/headless.h"
+#include "tests/editor_ui/small_session.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace limn {
+namespace {
+
+struct BakePanel : testing::Test {
+    TemporaryFolder folder;
+    Session session{SessionOptions{LIMN_SOURCE_DIR "/projects", [] {}, true}};
+    EditorState& state = session.state;
+
+    void SetUp() override {
+        setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+        const std::string project = folder.file("small.limn");
+        ASSERT_TRUE(saveProject(project, smallDocument()));
+        session.open(project);
+        ASSERT_TRUE(upToDate());
+    }
+    bool upToDate() {
+        return runUntil(session, [&] {
+            return session.idle() && state.bake.freshness == BakeFreshness::UpToDate;
+        });
+    }
+    BakeSettings& settings() {
+        for (auto& [id, object] : state.document.objects)
+            if (auto* s = std::get_if<BakeSettings>(&object))
+                return *s;
+        throw std::runtime_error("no bake settings");
+    }
+    static double secondsOf(const StageSeconds& seconds, const char* stage) {
+        const auto at = std::ranges::find(seconds, stage, [](const auto& s) { return s.first; });
+        return at == seconds.end() ? -1 : at->second;
+    }
+};
+
+TEST_F(BakePanel, ABakeIsExpectedToTakeWhatItTookWithTheSameSettings) {
+    const BakeStatus& bake = state.bake;
+    ASSERT_EQ(bake.measured.seconds.size(), bake.last.seconds.size());
+    EXPECT_EQ(bake.expected.seconds, bake.measured.seconds);
+    EXPECT_GT(bake.measured.bytes, 0);
+    EXPECT_EQ(bake.expected.bytes, bake.measured.bytes);
+    EXPECT_FALSE(bake.measured.update.empty()) << "relighting is measured after the bake";
+    EXPECT_GT(bake.measured.updateMs, 0);
+}
+
+TEST_F(BakePanel, SlidersChangeWhatIsExpectedBeforeTheBake) {
+    state.autoBake = false;
+    const PrecomputedCost before = state.bake.expected;
+    settings().rays *= 4;
+    session.update();
+    const PrecomputedCost rays = state.bake.expected;
+    EXPECT_GT(secondsOf(rays.seconds, "trace"), 2 * secondsOf(before.seconds, "trace"));
+    EXPECT_EQ(state.bake.measured.seconds, before.seconds);
+    settings().links = 4;
+    session.update();
+    EXPECT_LT(state.bake.expected.bytes, before.bytes);
+    EXPECT_LT(state.bake.expected.updateMs, before.updateMs);
+}
+
+// The store has all but the links of a bake whose number of links changed.
+TEST_F(BakePanel, StagesThatWereKeptCostWhatTheyDidBefore) {
+    const PrecomputedCost before = state.bake.measured;
+    settings().links = 24;
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] { return state.bake.freshness != BakeFreshness::UpToDate; }));
+    ASSERT_TRUE(upToDate());
+    const std::vector<std::string>& kept = state.bake.last.keptStages;
+    EXPECT_TRUE(std::ranges::find(kept, "trace") != kept.end());
+    EXPECT_TRUE(std::ranges::find(kept, "cut") == kept.end());
+    EXPECT_EQ(secondsOf(state.bake.measured.seconds, "trace"), secondsOf(before.seconds, "trace"));
+    EXPECT_EQ(secondsOf(state.bake.measured.seconds, "cut"),
+              secondsOf(state.bake.last.seconds, "cut"));
+}
+
+TEST_F(BakePanel, ABakeUntilTheErrorHoldsSetsItsCountsAsOneEdit) {
+    state.view.camera = chooseCamera(*session.scene(), {});
+    state.bakeError = 0.6f;
+    const BakeSettings before = settings();
+    runAction(state, actionById("bake.error"));
+    ASSERT_TRUE(runUntil(session, [&] { return !state.bake.step.empty(); }));
+    ASSERT_TRUE(runUntil(session, [&] { return !state.bake.goal.empty(); })) << state.bake.error;
+    ASSERT_TRUE(upToDate()) << "no other bake follows";
+    EXPECT_EQ(settings(), session.baked().bake->settings());
+    EXPECT_GE(settings().lightmapCaches, kBakePresets.front().lightmapCaches);
+    EXPECT_NE(state.bake.goal.find("Error 0."), std::string::npos) << state.bake.goal;
+    ASSERT_EQ(state.history.edits.size(), 1U);
+    undoEdit(state);
+    EXPECT_EQ(settings(), before);
+}
+
+TEST_F(BakePanel, ABakeUntilTheErrorHoldsCanBeCancelled) {
+    state.view.camera = chooseCamera(*session.scene(), {});
+    state.bakeError = 0.02f;
+    const auto bake = session.baked().bake;
+    const Document before = state.document;
+    runAction(state, actionById("bake.error"));
+    ASSERT_TRUE(runUntil(session, [&] { return !state.bake.stage.empty() && state.bake.running; }));
+    runAction(state, actionById("bake.cancel"));
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_EQ(state.bake.error, "cancelled");
+    EXPECT_EQ(session.baked().bake, bake);
+    EXPECT_EQ(state.document, before);
+}
+
+TEST_F(BakePanel, IsDrawnWithEveryState) {
+    HeadlessUi ui;
+    for (const auto& [id, object] : state.document.objects)
+        if (std::holds_alternative<BakeSettings>(object))
+            state.selection = {id};
+    const Document before = state.document;
+    for (const BakeFreshness freshness :
+         {BakeFreshness::NotUsed, BakeFreshness::None, BakeFreshness::Checking,
+          BakeFreshness::UpToDate, BakeFreshness::Needed}) {
+        state.bake.freshness = freshness;
+        ui.frames(state);
+    }
+    state.bake.running = true;
+    state.bake.step = "20 000 texels, after an error of 0.31";
+    ui.frames(state);
+    state.bake = {};
+    ui.frames(state);
+    EXPECT_EQ(state.document, before);
+}
+
+} // namespace
+} // namespace limn
