@@ -129,7 +129,7 @@ static void splitters(LayoutState& wanted, const LayoutState& shown, const Place
 
 static void bottomPanel(EditorState& state, const Rect& place) {
     beginFixed("bottom", place);
-    state.explain.shown = false;
+    state.explain.shown = state.explain.mutes = false;
     state.explain.hovered = 0;
     if (ImGui::BeginTabBar("tabs")) {
         if (ImGui::BeginTabItem("Statistics")) {
@@ -144,7 +144,7 @@ static void bottomPanel(EditorState& state, const Rect& place) {
         const bool bringUp = std::exchange(state.explain.bringUp, false);
         if (ImGui::BeginTabItem("Explain", nullptr,
                                 bringUp ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None)) {
-            state.explain.shown = true;
+            state.explain.shown = state.explain.mutes = true;
             explainPanel(state);
             ImGui::EndTabItem();
         }

@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/first_light.h"
+#include "editor_ui/document/muted.h"
 #include "editor_ui/document/solo.h"
 #include "editor_ui/jobs/editor_settings.h"
 #include "editor_ui/jobs/recent_files.h"
@@ -67,7 +68,7 @@ Session::Session(SessionOptions options)
     state.recent = readRecentFiles();
     state.samples = samplesIn(m_options.projectsFolder);
     useSettings(state, settingsIn(m_options.settingsFile));
-    m_scene = std::make_shared<const Scene>(flatten(state.document, state.assets));
+    m_scene = m_whole = std::make_shared<const Scene>(flatten(state.document, state.assets));
 }
 
 void Session::log(LogLine::Level level, std::string text) {
@@ -190,6 +191,8 @@ void Session::show(OpenedFile file) {
     const bool hasBake = file.baked.bake != nullptr;
     m_scene = hasBake ? file.baked.scene
                       : std::make_shared<const Scene>(flatten(state.document, state.assets));
+    m_whole = m_scene;
+    m_muted.clear();
     m_followed = std::make_shared<const Document>(state.document);
     if (file.recovered && m_offered)
         m_recovery.adopt(*std::exchange(m_offered, {}), m_followed);
@@ -283,7 +286,7 @@ void Session::startExport(const std::string& path) {
     state.exporting.written.clear();
     const ExportSettings settings = singleton<ExportSettings>(state.document);
     if (!m_exportJob.start({.document = state.document,
-                            .scene = m_scene,
+                            .scene = m_whole,
                             .prepared = lightsBake() ? m_baked.prepared() : Prepared{},
                             .settings = settings,
                             .folders = m_options.exportFolders,
@@ -361,7 +364,7 @@ void Session::showExplanation() {
     if (!explain.shown || !explain.pick || !explain.refusal.empty() || explain.running ||
         state.gesture)
         return;
-    ExplainOrder order{.scene = m_scene,
+    ExplainOrder order{.scene = m_whole,
                        .prepared = lightsBake() ? m_baked.prepared() : Prepared{},
                        .question = explain.pick->question};
     if (m_explained == order)
@@ -374,15 +377,27 @@ void Session::showExplanation() {
 }
 
 void Session::followDocument() {
-    if (state.document.objects == m_followed->objects && state.solo == m_solo)
+    const std::set<ObjectId> muted =
+        state.explain.mutes ? state.explain.muted : std::set<ObjectId>{};
+    if (state.document.objects == m_followed->objects && state.solo == m_solo && muted == m_muted)
         return;
     m_followed = std::make_shared<const Document>(state.document);
     m_solo = state.solo;
+    m_muted = muted;
     m_shownSeconds = state.seconds;
     Scene flat = flatten(state.document, state.assets, m_shownSeconds);
     state.unlit = nothingShines(flat);
     applySolo(flat, state.document, m_solo);
-    auto scene = std::make_shared<const Scene>(std::move(flat));
+    const auto whole = std::make_shared<const Scene>(std::move(flat));
+    std::shared_ptr<const Scene> scene = whole;
+    if (!m_muted.empty()) {
+        auto without = std::make_shared<Scene>(*whole);
+        applyMuted(*without, state.document, m_muted);
+        scene = std::move(without);
+    }
+    // An unmuted scene is explained as it was.
+    if (!sameGeometry(*m_whole, *whole) || !sameLight(*m_whole, *whole) || m_muted.empty())
+        m_whole = whole;
     if (!sameLight(*m_scene, *scene)) {
         m_bakeSecondsAtLightEdit = bakeSeconds();
         m_lightEdited = true;
@@ -409,6 +424,8 @@ void Session::followTime() {
     if (!showTime(scene, state.document, m_shownSeconds))
         return;
     m_scene = std::make_shared<const Scene>(std::move(scene));
+    if (m_muted.empty())
+        m_whole = m_scene;
     m_relightJob.setScene(m_scene);
 }
 

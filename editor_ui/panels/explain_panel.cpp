@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/panels/explain_panel.h"
 
+#include "editor_ui/document/muted.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/view/picking.h"
 
@@ -84,6 +86,44 @@ void shareBar(double share) {
     ImGui::Text("%5.1f %%", 100 * share);
 }
 
+/// The object that can be muted by this row; 0: none.
+ObjectId mutedBy(const EditorState& state, const ExplainedPixel& pixel,
+                 const std::vector<LightRow>& rows, const LightRow& row) {
+    ObjectId id = 0;
+    if (row.kind == LightRowKind::Sky) {
+        for (const auto& [at, object] : state.document.objects)
+            if (std::holds_alternative<Sky>(object))
+                id = at;
+    } else if (row.kind == LightRowKind::Light || row.kind == LightRowKind::Surface) {
+        id = objectOf(pixel, rows, row);
+    }
+    const auto it = state.document.objects.find(id);
+    return it != state.document.objects.end() && canMute(it->second) ? id : 0;
+}
+
+/// An eye that shows the picture without the object, or with it again.
+void muteButton(ExplainState& explain, ObjectId id, bool emits) {
+    const bool muted = explain.muted.contains(id);
+    const float side = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton("mute", {side * 1.5f, side})) {
+        if (muted)
+            explain.muted.erase(id);
+        else
+            explain.muted.insert(id);
+    }
+    const bool hovered = ImGui::IsItemHovered();
+    drawIcon(*ImGui::GetWindowDrawList(), muted ? Icon::Hidden : Icon::Shown,
+             {at.x + side * 0.75f, at.y + side / 2}, side,
+             muted     ? color::warning()
+             : hovered ? ImGui::GetColorU32(ImGuiCol_Text)
+                       : color::dim());
+    wrappedTooltip(emits ? "Shows the picture without this light. The table keeps it, and nothing "
+                           "is saved"
+                         : "Shows the picture as if this object reflected no light. The table "
+                           "keeps it, and nothing is saved");
+}
+
 struct Table {
     EditorState& state;
     const ExplainedPixel& pixel;
@@ -118,6 +158,9 @@ struct Table {
         ImGui::TableNextColumn();
         swatch(r.value);
         elidedText(rgbText(r.value), ImGui::GetContentRegionAvail().x);
+        ImGui::TableNextColumn();
+        if (const ObjectId id = mutedBy(state, pixel, rows, r))
+            muteButton(state.explain, id, r.kind != LightRowKind::Surface);
         if (open) {
             for (const std::uint32_t child : below[k])
                 row(child);
@@ -139,18 +182,20 @@ void table(EditorState& state, const ExplainedPixel& pixel) {
     const std::vector<LightRow>& rows = state.explain.bySender ? tables.bySender : tables.byOrigin;
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
-    if (!ImGui::BeginTable(state.explain.bySender ? "sender" : "origin", 3, kFlags))
+    if (!ImGui::BeginTable(state.explain.bySender ? "sender" : "origin", 4, kFlags))
         return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Where from", ImGuiTableColumnFlags_WidthStretch, 0.5f);
     ImGui::TableSetupColumn("Share", ImGuiTableColumnFlags_WidthStretch, 0.2f);
     ImGui::TableSetupColumn("Red, green, blue", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+    ImGui::TableSetupColumn("Shown", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 4);
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     heading(0, "Lights, objects and the sky. A click selects the object");
     heading(1, "Of the luminance of all light of the pixel [%]");
     heading(2, pixel.light == PixelLight::Radiance
                    ? "Radiance that reaches the eye by this row [W m^-2 sr^-1]"
                    : "Irradiance that arrives by this row [W m^-2]");
+    heading(3, "The eye shows the picture without the row's light or object");
     Table all{state, pixel, rows, std::vector<std::vector<std::uint32_t>>(rows.size())};
     for (std::uint32_t k = 0; k < rows.size(); ++k)
         if (rows[k].parent != LightRow::kNone)
@@ -188,6 +233,11 @@ void choices(ExplainState& explain) {
 void explainPanel(EditorState& state) {
     ExplainState& explain = state.explain;
     choices(explain);
+    if (!explain.muted.empty()) {
+        if (ImGui::SmallButton(fmt::format("Show all ({} muted)", explain.muted.size()).c_str()))
+            explain.muted.clear();
+        ImGui::SameLine();
+    }
     if (explain.pick)
         explain.pick->question.light = explain.light;
     const float width = ImGui::GetContentRegionAvail().x;

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,9 @@ struct ExplainState {
     std::string refusal; ///< why nothing can be explained now; empty: it can
     std::string error;   ///< of the last explanation
     std::shared_ptr<const ExplainedPixel> result; ///< the newest; null: none yet
-    ObjectId hovered = 0;                         ///< object of the row under the mouse; 0: none
+    std::set<ObjectId> muted; ///< shown without them while the table that lists them is on screen
+    bool mutes = false;       ///< that table is on screen
+    ObjectId hovered = 0;     ///< object of the row under the mouse; 0: none
 };
 
 } // namespace limn

@@ -14,9 +14,11 @@ void main() {
     const float pixel = fwidth(r);
     if (r > 1.0)
         discard;
-    // A darker rim distinguishes neighbours of the same colour. Marks that are too small for it have none.
-    const float rim = smoothstep(0.8 - pixel, 0.8, r) * clamp(1.5 - 6.0 * pixel, 0.0, 1.0);
-    vec3 c = markColor.rgb * (1.0 - 0.4 * rim);
+    // A dark rim of at least a pixel distinguishes marks from neighbours and from a surface of the same colour, such as
+    // white marks on a white wall. Marks of less than a pixel and a half have none.
+    const float inner = 1.0 - max(0.2, 1.2 * pixel);
+    const float rim = smoothstep(inner - pixel, inner, r) * clamp(2.5 - 3.0 * pixel, 0.0, 1.0);
+    vec3 c = markColor.rgb * (1.0 - 0.6 * rim);
     if (markShape == MARK_RING)
         c = r > 0.82 || r < 0.42 ? r < 0.34 ? markColor.rgb : vec3(0) : vec3(1);
     outColor = vec4(c, 1);

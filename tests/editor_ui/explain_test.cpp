@@ -122,5 +122,68 @@ TEST_F(Explaining, ARowUnderTheMouseMarksItsObjectAndAClickSelectsIt) {
     EXPECT_EQ(state.explain.hovered, 0U);
 }
 
+TEST_F(Explaining, MutingALightShowsThePictureWithoutItAndKeepsTheTable) {
+    showTable();
+    click(middle() + glm::vec2(0, 40));
+    ASSERT_TRUE(explained());
+    const auto before = state.explain.result;
+    const std::size_t light = 0;
+    ASSERT_TRUE(session.scene()->lights[light].enabled);
+    state.explain.muted = {before->lights[light]};
+    ui.frames(state);
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_FALSE(session.scene()->lights[light].enabled);
+    EXPECT_EQ(state.bake.freshness, BakeFreshness::UpToDate);
+    EXPECT_EQ(state.explain.result, before) << "the table still has the light";
+    EXPECT_TRUE(std::get<Light>(state.document.objects.at(before->lights[light])).enabled);
+    // Another tab shows the whole picture again.
+    state.explain.mutes = false;
+    session.update();
+    EXPECT_TRUE(session.scene()->lights[light].enabled);
+}
+
+TEST_F(Explaining, MutingAnObjectBlackensItAndNoOtherOfItsMaterial) {
+    showTable();
+    const std::shared_ptr<const Scene> whole = session.scene();
+    const Instance& first = whole->instances.front();
+    state.explain.muted = {first.node};
+    ui.frames(state);
+    session.update();
+    const Scene& scene = *session.scene();
+    ASSERT_EQ(scene.instances.size(), whole->instances.size());
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Material& now = scene.materialOf(scene.instances[i]);
+        const Material& then = whole->materialOf(whole->instances[i]);
+        if (scene.instances[i].node == first.node)
+            EXPECT_EQ(glm::vec3(now.baseColor), glm::vec3(0)) << i;
+        else
+            EXPECT_EQ(now, then) << i;
+    }
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_EQ(state.bake.freshness, BakeFreshness::UpToDate) << "a bake reads no colours";
+}
+
+TEST_F(Explaining, TheEyeOfARowMutesItAndShowsItAgain) {
+    showTable();
+    click(middle() + glm::vec2(0, 40));
+    ASSERT_TRUE(explained());
+    ui.frames(state);
+    const auto muteNext = [&](bool wanted) {
+        // The eyes are the last column of the panel at the bottom.
+        for (float y = state.view.origin.y + state.view.size.y; y < 720; y += 3)
+            for (float x = 1270; x > 1180; x -= 8) {
+                ui.mouse(x, y);
+                ui.frames(state);
+                click({x, y});
+                if (state.explain.muted.empty() != wanted)
+                    return true;
+            }
+        return false;
+    };
+    ASSERT_TRUE(muteNext(true));
+    EXPECT_EQ(state.explain.muted.size(), 1U);
+    ASSERT_TRUE(muteNext(false));
+}
+
 } // namespace
 } // namespace limn
