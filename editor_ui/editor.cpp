@@ -18,6 +18,7 @@
 #include "editor_ui/panels/statistics_panel.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/viewport_panel.h"
+#include "editor_ui/view/gizmo.h"
 
 #include <imgui.h>
 #include <imgui_internal.h> // ClearActiveID, ClosePopupToLevel
@@ -212,9 +213,8 @@ static void panels(EditorState& state, float menuHeight) {
 /// popup, else the placing of a light. Returns false if there is none of these.
 static bool escape(EditorState& state) {
     if (state.view.drag || (state.gesture && ImGui::IsMouseDown(0))) {
-        state.view.drag.reset();
         ImGui::ClearActiveID();
-        cancelGesture(state);
+        cancelDrag(state);
         return true;
     }
     const int popups = ImGui::GetCurrentContext()->OpenPopupStack.Size;
@@ -234,6 +234,8 @@ static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
     const bool modal = state.fileBrowser || state.confirm || state.recovery || state.exportDialog;
     for (const Shortcut& shortcut : pressed)
         if (!modal && shortcut == kEsc && escape(state))
+            continue;
+        else if (!modal && !typing && keyOfDrag(state, shortcut))
             continue;
         else if (!modal && !typing && !(flying && shortcut.mods == kNoMods))
             runShortcut(state, shortcut);

@@ -15,7 +15,7 @@
 #include "editor_ui/request.h"
 #include "editor_ui/view/compare_state.h"
 #include "editor_ui/view/explain_state.h"
-#include "editor_ui/view/gizmo_math.h"
+#include "editor_ui/view/gizmo_drag.h"
 #include "editor_ui/view/overlay_state.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
@@ -28,18 +28,8 @@
 
 namespace limn {
 
-enum class Tool { Select, Move };
-
 /// What the mouse does to the view camera between press and release.
 enum class Navigation { None, Orbit, Pan, Fly };
-
-struct GizmoDrag {
-    Handle handle = Handle::None;
-    glm::vec3 origin{0};
-    glm::vec2 start{0};
-    ObjectsById objects;  ///< as they were at the start
-    glm::vec3 surface{0}; ///< PickedSurface::position at the start
-};
 
 /// The centre of the window, where the picture is.
 struct ViewState {
@@ -57,6 +47,7 @@ struct ViewState {
     bool pressed = false; ///< left button went down in the picture and may become a pick
     bool showLights = true;
     GizmoPlace gizmoPlace = GizmoPlace::Middle;
+    GizmoSettings gizmo;
     std::optional<PickedSurface> picked; ///< by the last click; see pickedSurface()
     float flySpeed = 2;                  ///< [m/s]
     bool animating = false;              ///< wants another frame although no event came

@@ -103,30 +103,35 @@ void deleteSelection(EditorState& state) {
     pruneSelection(state);
 }
 
-void duplicateSelection(EditorState& state) {
-    commitGesture(state);
+Copies copiesOfSelection(const EditorState& state) {
     const std::vector<ObjectId> ids = selectionWithChildren(state);
-    Edit edit{labelFor(state, "Duplicate", ids), {}};
     std::map<ObjectId, ObjectId> copyOf;
     ObjectId next = state.document.nextId;
     for (ObjectId id : ids)
         copyOf[id] = next++;
-    std::vector<ObjectId> selection;
+    Copies copies;
     for (ObjectId id : ids) {
         Object copy = state.document.objects.at(id);
         *nameOf(copy) = freeName(state.document, *nameOf(copy));
-        bool top = true;
-        if (auto* node = std::get_if<Node>(&copy); node && copyOf.contains(node->parent)) {
+        auto* node = std::get_if<Node>(&copy);
+        if (node && copyOf.contains(node->parent))
             node->parent = copyOf.at(node->parent);
-            top = false;
-        }
-        if (top)
-            selection.push_back(copyOf.at(id));
-        edit.changes.push_back({copyOf.at(id), {}, std::move(copy)});
+        else
+            copies.tops.push_back(copyOf.at(id));
+        copies.objects.emplace(copyOf.at(id), std::move(copy));
     }
+    return copies;
+}
+
+void duplicateSelection(EditorState& state) {
+    commitGesture(state);
+    Copies copies = copiesOfSelection(state);
+    Edit edit{labelFor(state, "Duplicate", selectionWithChildren(state)), {}};
+    for (auto& [id, copy] : copies.objects)
+        edit.changes.push_back({id, {}, std::move(copy)});
     applyEdit(state, std::move(edit));
-    if (!selection.empty())
-        state.selection = std::move(selection);
+    if (!copies.tops.empty())
+        state.selection = std::move(copies.tops);
 }
 
 static bool* shownFlag(Object& object) {
@@ -199,21 +204,6 @@ bool redoEdit(EditorState& state) {
 
 glm::mat4 worldMatrix(const Document& document, ObjectId node) {
     return glm::mat4(Placements(document).of(node).toWorld);
-}
-
-Object displaced(const Document& document, const Object& object, glm::vec3 d) {
-    Object moved = object;
-    if (auto* light = std::get_if<Light>(&moved)) {
-        light->position += d;
-    } else if (auto* camera = std::get_if<Camera>(&moved)) {
-        camera->eye += d;
-        camera->target += d;
-    } else if (auto* node = std::get_if<Node>(&moved)) {
-        if (node->parent != 0)
-            d = glm::inverse(glm::mat3(worldMatrix(document, node->parent))) * d;
-        node->transform.translation += glm::dvec3(d);
-    }
-    return moved;
 }
 
 } // namespace limn

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "editor_ui/document/gesture.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -30,6 +30,15 @@ void setBakeSettings(EditorState& state, const BakeSettings& settings, const cha
 /// Deletes the selected nodes (with everything below them), lights and cameras.
 void deleteSelection(EditorState& state);
 
+/// Copies of objects, under ids that the document has not given yet.
+struct Copies {
+    ObjectsById objects;
+    std::vector<ObjectId> tops; ///< those that are below no other copy
+};
+
+/// Copies of the selected nodes (with everything below them), lights and cameras.
+Copies copiesOfSelection(const EditorState& state);
+
 /// Copies the selected nodes (with everything below them), lights and cameras, and selects the
 /// copies.
 void duplicateSelection(EditorState& state);
@@ -46,8 +55,5 @@ bool redoEdit(EditorState& state);
 
 /// Object-to-world matrix of a node, including its parents, as in the flattened scene.
 glm::mat4 worldMatrix(const Document& document, ObjectId node);
-
-/// Copy of `object` displaced in world space by `d`. Nodes are moved in their parent's space.
-Object displaced(const Document& document, const Object& object, glm::vec3 d);
 
 } // namespace limn

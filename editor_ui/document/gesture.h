@@ -17,6 +17,7 @@ using ObjectsById = std::map<ObjectId, Object>;
 struct Gesture {
     ObjectsById before;
     std::string label;
+    bool creates = false; ///< the objects are new; `before` is how they were made
 };
 
 /// Call after each widget that edits object `id`. `seen` starts as a copy of the object made before
@@ -27,6 +28,10 @@ void trackEdit(EditorState& state, ObjectId id, Object& seen, const char* label)
 
 /// The same for several objects moved together (the gizmo).
 void trackEdits(EditorState& state, ObjectsById& seen, const char* label);
+
+/// Begins a gesture that puts new objects into the document, under ids from Document::nextId on.
+/// What trackEdit() says of them under the same label belongs to it.
+void beginCreation(EditorState& state, ObjectsById objects, const char* label);
 
 /// Ends the gesture, if any. Call when nothing is held any more (after all panels, each frame)
 /// and before undo, redo, save and every other action.

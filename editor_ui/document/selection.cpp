@@ -49,15 +49,18 @@ void pruneSelection(EditorState& state) {
                   [&](ObjectId id) { return !state.document.objects.contains(id); });
 }
 
-std::vector<ObjectId> selectionWithChildren(const EditorState& state) {
-    const Ids selected = selectedIds(state);
+static std::vector<ObjectId> withChildren(const Document& document, const Ids& tops) {
     std::vector<ObjectId> ids;
-    if (selected.empty()) // asked in every frame
+    if (tops.empty()) // asked in every frame
         return ids;
-    for (const auto& [id, object] : state.document.objects)
-        if (canDelete(object) && inOrBelow(state.document, id, selected))
+    for (const auto& [id, object] : document.objects)
+        if (canDelete(object) && inOrBelow(document, id, tops))
             ids.push_back(id);
     return ids;
+}
+
+std::vector<ObjectId> selectionWithChildren(const EditorState& state) {
+    return withChildren(state.document, selectedIds(state));
 }
 
 std::map<ObjectId, Object> movableSelection(const EditorState& state) {
@@ -102,10 +105,10 @@ static void growByNode(const EditorState& state, const glm::mat4& toWorld, const
     }
 }
 
-static Grown grownBySelection(const EditorState& state) {
+static Grown grownBy(const EditorState& state, const std::vector<ObjectId>& ids) {
     Placements placements(state.document);
     Grown grown;
-    for (ObjectId id : selectionWithChildren(state)) {
+    for (ObjectId id : ids) {
         const Object& object = state.document.objects.at(id);
         if (const auto* node = std::get_if<Node>(&object))
             growByNode(state, glm::mat4(placements.of(id).toWorld), *node, grown);
@@ -113,6 +116,10 @@ static Grown grownBySelection(const EditorState& state) {
             grown.add(*place);
     }
     return grown;
+}
+
+static Grown grownBySelection(const EditorState& state) {
+    return grownBy(state, selectionWithChildren(state));
 }
 
 static std::optional<glm::vec3> meanOrigin(const EditorState& state) {
@@ -138,6 +145,11 @@ std::optional<glm::vec3> selectionOrigin(const EditorState& state) {
 Bounds selectionBounds(const EditorState& state) {
     const Grown grown = grownBySelection(state);
     return grown.any ? grown.bounds : state.sceneBounds;
+}
+
+std::optional<Bounds> boundsOf(const EditorState& state, ObjectId id) {
+    const Grown grown = grownBy(state, withChildren(state.document, {id}));
+    return grown.any ? std::optional(grown.bounds) : std::nullopt;
 }
 
 const PickedSurface* pickedSurface(const EditorState& state) {

@@ -42,6 +42,10 @@ std::optional<glm::vec3> selectionOrigin(const EditorState& state);
 /// selected. A light counts as a point.
 Bounds selectionBounds(const EditorState& state);
 
+/// World-space bounding box of one object and the nodes below it; a point for lights and cameras,
+/// std::nullopt for what has no place.
+std::optional<Bounds> boundsOf(const EditorState& state, ObjectId id);
+
 /// The surface that was clicked last, if it belongs to the active object; else null.
 const PickedSurface* pickedSurface(const EditorState& state);
 

@@ -7,6 +7,7 @@
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 
@@ -15,6 +16,8 @@
 namespace limn {
 
 using nlohmann::json;
+
+static constexpr std::array kSpaceNames{"world", "local", "view"};
 
 /// The overlay of this name; null if there is none.
 static const OverlayKind* overlayNamed(const std::string& name) {
@@ -32,6 +35,7 @@ EditorSettings settingsOf(const EditorState& state) {
             .overlay = overlay ? overlay->name : "",
             .showLights = state.view.showLights,
             .lightTheme = state.lightTheme,
+            .gizmo = state.view.gizmo,
             .autoBake = state.autoBake};
 }
 
@@ -43,6 +47,7 @@ void useSettings(EditorState& state, const EditorSettings& settings) {
     state.overlay.options.kind = overlayNamed(settings.overlay);
     state.view.showLights = settings.showLights;
     state.lightTheme = settings.lightTheme;
+    state.view.gizmo = settings.gizmo;
     state.autoBake = settings.autoBake;
 }
 
@@ -56,6 +61,12 @@ std::string settingsToJson(const EditorSettings& s) {
                       {"overlay", s.overlay},
                       {"lightIcons", s.showLights},
                       {"lightTheme", s.lightTheme},
+                      {"gizmoAxes", kSpaceNames[std::size_t(s.gizmo.space)]},
+                      {"snap", s.gizmo.snap},
+                      {"moveStep", s.gizmo.moveStep},
+                      {"rotateStep", s.gizmo.rotateStep},
+                      {"scaleStep", s.gizmo.scaleStep},
+                      {"blenderKeys", s.gizmo.blenderKeys},
                       {"bakeWhenNeeded", s.autoBake}};
     return out.dump(2) + '\n';
 }
@@ -104,6 +115,12 @@ EditorSettings settingsFromJson(const std::string& text) {
         s.overlay = overlay->name;
     readFlag(in, "lightIcons", s.showLights);
     readFlag(in, "lightTheme", s.lightTheme);
+    readName(in, "gizmoAxes", kSpaceNames, s.gizmo.space);
+    readFlag(in, "snap", s.gizmo.snap);
+    readNumber(in, "moveStep", 0, kMaxMoveStep, s.gizmo.moveStep);
+    readNumber(in, "rotateStep", kMinRotateStep, kMaxRotateStep, s.gizmo.rotateStep);
+    readNumber(in, "scaleStep", kMinScaleStep, kMaxScaleStep, s.gizmo.scaleStep);
+    readFlag(in, "blenderKeys", s.gizmo.blenderKeys);
     readFlag(in, "bakeWhenNeeded", s.autoBake);
     return s;
 }

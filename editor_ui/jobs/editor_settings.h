@@ -17,6 +17,7 @@ struct EditorSettings {
     std::string overlay;  ///< OverlayKind::name; empty: none
     bool showLights = true;
     bool lightTheme = false;
+    GizmoSettings gizmo;
     bool autoBake = true;
 
     bool operator==(const EditorSettings&) const = default;

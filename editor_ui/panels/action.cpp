@@ -2,12 +2,14 @@
 #include "editor_ui/panels/action.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/drop_to_surface.h"
 #include "editor_ui/document/first_light.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
+#include "editor_ui/view/gizmo.h"
 #include "editor_ui/view/light_placement.h"
 #include "editor_ui/view/pivot.h"
 #include "engine/techniques/technique_table.h"
@@ -131,6 +133,23 @@ void choose(EditorState& s) {
 template <auto member, auto value>
 bool isChosen(const EditorState& s) {
     return s.view.*member == value;
+}
+
+template <auto member, auto value>
+void chooseGizmo(EditorState& s) {
+    s.view.gizmo.*member = value;
+}
+template <auto member, auto value>
+bool isGizmo(const EditorState& s) {
+    return s.view.gizmo.*member == value;
+}
+template <auto member>
+void toggleGizmo(EditorState& s) {
+    s.view.gizmo.*member = !(s.view.gizmo.*member);
+}
+template <Tool tool>
+void grab(EditorState& s) {
+    grabSelection(s, tool);
 }
 
 bool placing(const EditorState& s) {
@@ -268,6 +287,10 @@ std::vector<Action> fixedActions() {
     {"edit.delete", "Delete", Menu::Edit, plain(key::kDelete), kNoKey, false, hasDeletable, deleteSelection},
     {"edit.hide", "Hide or show", Menu::Edit, plain('H'), kNoKey, true, hasSelection, toggleHidden},
     {"edit.show_all", "Show all", Menu::Edit, alt('H'), kNoKey, false, always, showAll},
+    {"grab.move", "Move with the mouse", Menu::Edit, plain('G'), kNoKey, true, hasDeletable, grab<Tool::Move>},
+    {"grab.rotate", "Rotate with the mouse", Menu::Edit, kNoKey, kNoKey, false, hasDeletable, grab<Tool::Rotate>},
+    {"grab.scale", "Scale with the mouse", Menu::Edit, plain('S'), kNoKey, false, hasDeletable, grab<Tool::Scale>},
+    {"edit.drop", "Drop to the surface below", Menu::Edit, plain(key::kEnd), kNoKey, false, hasDeletable, dropSelection},
     {"edit.select_all", "Select all", Menu::Edit, ctrl('A'), kNoKey, true, always, selectAll},
     {"edit.select_none", "Select nothing", Menu::Edit, plain(key::kEscape), kNoKey, false, hasSelection, selectNone},
     {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
@@ -295,15 +318,22 @@ std::vector<Action> fixedActions() {
     {"view.bottom", "From below", Menu::View, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
     {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, choose<&ViewState::tool, Tool::Select>, isChosen<&ViewState::tool, Tool::Select>},
     {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, choose<&ViewState::tool, Tool::Move>, isChosen<&ViewState::tool, Tool::Move>},
-    {"gizmo.middle", "Gizmo in the middle of the selection", Menu::View, kNoKey, kNoKey, true, always, choose<&ViewState::gizmoPlace, GizmoPlace::Middle>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Middle>},
-    {"gizmo.origins", "Gizmo at the objects' origins", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Origins>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Origins>},
-    {"gizmo.click", "Gizmo where the object was clicked", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Click>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Click>},
+    {"tool.rotate", "Rotate", Menu::View, plain('E'), kNoKey, false, always, choose<&ViewState::tool, Tool::Rotate>, isChosen<&ViewState::tool, Tool::Rotate>},
+    {"tool.scale", "Scale", Menu::View, plain('R'), kNoKey, false, always, choose<&ViewState::tool, Tool::Scale>, isChosen<&ViewState::tool, Tool::Scale>},
     {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
     {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
     {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
     {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
+    {"gizmo.middle", "Gizmo in the middle of the selection", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Middle>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Middle>},
+    {"gizmo.origins", "Gizmo at the objects' origins", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Origins>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Origins>},
+    {"gizmo.click", "Gizmo where the object was clicked", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Click>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Click>},
+    {"gizmo.world", "Axes of the world", Menu::Gizmo, kNoKey, kNoKey, true, always, chooseGizmo<&GizmoSettings::space, GizmoSpace::World>, isGizmo<&GizmoSettings::space, GizmoSpace::World>},
+    {"gizmo.local", "Axes of the object", Menu::Gizmo, kNoKey, kNoKey, false, always, chooseGizmo<&GizmoSettings::space, GizmoSpace::Local>, isGizmo<&GizmoSettings::space, GizmoSpace::Local>},
+    {"gizmo.view", "Axes of the view", Menu::Gizmo, kNoKey, kNoKey, false, always, chooseGizmo<&GizmoSettings::space, GizmoSpace::View>, isGizmo<&GizmoSettings::space, GizmoSpace::View>},
+    {"gizmo.blender_keys", "R rotates at once, as in Blender", Menu::Gizmo, kNoKey, kNoKey, true, always, toggleGizmo<&GizmoSettings::blenderKeys>, isGizmo<&GizmoSettings::blenderKeys, true>},
+    {"gizmo.snap", "Snap without Ctrl", Menu::Gizmo, kNoKey, kNoKey, true, always, toggleGizmo<&GizmoSettings::snap>, isGizmo<&GizmoSettings::snap, true>},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.error", "Bake until the error holds", Menu::Bake, kNoKey, kNoKey, false, canBake, bakeToErrorAction},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
@@ -355,9 +385,17 @@ std::string actionLabel(const EditorState& state, const Action& action) {
     return action.label;
 }
 
+Shortcut shortcutOf(const EditorState& state, const Action& action) {
+    if (state.view.gizmo.blenderKeys && action.id == "tool.scale")
+        return kNoKey;
+    if (state.view.gizmo.blenderKeys && action.id == "grab.rotate")
+        return plain('R');
+    return action.shortcut;
+}
+
 bool runShortcut(EditorState& state, const Shortcut& pressed) {
     for (const Action& action : actions())
-        if (action.shortcut == pressed || action.alternative == pressed) {
+        if (shortcutOf(state, action) == pressed || action.alternative == pressed) {
             runAction(state, action);
             return true;
         }

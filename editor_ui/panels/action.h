@@ -11,8 +11,8 @@ namespace limn {
 
 struct EditorState;
 
-/// Menus that list actions, in the order of the menu bar; Overlay is a part of View.
-enum class Menu { File, Edit, Add, View, Overlay, Bake, Help };
+/// Menus that list actions, in the order of the menu bar; Gizmo and Overlay are parts of View.
+enum class Menu { File, Edit, Add, View, Gizmo, Overlay, Bake, Help };
 
 /// One thing the user can do. Menus, shortcuts and the palette read the same table.
 struct Action {
@@ -37,6 +37,9 @@ void runAction(EditorState& state, const Action& action);
 
 /// Label of an action with what it would act on, such as "Undo Move Key light".
 std::string actionLabel(const EditorState& state, const Action& action);
+
+/// The key that runs an action, with the keys that the user has chosen; kNone if there is none.
+Shortcut shortcutOf(const EditorState& state, const Action& action);
 
 /// Runs the action whose shortcut this is. Returns false if there is none.
 bool runShortcut(EditorState& state, const Shortcut& pressed);

@@ -5,6 +5,7 @@
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/snap_steps.h"
 #include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
@@ -18,7 +19,7 @@ namespace limn {
 
 static void actionItem(EditorState& state, const Action& action) {
     const std::string label = actionLabel(state, action);
-    const std::string keys = shortcutText(action.shortcut);
+    const std::string keys = shortcutText(shortcutOf(state, action));
     const bool checked = action.checked && action.checked(state);
     if (ImGui::MenuItem((label + "###" + action.id).c_str(), keys.c_str(), checked,
                         action.enabled(state)))
@@ -49,8 +50,12 @@ static void menu(EditorState& state, const char* label, Menu which) {
         if (which == Menu::File && std::string_view(action.id) == "file.open")
             recentMenu(state);
     }
-    if (which == Menu::View)
+    if (which == Menu::Gizmo)
+        snapSteps(state.view.gizmo);
+    if (which == Menu::View) {
+        menu(state, "Gizmo", Menu::Gizmo);
         menu(state, "Overlay", Menu::Overlay);
+    }
     ImGui::EndMenu();
 }
 
@@ -92,7 +97,7 @@ static void toolButton(EditorState& state, const char* id, const char* label) {
     if (active)
         ImGui::PopStyleColor();
     wrappedTooltip(
-        (std::string(action.label) + " (" + shortcutText(action.shortcut) + ")").c_str());
+        (std::string(action.label) + " (" + shortcutText(shortcutOf(state, action)) + ")").c_str());
     ImGui::SameLine();
 }
 
@@ -123,6 +128,8 @@ static void tonemapCombo(EditorState& state) {
 void viewBar(EditorState& state) {
     toolButton(state, "tool.select", "Select");
     toolButton(state, "tool.move", "Move");
+    toolButton(state, "tool.rotate", "Rotate");
+    toolButton(state, "tool.scale", "Scale");
     toolButton(state, "compare.reference", "Ref");
     viewCombo(state);
     overlayCombo(state);

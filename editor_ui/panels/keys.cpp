@@ -18,6 +18,8 @@ static std::string keyText(int k) {
         return "Enter";
     if (k == key::kPadEnter)
         return "Numpad Enter";
+    if (k == key::kEnd)
+        return "End";
     if (k == key::kSpace)
         return "Space";
     return std::string(1, char(k));

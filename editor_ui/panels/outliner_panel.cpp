@@ -237,7 +237,7 @@ static void contextMenu(EditorState& state, ObjectId id) {
     for (const char* actionId :
          {"edit.rename", "edit.duplicate", "edit.hide", "view.focus", "edit.delete"}) {
         const Action& action = actionById(actionId);
-        if (ImGui::MenuItem(action.label, shortcutText(action.shortcut).c_str(), false,
+        if (ImGui::MenuItem(action.label, shortcutText(shortcutOf(state, action)).c_str(), false,
                             action.enabled(state)))
             runAction(state, action);
     }

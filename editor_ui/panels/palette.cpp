@@ -36,7 +36,8 @@ static bool moveChosen(Palette& palette, int rows) {
 }
 
 /// Returns the action that was clicked, or null.
-static const Action* rows(const std::vector<const Action*>& found, int chosen, bool scroll) {
+static const Action* rows(const EditorState& state, const std::vector<const Action*>& found,
+                          int chosen, bool scroll) {
     const Action* clicked = nullptr;
     for (int i = 0; i < int(found.size()); ++i) {
         const Action& action = *found[std::size_t(i)];
@@ -44,7 +45,7 @@ static const Action* rows(const std::vector<const Action*>& found, int chosen, b
             clicked = &action;
         if (i == chosen && scroll)
             ImGui::SetScrollHereY();
-        const std::string keys = shortcutText(action.shortcut);
+        const std::string keys = shortcutText(shortcutOf(state, action));
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x);
         ImGui::TextDisabled("%s", keys.c_str());
     }
@@ -77,7 +78,7 @@ void palettePopup(EditorState& state) {
     const bool moved = moveChosen(palette, int(found.size()));
     const Action* run = nullptr;
     if (ImGui::BeginChild("list"))
-        run = rows(found, palette.chosen, moved);
+        run = rows(state, found, palette.chosen, moved);
     ImGui::EndChild();
     if (enter && !found.empty())
         run = found[std::size_t(palette.chosen)];

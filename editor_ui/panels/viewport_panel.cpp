@@ -57,7 +57,7 @@ static void startNavigation(EditorState& state) {
         return;
     if (ImGui::IsMouseClicked(kMiddle))
         navigation = io.KeyShift ? Navigation::Pan : Navigation::Orbit;
-    else if (ImGui::IsMouseClicked(kLeft) && io.KeyAlt)
+    else if (ImGui::IsMouseClicked(kLeft) && io.KeyAlt && !overHandle(state))
         navigation = Navigation::Orbit;
     else if (ImGui::IsMouseClicked(kRight))
         navigation = Navigation::Fly;
@@ -339,12 +339,13 @@ void viewportPanel(EditorState& state) {
     explainedPoint(state);
     if (state.view.showLights)
         lightIcons(state);
-    moveGizmo(state, hovered && state.view.navigation == Navigation::None && !state.view.placing);
+    const bool clickTaken = useGizmo(state, hovered && state.view.navigation == Navigation::None &&
+                                                !state.view.placing);
     compareOverlay(state);
     pictureReadout(state);
     placingHint(state, hovered && state.view.navigation == Navigation::None);
     ImGui::PopClipRect();
-    if (hovered)
+    if (hovered && !clickTaken)
         press(state);
     release(state);
 }

@@ -3,159 +3,282 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/editor_state.h"
-#include "editor_ui/panels/theme.h"
+#include "editor_ui/view/gizmo_drawing.h"
+#include "editor_ui/view/light_handles.h"
+#include "editor_ui/view/pivot.h"
 
 #include <imgui.h>
 
 #include <cmath>
+#include <utility>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 namespace limn {
 
 namespace {
 
-ImVec2 toIm(glm::vec2 v) {
-    return {v.x, v.y};
+constexpr float kDragPixels = 4; ///< from which a drag makes copies
+
+glm::vec2 mousePosition() {
+    const ImVec2 m = ImGui::GetIO().MousePos;
+    return {m.x, m.y};
 }
 
-ImU32 handleColor(Handle handle, Handle lit) {
-    if (handle == lit)
-        return color::kHandleLit;
-    switch (handle) {
-    case Handle::X:
-    case Handle::YZ:
-        return color::kAxisX;
-    case Handle::Y:
-    case Handle::ZX:
-        return color::kAxisY;
-    case Handle::Z:
-    case Handle::XY:
-        return color::kAxisZ;
-    case Handle::None:
+DragKeys heldKeys(const GizmoSettings& settings) {
+    const ImGuiIO& io = ImGui::GetIO();
+    return {.snap = settings.snap != io.KeyCtrl, .fine = io.KeyShift};
+}
+
+const char* labelOf(const GizmoDrag& drag) {
+    switch (drag.tool) {
+    case Tool::Move:
+        return "Move";
+    case Tool::Rotate:
+        return "Rotate";
+    case Tool::Scale:
+        return "Scale";
+    case Tool::Select:
         break;
     }
-    return 0;
+    return "";
 }
 
 } // namespace
 
-static void drawArrow(ImDrawList& list, const Picture& picture, Handle handle, glm::vec3 origin,
-                      ImU32 color) {
-    const float length = arrowLength(picture, origin);
-    const auto from = toPixel(picture, origin),
-               to = toPixel(picture, arrowTip(handle, origin, length));
-    if (!from || !to)
-        return;
-    const glm::vec2 d = *to - *from;
-    const float pixels = glm::length(d);
-    if (pixels < 6)
-        return;
-    const glm::vec2 along = d / pixels, across(-along.y, along.x);
-    list.AddLine(toIm(*from), toIm(*to - along * 8.f), color, 3);
-    list.AddTriangleFilled(toIm(*to + along * 4.f), toIm(*to - along * 11.f + across * 6.f),
-                           toIm(*to - along * 11.f - across * 6.f), color);
-}
-
-static void drawPlane(ImDrawList& list, const Picture& picture, Handle handle, glm::vec3 origin,
-                      ImU32 color) {
-    ImVec2 quad[4];
-    std::size_t i = 0;
-    for (glm::vec3 corner : planeHandle(handle, origin, arrowLength(picture, origin))) {
-        const auto p = toPixel(picture, corner);
-        if (!p)
-            return;
-        quad[i++] = toIm(*p);
+/// Axes of the gizmo: of the world, of the active object (else of any that moves), or of the view.
+static glm::mat3 gizmoAxes(const EditorState& state, const ObjectsById& movable) {
+    switch (state.view.gizmo.space) {
+    case GizmoSpace::World:
+        break;
+    case GizmoSpace::Local: {
+        const auto active = movable.find(activeId(state));
+        return ownAxes(state.document,
+                       active != movable.end() ? active->second : movable.begin()->second);
     }
-    list.AddQuadFilled(quad[0], quad[1], quad[2], quad[3], (color & 0x00FFFFFF) | 0x50000000);
-    list.AddQuad(quad[0], quad[1], quad[2], quad[3], color, 1.5f);
+    case GizmoSpace::View:
+        return glm::transpose(glm::mat3(viewMatrix(state.view.camera)));
+    }
+    return glm::mat3(1);
 }
 
-static void draw(const Picture& picture, glm::vec3 origin, Handle lit) {
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    for (Handle h : {Handle::YZ, Handle::ZX, Handle::XY})
-        drawPlane(list, picture, h, origin, handleColor(h, lit));
-    for (Handle h : {Handle::X, Handle::Y, Handle::Z})
-        drawArrow(list, picture, h, origin, handleColor(h, lit));
+static std::optional<GizmoFrame> selectionFrame(const EditorState& state) {
+    const auto origin = selectionOrigin(state);
+    if (!origin || !toPixel(state.view.picture(), *origin))
+        return {};
+    if (state.view.gizmo.space != GizmoSpace::Local)
+        return GizmoFrame{*origin, gizmoAxes(state, {})};
+    const ObjectsById movable = movableSelection(state);
+    if (movable.empty())
+        return {};
+    return GizmoFrame{*origin, gizmoAxes(state, movable)};
 }
 
-static void drawReadout(const Picture& picture, glm::vec3 origin, glm::vec3 moved) {
-    const auto at = toPixel(picture, origin);
-    if (!at)
-        return;
-    const std::string text = fmt::format("{:+.3f}  {:+.3f}  {:+.3f} m", moved.x, moved.y, moved.z);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const ImVec2 from(at->x + 16, at->y + 16);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({from.x - 5, from.y - 3}, {from.x + size.x + 5, from.y + size.y + 3},
-                       IM_COL32(20, 22, 26, 200), 3);
-    list.AddText(from, IM_COL32_WHITE, text.c_str());
-}
-
-static void startDrag(EditorState& state, Handle handle, glm::vec3 origin, glm::vec2 mouse) {
+static GizmoDrag newDrag(EditorState& state, const GizmoFrame& frame) {
     commitGesture(state);
-    state.view.drag = GizmoDrag{handle, origin, mouse, movableSelection(state),
-                                state.view.picked ? state.view.picked->position : glm::vec3(0)};
+    return {.frame = frame,
+            .start = mousePosition(),
+            .objects = movableSelection(state),
+            .selection = state.selection,
+            .surface = state.view.picked ? state.view.picked->position : glm::vec3(0)};
 }
 
-/// A round step of about a tenth of the arrow [m].
-static float snapStep(const Picture& picture, glm::vec3 origin) {
-    return std::pow(10.f, std::floor(std::log10(arrowLength(picture, origin))));
-}
-
-static glm::vec3 wantedDisplacement(const Picture& picture, const GizmoDrag& drag, glm::vec2 mouse,
-                                    bool& known) {
-    const auto d = dragDisplacement(picture, drag.handle, drag.origin, drag.start, mouse);
-    known = d.has_value();
-    if (!known)
-        return glm::vec3(0);
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyCtrl)
-        return snapped(*d, snapStep(picture, drag.origin));
-    return io.KeyShift ? *d * 0.1f : *d;
-}
-
-static void continueDrag(EditorState& state, const Picture& picture, glm::vec2 mouse) {
-    const GizmoDrag& drag = *state.view.drag;
-    bool known = false;
-    const glm::vec3 d = wantedDisplacement(picture, drag, mouse, known);
-    if (!known)
+void grabSelection(EditorState& state, Tool tool) {
+    const auto frame = selectionFrame(state);
+    if (!frame || movableSelection(state).empty())
         return;
-    ObjectsById seen;
-    for (const auto& [id, start] : drag.objects) {
-        Object* object = findObject(state, id);
-        if (!object)
-            continue;
-        seen.emplace(id, *object);
-        *object = displaced(state.document, start, d);
-    }
-    trackEdits(state, seen, "Move");
+    GizmoDrag drag = newDrag(state, *frame);
+    drag.tool = tool;
+    drag.handle = Handle::All;
+    drag.grabbed = true;
+    state.view.drag = std::move(drag);
+}
+
+void cancelDrag(EditorState& state) {
+    cancelGesture(state);
+    if (!state.view.drag)
+        return;
+    const GizmoDrag drag = std::move(*state.view.drag);
+    state.view.drag.reset();
+    state.selection = drag.selection;
+    pruneSelection(state);
     if (pickedSurface(state))
-        state.view.picked->position = drag.surface + d;
-    drawReadout(picture, drag.origin + d, d);
+        state.view.picked->position = drag.surface;
 }
 
-void moveGizmo(EditorState& state, bool mouseHere) {
-    const Picture picture = state.view.picture();
-    const glm::vec2 mouse(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
-    if (state.view.drag && !ImGui::IsMouseDown(0))
-        state.view.drag.reset();
-    if (state.view.drag)
-        continueDrag(state, picture, mouse);
-    const auto place = state.view.tool == Tool::Move ? selectionOrigin(state) : std::nullopt;
-    if (!place || !toPixel(picture, *place)) {
-        state.view.drag.reset();
+bool keyOfDrag(EditorState& state, const Shortcut& pressed) {
+    auto& drag = state.view.drag;
+    if (!drag || (pressed.mods & (kCtrl | kAlt)))
+        return false;
+    if (pressed.key == key::kEnter || pressed.key == key::kPadEnter)
+        drag.reset();
+    else if (pressed.key == key::kBackspace && !drag->typed.empty())
+        drag->typed.pop_back();
+    return true;
+}
+
+/// From here on the drag is one of copies, and they and it are one edit.
+static void makeCopies(EditorState& state, GizmoDrag& drag) {
+    Copies copies = copiesOfSelection(state);
+    drag.duplicates = false;
+    drag.objects.clear();
+    for (ObjectId id : copies.tops)
+        drag.objects.emplace(id, copies.objects.at(id));
+    beginCreation(state, std::move(copies.objects), labelOf(drag));
+    state.selection = std::move(copies.tops);
+}
+
+static void typeCharacters(GizmoDrag& drag) {
+    for (const ImWchar c : ImGui::GetIO().InputQueueCharacters)
+        typeIntoDrag(drag, c);
+}
+
+/// Where the pivot is after the manipulation.
+static glm::vec3 pivotAfter(const GizmoDrag& drag, const Manipulation& by) {
+    return drag.frame.origin + by.move;
+}
+
+static void moveSurface(EditorState& state, const GizmoDrag& drag, const Manipulation& by) {
+    if (!pickedSurface(state))
         return;
+    Light point;
+    point.position = drag.surface;
+    state.view.picked->position = std::get<Light>(manipulated(state.document, point, by)).position;
+}
+
+static void dragSelection(EditorState& state, const Picture& picture) {
+    GizmoDrag& drag = *state.view.drag;
+    typeCharacters(drag);
+    const glm::vec2 mouse = mousePosition();
+    if (drag.duplicates && glm::length(mouse - drag.start) > kDragPixels)
+        makeCopies(state, drag);
+    const auto by =
+        dragManipulation(picture, drag, state.view.gizmo, mouse, heldKeys(state.view.gizmo));
+    if (!by || drag.duplicates)
+        return;
+    ObjectsById seen, after;
+    for (const auto& [id, start] : drag.objects)
+        if (const Object* object = findObject(state, id)) {
+            seen.emplace(id, *object);
+            after.emplace(id, manipulated(state.document, start, *by));
+        }
+    for (auto& [id, object] : after)
+        state.document.objects.at(id) = std::move(object);
+    trackEdits(state, seen, labelOf(drag));
+    moveSurface(state, drag, *by);
+    if (const auto at = toPixel(picture, pivotAfter(drag, *by)))
+        drawReadout(*at, dragText(drag, *by));
+}
+
+static void dragLight(EditorState& state, const Picture& picture) {
+    const GizmoDrag& drag = *state.view.drag;
+    const auto& [id, start] = *drag.objects.begin();
+    Object* object = findObject(state, id);
+    const auto* light = std::get_if<Light>(&start);
+    const glm::vec2 mouse = mousePosition();
+    const auto aim = drag.part == LightPart::Direction ? surfaceUnder(state, mouse) : std::nullopt;
+    const auto after =
+        light ? draggedLight(picture, *light, drag.part, drag.start, mouse, aim) : std::nullopt;
+    if (!object || !after)
+        return;
+    Object seen = *object;
+    *object = *after;
+    trackEdit(state, id, seen, lightPartLabel(drag.part));
+    drawReadout(mouse, lightPartText(*after, drag.part));
+}
+
+/// Returns true if the drag ended by a click.
+static bool endDrag(EditorState& state) {
+    if (!state.view.drag->grabbed) {
+        if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))
+            state.view.drag.reset();
+        return false;
     }
-    const glm::vec3 origin = *place;
-    Handle lit = state.view.drag ? state.view.drag->handle : Handle::None;
-    if (!state.view.drag && mouseHere) {
-        lit = handleAt(picture, origin, mouse);
-        if (lit != Handle::None && ImGui::IsMouseClicked(0) && !ImGui::GetIO().KeyAlt)
-            startDrag(state, lit, origin, mouse);
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+        cancelDrag(state);
+        return true;
     }
-    draw(picture, origin, lit);
+    if (!ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        return false;
+    state.view.drag.reset();
+    return true;
+}
+
+static void startDrag(EditorState& state, const GizmoFrame& frame, Handle handle) {
+    GizmoDrag drag = newDrag(state, frame);
+    drag.tool = state.view.tool;
+    drag.handle = handle;
+    drag.duplicates = ImGui::GetIO().KeyAlt;
+    state.view.drag = std::move(drag);
+}
+
+static void startLightDrag(EditorState& state, LightPart part) {
+    GizmoDrag drag = newDrag(state, {});
+    drag.part = part;
+    state.view.drag = std::move(drag);
+}
+
+/// The light whose handles are shown: the only selected object.
+static const Light* handledLight(const EditorState& state) {
+    if (state.selection.size() != 1)
+        return nullptr;
+    const auto it = state.document.objects.find(activeId(state));
+    return it == state.document.objects.end() ? nullptr : std::get_if<Light>(&it->second);
+}
+
+/// Draws the handles of the selected light. Returns the one under the mouse.
+static LightPart lightHandles(EditorState& state, const Picture& picture, bool mouseHere) {
+    const Light* light = handledLight(state);
+    if (!light || !toPixel(picture, light->position))
+        return LightPart::None;
+    const bool dragged = state.view.drag.has_value();
+    const LightPart lit = dragged     ? state.view.drag->part
+                          : mouseHere ? lightPartAt(picture, *light, mousePosition())
+                                      : LightPart::None;
+    drawLightHandles(picture, *light, lit);
+    if (lit != LightPart::None && !dragged)
+        drawReadout(mousePosition(), lightPartText(*light, lit));
+    return dragged ? LightPart::None : lit;
+}
+
+bool overHandle(const EditorState& state) {
+    const Picture picture = state.view.picture();
+    const Light* light = handledLight(state);
+    if (light && toPixel(picture, light->position) &&
+        lightPartAt(picture, *light, mousePosition()) != LightPart::None)
+        return true;
+    const auto frame = selectionFrame(state);
+    return frame && handleAt(picture, state.view.tool, *frame, mousePosition()) != Handle::None;
+}
+
+bool useGizmo(EditorState& state, bool mouseHere) {
+    const Picture picture = state.view.picture();
+    const bool clicked = state.view.drag && endDrag(state);
+    auto& drag = state.view.drag;
+    if (drag)
+        drag->part == LightPart::None ? dragSelection(state, picture) : dragLight(state, picture);
+    const LightPart part = lightHandles(state, picture, mouseHere && !clicked);
+    const auto frame = selectionFrame(state);
+    if (!frame) {
+        if (drag && !drag->grabbed)
+            drag.reset();
+        return clicked;
+    }
+    const Tool tool = drag && drag->part == LightPart::None ? drag->tool : state.view.tool;
+    Handle lit = drag ? drag->handle : Handle::None;
+    const bool free = !drag && mouseHere && !clicked;
+    if (free && part == LightPart::None)
+        lit = handleAt(picture, tool, *frame, mousePosition());
+    if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+        if (part != LightPart::None)
+            startLightDrag(state, part);
+        else if (lit != Handle::None)
+            startDrag(state, *frame, lit);
+    }
+    // While it turns, a gizmo keeps the axes of the start, about which it turns.
+    const bool turning = drag && drag->part == LightPart::None;
+    drawGizmo(picture, tool, {frame->origin, turning ? drag->frame.axes : frame->axes}, lit);
+    return clicked;
 }
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/mat4x4.hpp>
 
 namespace limn {
@@ -15,6 +16,8 @@ constexpr float kArrowPixels = 90;
 constexpr float kGrabPixels = 8;
 constexpr float kPlaneBegin = 0.25f, kPlaneEnd = 0.5f; // of the arrow's length
 constexpr float kParallel = 0.02f;                     // sine of 1.1 degrees
+constexpr float kEdgeOn = 0.15f;                       // sine of 8.6 degrees
+constexpr int kRingSteps = 64;
 
 } // namespace
 
@@ -51,25 +54,41 @@ glm::vec3 handleAxis(Handle handle) {
     case Handle::XY:
         return {0, 0, 1};
     case Handle::None:
+    case Handle::All:
         break;
     }
     return glm::vec3(0);
 }
 
 static bool isPlane(Handle handle) {
-    return handle >= Handle::YZ;
+    return handle == Handle::YZ || handle == Handle::ZX || handle == Handle::XY;
 }
 
-std::array<glm::vec3, 4> planeHandle(Handle handle, glm::vec3 origin, float length) {
-    const glm::vec3 n = handleAxis(handle);
-    const glm::vec3 a(n.y, n.z, n.x), b(n.z, n.x, n.y);
+static glm::vec3 worldAxis(Handle handle, const GizmoFrame& frame) {
+    return frame.axes * handleAxis(handle);
+}
+
+glm::vec3 towardsEye(const Picture& picture, glm::vec3 origin) {
+    return glm::normalize(picture.camera.eye - origin);
+}
+
+std::array<glm::vec3, 4> planeHandle(Handle handle, const GizmoFrame& frame, float length) {
+    const glm::vec3 n = handleAxis(handle), origin = frame.origin;
+    const glm::vec3 a = frame.axes * glm::vec3(n.y, n.z, n.x);
+    const glm::vec3 b = frame.axes * glm::vec3(n.z, n.x, n.y);
     const float lo = kPlaneBegin * length, hi = kPlaneEnd * length;
     return {origin + a * lo + b * lo, origin + a * hi + b * lo, origin + a * hi + b * hi,
             origin + a * lo + b * hi};
 }
 
-glm::vec3 arrowTip(Handle handle, glm::vec3 origin, float length) {
-    return origin + handleAxis(handle) * length;
+glm::vec3 arrowTip(Handle handle, const GizmoFrame& frame, float length) {
+    return frame.origin + worldAxis(handle, frame) * length;
+}
+
+glm::vec3 ringPoint(glm::vec3 origin, glm::vec3 normal, float radius, float angle) {
+    const glm::vec3 other = std::abs(normal.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 a = glm::normalize(glm::cross(other, normal)), b = glm::cross(normal, a);
+    return origin + (a * std::cos(angle) + b * std::sin(angle)) * radius;
 }
 
 static float distanceToSegment(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
@@ -95,25 +114,42 @@ static bool insideQuad(glm::vec2 p, const std::array<glm::vec2, 4>& q) {
 
 /// Sine of the angle between an axis and the line of sight.
 static float sineToView(const Picture& picture, glm::vec3 origin, glm::vec3 axis) {
-    return glm::length(glm::cross(glm::normalize(origin - picture.camera.eye), axis));
+    return glm::length(glm::cross(towardsEye(picture, origin), axis));
 }
 
-static bool arrowUnderMouse(const Picture& picture, Handle handle, glm::vec3 origin, float length,
-                            glm::vec2 mouse, float& best) {
-    const auto from = toPixel(picture, origin);
-    const auto to = toPixel(picture, arrowTip(handle, origin, length));
-    if (!from || !to || sineToView(picture, origin, handleAxis(handle)) < 4 * kParallel)
-        return false;
-    const float d = distanceToSegment(mouse, *from, *to);
-    if (d > kGrabPixels || d >= best)
-        return false;
-    best = d;
-    return true;
+/// Distance of the mouse from an arrow; std::nullopt if the arrow cannot be picked [px].
+static std::optional<float> toArrow(const Picture& picture, Handle handle, const GizmoFrame& frame,
+                                    float length, glm::vec2 mouse) {
+    const auto from = toPixel(picture, frame.origin);
+    const auto to = toPixel(picture, arrowTip(handle, frame, length));
+    const float sine = sineToView(picture, frame.origin, worldAxis(handle, frame));
+    if (!from || !to || sine < 4 * kParallel)
+        return {};
+    return distanceToSegment(mouse, *from, *to);
 }
 
-static bool planeUnderMouse(const Picture& picture, Handle handle, glm::vec3 origin, float length,
-                            glm::vec2 mouse) {
-    const auto corners = planeHandle(handle, origin, length);
+/// Distance of the mouse from the half of a ring that faces the eye [px].
+static std::optional<float> toRing(const Picture& picture, Handle handle, const GizmoFrame& frame,
+                                   float radius, glm::vec2 mouse) {
+    const glm::vec3 normal = worldAxis(handle, frame), eye = towardsEye(picture, frame.origin);
+    std::optional<float> best;
+    for (int i = 0; i < kRingSteps; ++i) {
+        const auto at = [&](int step) {
+            return ringPoint(frame.origin, normal, radius,
+                             glm::two_pi<float>() * float(step) / kRingSteps);
+        };
+        if (glm::dot(at(i) - frame.origin, eye) < -kParallel * radius)
+            continue;
+        const auto a = toPixel(picture, at(i)), b = toPixel(picture, at(i + 1));
+        if (a && b)
+            best = std::min(best.value_or(1e9f), distanceToSegment(mouse, *a, *b));
+    }
+    return best;
+}
+
+static bool planeUnderMouse(const Picture& picture, Handle handle, const GizmoFrame& frame,
+                            float length, glm::vec2 mouse) {
+    const auto corners = planeHandle(handle, frame, length);
     std::array<glm::vec2, 4> pixels;
     for (std::size_t i = 0; i < 4; ++i) {
         const auto p = toPixel(picture, corners[i]);
@@ -122,23 +158,42 @@ static bool planeUnderMouse(const Picture& picture, Handle handle, glm::vec3 ori
         pixels[i] = *p;
     }
     const float facing =
-        std::abs(glm::dot(glm::normalize(origin - picture.camera.eye), handleAxis(handle)));
+        std::abs(glm::dot(towardsEye(picture, frame.origin), worldAxis(handle, frame)));
     return facing > 4 * kParallel && insideQuad(mouse, pixels);
 }
 
-Handle handleAt(const Picture& picture, glm::vec3 origin, glm::vec2 mouse) {
-    const float length = arrowLength(picture, origin);
+/// All of Move is a disc in the middle, that of the others a ring around the rest.
+static bool allUnderMouse(const Picture& picture, Tool tool, const GizmoFrame& frame,
+                          glm::vec2 mouse) {
+    const auto middle = toPixel(picture, frame.origin);
+    if (!middle)
+        return false;
+    const float distance = glm::length(mouse - *middle);
+    return tool == Tool::Move ? distance < kGrabPixels
+                              : std::abs(distance - kOuterRing * kArrowPixels) < kGrabPixels;
+}
+
+Handle handleAt(const Picture& picture, Tool tool, const GizmoFrame& frame, glm::vec2 mouse) {
+    if (tool == Tool::Select)
+        return Handle::None;
+    const float length = arrowLength(picture, frame.origin);
+    if (tool == Tool::Move && allUnderMouse(picture, tool, frame, mouse))
+        return Handle::All;
     Handle found = Handle::None;
-    float best = 1e9f;
-    for (Handle h : {Handle::X, Handle::Y, Handle::Z})
-        if (arrowUnderMouse(picture, h, origin, length, mouse, best))
-            found = h;
+    float best = kGrabPixels;
+    for (Handle h : {Handle::X, Handle::Y, Handle::Z}) {
+        const auto d = tool == Tool::Rotate ? toRing(picture, h, frame, length, mouse)
+                                            : toArrow(picture, h, frame, length, mouse);
+        if (d && *d < best)
+            best = *d, found = h;
+    }
     if (found != Handle::None)
         return found;
-    for (Handle h : {Handle::YZ, Handle::ZX, Handle::XY})
-        if (planeUnderMouse(picture, h, origin, length, mouse))
-            return h;
-    return Handle::None;
+    if (tool != Tool::Rotate)
+        for (Handle h : {Handle::YZ, Handle::ZX, Handle::XY})
+            if (planeUnderMouse(picture, h, frame, length, mouse))
+                return h;
+    return allUnderMouse(picture, tool, frame, mouse) ? Handle::All : Handle::None;
 }
 
 /// Parameter along `axis` from `origin` of the point closest to the ray from `eye`.
@@ -163,27 +218,81 @@ static std::optional<glm::vec3> onPlane(glm::vec3 origin, glm::vec3 normal, glm:
     return eye + d * t;
 }
 
-std::optional<glm::vec3> dragDisplacement(const Picture& picture, Handle handle, glm::vec3 origin,
-                                          glm::vec2 start, glm::vec2 now) {
+std::optional<glm::vec3> dragDisplacement(const Picture& picture, Handle handle,
+                                          const GizmoFrame& frame, glm::vec2 start, glm::vec2 now) {
     if (handle == Handle::None)
         return {};
-    const glm::vec3 axis = handleAxis(handle), eye = picture.camera.eye;
+    const glm::vec3 eye = picture.camera.eye, origin = frame.origin;
     const glm::vec3 d0 = pixelDirection(picture, start), d1 = pixelDirection(picture, now);
-    if (isPlane(handle)) {
-        const auto a = onPlane(origin, axis, eye, d0), b = onPlane(origin, axis, eye, d1);
+    if (handle == Handle::All || isPlane(handle)) {
+        const glm::vec3 normal =
+            handle == Handle::All ? towardsEye(picture, origin) : worldAxis(handle, frame);
+        const auto a = onPlane(origin, normal, eye, d0), b = onPlane(origin, normal, eye, d1);
         if (!a || !b)
             return {};
         return *b - *a;
     }
+    const glm::vec3 axis = worldAxis(handle, frame);
     const auto a = alongAxis(origin, axis, eye, d0), b = alongAxis(origin, axis, eye, d1);
     if (!a || !b)
         return {};
     return axis * (*b - *a);
 }
 
-glm::vec3 snapped(glm::vec3 displacement, float step) {
-    return {std::round(displacement.x / step) * step, std::round(displacement.y / step) * step,
-            std::round(displacement.z / step) * step};
+/// How far the mouse went along a ring that is seen edge-on, where it is nearest to the eye, in
+/// radii.
+static std::optional<float> alongRing(const Picture& picture, glm::vec3 origin, glm::vec3 normal,
+                                      glm::vec2 moved) {
+    const glm::vec3 eye = towardsEye(picture, origin);
+    const glm::vec3 nearest = glm::normalize(eye - normal * glm::dot(eye, normal));
+    const float radius = arrowLength(picture, origin), step = 0.01f * radius;
+    const glm::vec3 from = origin + nearest * radius;
+    const auto a = toPixel(picture, from),
+               b = toPixel(picture, from + glm::cross(normal, nearest) * step);
+    if (!a || !b)
+        return {};
+    const glm::vec2 perStep = *b - *a;
+    const float squared = glm::dot(perStep, perStep);
+    return squared > 0 ? std::optional(glm::dot(moved, perStep) / squared * step / radius)
+                       : std::nullopt;
+}
+
+std::optional<float> dragAngle(const Picture& picture, Handle handle, const GizmoFrame& frame,
+                               glm::vec2 start, glm::vec2 now) {
+    if (handle == Handle::None)
+        return {};
+    const glm::vec3 origin = frame.origin, eye = picture.camera.eye;
+    const glm::vec3 sight = towardsEye(picture, origin);
+    const glm::vec3 normal = handle == Handle::All ? sight : worldAxis(handle, frame);
+    if (std::abs(glm::dot(normal, sight)) < kEdgeOn)
+        return alongRing(picture, origin, normal, now - start);
+    const auto a = onPlane(origin, normal, eye, pixelDirection(picture, start));
+    const auto b = onPlane(origin, normal, eye, pixelDirection(picture, now));
+    if (!a || !b)
+        return {};
+    const glm::vec3 from = *a - origin, to = *b - origin;
+    return std::atan2(glm::dot(normal, glm::cross(from, to)), glm::dot(from, to));
+}
+
+std::optional<float> dragFactor(const Picture& picture, Handle handle, const GizmoFrame& frame,
+                                glm::vec2 start, glm::vec2 now) {
+    if (handle == Handle::X || handle == Handle::Y || handle == Handle::Z) {
+        const glm::vec3 axis = worldAxis(handle, frame), eye = picture.camera.eye;
+        const auto a = alongAxis(frame.origin, axis, eye, pixelDirection(picture, start));
+        const auto b = alongAxis(frame.origin, axis, eye, pixelDirection(picture, now));
+        if (!a || !b || std::abs(*a) < 0.01f * arrowLength(picture, frame.origin))
+            return {};
+        return *b / *a;
+    }
+    const auto middle = toPixel(picture, frame.origin);
+    if (handle == Handle::None || !middle || glm::length(start - *middle) < 1)
+        return {};
+    return glm::length(now - *middle) / glm::length(start - *middle);
+}
+
+glm::vec3 snapped(glm::vec3 value, float step) {
+    return {std::round(value.x / step) * step, std::round(value.y / step) * step,
+            std::round(value.z / step) * step};
 }
 
 } // namespace limn

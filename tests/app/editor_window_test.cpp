@@ -126,8 +126,8 @@ TEST_F(EditorWindowTest, ALightIsPickedDraggedSavedUndoneAndLitWithoutABake) {
     screen->click(icon);
     ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
 
-    screen->drag(*toPixel(picture, arrowTip(Handle::X, origin, 0.8f * length)),
-                 *toPixel(picture, arrowTip(Handle::X, origin, 1.6f * length)));
+    screen->drag(*toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length)),
+                 *toPixel(picture, arrowTip(Handle::X, {origin}, 1.6f * length)));
     ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 1 && s["relight_converged"]; }));
     EXPECT_EQ(readStats()["bake_seconds_since_light_edit"], 0);
     screen->key("ctrl+s");
@@ -239,8 +239,8 @@ TEST_F(EditorOnGpuTest, AMovedLightIsFollowedUntilItConvergesAndThenNothingIsDra
     screen->click(*toPixel(picture, origin));
     ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
     EXPECT_EQ(readStats()["relight_calls"], calls) << "nothing that gives light has changed";
-    screen->drag(*toPixel(picture, arrowTip(Handle::X, origin, 0.8f * length)),
-                 *toPixel(picture, arrowTip(Handle::X, origin, 1.6f * length)));
+    screen->drag(*toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length)),
+                 *toPixel(picture, arrowTip(Handle::X, {origin}, 1.6f * length)));
     ASSERT_TRUE(waitFor([&](const auto& s) {
         return s["edits"] == 1 && s["relight_converged"] && s["relight_calls"] > calls;
     }));

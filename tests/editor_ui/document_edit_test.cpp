@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/manipulation.h"
 #include "editor_ui/document/selection.h"
 
 #include "tests/editor_ui/headless.h"
@@ -86,14 +87,6 @@ TEST_F(DocumentEditTest, NewLightsHaveNamesOfTheirOwn) {
     EXPECT_TRUE(names.contains("Lamp 5"));
 }
 
-TEST_F(DocumentEditTest, ANodeDisplacedInTheWorldMovesThatFarUnderItsScaledParent) {
-    const ObjectId id = idNamed(state, "Left");
-    const glm::vec3 d(0.3f, -0.2f, 0.7f), from = worldMatrix(state.document, id)[3];
-    state.document.objects.at(id) = displaced(state.document, state.document.objects.at(id), d);
-    const glm::vec3 to = worldMatrix(state.document, id)[3];
-    EXPECT_NEAR(glm::length(to - from - d), 0, 1e-5f);
-}
-
 TEST_F(DocumentEditTest, WhatLiesFarAwayIsEditedAboutTheScenesOrigin) {
     const glm::mat4 near = worldMatrix(state.document, idNamed(state, "Left"));
     state.document.origin = {1e7, 0, -1e7};
@@ -105,7 +98,7 @@ TEST_F(DocumentEditTest, WhatLiesFarAwayIsEditedAboutTheScenesOrigin) {
 
     select({"Group"});
     Object& group = state.document.objects.at(idNamed(state, "Group"));
-    group = displaced(state.document, group, {0.01f, 0, 0});
+    group = manipulated(state.document, group, {.move = {0.01f, 0, 0}});
     ASSERT_TRUE(selectionOrigin(state));
     EXPECT_NEAR(selectionOrigin(state)->x, 0.01f, 1e-6f);
 }

@@ -28,6 +28,12 @@ EditorSettings unusual() {
             .overlay = overlayKinds().front()->name,
             .showLights = false,
             .lightTheme = true,
+            .gizmo = {.space = GizmoSpace::View,
+                      .snap = true,
+                      .moveStep = 0.25f,
+                      .rotateStep = 5,
+                      .scaleStep = 0.5f,
+                      .blenderKeys = true},
             .autoBake = false};
 }
 
@@ -47,6 +53,7 @@ TEST(EditorSettings, AnyTextGivesUsableOnes) {
           std::string("{\"left\": -1, \"right\": 1e30, \"bottom\": \"12\", \"exposure\": 11}"),
           std::string("{\"view\": 3, \"tonemap\": \"\", \"overlay\": \"none such\"}"),
           std::string("{\"lightIcons\": 0, \"bakeWhenNeeded\": \"no\", \"other\": {}}"),
+          std::string("{\"moveStep\": -1, \"rotateStep\": 0, \"scaleStep\": 0, \"snap\": 1}"),
           std::string("{\"view\": \"\xff\xfe\"}")})
         EXPECT_EQ(settingsFromJson(text), usual) << text.substr(0, 80);
     const std::string good = settingsToJson(unusual());

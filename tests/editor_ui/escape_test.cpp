@@ -57,7 +57,7 @@ TEST_F(EscapeTest, TakesTheGizmosDragBack) {
     const Picture picture = state.view.picture();
     const glm::vec3 origin = std::get<Light>(before.objects.at(lamp)).position;
     const glm::vec2 grip =
-        *toPixel(picture, arrowTip(Handle::X, origin, 0.8f * arrowLength(picture, origin)));
+        *toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * arrowLength(picture, origin)));
     press(grip.x, grip.y);
     moveTo(grip.x + 60, grip.y);
     ASSERT_NE(state.document, before);

@@ -99,8 +99,8 @@ TEST(Panels, TheGizmosArrowMovesALightInOneStepAndUndoBringsItBack) {
     const glm::vec3 origin = std::get<Light>(before.objects.at(id)).position;
     const Picture picture = state.view.picture();
     const float length = arrowLength(picture, origin);
-    const auto from = toPixel(picture, arrowTip(Handle::X, origin, 0.8f * length));
-    const auto to = toPixel(picture, arrowTip(Handle::X, origin, 1.8f * length));
+    const auto from = toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length));
+    const auto to = toPixel(picture, arrowTip(Handle::X, {origin}, 1.8f * length));
     ui.mouse(from->x, from->y);
     ui.frames(state);
     ui.button(true);

@@ -34,6 +34,7 @@ struct RandomUser {
     std::mt19937 rng;
     glm::vec2 mouse{640, 400};
     bool down[3] = {};
+    bool alt = false;
 
     int below(int n) { return int(rng() % unsigned(n)); }
 
@@ -51,7 +52,8 @@ struct RandomUser {
         case 3:
             if (const auto origin = selectionOrigin(state))
                 if (const auto p = toPixel(state.view.picture(), *origin))
-                    mouse = *p + glm::vec2(float(below(160) - 80), float(below(160) - 80)); // gizmo
+                    mouse =
+                        *p + glm::vec2(float(below(240) - 120), float(below(240) - 120)); // gizmo
             break;
         default:
             mouse += glm::vec2(float(below(41) - 20), float(below(41) - 20));
@@ -60,18 +62,25 @@ struct RandomUser {
     }
 
     void pressKeys(HeadlessUi& ui) {
-        static constexpr int kKeys[] = {key::kTab,    key::kEnter,  key::kEscape, key::kBackspace,
-                                        key::kDelete, key::kF2,     key::of('H'), key::of('W'),
-                                        key::of('Q'), key::of('F'), key::of('D'), key::of('Z'),
-                                        key::of('Y'), key::of('A'), key::kUp,     key::kDown,
-                                        key::kPad1,   key::kPad7,   key::of('P'), key::of('B')};
+        static constexpr int kKeys[] = {
+            key::kTab,    key::kEnter,  key::kEscape, key::kBackspace, key::kDelete, key::kF2,
+            key::of('H'), key::of('W'), key::of('Q'), key::of('F'),    key::of('D'), key::of('Z'),
+            key::of('Y'), key::of('A'), key::kUp,     key::kDown,      key::kPad1,   key::kPad7,
+            key::of('P'), key::of('B'), key::of('E'), key::of('R'),    key::of('G'), key::of('S')};
         static constexpr std::uint8_t kModifiers[] = {kNoMods, kNoMods, kCtrl,
                                                       kShift,  kAlt,    kCtrl | kShift};
         if (below(8) == 0)
             ui.tap(kKeys[below(int(std::size(kKeys)))], kModifiers[below(6)]);
+        if (below(40) == 0) { // orbits, or drags copies
+            alt = !alt;
+            ui.input.events.push_back({.kind = InputEvent::Kind::Key,
+                                       .code = key::kLeftAlt,
+                                       .down = alt,
+                                       .mods = std::uint8_t(alt ? kAlt : kNoMods)});
+        }
         if (below(8) == 0)
             ui.input.events.push_back(
-                {.kind = InputEvent::Kind::Character, .code = "0123456789.-e"[below(13)]});
+                {.kind = InputEvent::Kind::Character, .code = "0123456789.-exyzXY"[below(18)]});
     }
 
     void act(HeadlessUi& ui, EditorState& state) {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/document/manipulation.h"
+
+#include "editor_ui/document/object_rules.h"
+#include "engine/scene/light/rectangle_light.h"
+#include "engine/scene/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace limn {
+
+/// The rotation nearest to a matrix; the identity for a singular one. A mirrored matrix counts as
+/// its negative.
+/// Higham. Computing the Polar Decomposition - with Applications. 1986
+static glm::dmat3 nearestRotation(glm::dmat3 m) {
+    const double volume = glm::determinant(m);
+    if (!std::isfinite(volume) || volume == 0)
+        return glm::dmat3(1);
+    m *= 1 / std::cbrt(volume); // also turns a mirrored matrix into its negative
+    for (int i = 0; i < 40; ++i)
+        m = 0.5 * (m + glm::transpose(glm::inverse(m)));
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(glm::length(m[c]) - 1) < 1e-3))
+            return glm::dmat3(1);
+    return m;
+}
+
+static glm::dmat4 parentToWorld(const Document& document, const Node& node) {
+    return Placements(document).of(node.parent).toWorld;
+}
+
+static glm::dvec3 movedPoint(const Manipulation& by, glm::dvec3 p) {
+    const glm::dmat3 axes(by.axes);
+    const glm::dvec3 from = p - glm::dvec3(by.pivot);
+    const glm::dvec3 scaled = axes * (glm::dvec3(by.scale) * (glm::transpose(axes) * from));
+    return glm::dvec3(by.pivot) + glm::dquat(by.turn) * scaled + glm::dvec3(by.move);
+}
+
+/// What the scale does to lengths along a unit vector; negative where it mirrors it.
+static float factorAlong(const Manipulation& by, glm::vec3 axis) {
+    const glm::vec3 inAxes = glm::transpose(by.axes) * axis, scaled = by.scale * inAxes;
+    return glm::dot(inAxes, scaled) < 0 ? -glm::length(scaled) : glm::length(scaled);
+}
+
+/// `scale` times `factor`, held within the limits, or within those of `scale` if it is beyond them.
+static float limitedScale(float scale, float factor) {
+    const float size = std::abs(scale), wanted = scale * factor;
+    const float limited =
+        std::clamp(std::abs(wanted), std::min(kMinScale, size), std::max(kMaxScale, size));
+    return std::copysign(limited, wanted);
+}
+
+static bool turns(const Manipulation& by) {
+    return by.turn != glm::quat(1, 0, 0, 0);
+}
+
+static void manipulate(const Document& document, Node& node, const Manipulation& by) {
+    const glm::dmat4 parent = parentToWorld(document, node);
+    const glm::dmat3 linear(parent);
+    Transform& t = node.transform;
+    const glm::dvec3 from = parent * glm::dvec4(t.translation, 1), to = movedPoint(by, from);
+    if (to != from)
+        t.translation += glm::inverse(linear) * (to - from);
+    if (by.scale != glm::vec3(1)) {
+        const glm::dmat3 axes = linear * glm::mat3_cast(glm::dquat(t.rotation));
+        for (int i = 0; i < 3; ++i)
+            t.scale[i] = limitedScale(
+                t.scale[i], by.alongOwnAxes ? by.scale[i]
+                                            : factorAlong(by, glm::vec3(glm::normalize(axes[i]))));
+    }
+    if (turns(by)) {
+        const glm::dquat toWorld = glm::quat_cast(nearestRotation(linear));
+        t.rotation = glm::quat(glm::normalize(glm::inverse(toWorld) * glm::dquat(by.turn) *
+                                              toWorld * glm::dquat(t.rotation)));
+    }
+}
+
+/// Roll at which the rectangle's width points along `width` as nearly as it can [rad].
+static float rollTowards(Light light, glm::vec3 width) {
+    light.roll = 0;
+    const LightRectangle r = lightRectangle(light);
+    return std::atan2(glm::dot(width, glm::normalize(r.halfHeight)),
+                      glm::dot(width, glm::normalize(r.halfWidth)));
+}
+
+static void manipulate(const Document& document, Light& light, const Manipulation& by) {
+    const bool rectangle = light.kind == LightKind::Rectangle;
+    const glm::mat3 axes = ownAxes(document, light);
+    light.position = glm::vec3(movedPoint(by, light.position));
+    if (rectangle && by.scale != glm::vec3(1))
+        for (int i = 0; i < 2; ++i)
+            light.size[i] = std::clamp(
+                light.size[i] * std::abs(by.alongOwnAxes ? by.scale[i] : factorAlong(by, axes[i])),
+                kMinLightSize, kMaxLightSize);
+    if (!turns(by) || light.kind == LightKind::Point)
+        return;
+    light.direction = glm::normalize(by.turn * light.direction);
+    if (rectangle)
+        light.roll = rollTowards(light, by.turn * axes[0]);
+}
+
+static void manipulate(const Document&, Camera& camera, const Manipulation& by) {
+    const glm::vec3 ahead = camera.target - camera.eye;
+    camera.eye = glm::vec3(movedPoint(by, camera.eye));
+    camera.target = camera.eye + by.turn * ahead;
+    if (turns(by))
+        camera.up = glm::normalize(by.turn * camera.up);
+}
+
+Object manipulated(const Document& document, const Object& object, const Manipulation& by) {
+    Object after = object;
+    if (auto* node = std::get_if<Node>(&after))
+        manipulate(document, *node, by);
+    else if (auto* light = std::get_if<Light>(&after))
+        manipulate(document, *light, by);
+    else if (auto* camera = std::get_if<Camera>(&after))
+        manipulate(document, *camera, by);
+    return isValid(after) ? after : object;
+}
+
+glm::mat3 ownAxes(const Document& document, const Object& object) {
+    if (const auto* node = std::get_if<Node>(&object))
+        return glm::mat3(nearestRotation(glm::dmat3(parentToWorld(document, *node)) *
+                                         glm::mat3_cast(glm::dquat(node->transform.rotation))));
+    if (const auto* camera = std::get_if<Camera>(&object))
+        return glm::transpose(glm::mat3(viewMatrix(*camera)));
+    const auto* light = std::get_if<Light>(&object);
+    if (!light || light->kind == LightKind::Point)
+        return glm::mat3(1);
+    const LightRectangle r = lightRectangle(*light);
+    const glm::vec3 x = glm::normalize(r.halfWidth), y = glm::normalize(r.halfHeight);
+    return {x, y, glm::cross(x, y)};
+}
+
+} // namespace limn
