@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/document/clipboard.h"
 #include "editor_ui/document/edit_history.h"
 #include "editor_ui/document/gesture.h"
 #include "editor_ui/document/selection.h"
@@ -81,6 +82,8 @@ struct EditorState {
     EditHistory history;
     ObjectsById saved;               ///< the objects as they are in the file
     std::vector<ObjectId> selection; ///< last element is the active object
+    Clipboard clipboard;             ///< outlives the document
+    std::vector<ObjectId> isolated;  ///< nodes that toggleIsolated() hid
     std::optional<Gesture> gesture;  ///< edit in progress: in the document, not yet in history
 
     ViewState view;

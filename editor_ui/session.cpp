@@ -165,10 +165,11 @@ void Session::takeOpened() {
 void Session::show(OpenedFile file) {
     m_bakeJob.cancel();
     m_bakeJob.takeUpdate();
-    const EditorState before = std::exchange(state, {});
+    EditorState before = std::exchange(state, {});
     useSettings(state, settingsOf(before));
     state.view.origin = before.view.origin;
     state.view.size = before.view.size;
+    state.clipboard = std::move(before.clipboard);
     state.frame = before.frame;
     state.relightPlace = before.relightPlace;
     state.document = std::move(file.imported.document);

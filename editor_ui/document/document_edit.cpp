@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace limn {
 
@@ -19,7 +21,7 @@ static bool nameTaken(const Document& document, const std::string& name) {
     });
 }
 
-static std::string freeName(const Document& document, const std::string& wanted) {
+std::string freeName(const Document& document, const std::string& wanted) {
     if (!nameTaken(document, wanted))
         return wanted;
     for (int i = 2;; ++i)
@@ -103,16 +105,15 @@ void deleteSelection(EditorState& state) {
     pruneSelection(state);
 }
 
-Copies copiesOfSelection(const EditorState& state) {
-    const std::vector<ObjectId> ids = selectionWithChildren(state);
+Copies copiesOf(const Document& document, const ObjectsById& originals) {
     std::map<ObjectId, ObjectId> copyOf;
-    ObjectId next = state.document.nextId;
-    for (ObjectId id : ids)
+    ObjectId next = document.nextId;
+    for (const auto& [id, object] : originals)
         copyOf[id] = next++;
     Copies copies;
-    for (ObjectId id : ids) {
-        Object copy = state.document.objects.at(id);
-        *nameOf(copy) = freeName(state.document, *nameOf(copy));
+    for (const auto& [id, object] : originals) {
+        Object copy = object;
+        *nameOf(copy) = freeName(document, *nameOf(copy));
         auto* node = std::get_if<Node>(&copy);
         if (node && copyOf.contains(node->parent))
             node->parent = copyOf.at(node->parent);
@@ -121,6 +122,13 @@ Copies copiesOfSelection(const EditorState& state) {
         copies.objects.emplace(copyOf.at(id), std::move(copy));
     }
     return copies;
+}
+
+Copies copiesOfSelection(const EditorState& state) {
+    ObjectsById originals;
+    for (ObjectId id : selectionWithChildren(state))
+        originals.emplace(id, state.document.objects.at(id));
+    return copiesOf(state.document, originals);
 }
 
 void duplicateSelection(EditorState& state) {
@@ -176,6 +184,63 @@ void showAll(EditorState& state) {
     setShown(state, ids, true, "Show all");
 }
 
+/// Nodes with meshes that are visible and neither selected nor above or below what is.
+static std::vector<ObjectId> shownOthers(const EditorState& state) {
+    const std::vector<ObjectId> inside = selectionWithChildren(state);
+    std::set<ObjectId> kept(inside.begin(), inside.end());
+    for (ObjectId id : state.selection)
+        for (std::size_t depth = 0; id != 0 && depth <= state.document.objects.size(); ++depth) {
+            kept.insert(id);
+            const Node* node = findNode(state.document, id);
+            id = node ? node->parent : 0;
+        }
+    std::vector<ObjectId> others;
+    for (const auto& [id, object] : state.document.objects)
+        if (const auto* node = std::get_if<Node>(&object);
+            node && node->visible && !node->meshes.empty() && !kept.contains(id))
+            others.push_back(id);
+    return others;
+}
+
+bool isIsolated(const EditorState& state) {
+    return std::ranges::any_of(state.isolated, [&](ObjectId id) {
+        const Node* node = findNode(state.document, id);
+        return node && !node->visible;
+    });
+}
+
+void toggleIsolated(EditorState& state) {
+    commitGesture(state);
+    if (isIsolated(state)) {
+        setShown(state, std::exchange(state.isolated, {}), true, "Show the others");
+        return;
+    }
+    if (!std::ranges::any_of(state.selection,
+                             [&](ObjectId id) { return findNode(state.document, id); }))
+        return;
+    state.isolated = shownOthers(state);
+    setShown(state, state.isolated, false, "Isolate: hide");
+}
+
+void toggleDynamic(EditorState& state) {
+    commitGesture(state);
+    Edit edit;
+    const bool anyStatic = std::ranges::any_of(state.selection, [&](ObjectId id) {
+        const Node* node = findNode(state.document, id);
+        return node && !node->dynamic;
+    });
+    for (ObjectId id : state.selection) {
+        const Node* node = findNode(state.document, id);
+        if (!node || node->dynamic == anyStatic)
+            continue;
+        Node after = *node;
+        after.dynamic = anyStatic;
+        edit.changes.push_back({id, *node, std::move(after)});
+    }
+    edit.label = anyStatic ? "Make dynamic" : "Make static";
+    applyEdit(state, std::move(edit));
+}
+
 void rename(EditorState& state, ObjectId id, const std::string& name) {
     commitGesture(state);
     Object* object = findObject(state, id);
@@ -200,6 +265,11 @@ bool redoEdit(EditorState& state) {
     const bool done = redo(state.history, state.document);
     pruneSelection(state);
     return done;
+}
+
+const Node* findNode(const Document& document, ObjectId id) {
+    const auto it = document.objects.find(id);
+    return it == document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
 }
 
 glm::mat4 worldMatrix(const Document& document, ObjectId node) {

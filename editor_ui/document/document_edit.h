@@ -36,6 +36,13 @@ struct Copies {
     std::vector<ObjectId> tops; ///< those that are below no other copy
 };
 
+/// `wanted`, or it with the first number that makes it no other object's name.
+std::string freeName(const Document& document, const std::string& wanted);
+
+/// Copies of `originals`, which need not be in the document, under names of their own. Nodes stand
+/// below the copies of their parents, else below their own.
+Copies copiesOf(const Document& document, const ObjectsById& originals);
+
 /// Copies of the selected nodes (with everything below them), lights and cameras.
 Copies copiesOfSelection(const EditorState& state);
 
@@ -47,11 +54,24 @@ void duplicateSelection(EditorState& state);
 void toggleHidden(EditorState& state);
 void showAll(EditorState& state);
 
+/// Hides all nodes that carry meshes except the selected ones and those below or above them. If
+/// that is done already, shows those again that it hid.
+void toggleIsolated(EditorState& state);
+
+/// Whether some of what toggleIsolated() hid is still hidden.
+bool isIsolated(const EditorState& state);
+
+/// Makes the selected nodes dynamic, or static if all of them are dynamic.
+void toggleDynamic(EditorState& state);
+
 /// Renames an object. An empty or unchanged name is ignored.
 void rename(EditorState& state, ObjectId id, const std::string& name);
 
 bool undoEdit(EditorState& state);
 bool redoEdit(EditorState& state);
+
+/// The node with this id, or null.
+const Node* findNode(const Document& document, ObjectId id);
 
 /// Object-to-world matrix of a node, including its parents, as in the flattened scene.
 glm::mat4 worldMatrix(const Document& document, ObjectId node);

@@ -122,6 +122,19 @@ Object manipulated(const Document& document, const Object& object, const Manipul
     return isValid(after) ? after : object;
 }
 
+Transform transformed(const glm::dmat4& matrix, const Transform& transform) {
+    const glm::dmat3 linear(matrix);
+    const glm::dmat3 axes = linear * glm::mat3_cast(glm::dquat(transform.rotation));
+    const double side = glm::determinant(linear) < 0 ? -1 : 1; // nearestRotation() takes -linear
+    Transform after;
+    after.translation = matrix * glm::dvec4(transform.translation, 1);
+    after.rotation = glm::quat(
+        glm::normalize(glm::quat_cast(nearestRotation(linear)) * glm::dquat(transform.rotation)));
+    for (int i = 0; i < 3; ++i)
+        after.scale[i] = float(side * glm::length(axes[i]) * double(transform.scale[i]));
+    return after;
+}
+
 glm::mat3 ownAxes(const Document& document, const Object& object) {
     if (const auto* node = std::get_if<Node>(&object))
         return glm::mat3(nearestRotation(glm::dmat3(parentToWorld(document, *node)) *

@@ -29,6 +29,10 @@ inline constexpr float kMinScale = 1e-6f, kMaxScale = 1e6f;
 /// Returns `object` itself where the result would not be valid.
 Object manipulated(const Document& document, const Object& object, const Manipulation& by);
 
+/// `transform` followed by `matrix`, within what a transform can be: as manipulated() says of
+/// parents that are scaled unevenly.
+Transform transformed(const glm::dmat4& matrix, const Transform& transform);
+
 /// Unit and orthogonal axes of an object in the world. Lights and cameras look down -Z. The world's
 /// own axes for whatever has none.
 glm::mat3 ownAxes(const Document& document, const Object& object);

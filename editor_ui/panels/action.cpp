@@ -6,6 +6,7 @@
 #include "editor_ui/document/first_light.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/document/selection.h"
+#include "editor_ui/document/tree_edit.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
@@ -52,6 +53,19 @@ bool hasDeletable(const EditorState& s) {
         const auto it = s.document.objects.find(id);
         return it != s.document.objects.end() && canDelete(it->second);
     });
+}
+
+bool hasNode(const EditorState& s) {
+    return std::ranges::any_of(s.selection, [&](ObjectId id) { return findNode(s.document, id); });
+}
+
+bool canIsolate(const EditorState& s) {
+    return hasNode(s) || isIsolated(s);
+}
+
+bool isDynamic(const EditorState& s) {
+    const Node* node = findNode(s.document, activeId(s));
+    return node && node->dynamic;
 }
 
 bool canRename(const EditorState& s) {
@@ -120,6 +134,10 @@ void startRename(EditorState& s) {
     s.outliner.renaming = activeId(s);
     s.outliner.newName = *nameOf(*object);
     s.outliner.focusName = true;
+}
+
+void putAtRoot(EditorState& s) {
+    reparent(s, s.selection, 0);
 }
 
 void addSun(EditorState& s) {
@@ -283,10 +301,18 @@ std::vector<Action> fixedActions() {
     {"edit.undo", "Undo", Menu::Edit, ctrl('Z'), kNoKey, false, canUndo, undoAction},
     {"edit.redo", "Redo", Menu::Edit, ctrlShift('Z'), ctrl('Y'), false, canRedo, redoAction},
     {"edit.duplicate", "Duplicate", Menu::Edit, ctrl('D'), shift('D'), true, hasDeletable, duplicateSelection},
+    {"edit.cut", "Cut", Menu::Edit, ctrl('X'), kNoKey, true, hasDeletable, cutSelection},
+    {"edit.copy", "Copy", Menu::Edit, ctrl('C'), kNoKey, false, hasDeletable, copySelection},
+    {"edit.paste", "Paste", Menu::Edit, ctrl('V'), kNoKey, false, canPaste, pasteClipboard},
     {"edit.rename", "Rename", Menu::Edit, plain(key::kF2), kNoKey, false, canRename, startRename},
     {"edit.delete", "Delete", Menu::Edit, plain(key::kDelete), kNoKey, false, hasDeletable, deleteSelection},
     {"edit.hide", "Hide or show", Menu::Edit, plain('H'), kNoKey, true, hasSelection, toggleHidden},
     {"edit.show_all", "Show all", Menu::Edit, alt('H'), kNoKey, false, always, showAll},
+    {"edit.isolate", "Isolate, or show the others", Menu::Edit, plain(key::kSlash), kNoKey, false, canIsolate, toggleIsolated, isIsolated},
+    {"edit.group", "Group", Menu::Edit, ctrl('G'), kNoKey, true, hasNode, groupSelection},
+    {"edit.ungroup", "Ungroup", Menu::Edit, ctrlShift('G'), kNoKey, false, canUngroup, ungroupSelection},
+    {"edit.unparent", "Put at the root", Menu::Edit, kNoKey, kNoKey, false, hasNode, putAtRoot},
+    {"edit.dynamic", "Static or dynamic", Menu::Edit, kNoKey, kNoKey, false, hasNode, toggleDynamic, isDynamic},
     {"grab.move", "Move with the mouse", Menu::Edit, plain('G'), kNoKey, true, hasDeletable, grab<Tool::Move>},
     {"grab.rotate", "Rotate with the mouse", Menu::Edit, kNoKey, kNoKey, false, hasDeletable, grab<Tool::Rotate>},
     {"grab.scale", "Scale with the mouse", Menu::Edit, plain('S'), kNoKey, false, hasDeletable, grab<Tool::Scale>},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/panels/field.h"
 
+#include "editor_ui/document/common_edit.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/editor_state.h"
 #include "engine/scene/origin.h"
@@ -86,11 +87,29 @@ void positionField(const char* id, glm::dvec3& translation) {
     dragPosition(id, translation);
 }
 
+/// Gives the other objects what has changed in `now`, where they stay valid.
+static void editTogether(FieldEdit& edit, const Object& now, const char* label) {
+    ObjectsById seen{{edit.id, edit.seen}};
+    for (ObjectId id : edit.others) {
+        Object& other = edit.state.document.objects.at(id);
+        Object after = other;
+        copyChanges(edit.seen, now, after);
+        seen.emplace(id, other);
+        if (isValid(after))
+            other = std::move(after);
+    }
+    trackEdits(edit.state, seen, label);
+    edit.seen = now;
+}
+
 void fieldEdited(FieldEdit& edit, const char* label) {
     Object& now = edit.state.document.objects.at(edit.id);
     if (!isValid(now))
         now = edit.seen;
-    trackEdit(edit.state, edit.id, edit.seen, label);
+    if (edit.others.empty() || now == edit.seen)
+        trackEdit(edit.state, edit.id, edit.seen, label);
+    else
+        editTogether(edit, now, label);
 }
 
 /// Longest prefix of whole UTF-8 characters that fits.

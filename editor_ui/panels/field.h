@@ -4,6 +4,7 @@
 #include "editor_ui/document/gesture.h"
 
 #include <string>
+#include <vector>
 
 namespace limn {
 
@@ -12,6 +13,7 @@ struct FieldEdit {
     EditorState& state;
     ObjectId id;
     Object seen;
+    std::vector<ObjectId> others = {}; ///< of the same type, which get the same edits
 
     FieldEdit(EditorState& editor, ObjectId object);
 };

@@ -40,6 +40,18 @@ static void section(FieldEdit& edit, Object& object) {
         relightSection(edit, *relight);
 }
 
+/// The other selected objects of the same type; none for what a document has one of.
+static std::vector<ObjectId> othersLike(const EditorState& state, const Object& object) {
+    std::vector<ObjectId> others;
+    for (ObjectId id : state.selection) {
+        const auto it = state.document.objects.find(id);
+        if (id != activeId(state) && it != state.document.objects.end() &&
+            it->second.index() == object.index())
+            others.push_back(id);
+    }
+    return others;
+}
+
 void inspectorPanel(EditorState& state) {
     const ObjectId id = activeId(state);
     Object* object = findObject(state, id);
@@ -53,13 +65,19 @@ void inspectorPanel(EditorState& state) {
     }
     ImGui::PushID(int(id));
     ImGui::TextUnformatted(kindName(*object));
+    FieldEdit edit(state, id);
     if (state.selection.size() > 1) {
         ImGui::SameLine();
         ImGui::TextDisabled("(last of %zu selected)", state.selection.size());
     }
     ImGui::Separator();
-    FieldEdit edit(state, id);
-    nameRow(edit, *object);
+    nameRow(edit, *object); // a name is one object's own
+    edit.others = othersLike(state, *object);
+    if (!edit.others.empty()) {
+        ImGui::TextDisabled("Edits go to %zu objects", edit.others.size() + 1);
+        wrappedTooltip("The values are those of the object selected last. A value that is changed "
+                       "is given to every selected object of its type; positions move by as much");
+    }
     section(edit, *object);
     ImGui::PopID();
 }

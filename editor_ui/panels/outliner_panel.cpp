@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/object_rules.h"
+#include "editor_ui/document/tree_edit.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/field.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <functional>
 #include <map>
 
@@ -234,14 +236,36 @@ static void contextMenu(EditorState& state, ObjectId id) {
         return;
     if (!isSelected(state, id))
         state.selection = {id};
-    for (const char* actionId :
-         {"edit.rename", "edit.duplicate", "edit.hide", "view.focus", "edit.delete"}) {
+    for (const char* actionId : {"edit.rename", "edit.copy", "edit.paste", "edit.duplicate",
+                                 "edit.group", "edit.ungroup", "edit.unparent", "edit.hide",
+                                 "edit.isolate", "edit.dynamic", "view.focus", "edit.delete"}) {
         const Action& action = actionById(actionId);
         if (ImGui::MenuItem(action.label, shortcutText(shortcutOf(state, action)).c_str(), false,
                             action.enabled(state)))
             runAction(state, action);
     }
     ImGui::EndPopup();
+}
+
+/// A node that is dragged onto another one comes below it, with all that is selected if it is.
+static void dragRow(EditorState& state, ObjectId id) {
+    constexpr const char* kNodes = "nodes";
+    if (!std::holds_alternative<Node>(state.document.objects.at(id)))
+        return;
+    if (ImGui::BeginDragDropSource()) {
+        ImGui::SetDragDropPayload(kNodes, &id, sizeof id);
+        const std::string name = objectName(state.document.objects.at(id));
+        elidedText("Put " + name + " below ...", ImGui::GetFontSize() * 20);
+        ImGui::EndDragDropSource();
+    }
+    if (!ImGui::BeginDragDropTarget())
+        return;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kNodes)) {
+        ObjectId dragged = 0;
+        std::memcpy(&dragged, payload->Data, sizeof dragged);
+        reparent(state, isSelected(state, dragged) ? state.selection : std::vector{dragged}, id);
+    }
+    ImGui::EndDragDropTarget();
 }
 
 static void objectRow(EditorState& state, const std::vector<Row>& rows, const Row& row) {
@@ -260,6 +284,7 @@ static void objectRow(EditorState& state, const std::vector<Row>& rows, const Ro
         state.selection = {row.id};
         runAction(state, actionById("edit.rename"));
     }
+    dragRow(state, row.id);
     contextMenu(state, row.id);
     if (!state.document.objects.contains(row.id)) { // the menu deleted it
         ImGui::PopID();

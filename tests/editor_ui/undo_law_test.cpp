@@ -66,7 +66,8 @@ struct RandomUser {
             key::kTab,    key::kEnter,  key::kEscape, key::kBackspace, key::kDelete, key::kF2,
             key::of('H'), key::of('W'), key::of('Q'), key::of('F'),    key::of('D'), key::of('Z'),
             key::of('Y'), key::of('A'), key::kUp,     key::kDown,      key::kPad1,   key::kPad7,
-            key::of('P'), key::of('B'), key::of('E'), key::of('R'),    key::of('G'), key::of('S')};
+            key::of('P'), key::of('B'), key::of('E'), key::of('R'),    key::of('G'), key::of('S'),
+            key::of('C'), key::of('V'), key::of('X'), key::kSlash};
         static constexpr std::uint8_t kModifiers[] = {kNoMods, kNoMods, kCtrl,
                                                       kShift,  kAlt,    kCtrl | kShift};
         if (below(8) == 0)

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "editor_ui/document/clipboard.h"
+
+#include "editor_ui/document/document_edit.h"
+#include "editor_ui/editor_state.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace limn {
+
+void copySelection(EditorState& state) {
+    commitGesture(state);
+    Clipboard copied{.sceneHash = state.document.sceneHash, .origin = state.document.origin};
+    for (ObjectId id : selectionWithChildren(state))
+        copied.objects.emplace(id, state.document.objects.at(id));
+    if (!copied.objects.empty())
+        state.clipboard = std::move(copied);
+}
+
+void cutSelection(EditorState& state) {
+    copySelection(state);
+    deleteSelection(state);
+}
+
+static bool fits(const EditorState& state, const Object& object) {
+    return !std::holds_alternative<Node>(object) ||
+           state.clipboard.sceneHash == state.document.sceneHash;
+}
+
+bool canPaste(const EditorState& state) {
+    return std::ranges::any_of(state.clipboard.objects,
+                               [&](const auto& entry) { return fits(state, entry.second); });
+}
+
+/// Moves what is counted from another origin to the same place of the file.
+static void shift(Object& object, glm::vec3 by) {
+    if (auto* light = std::get_if<Light>(&object))
+        light->position += by;
+    if (auto* camera = std::get_if<Camera>(&object)) {
+        camera->eye += by;
+        camera->target += by;
+    }
+}
+
+void pasteClipboard(EditorState& state) {
+    commitGesture(state);
+    ObjectsById pasted;
+    const glm::vec3 by(state.clipboard.origin - state.document.origin);
+    for (const auto& [id, object] : state.clipboard.objects)
+        if (fits(state, object))
+            shift(pasted.emplace(id, object).first->second, by);
+    Copies copies = copiesOf(state.document, pasted);
+    const std::size_t count = copies.objects.size();
+    Edit edit{count == 1 ? "Paste " + objectName(copies.objects.begin()->second)
+                         : "Paste " + std::to_string(count) + " objects",
+              {}};
+    for (auto& [id, copy] : copies.objects) {
+        auto* node = std::get_if<Node>(&copy);
+        const bool parentCopied = node && copies.objects.contains(node->parent);
+        const Object* parent = node ? findObject(state, node->parent) : nullptr;
+        if (node && !parentCopied && !(parent && std::holds_alternative<Node>(*parent)))
+            node->parent = 0; // it has been deleted since
+        edit.changes.push_back({id, {}, copy});
+    }
+    if (edit.changes.empty())
+        return;
+    apply(state.history, state.document, std::move(edit));
+    state.selection = std::move(copies.tops);
+}
+
+} // namespace limn
