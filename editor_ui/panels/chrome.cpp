@@ -101,6 +101,20 @@ static void toolButton(EditorState& state, const char* id, const char* label) {
     ImGui::SameLine();
 }
 
+static void toolCombo(EditorState& state) {
+    const Action* tools[] = {&actionById("tool.select"), &actionById("tool.move"),
+                             &actionById("tool.rotate"), &actionById("tool.scale")};
+    const auto chosen = std::ranges::find_if(tools, [&](auto* t) { return t->checked(state); });
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
+    if (ImGui::BeginCombo("##tool", (*chosen)->label, ImGuiComboFlags_HeightLarge)) {
+        for (const Action* tool : tools)
+            actionItem(state, *tool);
+        ImGui::EndCombo();
+    }
+    wrappedTooltip("What the gizmo in the picture does (Q, W, E, R)");
+    ImGui::SameLine();
+}
+
 static void viewCombo(EditorState& state) {
     static constexpr const char* kViews[] = {"Lit",        "Direct only", "Indirect only",
                                              "Irradiance", "Albedo",      "Normals"};
@@ -126,10 +140,7 @@ static void tonemapCombo(EditorState& state) {
 }
 
 void viewBar(EditorState& state) {
-    toolButton(state, "tool.select", "Select");
-    toolButton(state, "tool.move", "Move");
-    toolButton(state, "tool.rotate", "Rotate");
-    toolButton(state, "tool.scale", "Scale");
+    toolCombo(state);
     toolButton(state, "compare.reference", "Ref");
     viewCombo(state);
     overlayCombo(state);

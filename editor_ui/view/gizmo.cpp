@@ -18,7 +18,8 @@ namespace limn {
 
 namespace {
 
-constexpr float kDragPixels = 4; ///< from which a drag makes copies
+constexpr float kDragPixels = 4;      ///< from which a drag makes copies
+constexpr float kReadoutPixels = 105; ///< from the pivot, so that the text is below the gizmo
 
 glm::vec2 mousePosition() {
     const ImVec2 m = ImGui::GetIO().MousePos;
@@ -146,7 +147,14 @@ static void moveSurface(EditorState& state, const GizmoDrag& drag, const Manipul
     state.view.picked->position = std::get<Light>(manipulated(state.document, point, by)).position;
 }
 
-static void dragSelection(EditorState& state, const Picture& picture) {
+/// What the drag has come to, below the gizmo.
+static void drawResult(const Picture& picture, const GizmoDrag& drag, const Manipulation& by) {
+    if (const auto at = toPixel(picture, pivotAfter(drag, by)))
+        drawReadout(*at + glm::vec2(0, kReadoutPixels), dragText(drag, by));
+}
+
+/// Returns what the drag does, if anything.
+static std::optional<Manipulation> dragSelection(EditorState& state, const Picture& picture) {
     GizmoDrag& drag = *state.view.drag;
     typeCharacters(drag);
     const glm::vec2 mouse = mousePosition();
@@ -155,7 +163,7 @@ static void dragSelection(EditorState& state, const Picture& picture) {
     const auto by =
         dragManipulation(picture, drag, state.view.gizmo, mouse, heldKeys(state.view.gizmo));
     if (!by || drag.duplicates)
-        return;
+        return {};
     ObjectsById seen, after;
     for (const auto& [id, start] : drag.objects)
         if (const Object* object = findObject(state, id)) {
@@ -166,8 +174,7 @@ static void dragSelection(EditorState& state, const Picture& picture) {
         state.document.objects.at(id) = std::move(object);
     trackEdits(state, seen, labelOf(drag));
     moveSurface(state, drag, *by);
-    if (const auto at = toPixel(picture, pivotAfter(drag, *by)))
-        drawReadout(*at, dragText(drag, *by));
+    return by;
 }
 
 static void dragLight(EditorState& state, const Picture& picture) {
@@ -255,8 +262,11 @@ bool useGizmo(EditorState& state, bool mouseHere) {
     const Picture picture = state.view.picture();
     const bool clicked = state.view.drag && endDrag(state);
     auto& drag = state.view.drag;
-    if (drag)
-        drag->part == LightPart::None ? dragSelection(state, picture) : dragLight(state, picture);
+    std::optional<Manipulation> by;
+    if (drag && drag->part == LightPart::None)
+        by = dragSelection(state, picture);
+    else if (drag)
+        dragLight(state, picture);
     const LightPart part = lightHandles(state, picture, mouseHere && !clicked);
     const auto frame = selectionFrame(state);
     if (!frame) {
@@ -278,6 +288,8 @@ bool useGizmo(EditorState& state, bool mouseHere) {
     // While it turns, a gizmo keeps the axes of the start, about which it turns.
     const bool turning = drag && drag->part == LightPart::None;
     drawGizmo(picture, tool, {frame->origin, turning ? drag->frame.axes : frame->axes}, lit);
+    if (drag && by)
+        drawResult(picture, *drag, *by);
     return clicked;
 }
 
