@@ -235,6 +235,7 @@ Result<void> placeReceivers(BakeRun& run) {
     const Scene& scene = run.scene;
     const LightmapLayout& layout = run.placed.atlas.layout;
     Bake& bake = run.bake;
+    run.progress.at("caches", 0);
     bake.gridBounds = gridBoundsOf(scene);
     bake.gridSize = chooseGridSize(scene, layout, scene.bake);
     bake.caches = placeCaches(scene, run.placed.atlas, run.points);
