@@ -363,9 +363,8 @@ TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) 
                                {"atrium", " --eye 0,1.7,0 --target -3,2,1 --fov 60"}};
     if (fs::exists(sponza))
         views.push_back({sponza.c_str(), " --eye 0,6,4.5 --target -10,6,4"});
-    std::string baked;
     const std::string bake = path("some.limnbake"), few = path("few.exr"), all = path("all.exr");
-    for (const View& view : views) {
+    for (std::string baked; const View& view : views) {
         if (baked != view.scene)
             json(std::string("bake ") + view.scene + " -o " + bake +
                  " --surfels 3000 --links 32 --rays 64 --lightmap 3000 --bands 4 --json");
