@@ -90,7 +90,8 @@ const char* refining(const EditorState& state) {
 bool axisWidget(EditorState& state, bool hovered) {
     const ViewState& view = state.view;
     const float reach = (kArm + kEnd + 8) * uiScale();
-    if (view.size.x < 6 * reach || view.size.y < 6 * reach)
+    const bool room = view.size.x >= 6 * reach && view.size.y >= 6 * reach;
+    if (!room || state.notice) // a notice may reach into the corner
         return false;
     const ImVec2 centre(view.origin.x + view.size.x - reach, view.origin.y + reach);
     const bool free = hovered && !view.drag && view.navigation == Navigation::None;
