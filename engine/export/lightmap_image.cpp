@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -81,11 +82,28 @@ struct Evaluation {
         return sum;
     }
 
-    glm::vec3 irradiance(const PlainTexel& t, const SurfacePoint& p) const {
-        std::array<glm::vec3, kIrradianceBands * kIrradianceBands> c;
+    std::array<glm::vec3, kMaxLayers> coefficients(const PlainTexel& t) const {
+        std::array<glm::vec3, kMaxLayers> c{};
         for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
             c[i] = coefficient(t, i);
-        return glm::max(shIrradiance(bands, c.data(), p.normal), glm::vec3(0));
+        return c;
+    }
+
+    glm::vec3 irradiance(const PlainTexel& t, const SurfacePoint& p) const {
+        return glm::max(shIrradiance(bands, coefficients(t).data(), p.normal), glm::vec3(0));
+    }
+
+    /// Change of the constant coefficient with which the lower bands alone have the irradiance of
+    /// all of them at the surface's own normal.
+    glm::vec3 ofUpperBands(const PlainTexel& t) const {
+        const auto p = surfacePoint(in.trace, hitAt(in.scene, t, {t.u, t.v}));
+        if (int(settings.bands) >= bands || !p)
+            return glm::vec3(0);
+        const std::array<glm::vec3, kMaxLayers> c = coefficients(t);
+        const float constant = std::sqrt(std::numbers::pi_v<float>) / 2; // pi Y_0
+        return (shIrradiance(bands, c.data(), p->normal) -
+                shIrradiance(int(settings.bands), c.data(), p->normal)) /
+               constant;
     }
 
     /// Calls visit(surface point) for points of the texel.
@@ -115,6 +133,7 @@ struct Evaluation {
             });
         for (std::size_t i = 0; i < count; ++i)
             c[i] = c[i] / float(TexelPoints::kCount) + coefficient(t, i);
+        c[0] += ofUpperBands(t);
         return c;
     }
 

@@ -36,9 +36,10 @@ Result<std::uint32_t> lightmapDetail(const LightmapLayout& layout, const ExportS
 Result<LightmapPages> exportPages(const ExportScene& scene, const ExportSettings& settings);
 
 /// Evaluates the lightmap of those pages, one image for each. Every texel holds the light at its
-/// centre, at the interpolated normal there. Direct light is the mean of four points of the texel;
-/// in harmonics it is limited to their bands. Fails if no instance has a lightmap, where more bands
-/// are asked for than the light has, and when cancelled.
+/// centre, at the interpolated normal there. Harmonics of two bands have a constant coefficient
+/// with which their irradiance at that normal is the one of three. Direct light is the mean of four
+/// points of the texel; in harmonics it is limited to their bands. Fails if no instance has a
+/// lightmap, where more bands are asked for than the light has, and when cancelled.
 Result<std::vector<LightmapImage>> lightmapImages(const ExportScene& scene,
                                                   const ExportSettings& settings,
                                                   const LightmapPages& pages,

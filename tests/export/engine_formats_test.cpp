@@ -3,7 +3,9 @@
 
 #include "engine/export/export_table.h"
 #include "engine/export/ktx2.h"
+#include "engine/export/lightmap_image.h"
 #include "engine/export/sh_conventions.h"
+#include "engine/math/sh.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/export/gltf_rules.h"
 #include "tests/export/known_light.h"
@@ -124,6 +126,26 @@ TEST(EngineFormats, LightmapsHoldTheQuantityOfTheirEngine) {
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(t[c], e[c], 1e-3f * e[c] + 1e-6f) << format->name;
             }
+    }
+}
+
+TEST(EngineFormats, TwoBandsHaveTheIrradianceOfThreeAtTheSurfacesNormal) {
+    KnownLight light(constantLight);
+    const std::array<glm::vec3, 9> all = KnownLight::probe(6); // 3 z^2 - 1, along the quad's normal
+    light.setLightmap(all);
+    const auto image = lightmapImage(light.view(), {.bands = 2, .detail = 1}, {});
+    ASSERT_TRUE(image) << image.error().message;
+    ASSERT_EQ(image->layers, 4U);
+    const std::size_t texels = std::size_t(image->width) * image->height;
+    const glm::vec3 n(0, 0, 1);
+    for (std::size_t t = 0; t < texels; ++t) {
+        std::array<glm::vec3, 4> two;
+        for (std::size_t i = 0; i < 4; ++i)
+            two[i] = image->rgb[i * texels + t];
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(shIrradiance(2, two.data(), n)[c], shIrradiance(3, all.data(), n)[c], 1e-5);
+        for (std::size_t i = 1; i < 4; ++i)
+            EXPECT_EQ(two[i], all[i]); // the change with the normal stays
     }
 }
 

@@ -3,7 +3,7 @@
 # scene.json's numbers, then once on the scene's own materials.
 extends Node3D
 
-# White, with the holes of the material that it stands for.
+# White, with the holes of the material that it stands for, and without its normal map, as `limn render` shows irradiance.
 const HOLES := "shader_type spatial;
 render_mode %s;
 uniform sampler2D color_map : source_color, filter_linear_mipmap, repeat_enable;
@@ -85,9 +85,6 @@ func white(material: BaseMaterial3D) -> Material:
 		var plain := StandardMaterial3D.new()
 		plain.metallic_specular = 0.0
 		plain.cull_mode = material.cull_mode
-		plain.normal_enabled = material.normal_enabled
-		plain.normal_scale = material.normal_scale
-		plain.normal_texture = material.normal_texture
 		return plain
 	var holes := ShaderMaterial.new()
 	holes.shader = Shader.new()
