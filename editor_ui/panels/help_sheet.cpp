@@ -25,6 +25,10 @@ constexpr Habit kMouse[] = {
     {"Zoom towards the mouse", "Wheel"},
     {"Fly", "Right button held, with W A S D, Q E; Shift fast, Ctrl slow, wheel for the speed"},
     {"Take a drag back", "Esc"},
+    {"Snap a drag, or drag finely", "Ctrl; Shift"},
+    {"Drag along one axis or two", "X, Y or Z; Shift and the one to leave out"},
+    {"Drag by a number", "Digits, then Enter: metres, degrees or a factor"},
+    {"Drag a copy", "Alt on a handle of the gizmo"},
     {"Type into a slider", "Ctrl and click, or double-click"}};
 
 constexpr std::pair<Menu, const char*> kGroups[] = {{Menu::File, "File"}, {Menu::Edit, "Edit"},
@@ -47,21 +51,21 @@ void heading(const char* text) {
     ImGui::TextDisabled("%s", text);
 }
 
-std::string keysOf(const Action& action) {
-    std::string keys = shortcutText(action.shortcut);
+std::string keysOf(const EditorState& state, const Action& action) {
+    std::string keys = shortcutText(shortcutOf(state, action));
     if (const std::string other = shortcutText(action.alternative); !other.empty())
         keys += ", " + other;
     return keys;
 }
 
-void rows() {
+void rows(const EditorState& state) {
     heading("Mouse");
     for (const Habit& habit : kMouse)
         row(habit.what, habit.how);
     for (const auto& [menu, title] : kGroups) {
         bool first = true;
         for (const Action& action : actions()) {
-            const std::string keys = keysOf(action);
+            const std::string keys = keysOf(state, action);
             if (action.menu != menu || keys.empty())
                 continue;
             if (std::exchange(first, false))
@@ -87,7 +91,7 @@ void helpSheet(EditorState& state) {
     wrappedTooltip("Esc closes this sheet");
     ImGui::Separator();
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) {
-        rows();
+        rows(state);
         ImGui::EndTable();
     }
     ImGui::EndPopup();
