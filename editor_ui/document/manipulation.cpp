@@ -50,7 +50,7 @@ static float factorAlong(const Manipulation& by, glm::vec3 axis) {
 static float limitedScale(float scale, float factor) {
     const float size = std::abs(scale), wanted = scale * factor;
     const float limited =
-        std::clamp(std::abs(wanted), std::min(kMinScale, size), std::max(kMaxScale, size));
+        std::clamp(std::abs(wanted), std::min(kMinNodeScale, size), std::max(kMaxNodeScale, size));
     return std::copysign(limited, wanted);
 }
 

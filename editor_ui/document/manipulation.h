@@ -20,7 +20,7 @@ struct Manipulation {
 };
 
 /// Limits of a node's scale, which a manipulation does not cross [1].
-inline constexpr float kMinScale = 1e-6f, kMaxScale = 1e6f;
+inline constexpr float kMinNodeScale = 1e-6f, kMaxNodeScale = 1e6f;
 
 /// Copy of `object` after the manipulation. A transform has no shear: where turning or scaling a
 /// node would need one, because its parents are scaled unevenly or it is scaled along axes that are

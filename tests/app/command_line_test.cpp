@@ -358,7 +358,7 @@ TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) 
     struct View {
         const char *scene, *lens;
     };
-    const std::string sponza = sourcePath("../shared/scenes/sponza-crytek/Sponza.gltf");
+    const std::string sponza = limn::sourcePath("../shared/scenes/sponza-crytek/Sponza.gltf");
     std::vector<View> views = {{"cornell", " --eye 0,1,1 --target 0.8,0.4,-0.5 --fov 30"},
                                {"atrium", " --eye 0,1.7,0 --target -3,2,1 --fov 60"}};
     if (fs::exists(sponza))

@@ -2,6 +2,7 @@
 // What a bake is expected to take and took, and bakes to an error, in the editor.
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/action.h"
+#include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
@@ -15,7 +16,7 @@ namespace {
 
 struct BakePanel : testing::Test {
     TemporaryFolder folder;
-    Session session{SessionOptions{LIMN_SOURCE_DIR "/projects", [] {}, true}};
+    Session session{SessionOptions{sourcePath("projects"), [] {}, true}};
     EditorState& state = session.state;
 
     void SetUp() override {

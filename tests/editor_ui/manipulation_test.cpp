@@ -137,8 +137,8 @@ TEST_F(ManipulationTest, ScalesStayWithinTheirLimits) {
     for (int i = 0; i < 20; ++i)
         apply(left, {.scale = glm::vec3(-0.01f, 1000, 1)});
     const glm::vec3 s = node(left).transform.scale;
-    EXPECT_EQ(std::abs(s.x), kMinScale);
-    EXPECT_EQ(s.y, kMaxScale);
+    EXPECT_EQ(std::abs(s.x), kMinNodeScale);
+    EXPECT_EQ(s.y, kMaxNodeScale);
     EXPECT_EQ(s.z, 1);
 }
 
