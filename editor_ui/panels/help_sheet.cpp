@@ -91,6 +91,8 @@ void helpSheet(EditorState& state) {
     wrappedTooltip("Esc closes this sheet");
     ImGui::Separator();
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) {
+        ImGui::TableSetupColumn("What", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+        ImGui::TableSetupColumn("How", ImGuiTableColumnFlags_WidthStretch, 0.55f);
         rows(state);
         ImGui::EndTable();
     }

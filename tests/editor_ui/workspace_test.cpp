@@ -88,6 +88,27 @@ TEST(HelpSheet, OpensByItsKeyAndEscClosesIt) {
     EXPECT_FALSE(state.selection.empty()) << "Esc closed the sheet and nothing else";
 }
 
+TEST(HelpSheet, ItsColumnsHoldWordsNotLetters) {
+    for (const float scale : {1.f, 2.f}) {
+        HeadlessUi ui(640 * scale, 480 * scale, scale);
+        EditorState state = fullEditor();
+        ui.frames(state);
+        ui.tap(key::kF1);
+        ui.frames(state);
+        ui.frames(state);
+        ImGuiContext& context = *ImGui::GetCurrentContext();
+        const ImGuiWindow* sheet = context.OpenPopupStack.front().Window;
+        ASSERT_TRUE(sheet);
+        const ImGuiTable* table = nullptr;
+        for (int i = 0; i < context.Tables.GetMapSize(); ++i)
+            if (const ImGuiTable* t = context.Tables.TryGetMapData(i); t && t->OuterWindow == sheet)
+                table = t;
+        ASSERT_TRUE(table);
+        for (int column = 0; column < table->ColumnsCount; ++column)
+            EXPECT_GT(table->Columns[column].WidthGiven, 8 * context.FontSize) << column;
+    }
+}
+
 // Every key that is not a character has a name of its own.
 TEST(HelpSheet, EveryShortcutHasAText) {
     std::set<std::string> texts;
