@@ -2,14 +2,13 @@
 // Compiled once for each kind of vector unit; the best one is chosen when the program runs.
 #include "engine/techniques/illuminance/relight/caches/light_links.h"
 
+#include "engine/core/vector_targets.h"
 #include "engine/math/ycocg.h"
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/techniques/illuminance/relight/caches/light_harmonics.cpp"
-// Plain code, AVX2 and AVX-512 are enough.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

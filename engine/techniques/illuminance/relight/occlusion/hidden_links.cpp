@@ -3,6 +3,7 @@
 // of a product is never fused, so that all of them agree.
 #include "engine/techniques/illuminance/relight/occlusion/hidden_links.h"
 
+#include "engine/core/vector_targets.h"
 #include "engine/math/sampling.h"
 
 #include <algorithm>
@@ -15,8 +16,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/techniques/illuminance/relight/occlusion/hidden_links.cpp"
-// Plain code, AVX2 and AVX-512 are enough.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
