@@ -67,7 +67,7 @@ Session::Session(SessionOptions options)
     state.assets = std::make_shared<const Assets>();
     state.recent = readRecentFiles();
     state.samples = samplesIn(m_options.projectsFolder);
-    useSettings(state, settingsIn(m_options.settingsFile));
+    useSettings(state, m_settings.latest());
     m_scene = m_whole = std::make_shared<const Scene>(flatten(state.document, state.assets));
 }
 

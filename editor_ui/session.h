@@ -118,7 +118,7 @@ private:
     bool m_started = false;                     ///< the first file has been opened, or could not be
     std::shared_ptr<const Document> m_followed; ///< the document as m_scene shows it; never null
     std::set<ObjectId> m_solo;                  ///< EditorState::solo, as m_scene shows it
-    std::set<ObjectId> m_muted;                 ///< what m_scene is shown without
+    std::set<ObjectId> m_muted;                 ///< objects whose light m_scene leaves out
     std::shared_ptr<const Scene> m_scene;
     std::shared_ptr<const Scene> m_whole; ///< m_scene with what is muted; the same where nothing is
     std::shared_ptr<const LightmapLayout> m_layout;

@@ -120,7 +120,7 @@ void Session::takeBaked() {
     }
 }
 
-/// Says what a bake to an error came to, whose settings become the document's.
+/// Shows the result of a bake to an error and makes its settings the document's.
 void Session::showGoal(const std::string& goal) {
     setBakeSettings(state, m_baked.bake->settings(), "Bake until the error holds");
     state.bake.goal = goal;

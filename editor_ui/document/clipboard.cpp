@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/editor_state.h"
+#include "engine/scene/find_object.h"
 
 #include <algorithm>
 #include <utility>
@@ -33,7 +34,7 @@ bool canPaste(const EditorState& state) {
                                [&](const auto& entry) { return fits(state, entry.second); });
 }
 
-/// Moves what is counted from another origin to the same place of the file.
+/// Moves a light or camera whose coordinates are relative to the origin of another document.
 static void shift(Object& object, glm::vec3 by) {
     if (auto* light = std::get_if<Light>(&object))
         light->position += by;
@@ -57,15 +58,14 @@ void pasteClipboard(EditorState& state) {
               {}};
     for (auto& [id, copy] : copies.objects) {
         auto* node = std::get_if<Node>(&copy);
-        const bool parentCopied = node && copies.objects.contains(node->parent);
-        const Object* parent = node ? findObject(state, node->parent) : nullptr;
-        if (node && !parentCopied && !(parent && std::holds_alternative<Node>(*parent)))
+        if (node && !copies.objects.contains(node->parent) &&
+            !findObjectAs<Node>(state.document, node->parent))
             node->parent = 0; // it has been deleted since
         edit.changes.push_back({id, {}, copy});
     }
     if (edit.changes.empty())
         return;
-    apply(state.history, state.document, std::move(edit));
+    applyEdit(state, std::move(edit));
     state.selection = std::move(copies.tops);
 }
 

@@ -4,6 +4,7 @@
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
+#include "engine/scene/find_object.h"
 #include "engine/scene/placement.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ std::string freeName(const Document& document, const std::string& wanted) {
             return name;
 }
 
-static void applyEdit(EditorState& state, Edit edit) {
+void applyEdit(EditorState& state, Edit edit) {
     apply(state.history, state.document, std::move(edit));
 }
 
@@ -191,7 +192,7 @@ static std::vector<ObjectId> shownOthers(const EditorState& state) {
     for (ObjectId id : state.selection)
         for (std::size_t depth = 0; id != 0 && depth <= state.document.objects.size(); ++depth) {
             kept.insert(id);
-            const Node* node = findNode(state.document, id);
+            const Node* node = findObjectAs<Node>(state.document, id);
             id = node ? node->parent : 0;
         }
     std::vector<ObjectId> others;
@@ -204,7 +205,7 @@ static std::vector<ObjectId> shownOthers(const EditorState& state) {
 
 bool isIsolated(const EditorState& state) {
     return std::ranges::any_of(state.isolated, [&](ObjectId id) {
-        const Node* node = findNode(state.document, id);
+        const Node* node = findObjectAs<Node>(state.document, id);
         return node && !node->visible;
     });
 }
@@ -216,7 +217,7 @@ void toggleIsolated(EditorState& state) {
         return;
     }
     if (!std::ranges::any_of(state.selection,
-                             [&](ObjectId id) { return findNode(state.document, id); }))
+                             [&](ObjectId id) { return findObjectAs<Node>(state.document, id); }))
         return;
     state.isolated = shownOthers(state);
     setShown(state, state.isolated, false, "Isolate: hide");
@@ -226,11 +227,11 @@ void toggleDynamic(EditorState& state) {
     commitGesture(state);
     Edit edit;
     const bool anyStatic = std::ranges::any_of(state.selection, [&](ObjectId id) {
-        const Node* node = findNode(state.document, id);
+        const Node* node = findObjectAs<Node>(state.document, id);
         return node && !node->dynamic;
     });
     for (ObjectId id : state.selection) {
-        const Node* node = findNode(state.document, id);
+        const Node* node = findObjectAs<Node>(state.document, id);
         if (!node || node->dynamic == anyStatic)
             continue;
         Node after = *node;
@@ -265,11 +266,6 @@ bool redoEdit(EditorState& state) {
     const bool done = redo(state.history, state.document);
     pruneSelection(state);
     return done;
-}
-
-const Node* findNode(const Document& document, ObjectId id) {
-    const auto it = document.objects.find(id);
-    return it == document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
 }
 
 glm::mat4 worldMatrix(const Document& document, ObjectId node) {

@@ -9,6 +9,9 @@ namespace limn {
 
 struct EditorState;
 
+/// Does and records an edit of the document. An edit without changes is ignored.
+void applyEdit(EditorState& state, Edit edit);
+
 /// Each of these functions is one undo step. Where it does not apply, it changes and records
 /// nothing.
 
@@ -69,9 +72,6 @@ void rename(EditorState& state, ObjectId id, const std::string& name);
 
 bool undoEdit(EditorState& state);
 bool redoEdit(EditorState& state);
-
-/// The node with this id, or null.
-const Node* findNode(const Document& document, ObjectId id);
 
 /// Object-to-world matrix of a node, including its parents, as in the flattened scene.
 glm::mat4 worldMatrix(const Document& document, ObjectId node);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/drop_to_surface.h"
 
+#include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/manipulation.h"
 #include "editor_ui/editor_state.h"
 
@@ -19,12 +20,12 @@ using Ids = std::unordered_set<ObjectId>;
 
 } // namespace
 
-/// Height of the first surface below a point that is of none of `passed`.
+/// Height of the first surface below a point, through those of the nodes in `ignored` [m].
 static std::optional<float> surfaceBelow(const TraceScene& trace, glm::vec3 from,
-                                         const Ids& passed) {
+                                         const Ids& ignored) {
     Ray ray{from, kDown};
     while (const Hit hit = trace.closestHit(ray)) {
-        if (!passed.contains(trace.scene().instances[hit.instance].node))
+        if (!ignored.contains(trace.scene().instances[hit.instance].node))
             return hit.position.y;
         ray.tNear = hit.t + trace.epsilonAt(hit.position);
     }
@@ -60,7 +61,7 @@ void dropSelection(EditorState& state) {
         if (after != object)
             edit.changes.push_back({id, object, std::move(after)});
     }
-    apply(state.history, state.document, std::move(edit));
+    applyEdit(state, std::move(edit));
 }
 
 } // namespace limn

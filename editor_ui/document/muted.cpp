@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/muted.h"
 
+#include "editor_ui/document/keep_lights.h"
+
 #include <map>
 
 namespace limn {
@@ -8,16 +10,6 @@ namespace limn {
 bool canMute(const Object& object) {
     return std::holds_alternative<Light>(object) || std::holds_alternative<Sky>(object) ||
            std::holds_alternative<Node>(object);
-}
-
-static void muteLights(Scene& scene, const Document& document, const std::set<ObjectId>& muted) {
-    auto light = scene.lights.begin();
-    for (const auto& [id, object] : document.objects) {
-        if (std::holds_alternative<Light>(object) && light != scene.lights.end())
-            (light++)->enabled &= !muted.contains(id);
-        if (std::holds_alternative<Sky>(object) && muted.contains(id))
-            scene.sky = {};
-    }
 }
 
 /// Materials may be shared with objects that are not muted, so the muted ones get copies.
@@ -40,7 +32,7 @@ static void muteSurfaces(Scene& scene, const std::set<ObjectId>& muted) {
 void applyMuted(Scene& scene, const Document& document, const std::set<ObjectId>& muted) {
     if (muted.empty())
         return;
-    muteLights(scene, document, muted);
+    keepLights(scene, document, [&](ObjectId id) { return !muted.contains(id); });
     muteSurfaces(scene, muted);
 }
 

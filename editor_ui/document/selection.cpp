@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/editor_state.h"
+#include "engine/scene/find_object.h"
 #include "engine/scene/placement.h"
 
 #include <algorithm>
@@ -32,13 +33,11 @@ static Ids selectedIds(const EditorState& state) {
     return {state.selection.begin(), state.selection.end()};
 }
 
-/// Whether `id` or one of its ancestors is in `ids`.
-static bool inOrBelow(const Document& document, ObjectId id, const Ids& ids) {
+bool inOrBelow(const Document& document, ObjectId id, const std::unordered_set<ObjectId>& ids) {
     for (std::size_t depth = 0; id != 0 && depth <= document.objects.size(); ++depth) {
         if (ids.contains(id))
             return true;
-        const auto it = document.objects.find(id);
-        const Node* node = it == document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
+        const Node* node = findObjectAs<Node>(document, id);
         id = node ? node->parent : 0;
     }
     return false;

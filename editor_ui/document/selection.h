@@ -4,6 +4,7 @@
 #include "engine/scene/scene.h"
 
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 namespace limn {
@@ -23,6 +24,9 @@ struct PickedSurface {
     std::uint32_t mesh = 0; ///< index into Assets::meshes
     glm::vec3 position{0};  ///< of the click, in world space [m]
 };
+
+/// Whether `id` or one of its ancestors is in `ids`.
+bool inOrBelow(const Document& document, ObjectId id, const std::unordered_set<ObjectId>& ids);
 
 /// Drops ids from the selection that the document no longer has.
 void pruneSelection(EditorState& state);

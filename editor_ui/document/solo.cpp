@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/solo.h"
 
+#include "editor_ui/document/keep_lights.h"
+
 #include <algorithm>
 
 namespace limn {
@@ -13,17 +15,8 @@ void applySolo(Scene& scene, const Document& document, const std::set<ObjectId>&
     const bool any = std::ranges::any_of(document.objects, [&](const auto& entry) {
         return canSolo(entry.second) && solo.contains(entry.first);
     });
-    if (!any)
-        return;
-    auto light = scene.lights.begin();
-    bool sky = false;
-    for (const auto& [id, object] : document.objects) {
-        if (std::holds_alternative<Light>(object) && light != scene.lights.end())
-            (light++)->enabled &= solo.contains(id);
-        sky |= std::holds_alternative<Sky>(object) && solo.contains(id);
-    }
-    if (!sky)
-        scene.sky = {};
+    if (any)
+        keepLights(scene, document, [&](ObjectId id) { return solo.contains(id); });
 }
 
 } // namespace limn

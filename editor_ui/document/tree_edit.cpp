@@ -5,6 +5,7 @@
 #include "editor_ui/document/manipulation.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/editor_state.h"
+#include "engine/scene/find_object.h"
 #include "engine/scene/placement.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 
 namespace limn {
 
-/// The node below another parent; std::nullopt where its transform would not be valid.
+/// `node` as a child of `parent`, at the same place in the world; std::nullopt where its transform
+/// would not be valid.
 static std::optional<Node> below(const Document& document, Node node, ObjectId parent) {
     if (node.parent == parent)
         return node;
@@ -37,17 +39,17 @@ static std::vector<ObjectId> topNodes(const EditorState& state) {
 }
 
 static ObjectId commonParent(const Document& document, const std::vector<ObjectId>& nodes) {
-    const ObjectId parent = findNode(document, nodes.front())->parent;
+    const ObjectId parent = findObjectAs<Node>(document, nodes.front())->parent;
     const bool same = std::ranges::all_of(
-        nodes, [&](ObjectId id) { return findNode(document, id)->parent == parent; });
-    return same && findNode(document, parent) ? parent : 0;
+        nodes, [&](ObjectId id) { return findObjectAs<Node>(document, id)->parent == parent; });
+    return same && findObjectAs<Node>(document, parent) ? parent : 0;
 }
 
 /// Puts the nodes below `parent`, as part of `edit`.
 static void addMoves(Edit& edit, const Document& document, const std::vector<ObjectId>& nodes,
                      ObjectId parent, ObjectId shownParent) {
     for (ObjectId id : nodes) {
-        const Node& node = *findNode(document, id);
+        const Node& node = *findObjectAs<Node>(document, id);
         auto after = below(document, node, parent);
         if (!after)
             continue;
@@ -69,7 +71,7 @@ void groupSelection(EditorState& state) {
     Edit edit{"Group " + std::to_string(nodes.size()) + " objects", {{id, {}, group}}};
     // The group has its parent's space.
     addMoves(edit, state.document, nodes, group.parent, id);
-    apply(state.history, state.document, std::move(edit));
+    applyEdit(state, std::move(edit));
     state.selection = {id};
 }
 
@@ -82,7 +84,7 @@ static std::vector<ObjectId> childrenOf(const Document& document, ObjectId paren
 }
 
 static bool isGroup(const Document& document, ObjectId id) {
-    const Node* node = findNode(document, id);
+    const Node* node = findObjectAs<Node>(document, id);
     return node && node->meshes.empty() && !childrenOf(document, id).empty();
 }
 
@@ -99,7 +101,7 @@ void ungroupSelection(EditorState& state) {
     for (ObjectId id : topNodes(state)) {
         if (!isGroup(document, id))
             continue;
-        const Node& group = *findNode(document, id);
+        const Node& group = *findObjectAs<Node>(document, id);
         const std::vector<ObjectId> children = childrenOf(document, id);
         const std::size_t first = edit.changes.size();
         addMoves(edit, document, children, group.parent, group.parent);
@@ -117,34 +119,23 @@ void ungroupSelection(EditorState& state) {
     }
     if (edit.changes.empty())
         return;
-    apply(state.history, state.document, std::move(edit));
+    applyEdit(state, std::move(edit));
     state.selection = std::move(freed);
-}
-
-/// Whether `id` is `above` or below it.
-static bool isBelow(const Document& document, ObjectId id, ObjectId above) {
-    for (std::size_t depth = 0; id != 0 && depth <= document.objects.size(); ++depth) {
-        if (id == above)
-            return true;
-        const Node* node = findNode(document, id);
-        id = node ? node->parent : 0;
-    }
-    return false;
 }
 
 void reparent(EditorState& state, const std::vector<ObjectId>& nodes, ObjectId parent) {
     commitGesture(state);
     const Document& document = state.document;
-    if (parent != 0 && !findNode(document, parent))
+    if (parent != 0 && !findObjectAs<Node>(document, parent))
         return;
     std::vector<ObjectId> moved;
     for (ObjectId id : nodes)
-        if (findNode(document, id) && !isBelow(document, parent, id))
+        if (findObjectAs<Node>(document, id) && !inOrBelow(document, parent, {id}))
             moved.push_back(id);
     const Object* target = findObject(state, parent);
     Edit edit{target ? "Put below " + objectName(*target) : "Put at the root", {}};
     addMoves(edit, document, moved, parent, parent);
-    apply(state.history, state.document, std::move(edit));
+    applyEdit(state, std::move(edit));
 }
 
 } // namespace limn

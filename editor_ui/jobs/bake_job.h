@@ -24,7 +24,7 @@ struct BakedScene {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const TraceScene> trace;
     bool preview = false; ///< made with few rays; the full bake follows
-    /// What a bake to an error came to, in words; empty: its settings were given.
+    /// Result of a bake to an error, in words; empty if the settings were given.
     std::string goal;
 
     Prepared prepared() const { return {bake, scene}; }

@@ -21,6 +21,9 @@ public:
     SettingsJob(const SettingsJob&) = delete;
     SettingsJob& operator=(const SettingsJob&) = delete;
 
+    /// The settings last passed to keep(), at first those of the file.
+    const EditorSettings& latest() const { return m_latest; }
+
     /// Call with the current settings as often as they may have changed.
     void keep(EditorSettings now);
 
@@ -28,7 +31,7 @@ private:
     void run();
 
     std::string m_file;
-    EditorSettings m_latest; ///< of keep()
+    EditorSettings m_latest;
     std::thread m_thread;
     std::mutex m_mutex; ///< guards the members below
     std::condition_variable m_changed;

@@ -13,6 +13,7 @@
 #include "editor_ui/view/gizmo.h"
 #include "editor_ui/view/light_placement.h"
 #include "editor_ui/view/pivot.h"
+#include "engine/scene/find_object.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -56,7 +57,8 @@ bool hasDeletable(const EditorState& s) {
 }
 
 bool hasNode(const EditorState& s) {
-    return std::ranges::any_of(s.selection, [&](ObjectId id) { return findNode(s.document, id); });
+    return std::ranges::any_of(s.selection,
+                               [&](ObjectId id) { return findObjectAs<Node>(s.document, id); });
 }
 
 bool canIsolate(const EditorState& s) {
@@ -64,7 +66,7 @@ bool canIsolate(const EditorState& s) {
 }
 
 bool isDynamic(const EditorState& s) {
-    const Node* node = findNode(s.document, activeId(s));
+    const Node* node = findObjectAs<Node>(s.document, activeId(s));
     return node && node->dynamic;
 }
 
@@ -182,9 +184,7 @@ void focusSelection(EditorState& s) {
     focus(s.view.camera, selectionBounds(s));
 }
 void sceneCamera(EditorState& s) {
-    const auto it = s.document.objects.find(activeId(s));
-    const Camera* active =
-        it == s.document.objects.end() ? nullptr : std::get_if<Camera>(&it->second);
+    const auto* active = findObjectAs<Camera>(s.document, activeId(s));
     s.view.camera = active ? *active : *firstCamera(s);
 }
 template <Side side>

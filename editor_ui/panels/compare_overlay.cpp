@@ -17,7 +17,6 @@ namespace limn {
 namespace {
 
 constexpr float kGrabPixels = 5;
-constexpr ImU32 kGround = IM_COL32(20, 22, 26, 200);
 
 } // namespace
 
@@ -48,7 +47,8 @@ static void label(ImVec2 at, float align, const std::string& text, ImU32 ink) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     at.x -= align * size.x;
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x - 5, at.y - 2}, {at.x + size.x + 5, at.y + size.y + 2}, kGround, 3);
+    list.AddRectFilled({at.x - 5, at.y - 2}, {at.x + size.x + 5, at.y + size.y + 2}, color::kGround,
+                       3);
     list.AddText(at, ink, text.c_str());
 }
 

@@ -75,7 +75,7 @@ void startScreen(EditorState& state) {
             ImGui::NewLine();
         if (ImGui::Button(action.label))
             runAction(state, action);
-        wrappedTooltip(shortcutText(action.shortcut).c_str());
+        wrappedTooltip(shortcutText(shortcutOf(state, action)).c_str());
         ImGui::SameLine();
     }
     ImGui::NewLine();

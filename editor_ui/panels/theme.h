@@ -16,6 +16,7 @@ inline constexpr ImU32 kDim = IM_COL32(150, 153, 160, 255);
 inline constexpr ImU32 kAxisX = IM_COL32(240, 80, 80, 255);
 inline constexpr ImU32 kAxisY = IM_COL32(110, 205, 90, 255);
 inline constexpr ImU32 kAxisZ = IM_COL32(90, 140, 255, 255);
+inline constexpr ImU32 kGround = IM_COL32(20, 22, 26, 200); ///< that ground
 inline constexpr ImU32 kHandleLit = IM_COL32(255, 225, 110, 255);
 // In panels: as light or dark as the theme in use needs.
 ImU32 accent();

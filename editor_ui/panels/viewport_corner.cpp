@@ -20,7 +20,6 @@ namespace limn {
 
 namespace {
 
-constexpr ImU32 kGround = IM_COL32(20, 22, 26, 200);
 constexpr float kArm = 28, kEnd = 9; ///< at 96 dpi [px]
 
 /// An end of an axis on the screen.
@@ -63,7 +62,7 @@ void drawEnd(const AxisEnd& end, ImVec2 centre, bool over) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float radius = kEnd * uiScale();
     if (!end.positive) {
-        list.AddCircleFilled(end.at, radius * 0.6f, kGround);
+        list.AddCircleFilled(end.at, radius * 0.6f, color::kGround);
         list.AddCircle(end.at, radius * 0.6f, ink, 0, 1.5f);
         return;
     }
@@ -74,7 +73,7 @@ void drawEnd(const AxisEnd& end, ImVec2 centre, bool over) {
                  kNames[end.axis]);
 }
 
-/// What still gets better in the picture; empty: nothing.
+/// Label of the work that still refines the picture; empty if there is none.
 const char* refining(const EditorState& state) {
     if (state.bake.preview && state.bake.running)
         return ", preview";
@@ -125,7 +124,7 @@ void pictureReadout(const EditorState& state) {
                     view.origin.y + view.size.y - size.y - 1.5f * margin);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({at.x - margin, at.y - margin / 2},
-                       {at.x + size.x + margin, at.y + size.y + margin / 2}, kGround, 3);
+                       {at.x + size.x + margin, at.y + size.y + margin / 2}, color::kGround, 3);
     list.AddText(at, IM_COL32(210, 212, 216, 255), text.c_str());
 }
 

@@ -14,6 +14,7 @@
 #include "editor_ui/view/light_placement.h"
 #include "editor_ui/view/picking.h"
 #include "editor_ui/view/pivot.h"
+#include "engine/scene/find_object.h"
 #include "engine/scene/light/rectangle_light.h"
 #include "engine/scene/placement.h"
 
@@ -209,7 +210,7 @@ static void lightIcons(const EditorState& state) {
         const ImVec2 centre(places[i].x, places[i].y);
         if (light->kind == LightKind::Rectangle)
             rectangleOutline(list, picture, *light, ink);
-        list.AddCircleFilled(centre, 12 * scale, IM_COL32(20, 22, 26, 170));
+        list.AddCircleFilled(centre, 12 * scale, color::kGround);
         if (selected)
             list.AddCircle(centre, 12.5f * scale, ink, 0, 1.5f);
         if (selected && light->kind != LightKind::Point)
@@ -251,9 +252,7 @@ static std::optional<Bounds> meshBox(const EditorState& state, ObjectId id, cons
 /// Box of a node's meshes in the world, or nothing if the id is no node's.
 static void nodeBox(const EditorState& state, Placements& placements, ObjectId id, ImU32 color,
                     float width) {
-    const auto it = state.document.objects.find(id);
-    const Node* node =
-        it == state.document.objects.end() ? nullptr : std::get_if<Node>(&it->second);
+    const auto* node = findObjectAs<Node>(state.document, id);
     if (const auto box = node ? meshBox(state, id, *node) : std::nullopt)
         boxOutline(*ImGui::GetWindowDrawList(), state.view.picture(), *box,
                    glm::mat4(placements.of(id).toWorld), color, width);
@@ -295,8 +294,8 @@ static void pictureText(const EditorState& state, const char* text, float y, ImU
     const ImVec2 at(state.view.origin.x + (state.view.size.x - size.x) / 2,
                     state.view.origin.y + y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x - 8, at.y - 4}, {at.x + size.x + 8, at.y + size.y + 4},
-                       IM_COL32(20, 22, 26, 200), 4);
+    list.AddRectFilled({at.x - 8, at.y - 4}, {at.x + size.x + 8, at.y + size.y + 4}, color::kGround,
+                       4);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text, nullptr, wrap);
 }
 
@@ -316,7 +315,7 @@ static void placingHint(const EditorState& state, bool hovered) {
     const ImVec2 centre(pixel->x, pixel->y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine({mouse.x, mouse.y}, centre, color::kHandleLit, 1.5f);
-    list.AddCircleFilled(centre, 12, IM_COL32(20, 22, 26, 170));
+    list.AddCircleFilled(centre, 12, color::kGround);
     drawIcon(list, lightIcon(kind), centre, 15, color::kHandleLit);
 }
 

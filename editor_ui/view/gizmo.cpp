@@ -6,6 +6,7 @@
 #include "editor_ui/view/gizmo_drawing.h"
 #include "editor_ui/view/light_handles.h"
 #include "editor_ui/view/pivot.h"
+#include "engine/scene/find_object.h"
 
 #include <imgui.h>
 
@@ -48,11 +49,15 @@ const char* labelOf(const GizmoDrag& drag) {
 } // namespace
 
 /// Axes of the gizmo: of the world, of the active object (else of any that moves), or of the view.
-static glm::mat3 gizmoAxes(const EditorState& state, const ObjectsById& movable) {
+/// None if they are those of an object and none moves.
+static std::optional<glm::mat3> gizmoAxes(const EditorState& state) {
     switch (state.view.gizmo.space) {
     case GizmoSpace::World:
         break;
     case GizmoSpace::Local: {
+        const ObjectsById movable = movableSelection(state);
+        if (movable.empty())
+            return {};
         const auto active = movable.find(activeId(state));
         return ownAxes(state.document,
                        active != movable.end() ? active->second : movable.begin()->second);
@@ -67,12 +72,8 @@ static std::optional<GizmoFrame> selectionFrame(const EditorState& state) {
     const auto origin = selectionOrigin(state);
     if (!origin || !toPixel(state.view.picture(), *origin))
         return {};
-    if (state.view.gizmo.space != GizmoSpace::Local)
-        return GizmoFrame{*origin, gizmoAxes(state, {})};
-    const ObjectsById movable = movableSelection(state);
-    if (movable.empty())
-        return {};
-    return GizmoFrame{*origin, gizmoAxes(state, movable)};
+    const auto axes = gizmoAxes(state);
+    return axes ? std::optional(GizmoFrame{*origin, *axes}) : std::nullopt;
 }
 
 static GizmoDrag newDrag(EditorState& state, const GizmoFrame& frame) {
@@ -118,7 +119,7 @@ bool keyOfDrag(EditorState& state, const Shortcut& pressed) {
     return true;
 }
 
-/// From here on the drag is one of copies, and they and it are one edit.
+/// Copies the selection and drags the copies instead. Copying and dragging are one undo step.
 static void makeCopies(EditorState& state, GizmoDrag& drag) {
     Copies copies = copiesOfSelection(state);
     drag.duplicates = false;
@@ -134,11 +135,6 @@ static void typeCharacters(GizmoDrag& drag) {
         typeIntoDrag(drag, c);
 }
 
-/// Where the pivot is after the manipulation.
-static glm::vec3 pivotAfter(const GizmoDrag& drag, const Manipulation& by) {
-    return drag.frame.origin + by.move;
-}
-
 static void moveSurface(EditorState& state, const GizmoDrag& drag, const Manipulation& by) {
     if (!pickedSurface(state))
         return;
@@ -149,7 +145,7 @@ static void moveSurface(EditorState& state, const GizmoDrag& drag, const Manipul
 
 /// What the drag has come to, below the gizmo.
 static void drawResult(const Picture& picture, const GizmoDrag& drag, const Manipulation& by) {
-    if (const auto at = toPixel(picture, pivotAfter(drag, by)))
+    if (const auto at = toPixel(picture, drag.frame.origin + by.move))
         drawReadout(*at + glm::vec2(0, kReadoutPixels), dragText(drag, by));
 }
 
@@ -227,10 +223,8 @@ static void startLightDrag(EditorState& state, LightPart part) {
 
 /// The light whose handles are shown: the only selected object.
 static const Light* handledLight(const EditorState& state) {
-    if (state.selection.size() != 1)
-        return nullptr;
-    const auto it = state.document.objects.find(activeId(state));
-    return it == state.document.objects.end() ? nullptr : std::get_if<Light>(&it->second);
+    return state.selection.size() == 1 ? findObjectAs<Light>(state.document, activeId(state))
+                                       : nullptr;
 }
 
 /// Draws the handles of the selected light. Returns the one under the mouse.
@@ -285,7 +279,8 @@ bool useGizmo(EditorState& state, bool mouseHere) {
         else if (lit != Handle::None)
             startDrag(state, *frame, lit);
     }
-    // While it turns, a gizmo keeps the axes of the start, about which it turns.
+    // During a rotation the axes stay those about which it turns, although the selection
+    // already has other ones.
     const bool turning = drag && drag->part == LightPart::None;
     drawGizmo(picture, tool, {frame->origin, turning ? drag->frame.axes : frame->axes}, lit);
     if (drag && by)

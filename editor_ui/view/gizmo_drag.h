@@ -30,7 +30,7 @@ struct GizmoSettings {
     bool operator==(const GizmoSettings&) const = default;
 };
 
-/// What of a light can be dragged beside its place.
+/// Properties of a light that a handle in the picture changes.
 enum class LightPart { None, Direction, OuterCone, InnerCone, Range, Width, Height };
 
 /// A drag of a gizmo, by its handle or after a key.
@@ -50,7 +50,7 @@ struct GizmoDrag {
     std::string typed;               ///< number in place of the mouse: metres, degrees or a factor
 };
 
-/// What modifies a drag in this frame.
+/// Modifier keys held during this frame of a drag.
 struct DragKeys {
     bool snap = false;
     bool fine = false; ///< a tenth of the way

@@ -15,7 +15,6 @@ namespace limn {
 
 namespace {
 
-constexpr ImU32 kGround = IM_COL32(20, 22, 26, 200);
 constexpr ImU32 kWhite = IM_COL32(235, 235, 235, 255);
 constexpr int kRingSteps = 64;
 
@@ -50,7 +49,7 @@ ImU32 handleColor(Handle handle, Handle lit) {
 static void drawLetter(ImDrawList& list, Handle axis, glm::vec2 at, ImU32 color) {
     const char* name = axis == Handle::X ? "X" : axis == Handle::Y ? "Y" : "Z";
     const ImVec2 size = ImGui::CalcTextSize(name);
-    list.AddCircleFilled(toIm(at), size.y * 0.55f, kGround);
+    list.AddCircleFilled(toIm(at), size.y * 0.55f, color::kGround);
     list.AddText({at.x - size.x / 2, at.y - size.y / 2}, color, name);
 }
 
@@ -155,7 +154,7 @@ void drawReadout(glm::vec2 pixel, const std::string& text) {
                                  std::max(lower.y + extent.y - size.y - 3, lower.y + 3)));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({from.x - 5, from.y - 3}, {from.x + size.x + 5, from.y + size.y + 3},
-                       kGround, 3);
+                       color::kGround, 3);
     list.AddText(from, IM_COL32_WHITE, text.c_str());
 }
 

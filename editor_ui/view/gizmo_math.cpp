@@ -162,7 +162,8 @@ static bool planeUnderMouse(const Picture& picture, Handle handle, const GizmoFr
     return facing > 4 * kParallel && insideQuad(mouse, pixels);
 }
 
-/// All of Move is a disc in the middle, that of the others a ring around the rest.
+/// Whether the mouse is over the handle of all axes: a disc in the middle for Move, a ring around
+/// the other handles for Rotate and Scale.
 static bool allUnderMouse(const Picture& picture, Tool tool, const GizmoFrame& frame,
                           glm::vec2 mouse) {
     const auto middle = toPixel(picture, frame.origin);

@@ -90,18 +90,33 @@ std::vector<LightGrip> lightGrips(const Picture& picture, const Light& light) {
     return grips;
 }
 
-LightPart lightPartAt(const Picture& picture, const Light& light, glm::vec2 mouse) {
+/// A grip and its pixel in the picture.
+struct ShownGrip {
+    LightGrip grip;
+    glm::vec2 pixel;
+};
+
+/// The grips in front of the camera that do not lie on the handle that moves the light, as those of
+/// a small or far rectangle do.
+static std::vector<ShownGrip> shownGrips(const Picture& picture, const Light& light) {
+    std::vector<ShownGrip> shown;
     const auto middle = toPixel(picture, light.position);
-    LightPart found = LightPart::None;
-    float best = kGripPixels;
+    if (!middle)
+        return shown;
     for (const LightGrip& grip : lightGrips(picture, light)) {
         const auto pixel = toPixel(picture, grip.position);
-        // In the middle, where a small or far rectangle has them, is the handle that moves.
-        if (!pixel || !middle || glm::length(*pixel - *middle) < 2 * kGripPixels)
-            continue;
-        if (const float d = glm::length(*pixel - mouse); d < best)
-            best = d, found = grip.part;
+        if (pixel && glm::length(*pixel - *middle) >= 2 * kGripPixels)
+            shown.push_back({grip, *pixel});
     }
+    return shown;
+}
+
+LightPart lightPartAt(const Picture& picture, const Light& light, glm::vec2 mouse) {
+    LightPart found = LightPart::None;
+    float best = kGripPixels;
+    for (const auto& [grip, pixel] : shownGrips(picture, light))
+        if (const float d = glm::length(pixel - mouse); d < best)
+            best = d, found = grip.part;
     return found;
 }
 
@@ -155,7 +170,7 @@ static std::optional<Light> aimedLight(const Picture& picture, Light light, glm:
     return light;
 }
 
-/// Length of what ends at a grip, `times` as long as the way to it, after the drag.
+/// The light's `length` after a drag of its grip, which lies length / times from `origin`.
 static std::optional<float> draggedLength(const Picture& picture, glm::vec3 origin, glm::vec3 axis,
                                           float length, float times, glm::vec2 start,
                                           glm::vec2 now) {
@@ -235,21 +250,17 @@ static void drawCone(const Picture& picture, const Light& light, LightPart part,
 
 void drawLightHandles(const Picture& picture, const Light& light, LightPart lit) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    constexpr ImU32 kFaint = IM_COL32(255, 225, 110, 150), kGround = IM_COL32(20, 22, 26, 220);
+    constexpr ImU32 kFaint = IM_COL32(255, 225, 110, 150);
     if (light.kind == LightKind::Spot) {
         drawCone(picture, light, LightPart::OuterCone, kFaint, 1.5f);
         drawCone(picture, light, LightPart::InnerCone, kFaint, 1);
     }
-    const auto middle = toPixel(picture, light.position);
-    for (const LightGrip& grip : lightGrips(picture, light)) {
-        const auto pixel = toPixel(picture, grip.position);
-        if (!pixel || !middle || glm::length(*pixel - *middle) < 2 * kGripPixels)
-            continue;
+    for (const auto& [grip, pixel] : shownGrips(picture, light)) {
         if (grip.part == LightPart::Direction || grip.part == LightPart::Range)
             drawLine(picture, light.position, grip.position, kFaint, 1);
         const ImU32 ink = grip.part == lit ? color::kHandleLit : IM_COL32(235, 235, 235, 255);
-        const ImVec2 at(pixel->x, pixel->y);
-        list.AddCircleFilled(at, 6.5f, kGround);
+        const ImVec2 at(pixel.x, pixel.y);
+        list.AddCircleFilled(at, 6.5f, color::kGround);
         list.AddCircleFilled(at, 4.5f, ink);
     }
 }

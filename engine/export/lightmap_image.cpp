@@ -93,8 +93,8 @@ struct Evaluation {
         return glm::max(shIrradiance(bands, coefficients(t).data(), p.normal), glm::vec3(0));
     }
 
-    /// Change of the constant coefficient with which the lower bands alone have the irradiance of
-    /// all of them at the surface's own normal.
+    /// Correction of the constant coefficient by which the lower bands alone give the irradiance of
+    /// all bands at the surface's own normal.
     glm::vec3 ofUpperBands(const PlainTexel& t) const {
         const auto p = surfacePoint(in.trace, hitAt(in.scene, t, {t.u, t.v}));
         if (int(settings.bands) >= bands || !p)

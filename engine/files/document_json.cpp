@@ -4,6 +4,7 @@
 #include "engine/core/hash.h"
 #include "engine/files/document_fields.h"
 #include "engine/files/project_file.h"
+#include "engine/scene/find_object.h"
 #include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
 
@@ -344,9 +345,7 @@ static Result<void> checkTree(const Document& document) {
     for (const auto& [id, object] : document.objects) {
         ObjectId at = id;
         while (at != 0) {
-            const auto found = document.objects.find(at);
-            const Node* node =
-                found == document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
+            const Node* node = findObjectAs<Node>(document, at);
             if (!node && at == id)
                 break; // not a node
             if (!node)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/placement.h"
 
+#include "engine/scene/find_object.h"
+
 #include <vector>
 
 namespace limn {
@@ -13,8 +15,7 @@ Placements::Placements(const Document& document, const glm::dvec3& origin)
     : m_document(document), m_origin(origin), m_inDouble(true) {}
 
 const Node* Placements::node(ObjectId id) const {
-    const auto found = m_document.objects.find(id);
-    return found == m_document.objects.end() ? nullptr : std::get_if<Node>(&found->second);
+    return findObjectAs<Node>(m_document, id);
 }
 
 /// Iterative, because a chain of nodes may be very long.
