@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// What a light sees through a texel: a piece of a lit surface.
+struct RsmTexel {
+    glm::vec3 position{0};
+    glm::vec3 normal{0}; ///< unit, geometric, of the side that is lit
+    glm::vec3 albedo{0}; ///< mean over the piece
+    /// Flux that falls on the piece from a light of colour 1 and strength 1: [m^2] for Directional,
+    /// [sr] for Point and Spot, [m^2 sr] for Rectangle. Times colour and strength it is in [W].
+    float incident = 0;
+};
+
+/// The surfaces that a light reaches first, in a regular raster of the light's directions.
+/// Dachsbacher, Stamminger. Reflective Shadow Maps. 2005
+struct ReflectiveShadowMap {
+    std::vector<RsmTexel> texels; ///< that reflect anything, in the order of the raster
+    std::uint64_t rays = 0;       ///< traced for it
+};
+
+/// Casts the map of a light; whether it is on does not matter. `size`: texels along the side of a
+/// view, >= 1. A sun has one view, over the scene's bounds. A spot of up to 60 degrees has one, any
+/// other spot and a point light have the six faces of a cube. A rectangle is four point lights in
+/// the middles of its quarters, each with a cube of half the size. Materials are those of `scene`;
+/// `trace` may be of an older scene of equal geometry. The result is incomplete when cancelled.
+ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& light,
+                            std::uint32_t size, const Progress& progress = {});
+
+/// The light with what its map does not depend on set to fixed values: lights whose shapes are
+/// equal have equal maps.
+Light rsmShape(Light light);
+
+} // namespace limn
