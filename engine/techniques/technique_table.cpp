@@ -3,6 +3,7 @@
 
 #include "engine/techniques/ambient/ambient.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/lpv/lpv.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace limn {
 
-static constexpr std::array kTechniques = {&kIlluminanceTechnique, &kAmbientTechnique};
+static constexpr std::array kTechniques = {&kIlluminanceTechnique, &kAmbientTechnique,
+                                           &kLpvTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;

@@ -181,9 +181,8 @@ TEST(Techniques, EveryOverlayOfWhatWasPrecomputedHasALegendAndItsPicksAreDescrib
 }
 
 // What holds of every technique.
-TEST(Techniques, LightIsFiniteAndGrowsWithTheSkyAndIsKeptWhileNothingChanges) {
+TEST(Techniques, LightIsFiniteAndDoublesWithWhatShinesAndIsKeptWhileNothingChanges) {
     Scene scene = smallRoom();
-    scene.lights.clear();
     scene.materials[0].baseColor = glm::vec4(glm::vec3(0.5f), 1);
     for (const Technique* technique : techniques()) {
         SCOPED_TRACE(technique->name);
@@ -203,10 +202,12 @@ TEST(Techniques, LightIsFiniteAndGrowsWithTheSkyAndIsKeptWhileNothingChanges) {
         for (const glm::vec3 e : once)
             for (int c = 0; c < 3; ++c)
                 EXPECT_TRUE(std::isfinite(e[c]) && e[c] >= 0);
+        EXPECT_GT(once[0].x, 0);
         EXPECT_TRUE(first.converged);
         EXPECT_TRUE(lit.update().skipped) << "nothing changed";
         EXPECT_EQ(lit.irradiance(), once);
         lit.scene.sky.radiance *= 2;
+        lit.scene.lights[0].strength *= 2;
         lit.update();
         const std::vector<glm::vec3> twice = lit.irradiance();
         for (std::size_t i = 0; i < once.size(); ++i)
