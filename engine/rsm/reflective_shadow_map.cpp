@@ -134,7 +134,8 @@ std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, c
     const Instance& instance = scene.instances[hit.instance];
     if (!hit.frontFace && !isTwoSided(scene.materialOf(instance)))
         return {};
-    RsmTexel seen{.position = hit.position,
+    RsmTexel seen{.instance = hit.instance,
+                  .position = hit.position,
                   .normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal};
     seen.incident = view.power * spread * share * windowAt(light, hit.position);
     const float cosine = std::max(-glm::dot(seen.normal, ray.direction), kMinCosine);

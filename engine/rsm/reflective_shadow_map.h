@@ -13,6 +13,7 @@ namespace limn {
 
 /// What a light sees through a texel: a piece of a lit surface.
 struct RsmTexel {
+    std::uint32_t instance = 0; ///< index into Scene::instances
     glm::vec3 position{0};
     glm::vec3 normal{0}; ///< unit, geometric, of the side that is lit
     glm::vec3 albedo{0}; ///< mean over the piece

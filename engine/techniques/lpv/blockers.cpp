@@ -50,9 +50,12 @@ void split(const Part& part, float longest, int depth, const Add& add) {
     }
 }
 
-void addPieces(const Scene& scene, const Instance& instance, float longest,
+} // namespace
+
+void addPieces(const Scene& scene, std::uint32_t index, float longest,
                std::vector<SurfacePiece>& pieces) {
-    constexpr int kMaxDepth = 18; // a quarter of a million parts of one triangle
+    constexpr int kMaxDepth = 18;
+    const Instance& instance = scene.instances[index];
     const Mesh& mesh = scene.meshOf(instance);
     const Material& material = scene.materialOf(instance);
     const bool twoSided = isTwoSided(material), holes = isCutout(material);
@@ -70,17 +73,15 @@ void addPieces(const Scene& scene, const Instance& instance, float longest,
         split({{placed(p), placed(q), placed(r)}, {glm::vec2(0), glm::vec2(1, 0), glm::vec2(0, 1)}},
               longest, kMaxDepth, [&](glm::vec3 middle, glm::vec2 uv, float area) {
                   if (!holes || surfaceAlpha(scene, instance, t, uv.x, uv.y) > 0)
-                      pieces.push_back({middle, across / length, area, twoSided});
+                      pieces.push_back({index, t, uv, middle, across / length, area, twoSided});
               });
     }
 }
 
-} // namespace
-
 std::vector<SurfacePiece> surfacePieces(const Scene& scene, float longest) {
     std::vector<SurfacePiece> pieces;
-    for (const Instance& instance : scene.instances)
-        addPieces(scene, instance, longest, pieces);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        addPieces(scene, i, longest, pieces);
     return pieces;
 }
 

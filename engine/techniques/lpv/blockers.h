@@ -12,14 +12,20 @@ namespace limn {
 
 /// A piece of a surface.
 struct SurfacePiece {
-    glm::vec3 position; ///< middle
-    glm::vec3 normal;   ///< unit, geometric, of the front
-    float area;         ///< of one side [m^2]
-    bool twoSided;
+    std::uint32_t instance = 0, triangle = 0;
+    glm::vec2 barycentric{0}; ///< (u, v) of the middle
+    glm::vec3 position{0};    ///< middle
+    glm::vec3 normal{0};      ///< unit, geometric, of the front
+    float area = 0;           ///< of one side [m^2]
+    bool twoSided = false;
 };
 
-/// Pieces of all surfaces, none longer than `longest` [m] unless the surface has more than a few
-/// million. Pieces whose middle lies in a hole of a cutout are left out.
+/// Pieces of an instance's surface, none longer than `longest` [m] unless a triangle would have
+/// more than 2^18. Pieces whose middle lies in a hole of a cutout are left out.
+void addPieces(const Scene& scene, std::uint32_t instance, float longest,
+               std::vector<SurfacePiece>& pieces);
+
+/// addPieces() of all instances.
 std::vector<SurfacePiece> surfacePieces(const Scene& scene, float longest);
 
 /// The geometry volume of `lattice`: each side that reflects light blocks what falls on it, by a

@@ -8,15 +8,22 @@
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace limn {
 
-/// What surfaces reflect of a light of colour 1 and strength 1, summed by cell.
+/// What an instance sends, summed by cell.
+struct InjectedInstance {
+    std::uint32_t instance; ///< index into Scene::instances
+    std::vector<CellLobe> cells;
+};
+
+/// What surfaces reflect of a light of colour 1 and strength 1.
 struct InjectedLight {
     Light shape; ///< rsmShape()
-    std::vector<CellLobe> cells;
-    std::uint64_t texels = 0, rays = 0; ///< of its shadow map
+    std::vector<InjectedInstance> parts;
+    std::uint64_t rays = 0; ///< of its shadow map
 };
 
 /// Casts the light's shadow map and injects its texels half a cell off their surfaces, each as a
@@ -25,8 +32,12 @@ InjectedLight injectLight(const TraceScene& trace, const Scene& scene, const Lig
                           std::uint32_t mapSize, const Lattice& lattice,
                           const Progress& progress = {});
 
-/// Adds the light in the given colour [W] to `cells`.
-void addLight(const InjectedLight& light, glm::vec3 colour, const Lattice& lattice,
-              CellLight& cells);
+/// Injects what emissive surfaces send in pieces of up to half a cell, likewise, from each side
+/// that emits.
+std::vector<InjectedInstance> injectEmitters(const Scene& scene, const Lattice& lattice);
+
+/// Adds the light in the given colour to `cells`, without that of the instances in `black`.
+void addInjected(std::span<const InjectedInstance> parts, glm::vec3 colour, const Lattice& lattice,
+                 std::span<const std::uint32_t> black, CellLight& cells);
 
 } // namespace limn

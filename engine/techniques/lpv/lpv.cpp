@@ -60,12 +60,21 @@ constexpr TechniqueSetting kFluxLookup = {
     .range = {0, 1},
     .usual = 1,
     .whole = true};
-constexpr std::array kSettings = {kResolution, kRounds, kMapSize, kFluxLookup};
+constexpr TechniqueSetting kEmitters = {
+    .setting = {.key = "lpv.emitters",
+                .label = "Emissive surfaces",
+                .tooltip = "Emissive surfaces send light into the lattice, too, which the paper's "
+                           "technique does not do. No surface reflects that light",
+                .invalidates = Invalidates::Light},
+    .range = {0, 1},
+    .usual = 1,
+    .whole = true};
+constexpr std::array kSettings = {kResolution, kRounds, kMapSize, kFluxLookup, kEmitters};
 
 /// The settings' values.
 struct LpvSettings {
     std::uint32_t resolution = 0, rounds = 0, mapSize = 0;
-    bool fluxLookup = false;
+    bool fluxLookup = false, emitters = false;
     bool operator==(const LpvSettings&) const = default;
 };
 
@@ -73,7 +82,8 @@ LpvSettings settingsOf(const TechniqueChoice& choice) {
     return {.resolution = std::uint32_t(settingOf(choice, kResolution)),
             .rounds = std::uint32_t(settingOf(choice, kRounds)),
             .mapSize = std::uint32_t(settingOf(choice, kMapSize)),
-            .fluxLookup = settingOf(choice, kFluxLookup) > 0};
+            .fluxLookup = settingOf(choice, kFluxLookup) > 0,
+            .emitters = settingOf(choice, kEmitters) > 0};
 }
 
 /// What shadow maps and blockers depend on, besides the lights.
@@ -110,6 +120,21 @@ Surfaces surfacesOf(const Scene& scene, const LpvSettings& settings) {
         s.instances.push_back({i.mesh, i.material, i.toWorld});
     std::ranges::transform(scene.materials, std::back_inserter(s.materials), diffusePart);
     return s;
+}
+
+/// What emissive surfaces send, besides their place; empty where none is asked for.
+struct Emission {
+    glm::vec3 radiance;
+    TextureRef texture;
+    bool operator==(const Emission&) const = default;
+};
+
+std::vector<Emission> emissionOf(const Scene& scene, const LpvSettings& settings) {
+    std::vector<Emission> emission;
+    if (settings.emitters)
+        for (const Material& m : scene.materials)
+            emission.push_back({m.emission, m.emissiveTexture});
+    return emission;
 }
 
 /// A light that shines.
@@ -154,8 +179,9 @@ public:
 
     LightingReport update(const LightingInput& input, const Progress& progress) override {
         Clock whole;
-        Inputs now{surfacesOf(input.scene, settingsOf(input.scene.technique)),
-                   settingsOf(input.scene.technique), sourcesOf(input.scene)};
+        const LpvSettings settings = settingsOf(input.scene.technique);
+        Inputs now{surfacesOf(input.scene, settings), settings, emissionOf(input.scene, settings),
+                   sourcesOf(input.scene)};
         LightingReport report{.converged = true};
         report.skipped = m_inputs == now;
         Cost cost;
@@ -182,28 +208,36 @@ public:
         Explanation e;
         if (!m_inputs)
             return e;
-        const glm::vec3 all = valueOf(reading, m_field);
+        IndirectField alone = m_field;
+        const auto valueAlone = [&](const CellLight& cells) {
+            writeField(propagate(cells, &*m_blockers, m_inputs->settings.rounds), alone);
+            return valueOf(reading, alone);
+        };
+        CellLight together(m_lattice.size);
+        addInjected(m_emitters, glm::vec3(1), m_lattice, {}, together);
+        if (!m_emitters.empty())
+            addRow(e.byOrigin, {.kind = LightRowKind::Others,
+                                .label = "Emissive surfaces",
+                                .value = valueAlone(together)});
+        for (const Source& source : m_inputs->sources) {
+            CellLight cells(m_lattice.size);
+            for (CellLight* sum : {&cells, &together})
+                addInjected(injectionOf(source.shape)->parts, source.colour, m_lattice,
+                            options.black, *sum);
+            addRow(e.byOrigin, {.kind = LightRowKind::Light,
+                                .label = scene.lights[source.index].name,
+                                .index = source.index,
+                                .value = valueAlone(cells)});
+        }
+        const glm::vec3 all = valueAlone(together);
+        if (e.byOrigin.size() > 1)
+            addRow(e.byOrigin, {.kind = LightRowKind::Remainder,
+                                .label = "Lights together, beyond each alone",
+                                .value = all - totalOf(e.byOrigin)});
         if (options.black.empty())
             addRow(e.bySender, {.kind = LightRowKind::Others,
                                 .label = "All surfaces (cells do not tell them apart)",
                                 .value = all});
-        glm::vec3 rest = all;
-        IndirectField alone = m_field;
-        for (const Source& source : m_inputs->sources) {
-            CellLight cells(m_lattice.size);
-            addLight(*injectionOf(source.shape), source.colour, m_lattice, cells);
-            writeField(propagate(cells, &*m_blockers, m_inputs->settings.rounds), alone);
-            const glm::vec3 value = valueOf(reading, alone);
-            rest -= value;
-            addRow(e.byOrigin, {.kind = LightRowKind::Light,
-                                .label = scene.lights[source.index].name,
-                                .index = source.index,
-                                .value = value});
-        }
-        if (m_inputs->sources.size() > 1)
-            addRow(e.byOrigin, {.kind = LightRowKind::Remainder,
-                                .label = "Lights together, beyond each alone",
-                                .value = rest});
         e.bounces = 1;
         return e;
     }
@@ -213,6 +247,7 @@ private:
     struct Inputs {
         Surfaces surfaces;
         LpvSettings settings;
+        std::vector<Emission> emission; ///< by material
         std::vector<Source> sources;
         bool operator==(const Inputs&) const = default;
     };
@@ -233,6 +268,8 @@ private:
         if (m_surfaces != now.surfaces) {
             m_surfaces = now.surfaces;
             m_lights.clear();
+            m_emission.clear();
+            m_emitters.clear();
             m_lattice = latticeOver(input.scene.bounds, now.settings.resolution);
             m_blockers = blockersOf(surfacePieces(input.scene, m_lattice.cell * 0.5f), m_lattice);
         }
@@ -242,7 +279,13 @@ private:
                 return rsmShape(light) == kept.shape;
             });
         });
+        if (m_emission != now.emission) {
+            m_emission = now.emission;
+            m_emitters = m_emission.empty() ? std::vector<InjectedInstance>()
+                                            : injectEmitters(input.scene, m_lattice);
+        }
         CellLight cells(m_lattice.size);
+        addInjected(m_emitters, glm::vec3(1), m_lattice, {}, cells);
         for (const Source& source : now.sources) {
             if (!injectionOf(source.shape)) {
                 InjectedLight light = injectLight(*input.trace, input.scene, source.shape,
@@ -253,10 +296,11 @@ private:
                 ++cost.traced;
                 m_lights.push_back(std::move(light));
             }
-            addLight(*injectionOf(source.shape), source.colour, m_lattice, cells);
+            addInjected(injectionOf(source.shape)->parts, source.colour, m_lattice, {}, cells);
         }
         cost.mapMs = clock.lap();
-        cost.rounds = now.sources.empty() ? 0 : now.settings.rounds;
+        const bool dark = now.sources.empty() && m_emitters.empty();
+        cost.rounds = dark ? 0 : now.settings.rounds;
         const CellLight sum = propagate(cells, &*m_blockers, std::uint32_t(cost.rounds), progress);
         if (progress.cancelled())
             return false;
@@ -290,7 +334,8 @@ private:
             {"blockers", "Geometry volume", "Surfaces that block light, summed in cells",
              cost.blockerMs},
             {"shadow_maps", "Reflective shadow maps",
-             "Rays from lights whose map is out of date, and what they hit, summed in cells",
+             "Rays from lights whose map is out of date; what they hit and what emits, summed in "
+             "cells",
              cost.mapMs},
             {"propagation", "Propagation", "Light moves from cell to cell", cost.propagationMs},
             {"field", "Field", "What the viewport samples", cost.fieldMs}};
@@ -313,6 +358,8 @@ private:
     std::optional<Surfaces> m_surfaces; ///< of what follows
     Lattice m_lattice;
     std::optional<FaceBlockers> m_blockers;
+    std::vector<Emission> m_emission; ///< of m_emitters
+    std::vector<InjectedInstance> m_emitters;
     std::vector<InjectedLight> m_lights; ///< each shape once
 };
 
@@ -321,8 +368,8 @@ private:
 constinit const Technique kLpvTechnique = {
     .name = "lpv",
     .label = "Light propagation volumes",
-    .summary = "One bounce of lights, carried from cell to cell of a lattice. Needs no bake. Sky "
-               "and emissive surfaces give no light",
+    .summary = "One bounce of lights, carried from cell to cell of a lattice. Needs no bake. The "
+               "sky gives no light, and that of emissive surfaces is not reflected",
     .source = "Kaplanyan, Dachsbacher. Cascaded Light Propagation Volumes for Real-Time Indirect "
               "Illumination. 2010",
     .settings = kSettings,

@@ -5,6 +5,7 @@
 #include "engine/field/field_reading.h"
 #include "engine/field/sample_field.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/techniques/lpv/injected_lights.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -333,6 +334,64 @@ TEST(Lpv, ExplainsALightByWhatItGivesAlone) {
         EXPECT_NEAR(e.byOrigin[1].value[c], blue[c], 1e-5f * blue[c]);
     EXPECT_EQ(lit.lighting->explain(lit.scene, reading, {}).byOrigin.size(), 1U)
         << "nothing is left over of one light";
+}
+
+TEST(Lpv, ExplainsWhatIsLeftWhereASurfaceReflectsNothing) {
+    Scene scene = room();
+    scene.materials.push_back(scene.materials[0]);
+    scene.instances[1].material = 1;
+    Lit lit(scene);
+    lit.update();
+    const auto [p, n] = places()[0];
+    FieldReading reading;
+    addIrradiance(lit.at(p, n), glm::vec3(1), reading);
+    const Explanation black = lit.lighting->explain(lit.scene, reading, {.black = {1}});
+    EXPECT_TRUE(black.bySender.empty());
+    const glm::vec3 before = lit.irradiance(p, n);
+    lit.scene.materials[1].baseColor = glm::vec4(0, 0, 0, 1);
+    lit.update();
+    const glm::vec3 left = lit.irradiance(p, n);
+    EXPECT_LT(left.x, before.x);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(totalOf(black.byOrigin)[c], left[c], 1e-5f * left[c]);
+}
+
+// A side of radiance L sends pi L times its area.
+TEST(Lpv, SendsTheLightOfEmissiveSurfacesUnlessThatIsOff) {
+    Scene scene = room();
+    scene.lights.clear();
+    scene.materials.push_back(simple::lambert(glm::vec3(0), glm::vec3(2, 1, 0)));
+    scene.instances[1].material = 1;
+    Lit lit(scene);
+    const Lattice lattice = latticeOver(scene.bounds, 16);
+    const std::vector<InjectedInstance> parts = injectEmitters(scene, lattice);
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(parts[0].instance, 1U);
+    double flux = 0;
+    for (const CellLobe& cell : parts[0].cells)
+        flux += double(cell.lobe[0].x) * 2 * std::sqrt(std::numbers::pi);
+    const double area = 2 * (0.8 * 1.2 + 0.8 * 0.6 + 1.2 * 0.6);
+    EXPECT_NEAR(flux, std::numbers::pi * 2 * area, 1e-4 * flux);
+
+    lit.update();
+    const std::vector<glm::vec3> once = irradiances(lit);
+    EXPECT_GT(once[0].x, 0);
+    EXPECT_NEAR(once[0].y, once[0].x / 2, 1e-5f * once[0].x);
+    EXPECT_EQ(once[0].z, 0);
+    FieldReading reading;
+    addIrradiance(lit.at(places()[0].first, places()[0].second), glm::vec3(1), reading);
+    const Explanation e = lit.lighting->explain(lit.scene, reading, {});
+    ASSERT_EQ(e.byOrigin.size(), 1U);
+    EXPECT_NEAR(e.byOrigin[0].value.x, once[0].x, 1e-5f * once[0].x);
+
+    lit.scene.materials[1].emission *= 2;
+    lit.update();
+    for (std::size_t i = 0; i < once.size(); ++i)
+        EXPECT_EQ(irradiances(lit)[i], 2.f * once[i]);
+    lit.scene.technique.settings["lpv.emitters"] = 0;
+    lit.scene.materials[0].baseColor.x = 0.1f;
+    lit.update();
+    EXPECT_EQ(irradiances(lit)[0], glm::vec3(0));
 }
 
 } // namespace
