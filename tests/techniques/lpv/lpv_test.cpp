@@ -140,6 +140,7 @@ TEST(Lpv, ReceivesLessAboveALitSquareWithHeight) {
         std::printf("square, height %g: %.3f, truth %.3f\n", double(h), double(e), double(truth));
         EXPECT_GT(e, 0);
         EXPECT_LT(e, before);
+        EXPECT_GT(e, lit.irradiance({0, h, 0}, {0, 1, 0}).x) << "it comes from below";
         EXPECT_NEAR(e, lit.irradiance({0.01f, h, 0.01f}, {0, -1, 0}).x, 0.1f * e) << "smooth";
         before = e;
     }
@@ -211,6 +212,18 @@ TEST(Lpv, DoublesWithTheLightsAndAddsThemUpToTheClamp) {
             worst = std::max(worst, std::abs(double(sum[i][c] / both[i][c]) - 1));
     std::printf("two lights: sum differs by up to %.4f\n", worst);
     EXPECT_LT(worst, 0.138) << "the share that the clamp adds to a single plane's light";
+}
+
+// 4 / s^2 for a point light half a cell away, 2 pi / 3 / s^2 for the flux through a cell's face.
+TEST(Lpv, LooksUpAPointLightOrTheArrivingFlux) {
+    Lit lit(room());
+    lit.update();
+    const std::vector<glm::vec3> flux = irradiances(lit);
+    lit.scene.technique.settings["lpv.flux_lookup"] = 0;
+    lit.update();
+    const std::vector<glm::vec3> point = irradiances(lit);
+    for (std::size_t i = 0; i < flux.size(); ++i)
+        EXPECT_NEAR(point[i].x / flux[i].x, 6 / kPi, 1e-5f);
 }
 
 TEST(Lpv, HasTheSameBitsForAnyNumberOfThreads) {
