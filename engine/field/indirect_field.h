@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/field/grid_moments.h"
 #include "engine/scene/scene.h"
 
 #include <cstddef>
@@ -35,6 +36,8 @@ struct IndirectField {
     /// Depth maps, kGridDepthTexels values per cell; null: every point counts as visible from all
     /// cells.
     std::shared_ptr<const std::vector<std::uint16_t>> gridDepth;
+    /// Moments of the cells' distances, which weight them in its place; null: not used.
+    std::shared_ptr<const GridMoments> gridMoments;
     std::uint64_t version = 0; ///< incremented with every change of the values above
 
     std::uint32_t coefficients() const { return bands * bands; }

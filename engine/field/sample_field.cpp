@@ -15,8 +15,29 @@ namespace {
 
 using Coefficients = std::array<glm::vec3, kMaxCoefficients>;
 
-/// The eight cells around `p`, with weights of sum 1: trilinear, times the visibility of `p` from
-/// each.
+/// A surface point at which the grid is read.
+struct GridPoint {
+    glm::vec3 position, normal;
+    glm::vec3 clear; ///< the position, slightly off the surface
+    float reach;     ///< of the grid [m]
+};
+
+/// Weight of a cell besides the trilinear one.
+float cellWeight(const IndirectField& field, std::uint32_t cell, glm::vec3 centre,
+                 const GridPoint& at) {
+    if (field.gridMoments) {
+        const glm::vec3 p = field.gridMoments->smooth ? at.clear : at.position;
+        return momentsWeight(*field.gridMoments, cell, p - centre, at.normal);
+    }
+    if (!field.gridDepth)
+        return 1;
+    return float(GRID_UNSEEN) +
+           seenFromCell(field.gridDepth->data() + std::size_t(cell) * kGridDepthTexels,
+                        at.clear - centre, at.reach);
+}
+
+/// The eight cells around `p`, with weights of sum 1: trilinear, times cellWeight(). None where all
+/// these are 0.
 FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
     const glm::vec3 cells(field.gridSize), cellSize = field.gridBounds.size() / cells;
     const glm::vec3 x =
@@ -24,9 +45,8 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
                    glm::vec3(0), cells - 1.f);
     const glm::uvec3 base = glm::min(glm::uvec3(x), glm::max(field.gridSize, glm::uvec3(2)) - 2U);
     const glm::vec3 f = x - glm::vec3(base);
-    const glm::vec3 clear =
-        p + n * (float(GRID_DEPTH_BIAS) * std::min({cellSize.x, cellSize.y, cellSize.z}));
-    const float reach = gridReach(field.gridBounds, field.gridSize);
+    const float bias = float(GRID_DEPTH_BIAS) * std::min({cellSize.x, cellSize.y, cellSize.z});
+    const GridPoint point{p, n, p + n * bias, gridReach(field.gridBounds, field.gridSize)};
     FieldLookup lookup{.grid = true, .count = 8};
     float sum = 0;
     for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -35,16 +55,12 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
         const glm::vec3 w = glm::mix(1.f - f, f, glm::vec3(step));
         const std::uint32_t cell = (at.z * field.gridSize.y + at.y) * field.gridSize.x + at.x;
         lookup.index[corner] = cell;
-        lookup.weight[corner] = w.x * w.y * w.z;
-        if (field.gridDepth) {
-            const glm::vec3 centre = field.gridBounds.lower + (glm::vec3(at) + 0.5f) * cellSize;
-            lookup.weight[corner] *=
-                float(GRID_UNSEEN) +
-                seenFromCell(field.gridDepth->data() + std::size_t(cell) * kGridDepthTexels,
-                             clear - centre, reach);
-        }
+        const glm::vec3 centre = field.gridBounds.lower + (glm::vec3(at) + 0.5f) * cellSize;
+        lookup.weight[corner] = w.x * w.y * w.z * cellWeight(field, cell, centre, point);
         sum += lookup.weight[corner];
     }
+    if (!(sum > 0))
+        return {.grid = true};
     for (float& w : lookup.weight)
         w /= sum;
     return lookup;
@@ -68,10 +84,10 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
 bool IndirectField::operator==(const IndirectField& o) const {
     const bool sameDepth =
         gridDepth && o.gridDepth ? *gridDepth == *o.gridDepth : gridDepth == o.gridDepth;
-    return sameDepth && bands == o.bands && chroma() == o.chroma() &&
-           lightmapWidth == o.lightmapWidth && lightmapHeight == o.lightmapHeight &&
-           lightmap == o.lightmap && gridSize == o.gridSize && gridBounds == o.gridBounds &&
-           grid == o.grid && version == o.version;
+    return sameDepth && gridMoments == o.gridMoments && bands == o.bands &&
+           chroma() == o.chroma() && lightmapWidth == o.lightmapWidth &&
+           lightmapHeight == o.lightmapHeight && lightmap == o.lightmap && gridSize == o.gridSize &&
+           gridBounds == o.gridBounds && grid == o.grid && version == o.version;
 }
 
 FieldLookup lookUp(const FieldPoint& at) {

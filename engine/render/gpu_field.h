@@ -4,6 +4,7 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/image.h"
 #include "engine/scene/scene.h"
+#include "shaders/shared/grid_lookup.h"
 
 #include <memory>
 
@@ -15,8 +16,9 @@ struct GpuField {
     gpu::Image lightmap;
     gpu::Buffer grid; ///< storage buffer, packed likewise; one element if there is no grid
     float scale = 1;  ///< stored values are multiplied by this; > 0
-    /// Same contents as IndirectField::gridDepth; null if the cells see everything.
+    /// Same contents as IndirectField::gridDepth or gridMoments; null if the cells see everything.
     std::shared_ptr<const gpu::Buffer> gridDepth;
+    std::uint32_t gridWeights = GRID_DEPTHS; ///< what gridDepth holds, of grid_lookup.h
 
     std::uint32_t bands = 3, chroma = 3;
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid

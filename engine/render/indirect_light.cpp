@@ -29,9 +29,17 @@ static gpu::Image uploadLightmap(gpu::Device& device, gpu::Uploader& uploader,
     return image;
 }
 
+// What weights the grid's cells; empty if nothing does.
+static std::span<const std::byte> cellMapsOf(const IndirectField& field) {
+    if (field.gridMoments)
+        return std::as_bytes(std::span(field.gridMoments->texels));
+    return field.gridDepth ? std::as_bytes(std::span(*field.gridDepth))
+                           : std::span<const std::byte>();
+}
+
 // Creates a new field, because a frame in flight may still sample the old one.
 static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const IndirectField& field,
-                                                   std::shared_ptr<const gpu::Buffer> depth) {
+                                                   std::shared_ptr<const gpu::Buffer> cellMaps) {
     gpu::Uploader uploader(device);
     auto out = std::make_shared<GpuField>();
     out->scale = fieldScale(std::max(brightestOf(field.lightmap), brightestOf(field.grid)));
@@ -54,19 +62,23 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
     out->chroma = field.chroma();
     out->gridSize = any ? field.gridSize : glm::uvec3(0);
     out->gridBounds = field.gridBounds;
-    if (any && field.gridDepth)
-        out->gridDepth = depth ? std::move(depth)
-                               : std::make_shared<const gpu::Buffer>(uploader.buffer(
-                                     std::as_bytes(std::span(*field.gridDepth)),
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid depths"));
+    const std::span<const std::byte> maps = cellMapsOf(field);
+    if (any && !maps.empty())
+        out->gridDepth = cellMaps ? std::move(cellMaps)
+                                  : std::make_shared<const gpu::Buffer>(uploader.buffer(
+                                        maps, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid depths"));
+    if (field.gridMoments)
+        out->gridWeights = field.gridMoments->smooth ? GRID_SMOOTH_MOMENTS : GRID_MOMENTS;
     return out;
 }
 
 IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
                                   const IndirectLight& before) {
-    const bool sameDepth = before.depth && before.depth == field.gridDepth;
-    return {.field = uploadField(device, field, sameDepth ? before.field->gridDepth : nullptr),
-            .depth = field.gridDepth};
+    const std::shared_ptr<const void> cells =
+        field.gridMoments ? std::shared_ptr<const void>(field.gridMoments) : field.gridDepth;
+    const bool same = before.cells && before.cells == cells;
+    return {.field = uploadField(device, field, same ? before.field->gridDepth : nullptr),
+            .cells = cells};
 }
 
 gpu::Image uploadReflectionTable(gpu::Device& device) {
@@ -89,8 +101,8 @@ void describeField(const GpuField& field, shared::GpuFrame& frame) {
     frame.gridLower = field.gridBounds.lower;
     frame.gridSize = field.gridSize;
     frame.gridScale = glm::vec3(field.gridSize) / size;
-    if (field.gridDepth)
-        frame.gridReach = gridReach(field.gridBounds, field.gridSize);
+    frame.gridReach = gridReach(field.gridBounds, field.gridSize);
+    frame.gridWeights = field.gridDepth ? field.gridWeights : GRID_PLAIN;
     frame.gridCells = field.gridSize.x * field.gridSize.y * field.gridSize.z;
 }
 

@@ -12,12 +12,12 @@ namespace limn::render {
 /// The indirect field that frames sample.
 struct IndirectLight {
     std::shared_ptr<const GpuField> field;
-    std::shared_ptr<const std::vector<std::uint16_t>>
-        depth; ///< IndirectField::gridDepth of the uploaded field
+    /// IndirectField::gridDepth or gridMoments of the uploaded field, to tell whether they changed.
+    std::shared_ptr<const void> cells;
 };
 
-/// Uploads `field`; an empty field becomes black. The depths that cells see belong to the bake, so
-/// they are reused from `before` if it holds the same ones.
+/// Uploads `field`; an empty field becomes black. What weights the grid's cells changes rarely, so
+/// it is reused from `before` if it holds the same.
 IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
                                   const IndirectLight& before = {});
 

@@ -27,9 +27,10 @@ struct GpuFrame {
     uvec3 gridSize; float lightBias;  // cells; shadow texels towards the light
     vec3 rayCentre; float depthScale;  // ray of the picture's middle, 1 m deep; distance along it is
     vec3 rayRight;  float depthOffset; // depthScale / (depth + depthOffset)
-    vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m, 0: no depths
+    vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m
     vec2 pixelSize; vec2 lookupSize;   // 1 / picture's size in pixels; texels of the lightmap, 0: no snaps
     vec3 background; float fieldUnit;  // nits, where no surface is; what the field's halfs count
+    uint gridWeights; uint pad0, pad1, pad2; // GRID_* of grid_lookup.h
 };
 
 /// Push constants of the geometry passes.
@@ -46,7 +47,7 @@ struct GpuDraw {
 #define DRAW_MIRRORED 2u // the transform has a negative determinant
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuFrame) == 144);
+static_assert(sizeof(GpuFrame) == 160);
 static_assert(sizeof(GpuDraw) == 128);
 } // namespace limn::shared
 #endif

@@ -26,6 +26,7 @@ layout(set = 0, binding = 11) uniform sampler2DArray reflectionTable;
 layout(location = 0) out vec4 outColor;
 
 #include "shaders/shared/grid_depth.glsl"
+#include "shaders/shared/grid_moments.glsl"
 #include "shaders/shared/seen_surface.glsl"
 
 /// Two sums over the harmonics of the bounced light that reaches the surface. They are unrolled, because on a software
@@ -76,9 +77,12 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
         const uint index =
             (uint(cell.z) * frame.gridSize.y + uint(cell.y)) * frame.gridSize.x + uint(cell.x);
         float weight = w.x * w.y * w.z;
-        if (frame.gridReach > 0.0) {
-            const vec3 centre = frame.gridLower + (vec3(cell) + 0.5) * cellSize;
+        const vec3 centre = frame.gridLower + (vec3(cell) + 0.5) * cellSize;
+        if (frame.gridWeights == GRID_DEPTHS)
             weight *= GRID_UNSEEN + seenFromCell(index, clear - centre, frame.gridReach);
+        else if (frame.gridWeights != GRID_PLAIN) {
+            const bool smoothWeights = frame.gridWeights == GRID_SMOOTH_MOMENTS;
+            weight *= momentsWeight(index, (smoothWeights ? clear : position) - centre, normal, smoothWeights);
         }
         sum += weight;
         [[unroll]] for (int layer = 0; layer < kLayers; ++layer) {
@@ -86,7 +90,7 @@ FieldSums readGrid(vec3 position, vec3 normal, float irradiance[kCoefficients], 
             addValues(sums, layer, weight * vec4(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y)), irradiance, lobe);
         }
     }
-    return FieldSums(sums.irradiance / sum, sums.lobe / sum);
+    return FieldSums(sums.irradiance / max(sum, 1e-30), sums.lobe / max(sum, 1e-30));
 }
 
 /// Irradiance, and mean radiance in the lobe that the surface reflects, both at least 0.

@@ -130,5 +130,35 @@ TEST_F(ViewportGrid, IsReadPastWallsAsOnTheCpu) {
     EXPECT_GT(difference / (32 * 32), 0.3); // else the walls are not seen at all
 }
 
+TEST_F(ViewportGrid, IsReadByMomentsOfDistancesAsOnTheCpu) {
+    IndirectField field;
+    field.gridSize = {5, 3, 4};
+    field.gridBounds = {{-2, -0.8f, -1.8f}, {2.2f, 1.1f, 2}};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> value(0, 9), distance(0.1f, 1.2f);
+    field.grid.assign(5 * 3 * 4 * 9, glm::vec4(0));
+    for (std::size_t cell = 0; cell < 5 * 3 * 4; ++cell)
+        field.grid[cell] = glm::vec4(value(random), value(random), value(random), 0);
+    const Scene scene = plane().build();
+    for (const bool smooth : {false, true}) {
+        GridMoments moments{.smooth = smooth};
+        for (std::size_t i = 0; i < 5 * 3 * 4 * kGridDepthTexels; ++i) {
+            const float mean = distance(random);
+            const bool solid = i / kGridDepthTexels % 7 == 0;
+            moments.texels.push_back(solid ? glm::vec2(0) : glm::vec2(mean, 1.05f * mean * mean));
+        }
+        field.gridMoments = std::make_shared<const GridMoments>(std::move(moments));
+        ++field.version;
+        viewport->setIndirect(field);
+        const ImageF image = draw(scene, View::Irradiance);
+        for (std::uint32_t y = 0; y < 32; ++y)
+            for (std::uint32_t x = 0; x < 32; ++x) {
+                const glm::vec3 p = planePoint(options, x, y), n(0, 1, 0);
+                expectNear(pixel(image, x, y),
+                           sampleIrradiance({field, {}, scene, 0, 0, 0, 0, p, n}), 3e-3f);
+            }
+    }
+}
+
 } // namespace
 } // namespace limn
