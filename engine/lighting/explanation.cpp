@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lighting/explanation.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace limn {
 
@@ -48,6 +51,27 @@ void addRows(std::vector<LightRow>& rows, const std::vector<LightRow>& more, std
         rows.push_back(row);
         rows.back().parent = row.parent == LightRow::kNone ? parent : first + row.parent;
     }
+}
+
+std::string objectLabel(const Scene& scene, std::uint32_t instance) {
+    const Instance& i = scene.instances[instance];
+    const std::string &mesh = scene.meshOf(i).name, &material = scene.materialOf(i).name;
+    const std::string name = mesh.empty() ? fmt::format("Object {}", instance) : mesh;
+    return material.empty() || material == name ? name : fmt::format("{} ({})", name, material);
+}
+
+std::vector<LightRow> strongest(std::vector<LightRow> found, std::size_t most) {
+    std::ranges::stable_sort(found, isStronger, &LightRow::value);
+    if (found.size() <= most + 1) // a single one that is left is listed
+        return found;
+    LightRow others{.kind = LightRowKind::Others,
+                    .label = fmt::format("{} more", found.size() - most),
+                    .parent = found[0].parent};
+    for (std::size_t k = most; k < found.size(); ++k)
+        others.value += found[k].value;
+    found.resize(most);
+    found.push_back(std::move(others));
+    return found;
 }
 
 bool isStronger(glm::vec3 a, glm::vec3 b) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/scene.h"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -61,6 +63,12 @@ std::uint32_t addRow(std::vector<LightRow>& rows, LightRow row);
 
 /// Appends the rows of `more`, those without parent below `parent`.
 void addRows(std::vector<LightRow>& rows, const std::vector<LightRow>& more, std::uint32_t parent);
+
+/// Name of an instance in a row: of its mesh, with that of its material.
+std::string objectLabel(const Scene& scene, std::uint32_t instance);
+
+/// The `most` strongest of `found`, which have the same parent, and then one row for the others.
+std::vector<LightRow> strongest(std::vector<LightRow> found, std::size_t most);
 
 /// Order by which rows are listed: the strongest first, by the sum of their colours.
 bool isStronger(glm::vec3 a, glm::vec3 b);

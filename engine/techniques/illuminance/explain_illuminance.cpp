@@ -129,13 +129,6 @@ ReadingWeights weigh(const RelightState& state, const FieldReading& reading, dou
     return w;
 }
 
-std::string objectLabel(const Scene& scene, std::uint32_t instance) {
-    const Instance& i = scene.instances[instance];
-    const std::string &mesh = scene.meshOf(i).name, &material = scene.materialOf(i).name;
-    const std::string name = mesh.empty() ? fmt::format("Object {}", instance) : mesh;
-    return material.empty() || material == name ? name : fmt::format("{} ({})", name, material);
-}
-
 // By origin.
 
 using ObjectValues = std::map<std::uint32_t, glm::vec3>; ///< by index of the instance
@@ -299,7 +292,7 @@ struct SenderTable {
                                .index = link.node,
                                .parent = parent,
                                .value = link.value});
-        const std::vector<LightRow> listed = strongest(std::move(found));
+        const std::vector<LightRow> listed = strongest(std::move(found), most);
         for (std::size_t k = 0; k < listed.size(); ++k) {
             const std::uint32_t at = addRow(rows, listed[k]);
             if (listed[k].kind != LightRowKind::Cluster)
@@ -307,24 +300,9 @@ struct SenderTable {
             std::vector<LightRow> surfels;
             for (const auto& [surfel, value] : links[k].surfels)
                 surfels.push_back(surfelRow(surfel, value, at));
-            for (LightRow& row : strongest(std::move(surfels)))
+            for (LightRow& row : strongest(std::move(surfels), most))
                 addRow(rows, std::move(row));
         }
-    }
-
-    /// The strongest of `found`, which have the same parent, and then one row for the others.
-    std::vector<LightRow> strongest(std::vector<LightRow> found) const {
-        std::ranges::stable_sort(found, isStronger, &LightRow::value);
-        if (found.size() <= most + 1) // a single one that is left is listed
-            return found;
-        LightRow others{.kind = LightRowKind::Others,
-                        .label = fmt::format("{} more", found.size() - most),
-                        .parent = found[0].parent};
-        for (std::size_t k = most; k < found.size(); ++k)
-            others.value += found[k].value;
-        found.resize(most);
-        found.push_back(std::move(others));
-        return found;
     }
 
     void addObjects() {
@@ -338,7 +316,7 @@ struct SenderTable {
                 row.value += link.value;
             objects.push_back(std::move(row));
         }
-        for (LightRow& row : strongest(std::move(objects))) {
+        for (LightRow& row : strongest(std::move(objects), most)) {
             const std::uint32_t object = row.index;
             const bool listed = row.kind == LightRowKind::Surface;
             const std::uint32_t at = addRow(rows, std::move(row));
@@ -369,7 +347,7 @@ struct SenderTable {
         if (cells.empty())
             return;
         addRow(rows, std::move(sky));
-        for (LightRow& row : strongest(std::move(cells)))
+        for (LightRow& row : strongest(std::move(cells), most))
             addRow(rows, std::move(row));
     }
 };
