@@ -4,6 +4,7 @@
 #include "engine/techniques/ambient/ambient.h"
 #include "engine/techniques/illuminance/illuminance.h"
 #include "engine/techniques/lpv/lpv.h"
+#include "engine/techniques/probes/probes.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@
 namespace limn {
 
 static constexpr std::array kTechniques = {&kIlluminanceTechnique, &kAmbientTechnique,
-                                           &kLpvTechnique};
+                                           &kLpvTechnique, &kProbesTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;

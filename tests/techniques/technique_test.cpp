@@ -80,7 +80,7 @@ TEST(Techniques, AreNamedOnceAndExplained) {
 TEST(Techniques, AChoiceOfNoneOrOfUnknownSettingsIsADefect) {
     EXPECT_EQ(choiceDefect({}), "");
     EXPECT_EQ(choiceDefect({"ambient", {{"ambient.radiance", 3}}}), "");
-    EXPECT_NE(choiceDefect({"magic", {}}).find("\"magic\" is not illuminance or ambient"),
+    EXPECT_NE(choiceDefect({"magic", {}}).find("\"magic\" is not " + techniqueNames()),
               std::string::npos);
     EXPECT_NE(choiceDefect({"ambient", {{"ambient.glow", 3}}}).find("ambient.glow"),
               std::string::npos);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// An octahedral map of all directions, side^2 texels: Cigolle et al. A Survey of Efficient
+/// Representations for Independent Unit Vectors. 2014.
+struct Octahedron {
+    std::uint32_t side;
+
+    std::uint32_t texels() const { return side * side; }
+    /// Unit direction of a texel's centre.
+    glm::vec3 direction(std::uint32_t texel) const;
+    /// The texel that contains direction `d`, which is not 0.
+    std::uint32_t texelAt(glm::vec3 d) const;
+    /// Solid angle of each texel [sr]; their sum is 4 pi.
+    std::vector<float> solidAngles() const;
+};
+
+} // namespace limn

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/probes/probe_inputs.h"
+
+namespace limn {
+
+ProbeInputs inputsOf(const Scene& scene, const ProbeGrid& grid, std::uint32_t side) {
+    ProbeInputs in{.grid = grid,
+                   .side = side,
+                   .assets = scene.assets,
+                   .materials = scene.materials,
+                   .sky = scene.sky};
+    for (const Instance& instance : scene.instances) {
+        const Material& material = scene.materialOf(instance);
+        ProbeSurface surface{
+            .mesh = instance.mesh, .toWorld = instance.toWorld, .twoSided = isTwoSided(material)};
+        if (isCutout(material)) {
+            surface.cutoff = alphaCutoff(material);
+            surface.alpha = material.baseColor.a;
+            surface.holes = material.baseColorTexture;
+        }
+        in.surfaces.push_back(surface);
+        in.materialOf.push_back(instance.material);
+    }
+    for (Light light : scene.lights) {
+        in.shining.push_back(shines(light) ? 1 : 0);
+        light.name.clear();
+        light.enabled = true;
+        light.color = glm::vec3(1);
+        light.strength = 1;
+        in.lights.push_back(std::move(light));
+    }
+    return in;
+}
+
+bool sameLattice(const ProbeInputs& a, const ProbeInputs& b) {
+    return a.grid == b.grid && a.side == b.side;
+}
+
+bool sameSurfaces(const ProbeInputs& a, const ProbeInputs& b) {
+    return sameLattice(a, b) && a.assets == b.assets && a.surfaces == b.surfaces;
+}
+
+} // namespace limn

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/probes/probes.h"
+
+#include "engine/techniques/probes/probe_inputs.h"
+#include "engine/techniques/probes/probe_light.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr TechniqueSetting kCount = {
+    .setting = {.key = "probes.count",
+                .label = "Probes",
+                .tooltip = "About this many probes stand in a lattice over the scene. More: light "
+                           "changes over shorter distances, walls hide it better, and updates "
+                           "take longer",
+                .invalidates = Invalidates::Light},
+    .range = {8, 4096},
+    .usual = 256,
+    .whole = true};
+constexpr TechniqueSetting kSide = {
+    .setting = {.key = "probes.side",
+                .label = "Map's side (texels)",
+                .tooltip = "Each probe looks in the square of this many directions. More: small "
+                           "bright things are not missed",
+                .invalidates = Invalidates::Light},
+    .range = {8, 256},
+    .usual = 48,
+    .whole = true};
+constexpr TechniqueSetting kPerUpdate = {
+    .setting = {.key = "probes.perUpdate",
+                .label = "Probes per update",
+                .tooltip = "While light changes, each update lights this many probes anew, in "
+                           "turn. More: light follows sooner, frames take longer",
+                .invalidates = Invalidates::Light},
+    .range = {1, 4096},
+    .usual = 2,
+    .whole = true};
+constexpr TechniqueSetting kSmooth = {
+    .setting = {.key = "probes.smooth",
+                .label = "Smooth weights",
+                .tooltip = "Surfaces blend probes with the smoother weights of Majercik et al. "
+                           "2019. Off: with those of McGuire et al. 2017",
+                .invalidates = Invalidates::Light},
+    .range = {0, 1},
+    .usual = 0,
+    .whole = true};
+constexpr TechniqueSetting kBounces = {
+    .setting = {.key = "probes.bounces",
+                .label = "More bounces",
+                .tooltip = "Probes also see light that has bounced before, by what surfaces read "
+                           "from probes. Off: light is reflected once, as in the paper",
+                .invalidates = Invalidates::Light},
+    .range = {0, 1},
+    .usual = 0,
+    .whole = true};
+constexpr std::array kSettings = {kCount, kSide, kPerUpdate, kSmooth, kBounces};
+
+class Stopwatch {
+public:
+    /// Milliseconds since construction or the last call.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double, std::milli> took = now - m_start;
+        m_start = now;
+        return took.count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+class ProbeLighting : public Lighting {
+public:
+    LightingReport update(const LightingInput& input, const Progress& progress) override;
+    const IndirectField* field() const override { return &m_field; }
+    Explanation explain(const Scene& scene, const FieldReading& reading,
+                        const ExplainOptions& options) const override;
+
+private:
+    /// Durations of an update's steps [ms].
+    struct Times {
+        double maps = 0, light = 0, field = 0;
+    };
+
+    void followScene(const Scene& scene);
+    std::vector<std::uint32_t> staleOrigins(std::uint32_t probe) const;
+    std::uint32_t countStale() const;
+    void refresh(const LightingInput& input, std::uint32_t most, const Progress& progress,
+                 Times& times);
+    bool bounceIsDue(const Scene& scene);
+    void writeField(const Scene& scene);
+    LightingReport report(const Times& times, std::uint32_t bounces) const;
+
+    ProbeInputs m_inputs; ///< that the editions stand for
+    ProbeMaps m_maps;
+    std::vector<float> m_solidAngles;
+    ProbeLight m_light;
+    /// Editions of the maps and the origins that are wanted, and those that each probe has.
+    std::uint32_t m_mapEdition = 0;
+    std::vector<std::uint32_t> m_editions, m_probeMaps, m_probeEditions;
+    std::vector<glm::vec3> m_colors; ///< per light, in the field: colour times strength
+    std::uint32_t m_next = 0;        ///< probe to be looked at first
+    std::uint64_t m_rays = 0;        ///< of the last update
+    std::uint32_t m_refreshed = 0;   ///< probes, in the last update
+    double m_before = 0;             ///< sum of the mean radiance when a bounce began
+    bool m_bouncing = false;         ///< light bounces more than once
+    bool m_bounced = false;          ///< that, in the field
+    bool m_momentsChanged = false;
+    IndirectField m_field;
+};
+
+/// Bounds that moving objects do not change, if anything stands still.
+Bounds boundsOf(const Scene& scene) {
+    const bool anyStatic =
+        std::ranges::any_of(scene.instances, [](const Instance& i) { return !i.dynamic; });
+    return anyStatic ? staticBounds(scene) : scene.bounds;
+}
+
+/// Factor of light that was computed for a colour and a strength of 1; 0 if the light is off.
+glm::vec3 weightOf(const Light& light) {
+    return shines(light) ? light.color * light.strength : glm::vec3(0);
+}
+
+/// Marks as stale what depends on whatever changed in the scene.
+void ProbeLighting::followScene(const Scene& scene) {
+    ProbeInputs now = inputsOf(
+        scene, chooseProbes(boundsOf(scene), std::uint32_t(settingOf(scene.technique, kCount))),
+        std::uint32_t(settingOf(scene.technique, kSide)));
+    if (!sameLattice(now, m_inputs)) {
+        m_maps = emptyMaps(now.grid, now.side);
+        m_solidAngles = m_maps.map.solidAngles();
+        m_probeMaps.assign(now.grid.count(), 0);
+        m_field.grid.clear();
+        m_light.parts.clear();
+        m_next = 0;
+    }
+    if (m_light.parts.empty() || now.lights.size() != m_inputs.lights.size()) {
+        m_light.lights = std::uint32_t(now.lights.size());
+        m_light.parts.assign(std::size_t(now.grid.count()) * m_light.origins(), {});
+        m_editions.assign(m_light.origins(), 1);
+        m_probeEditions.assign(m_light.parts.size(), 0);
+    }
+    if (!sameSurfaces(now, m_inputs) || m_mapEdition == 0)
+        ++m_mapEdition;
+    for (std::uint32_t l = 0; l < std::min(now.lights.size(), m_inputs.lights.size()); ++l)
+        if (now.lights[l] != m_inputs.lights[l])
+            ++m_editions[l];
+    if (now.materials != m_inputs.materials || now.materialOf != m_inputs.materialOf)
+        for (std::uint32_t o = 0; o <= m_light.emitters(); ++o)
+            ++m_editions[o];
+    if (now.sky != m_inputs.sky)
+        ++m_editions[m_light.sky()];
+    m_bouncing = settingOf(scene.technique, kBounces) > 0;
+    for (std::uint32_t p = 0; p < now.grid.count() && !m_bouncing; ++p)
+        m_light.part(p, m_light.bounced()) = {};
+    m_inputs = std::move(now);
+}
+
+/// Origins of a probe that must be computed again. Light that nothing sends is left for later.
+std::vector<std::uint32_t> ProbeLighting::staleOrigins(std::uint32_t probe) const {
+    const bool noMap = m_probeMaps[probe] != m_mapEdition;
+    std::vector<std::uint32_t> stale;
+    for (std::uint32_t o = 0; o < m_light.origins(); ++o) {
+        const bool old =
+            m_probeEditions[std::size_t(probe) * m_light.origins() + o] != m_editions[o];
+        const bool dark =
+            o < m_light.lights ? !m_inputs.shining[o] : o == m_light.bounced() && !m_bouncing;
+        if ((old || noMap) && !dark)
+            stale.push_back(o);
+    }
+    return stale;
+}
+
+std::uint32_t ProbeLighting::countStale() const {
+    std::uint32_t count = 0;
+    for (std::uint32_t p = 0; p < m_maps.grid.count(); ++p)
+        count += staleOrigins(p).empty() ? 0 : 1;
+    return count;
+}
+
+/// Refreshes up to `most` stale probes in turn.
+void ProbeLighting::refresh(const LightingInput& input, std::uint32_t most,
+                            const Progress& progress, Times& times) {
+    const std::uint32_t count = m_maps.grid.count();
+    const ProbeScene in{input.scene, *input.trace, m_maps, m_solidAngles, m_field};
+    Stopwatch watch;
+    std::uint32_t left = most;
+    for (std::uint32_t k = 0; k < count && left > 0 && !progress.cancelled(); ++k) {
+        const std::uint32_t p = m_next;
+        m_next = (m_next + 1) % count;
+        const std::vector<std::uint32_t> origins = staleOrigins(p);
+        if (origins.empty())
+            continue;
+        watch.lap();
+        if (m_probeMaps[p] != m_mapEdition) {
+            traceProbe(input.scene, *input.trace, p, m_maps);
+            m_rays += m_maps.map.texels();
+            m_probeMaps[p] = m_mapEdition;
+            m_momentsChanged = true;
+            // Origins that are left for later are of the map before.
+            for (std::uint32_t o = 0; o < m_light.origins(); ++o)
+                m_probeEditions[std::size_t(p) * m_light.origins() + o] = 0;
+        }
+        times.maps += watch.lap();
+        m_rays += lightProbe(in, p, origins, m_light);
+        for (const std::uint32_t o : origins)
+            m_probeEditions[std::size_t(p) * m_light.origins() + o] = m_editions[o];
+        times.light += watch.lap();
+        ++m_refreshed;
+        --left;
+        progress.at("probes", float(k + 1) / float(count));
+    }
+}
+
+/// Whether the light changed since the last bounce by more than the document tolerates. If so, the
+/// next bounce is marked as stale.
+bool ProbeLighting::bounceIsDue(const Scene& scene) {
+    if (!m_bouncing)
+        return false;
+    double sum = 0;
+    for (std::uint32_t p = 0; p < m_maps.grid.count(); ++p)
+        for (int c = 0; c < 3; ++c)
+            sum += m_maps.inSolid[p] ? 0. : double(m_field.grid[p][c]);
+    const bool due = std::abs(sum - m_before) > double(scene.relight.tolerance) / 100 * sum;
+    m_before = sum;
+    if (due)
+        ++m_editions[m_light.bounced()];
+    return due;
+}
+
+/// Sums the origins.
+void ProbeLighting::writeField(const Scene& scene) {
+    const std::uint32_t count = m_maps.grid.count();
+    m_colors.clear();
+    for (const Light& light : scene.lights)
+        m_colors.push_back(weightOf(light));
+    m_field.gridSize = m_maps.grid.size;
+    m_field.gridBounds = m_maps.grid.bounds;
+    m_field.grid.assign(std::size_t(count) * m_field.coefficients(), glm::vec4(0));
+    for (std::uint32_t p = 0; p < count; ++p)
+        for (std::size_t i = 0; i < m_field.coefficients(); ++i) {
+            glm::vec3 sum(0);
+            for (std::uint32_t o = 0; o < m_light.origins(); ++o)
+                sum += m_light.part(p, o)[i] * (o < m_light.lights ? m_colors[o] : glm::vec3(1));
+            m_field.grid[i * count + p] = glm::vec4(sum, 0);
+        }
+    const bool smooth = settingOf(scene.technique, kSmooth) > 0;
+    if (m_momentsChanged || !m_field.gridMoments || m_field.gridMoments->smooth != smooth) {
+        auto moments = std::make_shared<GridMoments>(m_maps.moments);
+        moments->smooth = smooth;
+        m_field.gridMoments = std::move(moments);
+        m_momentsChanged = false;
+    }
+    ++m_field.version;
+}
+
+LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) const {
+    const std::uint32_t stale = countStale();
+    LightingReport report;
+    report.steps = {{"probe_maps", "Maps", "Rays from probes that see moved surfaces", times.maps},
+                    {"probe_light", "Light of maps",
+                     "Shadow rays from what probes see, and projection onto harmonics",
+                     times.light},
+                    {"probe_field", "Field", "Sum of all lights at the probes", times.field}};
+    const auto solid =
+        std::accumulate(m_maps.inSolid.begin(), m_maps.inSolid.end(), std::uint32_t(0));
+    const double bytes = double(m_maps.hits.size() * sizeof(ProbeHit) +
+                                m_light.parts.size() * sizeof(ProbeHarmonics) +
+                                m_maps.moments.texels.size() * sizeof(glm::vec2));
+    report.counters = {
+        {"probes", "Probes", "Probes of the lattice", double(m_maps.grid.count())},
+        {"probes_in_solids", "Probes in solids", "Their light is not used", double(solid)},
+        {"probes_refreshed", "Refreshed", "Probes that this update lit anew", double(m_refreshed)},
+        {"probes_stale", "Stale", "Probes whose light is still of an earlier scene", double(stale)},
+        {"rays", "Rays", "Traced by this update", double(m_rays)},
+        {"probe_bytes", "Memory", "Maps, moments and light of the probes", bytes,
+         CounterUnit::Bytes}};
+    report.totalMs = times.maps + times.light + times.field;
+    report.bounces = bounces;
+    report.whole = report.converged = stale == 0;
+    return report;
+}
+
+LightingReport ProbeLighting::update(const LightingInput& input, const Progress& progress) {
+    m_rays = m_refreshed = 0;
+    followScene(input.scene);
+    if (m_maps.grid.count() == 0) {
+        LightingReport nothing;
+        nothing.converged = nothing.skipped = true;
+        return nothing;
+    }
+    // A view gets its light a few probes at a time; anything else wants all of it.
+    const std::uint32_t most =
+        input.view ? std::uint32_t(settingOf(input.scene.technique, kPerUpdate)) : ~0U;
+    Times times;
+    std::uint32_t bounces = 0;
+    bool written = false;
+    do {
+        refresh(input, most, progress, times);
+        std::vector<glm::vec3> colors;
+        for (const Light& light : input.scene.lights)
+            colors.push_back(weightOf(light));
+        const bool smooth = settingOf(input.scene.technique, kSmooth) > 0;
+        const bool asBefore = m_refreshed == 0 && colors == m_colors && m_field.gridMoments &&
+                              m_field.gridMoments->smooth == smooth && m_bouncing == m_bounced;
+        if (asBefore)
+            break;
+        m_bounced = m_bouncing;
+        Stopwatch watch;
+        writeField(input.scene);
+        times.field += watch.lap();
+        written = true;
+        if (progress.cancelled() || countStale() > 0)
+            break;
+        ++bounces;
+    } while (bounceIsDue(input.scene) && bounces < std::max(input.bounces, 1U) && !input.view);
+    LightingReport result = report(times, bounces);
+    result.skipped = !written;
+    return result;
+}
+
+Explanation ProbeLighting::explain(const Scene& scene, const FieldReading& reading,
+                                   const ExplainOptions& options) const {
+    if (!options.black.empty() || m_colors.size() != scene.lights.size())
+        return {};
+    const auto valueOf = [&](std::uint32_t origin) {
+        glm::vec3 sum(0);
+        for (const FieldReading::Entry& entry : reading.entries)
+            for (std::size_t i = 0; i < m_field.coefficients(); ++i)
+                sum += entry.weight[i] * m_light.part(entry.index, origin)[i];
+        return sum;
+    };
+    Explanation result;
+    LightRow sky{.kind = LightRowKind::Sky, .label = "Sky", .value = valueOf(m_light.sky())};
+    LightRow surfaces{.label = "Surfaces"};
+    const auto add = [&](LightRow row) {
+        surfaces.value += row.value;
+        if (row.value != glm::vec3(0))
+            addRow(result.byOrigin, std::move(row));
+    };
+    for (std::uint32_t l = 0; l < m_light.lights; ++l)
+        add({.kind = LightRowKind::Light,
+             .label = scene.lights[l].name,
+             .index = l,
+             .value = valueOf(l) * m_colors[l]});
+    add({.label = "Emissive surfaces", .value = valueOf(m_light.emitters())});
+    add({.kind = LightRowKind::Remainder,
+         .label = "More than one bounce",
+         .value = valueOf(m_light.bounced())});
+    addRow(result.byOrigin, sky);
+    addRow(result.bySender, std::move(surfaces));
+    addRow(result.bySender, std::move(sky));
+    result.bounces = 1;
+    return result;
+}
+
+} // namespace
+
+constinit const Technique kProbesTechnique = {
+    .name = "probes",
+    .label = "Light field probes",
+    .summary = "A lattice of probes keeps what it sees and is lit anew, a few probes at a time, "
+               "when light changes. Needs no bake",
+    .source = "McGuire, Mara, Nowrouzezahrai, Luebke. Real-Time Global Illumination using "
+              "Precomputed Light Field Probes. 2017",
+    .settings = kSettings,
+    .overlays = {},
+    .precomputation = nullptr,
+    .light = [](const Prepared&) {
+        return std::unique_ptr<Lighting>(std::make_unique<ProbeLighting>());
+    }};
+
+} // namespace limn
