@@ -94,9 +94,9 @@ ExportSettings settingsOf(const Options& options, const Document& document) {
 }
 
 /// The given setting that has no effect beside the others; empty: there is none.
-std::string uselessSetting(const Options& options, const ExportSettings& settings) {
+std::string uselessSetting(const Options& options, const ExportSettings& settings, bool hasGrid) {
     for (const auto& [key, text] : options.given)
-        if (const std::string missing = missingFor(settings, key); !missing.empty())
+        if (const std::string missing = missingFor(settings, key, hasGrid); !missing.empty())
             return fmt::format("{}: has no effect without {}", flagOf(key), missing);
     return {};
 }
@@ -169,7 +169,7 @@ Exit runExport(const Options& options) {
     if (std::filesystem::equivalent(options.output, imported->document.scenePath, error))
         return failed(fmt::format("{}: is the scene itself", options.output));
     const ExportSettings settings = settingsOf(options, imported->document);
-    if (const std::string useless = uselessSetting(options, settings); !useless.empty())
+    if (const std::string useless = uselessSetting(options, settings, true); !useless.empty())
         return failed(useless);
     Scene scene = flatten(imported->document, imported->assets);
     applyBakeOptions(options.bake, scene.bake);
@@ -178,6 +178,9 @@ Exit runExport(const Options& options) {
         lightOnCpu(options.scene, options.bakeFile, std::move(scene));
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
+    if (const std::string useless = uselessSetting(options, settings, !lit->field().grid.empty());
+        !useless.empty())
+        return failed(useless);
     const ExportScene in{imported->document, *lit->scene,  *lit->trace,
                          *lit->layout,       lit->field(), lit->prepared.data.get(),
                          options.folders};

@@ -26,8 +26,10 @@ bool writesKtx2(const ExportSettings& settings) {
            settings.format == "three";
 }
 
-std::string missingFor(const ExportSettings& settings, std::string_view key) {
-    if (key == "compress" && !writesKtx2(settings))
+std::string missingFor(const ExportSettings& settings, std::string_view key, bool hasGrid) {
+    const bool onlyExr = settings.format == "three" && !hasGrid && settings.bands < 2 &&
+                         settings.encoding == TextureEncoding::Exr;
+    if (key == "compress" && (onlyExr || !writesKtx2(settings)))
         return "--encoding ktx2-half or ktx2-rgb9e5, since EXR is not compressed with Zstandard";
     if (key == "layers" && settings.bands < 2)
         return "--lightmap-bands 2 or 3";

@@ -25,8 +25,8 @@ inline constexpr std::array<std::string_view, 2> kShLayersNames = {"array", "vol
 inline constexpr std::array<const char*, 2> kShLayersLabels = {"Texture array", "3D texture"};
 
 /// What the setting of that key needs beside it and the other settings do not give: without that,
-/// it has no effect. Empty: nothing.
-std::string missingFor(const ExportSettings& settings, std::string_view key);
+/// it has no effect. Empty: nothing. `hasGrid`: the light has a grid, as far as is known.
+std::string missingFor(const ExportSettings& settings, std::string_view key, bool hasGrid = true);
 
 /// Calls visit(setting, value) for a switch and visit(setting, value, range or choices) for any
 /// other setting; the format is not one. `s` is an ExportSettings, const or not.

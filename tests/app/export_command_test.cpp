@@ -47,6 +47,16 @@ TEST_F(CommandLine, ExportRefusesBeforeTheWorkWhatItCannotWrite) {
     EXPECT_EQ(limn("export cornell").exit, 2);
 }
 
+TEST_F(CommandLine, ExportRefusesToCompressForThreeWhatIsNotKtx2) {
+    const std::string export_ = "export cornell --format three --compress" + kCoarse;
+    const Outcome run = limn(export_ + "-o " + path("x.gltf")); // nothing moves: there is no grid
+    EXPECT_EQ(run.exit, 1);
+    EXPECT_NE(run.err.find("--compress: has no effect without --encoding"), std::string::npos)
+        << run.err;
+    EXPECT_FALSE(fs::exists(path("x.gltf")));
+    EXPECT_EQ(limn(export_ + "--lightmap-bands 2 -o " + path("sh.gltf")).exit, 0);
+}
+
 TEST_F(CommandLine, ExportCompressesALightmapThatIsKtx2ByItsName) {
     const std::string export_ = "export cornell --format lightmap --detail 1 --json" + kCoarse;
     const nlohmann::json plain = json(export_ + "-o " + path("plain.ktx2"));

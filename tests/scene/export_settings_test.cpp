@@ -37,6 +37,14 @@ TEST(ExportSettings, WithoutEffectSayWhatTheyNeed) {
     EXPECT_EQ(missingFor({}, "encoding"), "");
 }
 
+TEST(ExportSettings, CompressionForThreeNeedsAGridOrAKtx2Lightmap) {
+    constexpr bool kNoGrid = false;
+    EXPECT_NE(missingFor({.format = "three"}, "compress", kNoGrid), "");
+    EXPECT_EQ(missingFor({.format = "three"}, "compress"), "");
+    EXPECT_EQ(missingFor({.format = "three", .bands = 3}, "compress", kNoGrid), "");
+    EXPECT_NE(missingFor({.format = "gltf", .bands = 3}, "compress", kNoGrid), "");
+}
+
 TEST(ExportSettings, EveryOneHasAKeyAndAFlagOfItsOwn) {
     std::set<std::string> keys, flags;
     int count = 0;
