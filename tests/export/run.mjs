@@ -14,7 +14,7 @@ const server = await serve({
     '/out/': path.resolve(out) + '/', '/': path.join(here, 'pages') + '/',
 });
 if (pages.includes('godot')) {
-    const files = Object.fromEntries(['project.godot', 'main.tscn', 'main.gd'].map((f) => [f, path.join(here, 'godot', f)]));
+    const files = Object.fromEntries(['project.godot', 'main.tscn', 'main.gd', 'stage.gd'].map((f) => [f, path.join(here, 'godot', f)]));
     const exported = [...Array(9).keys()].map((i) => `probe-${i}/godot`).concat('probe-0/godot-directional');
     for (const stem of exported) for (const end of ['.gltf', '-geometry.bin', '.tres', '-godot.gd'])
         files[stem + end] = path.join(out, 'known', stem + end);

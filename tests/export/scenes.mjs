@@ -38,7 +38,7 @@ function packGodot(folder, exported, from) {
     const settings = path.join(folder, 'godot-scene.json');
     fs.writeFileSync(settings, JSON.stringify({ width, height, from, exposures: [-4, -3, -2, -1, 0, 1, 2].map((k) => 4 ** k) }));
     const files = { 'scene.json': settings };
-    for (const [name, file] of [['project.godot', 'project.godot'], ['main.tscn', 'scene.tscn'], ['scene.gd', 'scene.gd']])
+    for (const [name, file] of [['project.godot', 'project.godot'], ['main.tscn', 'scene.tscn'], ['scene.gd', 'scene.gd'], ['stage.gd', 'stage.gd']])
         files[name] = path.join(here, 'godot', file);
     for (const { name } of exported) files[name] = path.join(folder, name);
     pack(path.join(folder, 'godot.pck'), files);

@@ -13,24 +13,15 @@ void fragment() {
 	ALBEDO = vec3(1.0);
 }"
 
-var viewport := SubViewport.new()
-var environment := Environment.new()
+const Stage := preload("res://stage.gd")
+
+var viewport: Stage
 
 func _ready() -> void:
 	await get_tree().process_frame
 	var wanted: Dictionary = JSON.parse_string(FileAccess.get_file_as_string("res://scene.json"))
-	viewport.size = Vector2i(wanted.width, wanted.height)
-	viewport.own_world_3d = true
-	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	viewport = Stage.new(wanted.width, wanted.height)
 	add_child(viewport)
-	environment.background_mode = Environment.BG_COLOR
-	environment.background_color = Color.BLACK
-	environment.ambient_light_source = Environment.AMBIENT_SOURCE_DISABLED
-	environment.reflected_light_source = Environment.REFLECTION_SOURCE_DISABLED
-	environment.tonemap_mode = Environment.TONE_MAPPER_LINEAR
-	var world := WorldEnvironment.new()
-	world.environment = environment
-	viewport.add_child(world)
 
 	var document := GLTFDocument.new()
 	var state := GLTFState.new()
@@ -95,9 +86,5 @@ func white(material: BaseMaterial3D) -> Material:
 	return holes
 
 func picture(title: String, exposure: float) -> void:
-	environment.tonemap_exposure = exposure
-	for k in 3:
-		await RenderingServer.frame_post_draw
-	var image := viewport.get_texture().get_image()
-	image.convert(Image.FORMAT_RGBA8)
-	JavaScriptBridge.eval("window.received('%s', '%s')" % [title, Marshalls.raw_to_base64(image.get_data())])
+	viewport.environment.tonemap_exposure = exposure
+	await viewport.hand_over(title, 3)
