@@ -139,6 +139,41 @@ bool areLights(const TransportView& v) {
     return true;
 }
 
+bool cutoutsAreNumbered(const TransportView& v) {
+    for (std::uint32_t k = 0; k < v.dims.triangles; ++k)
+        if (v.cutout[k] != kOpaque && v.cutout[k] >= v.dims.cutouts)
+            return false;
+    return true;
+}
+
+bool cutoutsAreBounded(const TransportView& v) {
+    constexpr float kMaxUv = 1e4f, kMaxFactor = 1e10f;
+    for (std::uint32_t k = 0; k < v.dims.cutouts; ++k) {
+        if (v.cutouts[k].mask >= v.dims.masks)
+            return false;
+        for (const Cutout::Corner& c : v.cutouts[k].corner)
+            if (!within(&c.u, 2, -kMaxUv, kMaxUv) || !within(&c.factor, 1, 0, kMaxFactor))
+                return false;
+    }
+    return true;
+}
+
+/// Whether all of each mask's texels lie in the file.
+bool masksAreHeld(const TransportView& v) {
+    constexpr std::uint32_t kMaxSide = 1 << 16, kLastWrap = 2;
+    for (std::uint32_t k = 0; k < v.dims.masks; ++k) {
+        const Mask& m = v.masks[k];
+        for (int axis = 0; axis < 2; ++axis)
+            if (m.size[axis] < 1 || m.size[axis] > kMaxSide || m.wrap[axis] > kLastWrap)
+                return false;
+        const std::uint64_t texels = std::uint64_t(m.size[0]) * m.size[1];
+        if (m.begin > v.maskTexelCount || texels > v.maskTexelCount - m.begin || m.nearest > 1 ||
+            !within(&m.cutoff, 1, 0, kMaxLight))
+            return false;
+    }
+    return true;
+}
+
 struct Defect {
     const char *tag, *what;
 };
@@ -206,6 +241,12 @@ Defect placeDefect(const TransportView& v) {
         return {"OBOX", what};
     if (!placed(v.triangles, 3 * std::uint64_t(v.dims.triangles)))
         return {"OTRI", "out of range"};
+    if (!cutoutsAreNumbered(v))
+        return {"OCUT", "out of range"};
+    if (!cutoutsAreBounded(v))
+        return {"CTRI", "out of range"};
+    if (!masksAreHeld(v))
+        return {"CMSK", "out of range"};
     if (!areLights(v))
         return {"LGHT", "out of range"};
     if (!namesAreWhole(v))

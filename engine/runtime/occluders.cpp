@@ -48,9 +48,54 @@ float dotted(F4 a, F4 b) {
     return p[0] + p[1] + p[2];
 }
 
-bool meets(const TracedRay& ray, const float* triangle) {
+std::int32_t wrapped(std::int32_t i, std::int32_t size, std::uint32_t wrap) {
+    if (wrap == 1)
+        return std::clamp(i, 0, size - 1);
+    const std::int32_t period = wrap == 0 ? size : 2 * size;
+    i %= period;
+    i += i < 0 ? period : 0;
+    return i < size ? i : period - 1 - i;
+}
+
+/// The image's alpha at a place in it, [0, 1].
+float alphaAt(const TransportView& view, const Mask& mask, const float* uv) {
+    float at[2];
+    for (int k = 0; k < 2; ++k)
+        at[k] = (mask.wrap[k] == 0 ? uv[k] - std::floor(uv[k]) : uv[k]) * float(mask.size[k]);
+    const auto texel = [&](std::int32_t x, std::int32_t y) {
+        x = wrapped(x, std::int32_t(mask.size[0]), mask.wrap[0]);
+        y = wrapped(y, std::int32_t(mask.size[1]), mask.wrap[1]);
+        const std::size_t row = std::size_t(y) * mask.size[0];
+        return float(view.maskTexels[std::size_t(mask.begin) + row + std::size_t(x)]) / 255.f;
+    };
+    if (mask.nearest != 0)
+        return texel(std::int32_t(std::floor(at[0])), std::int32_t(std::floor(at[1])));
+    const float left = std::floor(at[0] - 0.5f), upper = std::floor(at[1] - 0.5f);
+    const float fx = at[0] - 0.5f - left, fy = at[1] - 0.5f - upper;
+    const auto x = std::int32_t(left), y = std::int32_t(upper);
+    const float above = texel(x, y) * (1 - fx) + texel(x + 1, y) * fx,
+                below = texel(x, y + 1) * (1 - fx) + texel(x + 1, y + 1) * fx;
+    return above * (1 - fy) + below * fy;
+}
+
+/// Whether a triangle is there at the barycentrics (1 - u - v, u, v).
+bool opaqueAt(const TransportView& view, std::uint32_t triangle, float u, float v) {
+    const std::uint32_t number = view.cutout[triangle];
+    if (number == kOpaque)
+        return true;
+    const Cutout& cutout = view.cutouts[number];
+    const Cutout::Corner &a = cutout.corner[0], &b = cutout.corner[1], &c = cutout.corner[2];
+    const float uv[2] = {a.u + u * (b.u - a.u) + v * (c.u - a.u),
+                         a.v + u * (b.v - a.v) + v * (c.v - a.v)};
+    const float factor = a.factor + u * (b.factor - a.factor) + v * (c.factor - a.factor);
+    const Mask& mask = view.masks[cutout.mask];
+    return factor * alphaAt(view, mask, uv) >= mask.cutoff;
+}
+
+bool meets(const TransportView& view, const TracedRay& ray, std::uint32_t number) {
     // An edge belongs to both triangles that share it, so that no ray slips through between them.
     constexpr float kEdge = 1e-6f;
+    const float* const triangle = view.triangles + 9 * std::size_t(number);
     const F4 a = load3(triangle), ab = load3(triangle + 3) - a, ac = load3(triangle + 6) - a;
     const F4 p = crossed(ray.direction, ac);
     const float determinant = dotted(ab, p);
@@ -66,12 +111,12 @@ bool meets(const TracedRay& ray, const float* triangle) {
     if (!(v >= -kEdge && u + v <= 1 + kEdge))
         return false;
     const float t = dotted(ac, q) * inverse;
-    return t >= 0 && t <= ray.distance;
+    return t >= 0 && t <= ray.distance && opaqueAt(view, number, u, v);
 }
 
 bool meetsAny(const TransportView& view, const TracedRay& ray, const Box& leaf) {
     for (std::uint32_t k = 0; k < leaf.count; ++k)
-        if (meets(ray, view.triangles + 9 * (std::size_t(leaf.first) + k)))
+        if (meets(view, ray, leaf.first + k))
             return true;
     return false;
 }

@@ -54,12 +54,15 @@ struct Table {
         out = reinterpret_cast<const T*>(bytes + entry->offset);
         return true;
     }
-    bool takeText(const char* tag, const char*& out, std::size_t& size) const {
+    /// Sets `out` to a section of bytes, however many.
+    template <class Byte>
+    bool takeBytes(const char* tag, const Byte*& out, std::size_t& size) const {
+        static_assert(sizeof(Byte) == 1);
         const SectionEntry* entry = find(tag);
         if (!entry)
             return fail(tag, "missing");
         size = std::size_t(entry->bytes);
-        out = reinterpret_cast<const char*>(bytes + entry->offset);
+        out = reinterpret_cast<const Byte*>(bytes + entry->offset);
         return true;
     }
 };
@@ -202,9 +205,13 @@ bool viewTransport(const void* bytes, std::size_t size, bool skipHashes, Transpo
            table.take("SPAC", sizeof(Space), 1, view.space) &&
            table.take("OBOX", sizeof(Box), dims->boxes, view.boxes) &&
            table.take("OTRI", 36, dims->triangles, view.triangles) &&
+           table.take("OCUT", 4, dims->triangles, view.cutout) &&
+           table.take("CTRI", sizeof(Cutout), dims->cutouts, view.cutouts) &&
+           table.take("CMSK", sizeof(Mask), dims->masks, view.masks) &&
+           table.takeBytes("CTEX", view.maskTexels, view.maskTexelCount) &&
            table.take("LGHT", sizeof(limnrt_light), dims->lights, view.lights) &&
-           table.takeText("MNAM", view.names, view.nameBytes) &&
-           table.takeText("META", view.meta, view.metaBytes) && checkContents(view, error);
+           table.takeBytes("MNAM", view.names, view.nameBytes) &&
+           table.takeBytes("META", view.meta, view.metaBytes) && checkContents(view, error);
 }
 
 } // namespace limn::runtime

@@ -8,21 +8,21 @@
 
 namespace limn::runtime {
 
-inline constexpr std::uint32_t kMajor = 1, kMaxBands = 8, kDepthTexels = 256, kMaxBoxDepth = 60;
+inline constexpr std::uint32_t kMajor = 2, kMaxBands = 8, kDepthTexels = 256, kMaxBoxDepth = 60;
 inline constexpr float kMaxLight = 1e10f, kMaxAlbedo = 0.99f;
 
 /// The section DIMS.
 struct Dims {
     std::uint32_t surfels, skyCells, innerNodes, caches, lightmapCaches, links, fills, bands,
         chromaBands, materials, lights, lightmapWidth, lightmapHeight, lightmapParts, grid[3],
-        triangles, boxes, reserved;
+        triangles, boxes, cutouts, masks, reserved[3];
 
     std::uint64_t leaves() const { return std::uint64_t(surfels) + skyCells; }
     std::uint64_t nodes() const { return leaves() + innerNodes; }
     std::uint64_t texels() const { return std::uint64_t(lightmapWidth) * lightmapHeight; }
     std::uint32_t cells() const { return caches - lightmapCaches; }
 };
-static_assert(sizeof(Dims) == 80);
+static_assert(sizeof(Dims) == 96);
 
 struct Link {
     std::uint32_t node;
@@ -40,6 +40,25 @@ struct Box {
     std::uint32_t count;
 };
 static_assert(sizeof(Box) == 32);
+
+/// What a triangle with holes has at its corners, and its mask.
+struct Cutout {
+    struct Corner {
+        float u, v, factor;
+    } corner[3];
+    std::uint32_t mask;
+};
+static_assert(sizeof(Cutout) == 40);
+
+/// An alpha test.
+struct Mask {
+    std::uint64_t begin; ///< of its texels
+    std::uint32_t size[2], wrap[2];
+    std::uint32_t nearest;
+    float cutoff;
+};
+static_assert(sizeof(Mask) == 32);
+inline constexpr std::uint32_t kOpaque = ~0U; ///< number of a triangle that is no cutout
 
 /// The section SPAC.
 struct Space {
@@ -80,7 +99,12 @@ struct TransportView {
     const std::uint16_t* partWeight;
     const std::uint16_t* gridDepth;
     const Box* boxes;
-    const float* triangles; ///< three corners each
+    const float* triangles;      ///< three corners each
+    const std::uint32_t* cutout; ///< per triangle: its index in `cutouts`, or kOpaque
+    const Cutout* cutouts;
+    const Mask* masks;
+    const std::uint8_t* maskTexels;
+    std::size_t maskTexelCount;
     const limnrt_light* lights;
     const char *names, *meta;
     std::size_t nameBytes, metaBytes;

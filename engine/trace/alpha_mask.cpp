@@ -60,13 +60,17 @@ static float texel(const AlphaImage& image, const TextureRef& texture, int x, in
     return float(image.alpha[std::size_t(y) * std::size_t(image.width) + std::size_t(x)]) / 255.f;
 }
 
-static float sampleAlpha(const AlphaImage& image, const TextureRef& texture, glm::vec2 uv) {
+static glm::vec2 transformed(const TextureRef& texture, glm::vec2 uv) {
     uv *= texture.scale;
     if (texture.rotation != 0) {
         const float c = std::cos(texture.rotation), s = std::sin(texture.rotation);
         uv = {c * uv.x + s * uv.y, c * uv.y - s * uv.x};
     }
-    uv += texture.offset;
+    return uv + texture.offset;
+}
+
+static float sampleAlpha(const AlphaImage& image, const TextureRef& texture, glm::vec2 uv) {
+    uv = transformed(texture, uv);
     // Coordinates beyond a thousand repeats have hardly any fraction left, but they and NaN must
     // not overflow int.
     uv.x = std::abs(uv.x) < 1e4f ? uv.x : 0;
@@ -86,6 +90,20 @@ static float sampleAlpha(const AlphaImage& image, const TextureRef& texture, glm
     const float bottom =
         texel(image, texture, ix, iy + 1) * (1 - fx) + texel(image, texture, ix + 1, iy + 1) * fx;
     return top * (1 - fy) + bottom * fy;
+}
+
+std::array<AlphaCorner, 3> alphaCorners(const AlphaMask& mask, std::uint32_t triangle) {
+    const std::array<std::uint32_t, 3> vertex = mask.mesh->triangle(triangle);
+    std::array<AlphaCorner, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        corners[k].factor = mask.factor;
+        if (!mask.mesh->colors.empty())
+            corners[k].factor *= mask.mesh->colors[vertex[k]].w;
+        if (mask.image)
+            corners[k].uv =
+                transformed(mask.texture, mask.uv ? (*mask.uv)[vertex[k]] : glm::vec2(0));
+    }
+    return corners;
 }
 
 bool opaqueAt(const AlphaMask& mask, std::uint32_t triangle, float u, float v) {

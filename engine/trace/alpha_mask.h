@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,13 @@ using AlphaImages = std::map<std::int32_t, std::shared_ptr<const AlphaImage>>;
 /// Creates the mask of a mesh. `material` must satisfy isCutout().
 AlphaMask makeAlphaMask(const Assets& assets, const Mesh& mesh, const Material& material,
                         AlphaImages& images);
+
+/// One corner of a triangle as its alpha test sees it.
+struct AlphaCorner {
+    glm::vec2 uv{0};  ///< in the image, after the texture's transform
+    float factor = 1; ///< what multiplies the image's alpha
+};
+std::array<AlphaCorner, 3> alphaCorners(const AlphaMask& mask, std::uint32_t triangle);
 
 /// Whether the surface exists, alpha >= cutoff, at barycentrics (u, v) of `triangle`.
 bool opaqueAt(const AlphaMask& mask, std::uint32_t triangle, float u, float v);

@@ -77,7 +77,7 @@ TEST_F(CommandLine, InfoSaysWhatATransportFileHoldsAndWhatIsWrongWithIt) {
     json("export cornell --format limnrt --detail 1 --json -o " + file + kCoarse);
     const nlohmann::json info = json("info --json " + file);
     EXPECT_EQ(info["kind"], "transport");
-    EXPECT_EQ(info["version"], "1.0");
+    EXPECT_EQ(info["version"], "2.0");
     EXPECT_NEAR(info["surfels"].get<double>(), 500, 10);
     EXPECT_EQ(info["triangles"], 38);
     EXPECT_EQ(info["bytes"]["total"], fs::file_size(file));

@@ -12,8 +12,19 @@ using namespace limn;
 
 namespace {
 
+/// The small room, whose sheet has holes.
+Scene roomWithHoles() {
+    Scene scene = smallRoom();
+    const auto assets = std::make_shared<Assets>(*scene.assets);
+    assets->images.push_back({"holes", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
+    scene.assets = assets;
+    scene.materials[1].alphaMode = AlphaMode::Mask;
+    scene.materials[1].baseColorTexture.image = 0;
+    return scene;
+}
+
 std::string roomFile() {
-    const Scene scene = smallRoom();
+    const Scene scene = roomWithHoles();
     const TraceScene trace(scene);
     const BakeSettings settings = smallBake();
     const Result<Bake> made = bake(trace, {}, nullptr, &settings);

@@ -15,7 +15,7 @@ namespace {
 
 const std::string& roomFile() {
     static const std::string file = [] {
-        const auto scene = litRoom(80, 60);
+        const auto scene = litRoom(80, 60, true);
         return fileOf(*bakeOf(TraceScene(*scene)), *scene);
     }();
     return file;
@@ -110,7 +110,7 @@ TEST(HostileFile, FlippedBitsBehindGoodHashesLeadNowhereElse) {
 
 TEST(HostileFile, SaysWhatIsWrong) {
     std::string newer = roomFile(), packed = roomFile();
-    newer[8] = 2;
+    newer[8] = 3;
     EXPECT_NE(OpenFile(newer).message.find("newer"), std::string::npos);
     packed.replace(0, 4, "\x28\xb5\x2f\xfd");
     EXPECT_NE(OpenFile(packed).message.find("compressed"), std::string::npos);
@@ -125,12 +125,12 @@ TEST(HostileFile, SaysWhatIsWrong) {
 }
 
 TEST(HostileFile, HugeCountsAreRefused) {
-    for (std::size_t k = 0; k < 20; ++k)
+    for (std::size_t k = 0; k < 24; ++k)
         for (const std::uint32_t count : {0U, 1U, 0x7fffffffU, 0xffffffffU}) {
             std::uint32_t own;
             const SectionPlace dims = sectionOf(roomFile(), "DIMS");
             std::memcpy(&own, &roomFile()[dims.begin + 4 * k], sizeof own);
-            const bool fine = k == 19 || own == count || (k == 8 && count == 1); // one in colour
+            const bool fine = k > 20 || own == count || (k == 8 && count == 1); // one in colour
             EXPECT_TRUE(fine || !refusal("DIMS", put(4 * k, count)).empty()) << k << " " << count;
         }
 }
@@ -149,6 +149,14 @@ TEST(HostileFile, IndicesAndOrdersAreChecked) {
     EXPECT_NE(refusal("LMBG", put(4, 0x7fffffffU)), "");
     EXPECT_NE(refusal("OBOX", put(12, 0U)), "") << "a box that is its own child";
     EXPECT_NE(refusal("OBOX", put(28, 0xffffffffU)), "");
+    EXPECT_NE(refusal("OCUT", put(0, 2U)), "") << "the sheet has two triangles";
+    EXPECT_NE(refusal("CTRI", put(36, 1U)), "") << "there is one mask";
+    EXPECT_NE(refusal("CMSK", put(0, std::uint64_t(1))), "") << "texels behind the last";
+    EXPECT_NE(refusal("CMSK", put(0, ~std::uint64_t(0))), "");
+    EXPECT_NE(refusal("CMSK", put(8, 0U)), "") << "an image without texels";
+    EXPECT_NE(refusal("CMSK", put(12, 2U)), "") << "rows that are not there";
+    EXPECT_NE(refusal("CMSK", put(16, 3U)), "") << "an unknown wrap";
+    EXPECT_NE(refusal("CMSK", put(24, 2U)), "") << "an unknown lookup";
     EXPECT_NE(refusal("MNAM", [](std::string& s) { s.back() = 'x'; }), "");
     EXPECT_NE(refusal("LGHT", put(0, 7U)), "");
 }
@@ -157,9 +165,11 @@ TEST(HostileFile, NumbersAreFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
     for (const char* tag : {"SPOS", "SNRM", "SALB", "SEMI", "SARE", "SCWT", "TWGT", "SKYL", "CPOS",
-                            "CNRM", "SPAC", "OTRI", "OBOX"})
+                            "CNRM", "SPAC", "OTRI", "OBOX", "CTRI"})
         for (const float value : {nan, infinity, -infinity})
             EXPECT_NE(refusal(tag, put(0, value)).find(tag), std::string::npos) << tag;
+    EXPECT_NE(refusal("CMSK", put(28, nan)), "");
+    EXPECT_NE(refusal("CTRI", put(8, -1.f)), "") << "a negative alpha";
     for (const std::size_t field : {8, 20, 32, 44, 48})
         EXPECT_NE(refusal("LGHT", put(field, nan)), "") << field;
 }

@@ -4,20 +4,13 @@
 
 Prints the error of each file's lightmap, lit by the file's own lights and sky until it converges, against the expected one
 (f32, layer by layer, RGBA), and fails where it exceeds 1e-3. The standard library is enough."""
-import array
-import math
-import struct
-import sys
+import array, math, struct, sys
 from operator import mul
 
 MASK = (1 << 64) - 1
 P1, P2, P3, P4, P5 = (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5)
-
-def rotate(v, n):
-    return (v << n | v >> (64 - n)) & MASK
-
-def mix(lane, value):
-    return rotate((lane + value * P2) & MASK, 31) * P1 & MASK
+rotate = lambda v, n: (v << n | v >> (64 - n)) & MASK
+mix = lambda lane, value: rotate((lane + value * P2) & MASK, 31) * P1 & MASK
 
 def xxh64(data):
     at, n, h = 0, len(data), P5
@@ -43,7 +36,7 @@ def xxh64(data):
 
 def sections(data):
     magic, major, _, count, _, size, table_hash = struct.unpack_from("<8sIIIIQQ", data)
-    assert magic == b"LIMNRT\r\n" and major == 1 and size == len(data), "not a transport file of version 1"
+    assert magic == b"LIMNRT\r\n" and major == 2 and size == len(data), "not a transport file of version 2"
     assert xxh64(data[64:64 + 32 * count]) == table_hash, "the table is damaged"
     result = {}
     for k in range(count):
@@ -52,17 +45,11 @@ def sections(data):
         assert xxh64(result[tag.decode()]) == digest, f"{tag} is damaged"
     return result
 
-def dot(a, b):
-    return sum(map(mul, a, b))
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-def along(a, d, t):
-    return (a[0] + d[0] * t, a[1] + d[1] * t, a[2] + d[2] * t)
-
-def unit(a):
-    return along((0, 0, 0), a, 1 / math.sqrt(dot(a, a)))
+dot = lambda a, b: sum(map(mul, a, b))
+cross = lambda a, b: (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+along = lambda a, d, t: (a[0] + d[0] * t, a[1] + d[1] * t, a[2] + d[2] * t)
+wrapped = lambda i, n, wrap: (i % n, min(max(i, 0), n - 1), min(i % (2 * n), 2 * n - 1 - i % (2 * n)))[wrap]
+unit = lambda a: along((0, 0, 0), a, 1 / math.sqrt(dot(a, a)))
 
 def harmonics(x, y, z):
     return (0.2820948, 0.4886025 * y, 0.4886025 * z, 0.4886025 * x, 1.0925484 * x * y, 1.0925484 * y * z,
@@ -87,7 +74,10 @@ class Transport:
                        for t in range(self.dims[11] * self.dims[12])]
         self.magnitude = words("SPAC", "f")[6]
         self.boxes = list(struct.iter_unpack("<3fI3fI", s["OBOX"]))
-        self.triangles = [(v[:3], v[3:6], v[6:]) for v in struct.iter_unpack("<9f", s["OTRI"])]
+        self.triangles = [(v[:3], v[3:6], v[6:9], v[9]) for v in
+                          (t + c for t, c in zip(struct.iter_unpack("<9f", s["OTRI"]), struct.iter_unpack("<I", s["OCUT"])))]
+        self.cutouts, self.masks = [list(struct.iter_unpack(f, s[tag])) for f, tag in (("<9fI", "CTRI"), ("<Q5If", "CMSK"))]
+        self.alpha = s["CTEX"]
         self.lights = list(struct.iter_unpack("<2I16f2I", s["LGHT"]))
 
     def read_links(self, s, words):
@@ -124,16 +114,26 @@ class Transport:
                 return True
         return False
 
-    @staticmethod
-    def meets(origin, way, distance, triangle):
+    def meets(self, origin, way, distance, triangle):
         a = triangle[0]
         ab, ac, o = along(triangle[1], a, -1), along(triangle[2], a, -1), along(origin, a, -1)
         p, q = cross(way, ac), cross(o, ab)
-        determinant = dot(ab, p)
-        if determinant == 0:
-            return False
+        determinant = dot(ab, p) or math.nan  # of a ray along the triangle, which misses it
         u, v, t = dot(o, p) / determinant, dot(way, q) / determinant, dot(ac, q) / determinant
-        return u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= distance
+        return u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= distance and self.is_there(triangle[3], u, v)
+
+    def is_there(self, cutout, u, v):
+        if cutout == 0xffffffff:
+            return True
+        *corners, mask = self.cutouts[cutout]
+        s, t, factor = ((1 - u - v) * a + u * b + v * c for a, b, c in zip(corners[:3], corners[3:6], corners[6:]))
+        begin, width, height, wrap_s, wrap_t, nearest, cutoff = self.masks[mask]
+        texel = lambda i, j: self.alpha[begin + wrapped(j, height, wrap_t) * width + wrapped(i, width, wrap_s)] / 255
+        x, y = s * width - (not nearest) / 2, t * height - (not nearest) / 2
+        i, j = math.floor(x), math.floor(y)
+        f, g = (0, 0) if nearest else (x - i, y - j)
+        rows = [texel(i, row) * (1 - f) + texel(i + 1, row) * f for row in (j, j + 1)]
+        return factor * (rows[0] * (1 - g) + rows[1] * g) >= cutoff
 
     def irradiance(self, light, p, n):
         """Of a directional, point or spot light of colour 1, with its shadow."""

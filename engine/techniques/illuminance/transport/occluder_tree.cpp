@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace limn {
 
@@ -146,62 +146,10 @@ bool isFinite(const OccluderTriangle& t) {
     });
 }
 
-/// Divides a triangle of a cutout into pieces and keeps those that are there.
-class CutoutDivider {
-public:
-    CutoutDivider(const Scene& scene, const Instance& instance, std::uint32_t triangle,
-                  const OccluderTriangle& world, float finest)
-        : m_scene(scene), m_instance(instance), m_triangle(triangle), m_world(world) {
-        const float longest =
-            std::max({glm::length(world[1] - world[0]), glm::length(world[2] - world[1]),
-                      glm::length(world[0] - world[2])});
-        while (m_levels < kMaxLevels && longest > finest * float(1 << m_levels))
-            ++m_levels;
-    }
-    void addTo(std::vector<OccluderTriangle>& pieces) {
-        if (add({{{0, 0}, {1, 0}, {0, 1}}}, m_levels, pieces))
-            pieces.push_back(m_world);
-    }
-
-private:
-    using Piece = std::array<glm::vec2, 3>; ///< corners as barycentrics (u, v)
-    static constexpr int kMaxLevels = 5;
-
-    /// Adds what is there of a piece; true, having added nothing, where all of it is.
-    bool add(const Piece& p, int levels, std::vector<OccluderTriangle>& pieces) {
-        if (levels == 0) {
-            const glm::vec2 middle = (p[0] + p[1] + p[2]) / 3.f;
-            return surfaceAlpha(m_scene, m_instance, m_triangle, middle.x, middle.y) > 0;
-        }
-        const glm::vec2 ab = (p[0] + p[1]) / 2.f, bc = (p[1] + p[2]) / 2.f,
-                        ca = (p[2] + p[0]) / 2.f;
-        const std::array<Piece, 4> quarters = {
-            {{p[0], ab, ca}, {ab, p[1], bc}, {ca, bc, p[2]}, {ab, bc, ca}}};
-        std::array<bool, 4> whole;
-        for (std::size_t k = 0; k < 4; ++k)
-            whole[k] = add(quarters[k], levels - 1, pieces);
-        if (std::ranges::count(whole, true) == 4)
-            return true;
-        for (std::size_t k = 0; k < 4; ++k)
-            if (whole[k])
-                pieces.push_back(
-                    {place(quarters[k][0]), place(quarters[k][1]), place(quarters[k][2])});
-        return false;
-    }
-    glm::vec3 place(glm::vec2 b) const {
-        return m_world[0] * (1 - b.x - b.y) + m_world[1] * b.x + m_world[2] * b.y;
-    }
-
-    const Scene& m_scene;
-    const Instance& m_instance;
-    std::uint32_t m_triangle;
-    const OccluderTriangle& m_world;
-    int m_levels = 0;
-};
-
 } // namespace
 
-OccluderTree buildOccluderTree(std::vector<OccluderTriangle> triangles) {
+OccluderTree buildOccluderTree(const std::vector<OccluderTriangle>& triangles,
+                               const std::vector<std::uint32_t>& cutout) {
     OccluderTree tree;
     if (triangles.empty())
         return tree;
@@ -217,8 +165,10 @@ OccluderTree buildOccluderTree(std::vector<OccluderTriangle> triangles) {
         } else {
             box.count = node.end - node.begin;
             box.first = std::uint32_t(tree.triangles.size());
-            for (std::uint32_t i = node.begin; i < node.end; ++i)
+            for (std::uint32_t i = node.begin; i < node.end; ++i) {
                 tree.triangles.push_back(triangles[splitter.order()[i]]);
+                tree.cutout.push_back(cutout[splitter.order()[i]]);
+            }
         }
         tree.boxes.push_back(box);
     }
@@ -226,13 +176,14 @@ OccluderTree buildOccluderTree(std::vector<OccluderTriangle> triangles) {
 }
 
 OccluderTree occluderTree(const Scene& scene) {
-    constexpr float kFinest = 1 / 2048.f; // of the scene, as the longest edge of a cutout's piece
-    const float finest = kFinest * glm::length(staticBounds(scene).size());
     std::vector<OccluderTriangle> triangles;
+    std::vector<std::uint32_t> cutout;
+    CutoutCollector collector(scene);
     for (const Instance& instance : scene.instances) {
         if (instance.dynamic)
             continue;
         const Mesh& mesh = scene.meshOf(instance);
+        collector.begin(instance);
         for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
             const std::array<std::uint32_t, 3> corner = mesh.triangle(t);
             OccluderTriangle world;
@@ -240,13 +191,15 @@ OccluderTree occluderTree(const Scene& scene) {
                 world[k] = glm::vec3(instance.toWorld * glm::vec4(mesh.positions[corner[k]], 1));
             if (!isFinite(world))
                 continue;
-            if (isCutout(scene.materialOf(instance)))
-                CutoutDivider(scene, instance, t, world, finest).addTo(triangles);
-            else
+            if (const std::optional<std::uint32_t> number = collector.add(t)) {
                 triangles.push_back(world);
+                cutout.push_back(*number);
+            }
         }
     }
-    return buildOccluderTree(std::move(triangles));
+    OccluderTree tree = buildOccluderTree(triangles, cutout);
+    tree.cutouts = collector.take();
+    return tree;
 }
 
 } // namespace limn

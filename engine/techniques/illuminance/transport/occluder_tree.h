@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/techniques/illuminance/transport/occluder_cutouts.h"
 
 #include <array>
 #include <cstdint>
@@ -28,18 +28,20 @@ static_assert(sizeof(OccluderTriangle) == 36);
 struct OccluderTree {
     std::vector<OccluderBox> boxes;
     std::vector<OccluderTriangle> triangles;
+    std::vector<std::uint32_t> cutout; ///< per triangle: its index in cutouts.triangles, or kOpaque
+    OccluderCutouts cutouts;
 };
 
 /// Maximum number of levels below the root.
 inline constexpr std::uint32_t kMaxOccluderDepth = 60;
 
-/// All static triangles with finite corners. Those of cutouts are divided up to five times into
-/// quarters, until an edge is shorter than 1/2048 of the scene, and the pieces whose middle is a
-/// hole are left out.
+/// All static triangles with finite corners; those of cutouts with their alpha tests.
 OccluderTree occluderTree(const Scene& scene);
 
-/// A tree of boxes over triangles, split where the surface area heuristic over 16 bins is lowest.
-/// Wald. On fast Construction of SAH-based Bounding Volume Hierarchies. 2007
-OccluderTree buildOccluderTree(std::vector<OccluderTriangle> triangles);
+/// A tree of boxes over triangles, of which each has a number in `cutout`, split where the surface
+/// area heuristic over 16 bins is lowest. Its `cutouts` are empty. Wald. On fast Construction of
+/// SAH-based Bounding Volume Hierarchies. 2007
+OccluderTree buildOccluderTree(const std::vector<OccluderTriangle>& triangles,
+                               const std::vector<std::uint32_t>& cutout);
 
 } // namespace limn

@@ -251,6 +251,10 @@ Result<std::string> transportFile(const TransportInput& in) {
                                              grid.z,
                                              count(occluders.triangles),
                                              count(occluders.boxes),
+                                             count(occluders.cutouts.triangles),
+                                             count(occluders.cutouts.masks),
+                                             0,
+                                             0,
                                              0};
     const Bounds& g = b.gridBounds;
     const std::array<float, 8> space = {
@@ -263,6 +267,10 @@ Result<std::string> transportFile(const TransportInput& in) {
     out.add("LGHT", lights);
     addSenders(in, out);
     addReceivers(b, *parts, out);
+    out.add("CTRI", occluders.cutouts.triangles);
+    out.add("CMSK", occluders.cutouts.masks);
+    out.add("CTEX", occluders.cutouts.texels);
+    out.add("OCUT", occluders.cutout);
     out.add("OBOX", occluders.boxes);
     out.add("OTRI", occluders.triangles);
     return out.file();

@@ -75,7 +75,9 @@ std::string transportMeta(const TransportInput& input, const OccluderTree& occlu
                        {"lights", lights},
                        {"instances", instances},
                        {"dynamicInstances", dynamic},
-                       {"occluders", {{"triangles", occluders.triangles.size()}}},
+                       {"occluders",
+                        {{"triangles", occluders.triangles.size()},
+                         {"cutouts", occluders.cutouts.triangles.size()}}},
                        {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
                        {"receipt", receiptOf(input)}};
     // Names may hold bytes that are not UTF-8; they are replaced.

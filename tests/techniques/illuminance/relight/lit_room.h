@@ -7,10 +7,18 @@
 
 namespace limn {
 
-/// A room with a block and one lamp, quickly baked.
-inline std::shared_ptr<const Scene> litRoom(std::uint32_t surfels, std::uint32_t lightmapCaches) {
+/// A room with a block and one lamp, quickly baked; with `holes`, below a sheet that has some.
+inline std::shared_ptr<const Scene> litRoom(std::uint32_t surfels, std::uint32_t lightmapCaches,
+                                            bool holes = false) {
     simple::SceneBuilder b;
     b.addMaterial(simple::lambert({0.7f, 0.5f, 0.3f}));
+    if (holes) {
+        b.assets->images.push_back({"holes", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
+        Material sheet = simple::lambert(glm::vec3(0.5f));
+        sheet.alphaMode = AlphaMode::Mask;
+        sheet.baseColorTexture.image = 0;
+        b.add(simple::quad({0.5f, 2, 0.5f}, {0, 0, 3}, {3, 0, 0}, b.addMaterial(sheet)));
+    }
     b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true));
     b.add(simple::box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false));
     b.scene.lights.resize(1);

@@ -2,6 +2,7 @@
 // A bake that is written to a transport file and lit by the runtime has the light of the Relighter.
 #include "engine/techniques/illuminance/transport/transport_file.h"
 #include "tests/runtime/open_file.h"
+#include "tests/runtime/transport_bytes.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/techniques/illuminance/relight/relit.h"
 
@@ -102,6 +103,65 @@ TEST(TransportFile, RelightsThroughAWindowInEveryNumberOfBands) {
             SCOPED_TRACE(bands * 10 + chroma);
             expectSame(errorsOf(file, scene, trace, baked));
         }
+}
+
+Image noise(std::uint32_t width, std::uint32_t height) {
+    Image image{"noise", width, height, {}};
+    std::uint32_t bits = 7;
+    for (std::uint32_t k = 0; k < 4 * width * height; ++k) {
+        bits = bits * 1664525U + 1013904223U;
+        image.rgba.push_back(std::uint8_t(bits >> 24));
+    }
+    return image;
+}
+
+/// A room below five sheets whose holes differ in kind. Three share one image.
+Scene roomOfSheets() {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    b.assets->images = {noise(5, 3), noise(4, 4)};
+    for (int k = 0; k < 5; ++k) {
+        Material m = simple::lambert(glm::vec3(0.5f));
+        m.doubleSided = true;
+        m.alphaMode = k == 1 ? AlphaMode::Blend : AlphaMode::Mask;
+        m.baseColor.w = k == 4 ? 0.9f : 1.f;
+        TextureRef& t = m.baseColorTexture;
+        t.image = k == 3 ? -1 : k == 4 ? 1 : 0;
+        t.wrapU = t.wrapV = k == 1 ? Wrap::Clamp : k == 2 ? Wrap::Mirror : Wrap::Repeat;
+        t.nearest = k == 1;
+        t.scale = {1.7f, 2.3f};
+        t.offset = {-0.6f, -0.3f};
+        t.rotation = k == 4 ? 0.4f : 0;
+        const float x = 0.1f + 0.77f * float(k);
+        Mesh sheet = simple::quad({x, 2, 0.2f}, {0, 0, 4.6f}, {0.7f, 0, 0}, b.addMaterial(m));
+        if (k == 3)
+            sheet.colors = {{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 0.2f}, {1, 1, 1, 0.8f}};
+        b.add(sheet);
+    }
+    b.scene.bake.surfels = 4000;
+    b.scene.bake.lightmapCaches = 500;
+    b.scene.bake.rays = 32;
+    b.scene.bake.links = 32;
+    return b.build();
+}
+
+TEST(TransportFile, HolesLetThroughWhatTheyLetThroughInTheScene) {
+    Scene scene = roomOfSheets();
+    const TraceScene trace(scene);
+    const auto baked = bakeOf(trace);
+    const std::string bytes = fileOf(*baked, scene);
+    std::string closed = bytes;
+    changeSection(closed, "CTEX", [](std::string& alpha) {
+        EXPECT_EQ(alpha.size(), 5 * 3 + 1 + 4 * 4) << "each image once, and one of a texel";
+        alpha.assign(alpha.size(), '\xff');
+    });
+    rehash(closed);
+    for (const LightKind kind : {LightKind::Point, LightKind::Spot, LightKind::Rectangle}) {
+        scene.lights = {lightOf(kind)};
+        expectSame(errorsOf(OpenFile(bytes), scene, trace, baked));
+        EXPECT_GT(errorsOf(OpenFile(closed), scene, trace, baked).radiosity, 0.01);
+    }
 }
 
 TEST(TransportFile, RefusesWhatItCannotHold) {
