@@ -2,10 +2,12 @@
 // measure_transport SCENE BAKE [OUT.limnrt]: what a transport file takes and how close its light
 // is. Prints a line with the file's bytes, the time to open it and the time of a bounce, beside the
 // Relighter's on one thread in the same minute, and one with the errors for each of three
-// lightings.
+// lightings: of the surfels, of the lightmap and of a picture by `limn render --device cpu`.
 #include "engine/core/parallel.h"
 #include "engine/core/replace_file.h"
 #include "engine/files/project_file.h"
+#include "engine/measure/compare.h"
+#include "engine/measure/field_render.h"
 #include "engine/techniques/illuminance/bake/bake_file.h"
 #include "engine/trace/trace_scene.h"
 #include "tests/core/source_path.h"
@@ -44,7 +46,7 @@ std::vector<std::vector<Light>> lightings(const Scene& scene) {
     const Bounds b = staticBounds(scene);
     const float size = glm::length(b.size());
     Light point, spot, rectangle;
-    point.position = b.centre() + b.size() * glm::vec3(0.15f, 0.1f, -0.1f);
+    point.position = b.centre() + b.size() * glm::vec3(0.05f, 0.12f, 0.08f);
     point.color = {0.3f, 0.5f, 1};
     point.strength = size * size;
     spot.kind = LightKind::Spot;
@@ -92,6 +94,30 @@ Times timesOf(limnrt_scene* file, Relighter& relighter, Scene scene, const Trace
     return times;
 }
 
+/// The scene's first camera, or one in its middle that looks along its longest side.
+Camera cameraOf(const Scene& scene) {
+    if (!scene.cameras.empty())
+        return scene.cameras.front();
+    const Bounds b = staticBounds(scene);
+    const glm::vec3 along =
+        b.size().x > b.size().z ? glm::vec3(b.size().x, 0, 0) : glm::vec3(0, 0, b.size().z);
+    Camera camera;
+    camera.eye = b.centre() - 0.3f * along;
+    camera.target = b.centre() + 0.2f * along - glm::vec3(0, 0.2f * b.size().y, 0);
+    return camera;
+}
+
+/// Irradiance of bounced light, as `limn render --device cpu` shows it.
+ImageF pictureOf(const TraceScene& trace, const IndirectField& field, const Bake& bake) {
+    FieldRenderOptions options;
+    options.view = View::Irradiance;
+    options.camera = cameraOf(trace.scene());
+    options.width = 512;
+    options.height = 384;
+    options.samplesPerPixel = 4;
+    return renderField(trace, field, bake.lightmap, options);
+}
+
 void printErrors(limnrt_scene* file, const std::shared_ptr<const Bake>& bake, Scene scene,
                  const TraceScene& trace) {
     int number = 0;
@@ -105,11 +131,17 @@ void printErrors(limnrt_scene* file, const std::shared_ptr<const Bake>& bake, Sc
         const IndirectField& field = relighter.field();
         std::vector<float> rgba(4 * field.lightmap.size());
         limnrt_lightmap_sh(file, rgba.data());
-        fmt::print("lighting {}: {} bounces, nRMSE of radiosity {:.2e}, of the lightmap {:.2e}\n",
+        IndirectField read = field;
+        std::memcpy(read.lightmap.data(), rgba.data(), rgba.size() * sizeof(float));
+        const ImageF picture = pictureOf(trace, read, *bake);
+        const Result<Comparison> compared = compareImages(picture, pictureOf(trace, field, *bake));
+        fmt::print("lighting {}: {} bounces, nRMSE of radiosity {:.2e}, of the lightmap {:.2e}, of "
+                   "a picture {:.2e}\n",
                    ++number, bounces,
                    nrmse(limnrt_radiosity(file), relighter.radiosity().data(),
                          relighter.radiosity().size()),
-                   nrmse(rgba.data(), field.lightmap.data(), field.lightmap.size()));
+                   nrmse(rgba.data(), field.lightmap.data(), field.lightmap.size()),
+                   compared ? compared->nrmse : 1);
     }
 }
 
