@@ -18,6 +18,7 @@
 #include "editor_ui/view/explain_state.h"
 #include "editor_ui/view/gizmo_drag.h"
 #include "editor_ui/view/overlay_state.h"
+#include "editor_ui/view/placement.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
@@ -43,7 +44,7 @@ struct ViewState {
     Navigation navigation = Navigation::None;
     glm::vec3 pivot{0}; ///< about which the view turns while it is Navigation::Orbit
     std::optional<GizmoDrag> drag;
-    std::optional<LightKind> placing; ///< the light that the next click in the picture adds
+    std::optional<Placeable> placing; ///< what the next click in the picture adds
     glm::vec2 pressedAt{0};
     bool pressed = false; ///< left button went down in the picture and may become a pick
     bool showLights = true;

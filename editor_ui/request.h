@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/document/material_edit.h"
+
 #include <string>
 
 namespace limn {
@@ -11,6 +13,7 @@ struct Request {
         NewFromScene,
         Open,
         OpenSkyImage,
+        AddFile, ///< a glTF below a group, a shape at `place`, or a texture of `object`
         Save,
         Bake,
         BakeToError, ///< EditorState::bakeError
@@ -23,8 +26,12 @@ struct Request {
         Screenshot,
         Quit
     } kind;
-    std::string path;             ///< of NewFromScene, Open, OpenSkyImage, Save, Export
-    bool discardsChanges = false; ///< unsaved changes are lost without asking
+    /// Of NewFromScene, Open, OpenSkyImage, AddFile (AssetFile::path), Save, Export.
+    std::string path;
+    bool discardsChanges = false;              ///< unsaved changes are lost without asking
+    Transform place = {};                      ///< of a shape, to world space
+    ObjectId object = 0;                       ///< the material that gets the texture; else 0
+    TextureSlot slot = TextureSlot::BaseColor; ///< which texture
 };
 
 } // namespace limn

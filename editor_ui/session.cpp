@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/session.h"
 
+#include "editor_ui/document/added_file.h"
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/first_light.h"
 #include "editor_ui/document/muted.h"
@@ -107,6 +108,9 @@ void Session::handle(const Request& request) {
     case Request::Kind::Open:
     case Request::Kind::OpenSkyImage:
         open(request.path);
+        break;
+    case Request::Kind::AddFile:
+        addFile(request);
         break;
     case Request::Kind::Save:
         if (m_files.save(request.path, state.document, m_baked.preview ? nullptr : m_baked.bake))
@@ -263,6 +267,48 @@ void Session::takeSky() {
     }
     log(LogLine::Level::Info, "Opened " + (*read)->image);
     setSkyImage(state, **read);
+}
+
+/// Edits the document by a request whose file is in the assets.
+static void useFile(EditorState& state, const Request& request, const AssetFile& file,
+                    const ImportedScene& imported) {
+    if (request.object)
+        setTexture(state, request.object, request.slot, std::int32_t(file.firstImage));
+    else if (isSceneFile(request.path))
+        addScene(state, file, imported);
+    else
+        addShape(state, file, request.place);
+}
+
+void Session::addFile(const Request& request) {
+    // A shape does not change; a file may have.
+    const AssetFile* known = findAssetFile(state.document, request.path);
+    if (known && shapeOfPath(request.path)) {
+        useFile(state, request, AssetFile(*known), {});
+    } else if (m_files.add(state.assets, request.path)) {
+        m_adding = request;
+        state.loading = request.path;
+    } else {
+        complain("Not added", request.path + ": another file is being opened or saved; try again");
+    }
+}
+
+void Session::takeAdded() {
+    auto read = m_files.takeAdded();
+    if (!read)
+        return;
+    state.loading.clear();
+    if (!*read) {
+        complain("Not added", read->error().message);
+        return;
+    }
+    AddedAssets& added = (*read)->added;
+    takeAssets(state, added, std::move((*read)->meshBounds));
+    for (const std::string& repair : added.imported.repairs)
+        log(LogLine::Level::Warning, repair);
+    if (!shapeOfPath(m_adding.path))
+        log(LogLine::Level::Info, "Added " + m_adding.path);
+    useFile(state, m_adding, added.file, added.imported);
 }
 
 void Session::takeSaved() {
@@ -461,6 +507,7 @@ void Session::update() {
         handle(request);
     takeOpened();
     takeSky();
+    takeAdded();
     takeSaved();
     takeBaked();
     takeExported();

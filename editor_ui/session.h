@@ -76,6 +76,8 @@ private:
     void answerRecovery(Request::Kind answer);
     void keepForRecovery();
     void takeSky();
+    void addFile(const Request& request);
+    void takeAdded();
     void takeSaved();
     void takeBaked();
     void showGoal(const std::string& goal);
@@ -133,6 +135,7 @@ private:
     std::shared_ptr<const Scene> m_compared; ///< the scene that state.bake.changes speaks of
     bool m_quit = false;
     std::string m_savingTo, m_exportingTo;
+    Request m_adding{Request::Kind::AddFile}; ///< the newest one whose file was not there yet
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
     bool m_lightEdited = false; ///< since the scene was opened
 };

@@ -19,6 +19,7 @@ namespace limn {
 LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapLayout& layout) {
     LightmapLayout fitted = layout;
     fitted.instances.assign(scene.instances.size(), {});
+    fitted.meshes.resize(std::max(fitted.meshes.size(), scene.assets->meshes.size()));
     std::map<std::pair<ObjectId, std::uint32_t>, std::size_t> known;
     for (std::size_t i = 0; i < baked.instances.size(); ++i)
         known.emplace(std::pair(baked.instances[i].node, baked.instances[i].mesh), i);

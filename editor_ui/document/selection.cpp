@@ -48,7 +48,8 @@ void pruneSelection(EditorState& state) {
                   [&](ObjectId id) { return !state.document.objects.contains(id); });
 }
 
-static std::vector<ObjectId> withChildren(const Document& document, const Ids& tops) {
+std::vector<ObjectId> withChildren(const Document& document,
+                                   const std::unordered_set<ObjectId>& tops) {
     std::vector<ObjectId> ids;
     if (tops.empty()) // asked in every frame
         return ids;
@@ -154,16 +155,6 @@ std::optional<Bounds> boundsOf(const EditorState& state, ObjectId id) {
 const PickedSurface* pickedSurface(const EditorState& state) {
     const auto& picked = state.view.picked;
     return picked && picked->node == activeId(state) ? &*picked : nullptr;
-}
-
-ObjectId materialOf(const EditorState& state, std::uint32_t mesh) {
-    if (mesh >= state.assets->meshes.size())
-        return 0;
-    std::uint32_t left = state.assets->meshes[mesh].material;
-    for (const auto& [id, object] : state.document.objects)
-        if (std::holds_alternative<Material>(object) && left-- == 0)
-            return id;
-    return 0;
 }
 
 } // namespace limn

@@ -31,6 +31,10 @@ bool inOrBelow(const Document& document, ObjectId id, const std::unordered_set<O
 /// Drops ids from the selection that the document no longer has.
 void pruneSelection(EditorState& state);
 
+/// Those of `tops` that can be deleted, and the nodes below them, in the order of their ids.
+std::vector<ObjectId> withChildren(const Document& document,
+                                   const std::unordered_set<ObjectId>& tops);
+
 /// The selected objects that can be deleted, and the nodes below them, parents before children.
 std::vector<ObjectId> selectionWithChildren(const EditorState& state);
 
@@ -52,8 +56,5 @@ std::optional<Bounds> boundsOf(const EditorState& state, ObjectId id);
 
 /// The surface that was clicked last, if it belongs to the active object; else null.
 const PickedSurface* pickedSurface(const EditorState& state);
-
-/// The material of a mesh, or 0 if it has none of the document's.
-ObjectId materialOf(const EditorState& state, std::uint32_t mesh);
 
 } // namespace limn

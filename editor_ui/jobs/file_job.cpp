@@ -134,6 +134,23 @@ bool FileJob::openSkyImage(std::string path) {
     });
 }
 
+bool FileJob::add(std::shared_ptr<const Assets> before, std::string path) {
+    return start([this, before = std::move(before), path = std::move(path)] {
+        Progress progress;
+        progress.cancel = &m_cancel;
+        Result<AddedAssets> read = addAssetFile(*before, path, progress, m_options);
+        Result<AddedFile> added;
+        if (read) {
+            std::vector<Bounds> bounds = boundsOfMeshes(*read->assets);
+            added = AddedFile{std::move(*read), std::move(bounds)};
+        } else {
+            added = tl::make_unexpected(read.error());
+        }
+        const std::lock_guard lock(m_mutex);
+        m_added = std::move(added);
+    });
+}
+
 bool FileJob::save(std::string path, Document document, std::shared_ptr<const Precomputed> bake) {
     return start(
         [this, path = std::move(path), document = std::move(document), bake = std::move(bake)] {
@@ -150,7 +167,7 @@ bool FileJob::save(std::string path, Document document, std::shared_ptr<const Pr
 
 bool FileJob::busy() const {
     const std::lock_guard lock(m_mutex);
-    return m_running || m_opened || m_sky || m_saved;
+    return m_running || m_opened || m_sky || m_added || m_saved;
 }
 
 std::optional<Result<OpenedFile>> FileJob::takeOpened() {
@@ -161,6 +178,11 @@ std::optional<Result<OpenedFile>> FileJob::takeOpened() {
 std::optional<Result<Sky>> FileJob::takeSky() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_sky, {});
+}
+
+std::optional<Result<AddedFile>> FileJob::takeAdded() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_added, {});
 }
 
 std::optional<Result<Document>> FileJob::takeSaved() {

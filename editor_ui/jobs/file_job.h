@@ -2,6 +2,7 @@
 #pragma once
 
 #include "editor_ui/jobs/bake_job.h"
+#include "engine/files/asset_file.h"
 #include "engine/gltf/gltf_import.h"
 
 #include <atomic>
@@ -26,6 +27,12 @@ struct OpenedFile {
     BakedScene baked;               ///< the bake that lay beside the project, if it fits
 };
 
+/// Assets with those of a file that was added.
+struct AddedFile {
+    AddedAssets added;
+    std::vector<Bounds> meshBounds; ///< object space, as Assets::meshes
+};
+
 /// Reads and writes files on a thread, one at a time. No call waits for the disk except the
 /// destructor.
 class FileJob {
@@ -45,6 +52,8 @@ public:
     /// result is that of open(of) with these changes.
     bool recover(std::string copy, std::string of);
     bool openSkyImage(std::string path);
+    /// Reads what an AssetFile::path names, after `before`.
+    bool add(std::shared_ptr<const Assets> before, std::string path);
     /// Writes the project and, beside it, the bake if there is one.
     bool save(std::string path, Document document, std::shared_ptr<const Precomputed> bake);
 
@@ -52,6 +61,8 @@ public:
     std::optional<Result<OpenedFile>> takeOpened();
     /// Returns the panorama that the last openSkyImage() read, or its error, once.
     std::optional<Result<Sky>> takeSky();
+    /// Returns what the last add() read, or its error, once.
+    std::optional<Result<AddedFile>> takeAdded();
     /// Returns the document that was written, or the error, once.
     std::optional<Result<Document>> takeSaved();
 
@@ -66,6 +77,7 @@ private:
     mutable std::mutex m_mutex; ///< guards the members below
     std::optional<Result<OpenedFile>> m_opened;
     std::optional<Result<Sky>> m_sky;
+    std::optional<Result<AddedFile>> m_added;
     std::optional<Result<Document>> m_saved;
 };
 

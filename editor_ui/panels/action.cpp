@@ -42,6 +42,9 @@ bool baking(const EditorState& s) {
 bool canBake(const EditorState& s) {
     return !s.bake.running && s.loading.empty();
 }
+bool notLoading(const EditorState& s) {
+    return s.loading.empty();
+}
 bool hasScene(const EditorState& s) {
     return !s.assets->meshes.empty() && s.loading.empty();
 }
@@ -172,12 +175,23 @@ void grab(EditorState& s) {
     grabSelection(s, tool);
 }
 
+template <auto what>
+void place(EditorState& s) {
+    s.view.placing = what;
+}
+template <auto what>
+bool places(const EditorState& s) {
+    return s.view.placing == Placeable(what);
+}
 bool placing(const EditorState& s) {
     return s.view.placing.has_value();
 }
-void placeBeforeCamera(EditorState& s) {
-    addLight(s, lightBeforeCamera(s, *s.view.placing));
+void placeIt(EditorState& s) {
+    placeBeforeCamera(s, *s.view.placing);
     s.view.placing.reset();
+}
+void addSceneFile(EditorState& s) {
+    openFileBrowser(s, FileBrowser::Purpose::AddScene);
 }
 
 void focusSelection(EditorState& s) {
@@ -322,10 +336,15 @@ std::vector<Action> fixedActions() {
     {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
     {"add.sun", "Sun", Menu::Add, kNoKey, kNoKey, false, always, addSun},
     {"add.sun_and_sky", "Sun and sky", Menu::Add, kNoKey, kNoKey, false, always, addSunAndSky},
-    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, choose<&ViewState::placing, LightKind::Point>, isChosen<&ViewState::placing, LightKind::Point>},
-    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, choose<&ViewState::placing, LightKind::Spot>, isChosen<&ViewState::placing, LightKind::Spot>},
-    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, choose<&ViewState::placing, LightKind::Rectangle>, isChosen<&ViewState::placing, LightKind::Rectangle>},
-    {"add.place", "Place it before the camera", Menu::Add, plain(key::kEnter), plain(key::kPadEnter), true, placing, placeBeforeCamera},
+    {"add.point", "Point light", Menu::Add, kNoKey, kNoKey, false, always, place<LightKind::Point>, places<LightKind::Point>},
+    {"add.spot", "Spot light", Menu::Add, kNoKey, kNoKey, false, always, place<LightKind::Spot>, places<LightKind::Spot>},
+    {"add.rectangle", "Rectangle light", Menu::Add, kNoKey, kNoKey, false, always, place<LightKind::Rectangle>, places<LightKind::Rectangle>},
+    {"add.plane", "Plane", Menu::Add, kNoKey, kNoKey, true, always, place<Shape::Plane>, places<Shape::Plane>},
+    {"add.box", "Box", Menu::Add, kNoKey, kNoKey, false, always, place<Shape::Box>, places<Shape::Box>},
+    {"add.sphere", "Sphere", Menu::Add, kNoKey, kNoKey, false, always, place<Shape::Sphere>, places<Shape::Sphere>},
+    {"add.cylinder", "Cylinder", Menu::Add, kNoKey, kNoKey, false, always, place<Shape::Cylinder>, places<Shape::Cylinder>},
+    {"add.scene", "Objects of a file\u2026", Menu::Add, kNoKey, kNoKey, false, notLoading, addSceneFile},
+    {"add.place", "Place it before the camera", Menu::Add, plain(key::kEnter), plain(key::kPadEnter), true, placing, placeIt},
     {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Lit>, isChosen<&ViewState::view, View::Lit>},
     {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Direct>, isChosen<&ViewState::view, View::Direct>},
     {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Indirect>, isChosen<&ViewState::view, View::Indirect>},

@@ -4,6 +4,7 @@
 #include "editor_ui/document/common_edit.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/theme.h"
 #include "engine/scene/origin.h"
 
 #include <imgui.h>
@@ -19,6 +20,10 @@ namespace limn {
 FieldEdit::FieldEdit(EditorState& editor, ObjectId object)
     : state(editor), id(object), seen(editor.document.objects.at(object)) {}
 
+const ObjectsById& FieldEdit::objects() const {
+    return state.document.objects;
+}
+
 void wrappedTooltip(const char* text) {
     if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
@@ -30,14 +35,33 @@ void wrappedTooltip(const char* text) {
 }
 
 void fieldLabel(const char* label, const char* tooltip) {
-    const float left = ImGui::GetCursorPosX();
-    const float width =
-        std::max(ImGui::GetContentRegionAvail().x * 0.42f, ImGui::GetFontSize() * 4);
+    // A mark may stand before the label; the widgets stay in their column.
+    const float left = ImGui::GetCursorPosX(), start = ImGui::GetCursorStartPos().x;
+    const float column = start + std::max((ImGui::GetContentRegionAvail().x + left - start) * 0.42f,
+                                          ImGui::GetFontSize() * 4);
     ImGui::AlignTextToFramePadding();
-    elidedText(label, width - ImGui::GetStyle().ItemSpacing.x);
+    elidedText(label, std::max(column - left - ImGui::GetStyle().ItemSpacing.x, 1.f));
     wrappedTooltip(tooltip);
-    ImGui::SameLine(left + width);
+    ImGui::SameLine(column);
     ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void markMixed() {
+    // A sign of "not equal", drawn because fonts may lack it.
+    const float h = ImGui::GetFontSize(), w = h * 0.5f;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({w, ImGui::GetFrameHeight()});
+    wrappedTooltip("The selected objects have different values here; the one shown is that of the "
+                   "object selected last");
+    const float middle = at.y + ImGui::GetFrameHeight() / 2;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImU32 ink = color::warning();
+    const float line = std::max(h / 12, 1.f);
+    for (const float side : {-0.12f, 0.12f})
+        list.AddLine({at.x, middle + side * h}, {at.x + w, middle + side * h}, ink, line);
+    list.AddLine({at.x + w * 0.2f, middle + 0.3f * h}, {at.x + w * 0.8f, middle - 0.3f * h}, ink,
+                 line);
+    ImGui::SameLine(0, h * 0.25f);
 }
 
 static constexpr const char* kMillimetres = "%.3f";

@@ -3,6 +3,8 @@
 
 #include "editor_ui/document/gesture.h"
 
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,11 +18,35 @@ struct FieldEdit {
     std::vector<ObjectId> others = {}; ///< of the same type, which get the same edits
 
     FieldEdit(EditorState& editor, ObjectId object);
+
+    /// The document's objects.
+    const ObjectsById& objects() const;
 };
 
 /// The label on the left of a row, with a tooltip; the next widget fills the rest of the row.
 /// Labels carry units: "Strength (cd)".
 void fieldLabel(const char* label, const char* tooltip);
+
+/// Marks the row that fieldLabel() draws next, left of it: the selected objects differ there.
+void markMixed();
+
+/// Objects of type T that the edit goes to differ in `get`, a member of T or a function of one.
+template <class T, class Get>
+bool isMixed(const FieldEdit& edit, const Get& get) {
+    const T& own = std::get<T>(edit.objects().at(edit.id));
+    return std::ranges::any_of(edit.others, [&](ObjectId id) {
+        const T* other = std::get_if<T>(&edit.objects().at(id));
+        return other && std::invoke(get, *other) != std::invoke(get, own);
+    });
+}
+
+/// fieldLabel() with a mark where the selected objects differ in `get`.
+template <class T, class Get>
+void fieldLabel(const FieldEdit& edit, const char* label, const char* tooltip, const Get& get) {
+    if (isMixed<T>(edit, get))
+        markMixed();
+    fieldLabel(label, tooltip);
+}
 
 /// The row's widget for a world position, shown and typed in the file's coordinates [m]: three
 /// numbers to drag.

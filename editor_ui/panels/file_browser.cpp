@@ -20,7 +20,10 @@ static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
     const bool scene = extension == ".gltf" || extension == ".glb";
     switch (purpose) {
     case FileBrowser::Purpose::NewFromScene:
+    case FileBrowser::Purpose::AddScene:
         return scene;
+    case FileBrowser::Purpose::Texture:
+        return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
     case FileBrowser::Purpose::Open:
         return scene || extension == ".limn";
     case FileBrowser::Purpose::SaveAs:
@@ -82,6 +85,12 @@ void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
     state.fileBrowser = std::move(browser);
 }
 
+void openTextureBrowser(EditorState& state, ObjectId material, TextureSlot slot) {
+    openFileBrowser(state, FileBrowser::Purpose::Texture);
+    state.fileBrowser->material = material;
+    state.fileBrowser->slot = slot;
+}
+
 static const char* title(FileBrowser::Purpose purpose) {
     switch (purpose) {
     case FileBrowser::Purpose::NewFromScene:
@@ -94,6 +103,10 @@ static const char* title(FileBrowser::Purpose purpose) {
         return "Sky image";
     case FileBrowser::Purpose::ExportTo:
         return "Export to";
+    case FileBrowser::Purpose::AddScene:
+        return "Add the objects of a file";
+    case FileBrowser::Purpose::Texture:
+        return "Texture";
     }
     return "";
 }
@@ -107,7 +120,10 @@ static const char* acceptLabel(FileBrowser::Purpose purpose) {
     case FileBrowser::Purpose::SaveAs:
         return "Save";
     case FileBrowser::Purpose::ExportTo:
+    case FileBrowser::Purpose::Texture:
         return "Choose";
+    case FileBrowser::Purpose::AddScene:
+        return "Add";
     }
     return "";
 }
@@ -184,6 +200,13 @@ static std::optional<Request> accepted(FileBrowser& browser) {
     }
     if (browser.purpose == FileBrowser::Purpose::SkyImage)
         return Request{Request::Kind::OpenSkyImage, path.string()};
+    if (browser.purpose == FileBrowser::Purpose::AddScene ||
+        browser.purpose == FileBrowser::Purpose::Texture) {
+        Request request{Request::Kind::AddFile, path.string()};
+        request.object = browser.material;
+        request.slot = browser.slot;
+        return request;
+    }
     const bool fresh = browser.purpose == FileBrowser::Purpose::NewFromScene;
     return Request{fresh ? Request::Kind::NewFromScene : Request::Kind::Open, path.string()};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/document/material_edit.h"
+
 #include <string>
 #include <vector>
 
@@ -10,7 +12,15 @@ struct EditorState;
 
 /// The dialog's state. `entries` is read from disk when `folder` changes, not each frame.
 struct FileBrowser {
-    enum class Purpose { NewFromScene, Open, SaveAs, SkyImage, ExportTo } purpose = Purpose::Open;
+    enum class Purpose {
+        NewFromScene,
+        Open,
+        SaveAs,
+        SkyImage,
+        ExportTo,
+        AddScene,
+        Texture
+    } purpose = Purpose::Open;
     struct Entry {
         std::string name;
         bool isFolder = false;
@@ -20,11 +30,16 @@ struct FileBrowser {
     std::vector<Entry> entries;
     std::string error;      ///< why the folder could not be read or the name was refused
     bool overwrite = false; ///< the user was warned that the file exists
+    ObjectId material = 0;  ///< that gets the texture
+    TextureSlot slot = TextureSlot::BaseColor;
 };
 
 /// Opens the dialog at the folder of the sky's image (to choose one), of the current project or
 /// scene, or the working directory. Samples are saved in the user's documents.
 void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose);
+
+/// The same, to choose a texture of a material.
+void openTextureBrowser(EditorState& state, ObjectId material, TextureSlot slot);
 
 /// Reads `folder`: folders first, then files with an extension that fits the purpose, each by name.
 void readFolder(FileBrowser& browser, const std::string& folder);

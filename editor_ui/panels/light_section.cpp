@@ -16,7 +16,7 @@
 namespace limn {
 
 static void colorRows(FieldEdit& edit, Light& light) {
-    fieldLabel("Colour", "Linear Rec. 709; multiplies the strength");
+    fieldLabel<Light>(edit, "Colour", "Linear Rec. 709; multiplies the strength", &Light::color);
     colorField("##color", light.color);
     fieldEdited(edit, "Light colour");
     float kelvin = nearestKelvin(light.color);
@@ -32,13 +32,16 @@ static void colorRows(FieldEdit& edit, Light& light) {
 static void strengthRows(FieldEdit& edit, Light& light) {
     const bool sun = light.kind == LightKind::Directional,
                rectangle = light.kind == LightKind::Rectangle;
-    fieldLabel(sun         ? "Strength (lux)"
-               : rectangle ? "Radiance (nits)"
-                           : "Strength (cd)",
-               sun         ? "Illuminance of a surface that faces the sun [lux]. Ctrl-click to type"
-               : rectangle ? "Luminance of the rectangle; a larger one shines more light [nits]. "
-                             "Ctrl-click to type"
-                           : "Luminous intensity [cd]. Ctrl-click to type");
+    fieldLabel<Light>(edit,
+                      sun         ? "Strength (lux)"
+                      : rectangle ? "Radiance (nits)"
+                                  : "Strength (cd)",
+                      sun ? "Illuminance of a surface that faces the sun [lux]. Ctrl-click to type"
+                      : rectangle
+                          ? "Luminance of the rectangle; a larger one shines more light [nits]. "
+                            "Ctrl-click to type"
+                          : "Luminous intensity [cd]. Ctrl-click to type",
+                      &Light::strength);
     ImGui::SliderFloat("##strength", &light.strength, 0, 1e5f,
                        sun         ? "%.2f lux"
                        : rectangle ? "%.2f nits"
@@ -57,13 +60,16 @@ static void strengthRows(FieldEdit& edit, Light& light) {
 /// Where the light comes from: height above the horizon and compass direction.
 static void directionRows(FieldEdit& edit, Light& light) {
     LightAngles angles = lightAngles(light.direction);
-    fieldLabel("Elevation (\u00b0)",
-               "Height above the horizon of where the light comes from [degrees]");
+    fieldLabel<Light>(edit, "Elevation (\u00b0)",
+                      "Height above the horizon of where the light comes from [degrees]",
+                      [](const Light& l) { return lightAngles(l.direction).elevation; });
     if (ImGui::SliderFloat("##elevation", &angles.elevation, -kMaxElevation, kMaxElevation,
                            "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
         light.direction = lightDirection(angles);
     fieldEdited(edit, "Light elevation");
-    fieldLabel("Azimuth (\u00b0)", "Direction the light comes from, from +Z towards +X [degrees]");
+    fieldLabel<Light>(edit, "Azimuth (\u00b0)",
+                      "Direction the light comes from, from +Z towards +X [degrees]",
+                      [](const Light& l) { return lightAngles(l.direction).azimuth; });
     if (ImGui::SliderFloat("##azimuth", &angles.azimuth, -180, 180, "%.1f\u00b0",
                            ImGuiSliderFlags_AlwaysClamp))
         light.direction = lightDirection(angles);
@@ -72,47 +78,56 @@ static void directionRows(FieldEdit& edit, Light& light) {
 
 static void spotRows(FieldEdit& edit, Light& light) {
     float outer = glm::degrees(light.outerAngle), inner = glm::degrees(light.innerAngle);
-    fieldLabel("Cone (\u00b0)", "Half-angle where the light ends [degrees]");
+    fieldLabel<Light>(edit, "Cone (\u00b0)", "Half-angle where the light ends [degrees]",
+                      &Light::outerAngle);
     if (ImGui::SliderFloat("##outer", &outer, 0.5f, 90, "%.1f\u00b0",
                            ImGuiSliderFlags_AlwaysClamp)) {
         light.outerAngle = std::min(glm::radians(outer), glm::half_pi<float>());
         light.innerAngle = std::min(light.innerAngle, 0.99f * light.outerAngle);
     }
     fieldEdited(edit, "Light cone");
-    fieldLabel("Full inside (\u00b0)",
-               "Half-angle of full strength; softens towards the cone's edge [degrees]");
+    fieldLabel<Light>(edit, "Full inside (\u00b0)",
+                      "Half-angle of full strength; softens towards the cone's edge [degrees]",
+                      &Light::innerAngle);
     if (ImGui::SliderFloat("##inner", &inner, 0, 90, "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
         light.innerAngle = std::min(glm::radians(inner), 0.99f * light.outerAngle);
     fieldEdited(edit, "Light inner cone");
 }
 
 static void rectangleRows(FieldEdit& edit, Light& light) {
-    fieldLabel("Size (m)", "Width and height of the rectangle; its shadows soften with it [m]");
+    fieldLabel<Light>(edit, "Size (m)",
+                      "Width and height of the rectangle; its shadows soften with it [m]",
+                      &Light::size);
     ImGui::DragFloat2("##size", &light.size.x, 0.01f, kMinLightSize, kMaxLightSize, "%.3f",
                       ImGuiSliderFlags_AlwaysClamp);
     fieldEdited(edit, "Light size");
     float degrees = glm::degrees(light.roll);
-    fieldLabel("Roll (\u00b0)", "Turns the rectangle about its direction [degrees]");
+    fieldLabel<Light>(edit, "Roll (\u00b0)", "Turns the rectangle about its direction [degrees]",
+                      &Light::roll);
     if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
         light.roll = glm::radians(degrees);
     fieldEdited(edit, "Light roll");
 }
 
 static void rangeRow(FieldEdit& edit, Light& light) {
-    fieldLabel("Range (m)", "Where the light fades to nothing; 0: reaches any distance [m]");
+    fieldLabel<Light>(edit, "Range (m)",
+                      "Where the light fades to nothing; 0: reaches any distance [m]",
+                      &Light::range);
     ImGui::SliderFloat("##range", &light.range, 0, 1000, light.range > 0 ? "%.2f m" : "unlimited",
                        ImGuiSliderFlags_Logarithmic);
     fieldEdited(edit, "Light range");
 }
 
 void lightSection(FieldEdit& edit, Light& light) {
-    fieldLabel("On", "Light that is off costs nothing (H)");
+    fieldLabel<Light>(edit, "On", "Light that is off costs nothing (H)", &Light::enabled);
     ImGui::Checkbox("##on", &light.enabled);
     fieldEdited(edit, "Light on or off");
     int kind = int(light.kind);
-    fieldLabel("Kind",
-               "Sun: parallel rays. Point: all directions. Spot: a cone. Rectangle: one side "
-               "of a surface, with soft shadows");
+    fieldLabel<Light>(
+        edit, "Kind",
+        "Sun: parallel rays. Point: all directions. Spot: a cone. Rectangle: one side "
+        "of a surface, with soft shadows",
+        &Light::kind);
     if (ImGui::Combo("##kind", &kind, "Sun\0Point\0Spot\0Rectangle\0"))
         light.kind = LightKind(kind);
     fieldEdited(edit, "Light kind");

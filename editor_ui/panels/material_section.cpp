@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor_ui/document/material_edit.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
@@ -33,15 +34,51 @@ static void colorAndStrength(FieldEdit& edit, glm::vec3& radiance, const char* w
     ImGui::PopID();
 }
 
-static void textureLine(const EditorState& state, const char* use, const TextureRef& texture) {
-    if (texture.image < 0 || std::size_t(texture.image) >= state.assets->images.size())
-        return;
-    const Image& image = state.assets->images[std::size_t(texture.image)];
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
-    elidedText(std::string(use) + ": " + image.name + ", " + std::to_string(image.width) +
-                   " \u00d7 " + std::to_string(image.height),
-               ImGui::GetContentRegionAvail().x);
-    ImGui::PopStyleColor();
+static const char* textureTooltip(TextureSlot slot) {
+    switch (slot) {
+    case TextureSlot::BaseColor:
+        return "Multiplies the base colour; sRGB, alpha cuts holes. PNG or JPEG";
+    case TextureSlot::MetallicRoughness:
+        return "Multiplies roughness by its green and metallic by its blue; linear. PNG or JPEG";
+    case TextureSlot::Normal:
+        return "Bends the normal in tangent space; linear. Needs tangents, which a glTF with a "
+               "normal map has. PNG or JPEG";
+    case TextureSlot::Emissive:
+        return "Multiplies the emission; sRGB. PNG or JPEG";
+    }
+    return "";
+}
+
+/// The image of a texture, and buttons that replace and remove it.
+static void textureRow(FieldEdit& edit, Material& material, TextureSlot slot) {
+    EditorState& state = edit.state;
+    const std::int32_t index = textureIn(material, slot).image;
+    const bool there = index >= 0 && std::size_t(index) < state.assets->images.size();
+    ImGui::PushID(int(slot));
+    fieldLabel<Material>(edit, textureSlotName(slot), textureTooltip(slot),
+                         [slot](Material m) { return textureIn(m, slot).image; });
+    std::string text = "none";
+    if (there) {
+        const Image& image = state.assets->images[std::size_t(index)];
+        text = image.name + ", " + std::to_string(image.width) + " \u00d7 " +
+               std::to_string(image.height);
+    }
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float cross = there ? ImGui::GetFrameHeight() + gap : 0;
+    const float room = std::max(ImGui::GetContentRegionAvail().x - cross, 20.f);
+    if (ImGui::Button((elided(text, room - 12) + "###choose").c_str(), {room, 0}))
+        openTextureBrowser(state, edit.id, slot);
+    wrappedTooltip(there ? (text + ". Click to choose another file").c_str()
+                         : "Click to choose a file");
+    if (there) {
+        ImGui::SameLine(0, gap);
+        if (ImGui::Button("x", {ImGui::GetFrameHeight(), 0})) {
+            setTexture(state, edit.id, slot, -1);
+            edit.seen = state.document.objects.at(edit.id);
+        }
+        wrappedTooltip("Removes the texture");
+    }
+    ImGui::PopID();
 }
 
 static void flipbookRows(FieldEdit& edit, Flipbook& flipbook) {
@@ -60,34 +97,41 @@ static void flipbookRows(FieldEdit& edit, Flipbook& flipbook) {
 }
 
 void materialSection(FieldEdit& edit, Material& material) {
-    fieldLabel("Base colour", "Linear; multiplies the texture. Bounced light takes its colour");
+    fieldLabel<Material>(edit, "Base colour",
+                         "Linear; multiplies the texture. Bounced light takes its colour",
+                         &Material::baseColor);
     glm::vec3 base(material.baseColor);
     if (colorField("##base", base))
         material.baseColor = glm::vec4(base, material.baseColor.w);
     fieldEdited(edit, "Base colour");
-    fieldLabel("Metallic", "0: dielectric, 1: metal; metal sends no diffuse light [0, 1]");
+    fieldLabel<Material>(edit, "Metallic",
+                         "0: dielectric, 1: metal; metal sends no diffuse light [0, 1]",
+                         &Material::metallic);
     ImGui::SliderFloat("##metallic", &material.metallic, 0, 1, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
     fieldEdited(edit, "Metallic");
-    fieldLabel("Roughness", "0: mirror, 1: matte [0, 1]");
+    fieldLabel<Material>(edit, "Roughness", "0: mirror, 1: matte [0, 1]", &Material::roughness);
     ImGui::SliderFloat("##roughness", &material.roughness, 0, 1, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
     fieldEdited(edit, "Roughness");
     ImGui::Separator();
+    if (isMixed<Material>(edit, &Material::emission))
+        markMixed();
     ImGui::TextDisabled("Emission");
     colorAndStrength(edit, material.emission, "Emission", "Colour", "Emission (nits)",
                      "Radiance the surface sends out [nits]; lights the scene without a new bake");
     if (material.emissiveTexture.image >= 0)
         flipbookRows(edit, material.emissiveFlipbook);
     ImGui::Separator();
-    fieldLabel("Double sided", "Seen and lit from both sides; changing it needs a new bake");
+    fieldLabel<Material>(edit, "Double sided",
+                         "Seen and lit from both sides; changing it needs a new bake",
+                         &Material::doubleSided);
     ImGui::Checkbox("##double", &material.doubleSided);
     fieldEdited(edit, "Double sided");
-    const EditorState& state = edit.state;
-    textureLine(state, "Base colour", material.baseColorTexture);
-    textureLine(state, "Metal, roughness", material.metallicRoughnessTexture);
-    textureLine(state, "Normal", material.normalTexture);
-    textureLine(state, "Emission", material.emissiveTexture);
+    ImGui::Separator();
+    ImGui::TextDisabled("Textures");
+    for (const TextureSlot slot : kTextureSlots)
+        textureRow(edit, material, slot);
 }
 
 static void skyImageRows(FieldEdit& edit, Sky& sky) {

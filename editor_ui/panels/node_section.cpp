@@ -3,6 +3,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/material_choice.h"
 
 #include <imgui.h>
 
@@ -21,7 +22,9 @@ static glm::vec3 eulerDegrees(const EulerEdit& euler, ObjectId id, glm::quat rot
 static void rotationRow(FieldEdit& edit, Node& node) {
     EulerEdit& euler = edit.state.euler;
     glm::vec3 degrees = eulerDegrees(euler, edit.id, node.transform.rotation);
-    fieldLabel("Rotation (\u00b0)", "About X, then Y, then Z, in the parent's space [degrees]");
+    fieldLabel<Node>(edit, "Rotation (\u00b0)",
+                     "About X, then Y, then Z, in the parent's space [degrees]",
+                     [](const Node& n) { return n.transform.rotation; });
     if (ImGui::DragFloat3("##rotation", &degrees.x, 0.5f, 0, 0, "%.1f")) {
         node.transform.rotation = glm::normalize(glm::quat(glm::radians(degrees)));
         euler = {edit.id, node.transform.rotation, degrees};
@@ -40,18 +43,16 @@ static void pickedRows(FieldEdit& edit) {
     fieldLabel("Clicked mesh", "The part of the object that was clicked in the picture");
     elidedText(mesh.name.empty() ? "Mesh " + std::to_string(picked->mesh) : mesh.name,
                ImGui::GetContentRegionAvail().x);
-    fieldLabel("Its material", "Click to edit the material");
-    const ObjectId material = materialOf(state, picked->mesh);
-    const Object* object = findObject(state, material);
-    if (!object) {
-        ImGui::TextDisabled("none");
-        return;
-    }
-    const std::string name = objectName(*object);
-    if (ImGui::Button((elided(name, ImGui::GetContentRegionAvail().x - 12) + "###material").c_str(),
-                      {-FLT_MIN, 0}))
-        state.selection = {material};
-    wrappedTooltip(name.c_str());
+    materialChoice(state, {edit.id}, picked->mesh);
+}
+
+/// The node's material and that of the others that are edited with it.
+static void materialRows(FieldEdit& edit) {
+    std::vector<ObjectId> nodes = edit.others;
+    nodes.push_back(edit.id);
+    materialChoice(edit.state, nodes);
+    // Assigning is an edit of its own; what follows compares with the node as it is now.
+    edit.seen = edit.state.document.objects.at(edit.id);
 }
 
 void nodeSection(FieldEdit& edit, Node& node) {
@@ -60,16 +61,20 @@ void nodeSection(FieldEdit& edit, Node& node) {
     positionField("##position", t.translation);
     fieldEdited(edit, "Move");
     rotationRow(edit, node);
-    fieldLabel("Scale", "Along the object's own axes; negative mirrors, 0 is not allowed");
+    fieldLabel<Node>(edit, "Scale",
+                     "Along the object's own axes; negative mirrors, 0 is not allowed",
+                     [](const Node& n) { return n.transform.scale; });
     ImGui::DragFloat3("##scale", &t.scale.x, 0.005f, 0, 0, "%.3f");
     fieldEdited(edit, "Scale");
     ImGui::Separator();
-    fieldLabel("Visible", "Hidden objects are neither drawn, baked nor lit");
+    fieldLabel<Node>(edit, "Visible", "Hidden objects are neither drawn, baked nor lit",
+                     &Node::visible);
     ImGui::Checkbox("##visible", &node.visible);
     fieldEdited(edit, "Visibility");
-    fieldLabel("Dynamic",
-               "Moves freely without a new bake: lit from the grid of caches, casts shadows, "
-               "sends no bounced light of its own");
+    fieldLabel<Node>(edit, "Dynamic",
+                     "Moves freely without a new bake: lit from the grid of caches, casts shadows, "
+                     "sends no bounced light of its own",
+                     &Node::dynamic);
     ImGui::Checkbox("##dynamic", &node.dynamic);
     fieldEdited(edit, "Dynamic");
     std::size_t triangles = 0;
@@ -79,6 +84,7 @@ void nodeSection(FieldEdit& edit, Node& node) {
     ImGui::TextDisabled("%zu %s, %s triangles", node.meshes.size(),
                         node.meshes.size() == 1 ? "mesh" : "meshes",
                         groupedNumber(triangles).c_str());
+    materialRows(edit);
     pickedRows(edit);
 }
 

@@ -2,12 +2,15 @@
 #include "editor_ui/panels/outliner_panel.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/material_edit.h"
 #include "editor_ui/document/object_rules.h"
+#include "editor_ui/document/selection.h"
 #include "editor_ui/document/tree_edit.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/icon.h"
+#include "editor_ui/panels/material_choice.h"
 #include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
@@ -247,11 +250,19 @@ static void contextMenu(EditorState& state, ObjectId id) {
     ImGui::EndPopup();
 }
 
-/// A node that is dragged onto another one comes below it, with all that is selected if it is.
+/// A node that is dragged onto another one comes below it, with all that is selected if it is. A
+/// material that is dragged onto a node becomes that of it and all below it, or of the selection.
 static void dragRow(EditorState& state, ObjectId id) {
     constexpr const char* kNodes = "nodes";
+    if (std::holds_alternative<Material>(state.document.objects.at(id)))
+        dragMaterial(state, id);
     if (!std::holds_alternative<Node>(state.document.objects.at(id)))
         return;
+    if (const ObjectId material = droppedMaterial())
+        assignMaterial(state,
+                       isSelected(state, id) ? selectionWithChildren(state)
+                                             : withChildren(state.document, {id}),
+                       material);
     if (ImGui::BeginDragDropSource()) {
         ImGui::SetDragDropPayload(kNodes, &id, sizeof id);
         const std::string name = objectName(state.document.objects.at(id));

@@ -138,7 +138,7 @@ static void release(EditorState& state) {
     if (glm::length(mousePosition() - view.pressedAt) > kClickPixels)
         return;
     if (view.placing) {
-        addLight(state, lightAtPixel(state, *view.placing, view.pressedAt));
+        placeAtPixel(state, *view.placing, view.pressedAt);
         view.placing.reset();
         return;
     }
@@ -299,16 +299,19 @@ static void pictureText(const EditorState& state, const char* text, float y, ImU
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text, nullptr, wrap);
 }
 
-/// Where the light would stand if one clicked now.
+/// Where a light would stand if one clicked now.
 static void placingHint(const EditorState& state, bool hovered) {
     if (!state.view.placing)
         return;
-    const LightKind kind = *state.view.placing;
-    pictureText(state, "Click where the light goes. Enter: before the camera. Esc: none", 12,
-                IM_COL32_WHITE);
+    const LightKind* kind = std::get_if<LightKind>(&*state.view.placing);
+    pictureText(state,
+                kind ? "Click where the light goes. Enter: before the camera. Esc: none"
+                     : "Click the surface it stands on. Enter: before the camera. Esc: none",
+                12, IM_COL32_WHITE);
     const auto pixel =
-        hovered ? toPixel(state.view.picture(), lightAtPixel(state, kind, mousePosition()).position)
-                : std::nullopt;
+        hovered && kind
+            ? toPixel(state.view.picture(), lightAtPixel(state, *kind, mousePosition()).position)
+            : std::nullopt;
     if (!pixel)
         return;
     const glm::vec2 mouse = mousePosition();
@@ -316,7 +319,7 @@ static void placingHint(const EditorState& state, bool hovered) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine({mouse.x, mouse.y}, centre, color::kHandleLit, 1.5f);
     list.AddCircleFilled(centre, 12, color::kGround);
-    drawIcon(list, lightIcon(kind), centre, 15, color::kHandleLit);
+    drawIcon(list, lightIcon(*kind), centre, 15, color::kHandleLit);
 }
 
 void viewportPanel(EditorState& state) {

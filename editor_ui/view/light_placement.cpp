@@ -69,8 +69,7 @@ static float medianDistance(const EditorState& state, glm::vec3 from) {
     return distances[kProbeRays / 2];
 }
 
-/// Rounded to two digits, so that the inspector shows a number that one would have typed.
-static float rounded(float value) {
+float roundedToTwoDigits(float value) {
     if (!(value > 0))
         return 0;
     const float unit = std::pow(10.f, std::floor(std::log10(value)) - 1);
@@ -93,13 +92,13 @@ static Light fitted(const EditorState& state, Light light) {
         break;
     case LightKind::Rectangle: {
         const float side =
-            std::clamp(rounded(kRectangleSide * distance), kMinLightSize, kMaxLightSize);
+            std::clamp(roundedToTwoDigits(kRectangleSide * distance), kMinLightSize, kMaxLightSize);
         light.size = glm::vec2(side);
         light.strength = intensity / (side * side);
         break;
     }
     }
-    light.strength = std::min(rounded(light.strength), kMaxLight);
+    light.strength = std::min(roundedToTwoDigits(light.strength), kMaxLight);
     return light;
 }
 

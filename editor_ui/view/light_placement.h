@@ -19,4 +19,7 @@ Light lightAtPixel(const EditorState& state, LightKind kind, glm::vec2 pixel);
 /// from what it sees by half the way to the eye, or a quarter of the scene if that is less.
 Light lightBeforeCamera(const EditorState& state, LightKind kind);
 
+/// `value` with two digits, as one would have typed it; 0 where it is not positive.
+float roundedToTwoDigits(float value);
+
 } // namespace limn

@@ -30,8 +30,16 @@ void describeNode(Fields& fields, T& n) {
     fields("parent", n.parent);
     fields.object("transform", n.transform, [](auto& f, auto& t) { describeTransform(f, t); });
     fields("meshes", n.meshes);
+    fields.unlessEmpty("materials", n.materials);
     fields("visible", n.visible);
     fields("dynamic", n.dynamic);
+}
+
+template <class Fields, class T>
+void describeAssetFile(Fields& fields, T& f) {
+    fields("path", f.path);
+    fields("firstMesh", f.firstMesh);
+    fields("firstImage", f.firstImage);
 }
 
 template <class Fields, class T>

@@ -66,6 +66,11 @@ struct FieldWriter {
         else
             (*this)(name, toFile(origin, p));
     }
+    template <class T>
+    void unlessEmpty(const char* name, const std::vector<T>& value) {
+        if (!value.empty())
+            (*this)(name, value);
+    }
     template <class T, class Describe>
     void object(const char* name, const T& value, const Describe& describe) {
         FieldWriter inner{out[name] = Json::object(), origin};
@@ -107,6 +112,10 @@ public:
             read(*json, name, inFile);
             p = toWorld(m_origin, inFile);
         }
+    }
+    template <class T>
+    void unlessEmpty(const char* name, std::vector<T>& value) {
+        (*this)(name, value);
     }
     template <class T, class Describe>
     void object(const char* name, T& value, const Describe& describe) {
@@ -380,6 +389,7 @@ static Result<void> readHead(const Json& json, Document& document) {
     {
         Json rest = json;
         rest.erase("objects");
+        rest.erase("files");
         FieldReader fields(rest, "", problem, document.origin);
         fields("version", version);
         fields("scene", document.scenePath);
@@ -398,6 +408,25 @@ static Result<void> readHead(const Json& json, Document& document) {
     return {};
 }
 
+static Result<void> readFiles(const Json& json, Document& document) {
+    const auto files = json.find("files");
+    if (files == json.end())
+        return {};
+    if (!files->is_array())
+        return fail("files: not an array");
+    for (std::size_t i = 0; i < files->size(); ++i) {
+        std::string problem;
+        FieldReader fields((*files)[i], fmt::format("files[{}]", i), problem, document.origin);
+        describeAssetFile(fields, document.files.emplace_back());
+        fields.finish();
+        if (problem.empty() && document.files.back().path.empty())
+            problem = fmt::format("files[{}].path: empty", i);
+        if (!problem.empty())
+            return fail(problem);
+    }
+    return {};
+}
+
 static Result<ProjectText> readProject(Json& json) {
     if (!json.is_object())
         return fail("JSON: not an object");
@@ -406,6 +435,8 @@ static Result<ProjectText> readProject(Json& json) {
     ProjectText project;
     if (Result<void> head = readHead(json, project.document); !head)
         return tl::make_unexpected(head.error());
+    if (Result<void> files = readFiles(json, project.document); !files)
+        return tl::make_unexpected(files.error());
     const auto objects = json.find("objects");
     project.hasObjects = objects != json.end();
     if (!project.hasObjects)
@@ -471,6 +502,10 @@ std::string documentToJson(const Document& document) {
     json["nextId"] = document.nextId;
     if (document.origin != glm::dvec3(0))
         json["origin"] = {document.origin.x, document.origin.y, document.origin.z};
+    for (const AssetFile& file : document.files) {
+        FieldWriter fields{json["files"].emplace_back(Json::object()), document.origin};
+        describeAssetFile(fields, file);
+    }
     json["objects"] = Json::array();
     for (const auto& [id, object] : document.objects) {
         Json entry;

@@ -3,8 +3,10 @@
 
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
+#include "engine/files/asset_file.h"
 #include "engine/files/document_json.h"
 #include "engine/files/sky_file.h"
+#include "engine/scene/mesh/shape_mesh.h"
 #include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
 
@@ -43,6 +45,14 @@ Result<void> saveProject(const std::string& path, const Document& document) {
         return fail(fmt::format("{}: scene: {}", path, scene.error().message));
     Document stored = document;
     stored.scenePath = *scene;
+    stored.files = filesInUse(document);
+    for (AssetFile& file : stored.files)
+        if (!shapeOfPath(file.path)) {
+            const Result<std::string> relative = relativeTo(path, file.path);
+            if (!relative)
+                return fail(fmt::format("{}: files: {}", path, relative.error().message));
+            file.path = *relative;
+        }
     for (auto& [id, object] : stored.objects) {
         if (stored.origin != glm::dvec3(0)) // rounds as the file does
             moveOrigin(object, stored.origin, stored.origin);
@@ -64,6 +74,22 @@ Result<void> saveProject(const std::string& path, const Document& document) {
     return replaceFile(path, text);
 }
 
+/// Removes meshes from `end` on, and the materials assigned to them. Returns how many.
+static std::size_t dropLostMeshes(Node& node, std::size_t end) {
+    Node kept = node;
+    kept.meshes.clear();
+    kept.materials.clear();
+    for (std::size_t i = 0; i < node.meshes.size(); ++i)
+        if (node.meshes[i] < end) {
+            kept.meshes.push_back(node.meshes[i]);
+            if (i < node.materials.size())
+                kept.materials.push_back(node.materials[i]);
+        }
+    const std::size_t lost = node.meshes.size() - kept.meshes.size();
+    node = std::move(kept);
+    return lost;
+}
+
 /// Removes references to meshes and images that the scene no longer has.
 static void dropLost(ImportedScene& scene) {
     std::size_t meshes = 0, images = 0;
@@ -75,9 +101,7 @@ static void dropLost(ImportedScene& scene) {
     };
     for (auto& [id, object] : scene.document.objects) {
         if (Node* node = std::get_if<Node>(&object))
-            meshes += std::erase_if(node->meshes, [&](std::uint32_t mesh) {
-                return mesh >= scene.assets->meshes.size();
-            });
+            meshes += dropLostMeshes(*node, scene.assets->meshes.size());
         if (Material* material = std::get_if<Material>(&object))
             for (TextureRef* texture :
                  {&material->baseColorTexture, &material->metallicRoughnessTexture,
@@ -85,9 +109,11 @@ static void dropLost(ImportedScene& scene) {
                 lose(*texture);
     }
     if (meshes)
-        scene.repairs.push_back(fmt::format("{} meshes are no longer in the scene file", meshes));
+        scene.repairs.push_back(
+            fmt::format("{} meshes are no longer in the scene's files", meshes));
     if (images)
-        scene.repairs.push_back(fmt::format("{} images are no longer in the scene file", images));
+        scene.repairs.push_back(
+            fmt::format("{} images are no longer in the scene's files", images));
 }
 
 /// Loads the sky's image relative to the project; if it cannot be read, the sky shows its colour.
@@ -124,6 +150,11 @@ Result<ImportedScene> loadProject(const std::string& path, const Progress& progr
     }
     if (!project->hasObjects)
         return scene;
+    for (AssetFile& file : document.files)
+        if (!shapeOfPath(file.path))
+            file.path = (fs::path(path).parent_path() / file.path).lexically_normal().string();
+    if (const Result<void> added = addAssetFiles(scene, document, progress, options); !added)
+        return fail(fmt::format("{}: files: {}", path, added.error().message));
     if (document.sceneHash != scene.document.sceneHash)
         scene.repairs.push_back(
             "the scene file changed since the project was saved; its new geometry is used");

@@ -43,10 +43,21 @@ struct Node {
     ObjectId parent = 0;               ///< 0: a root. The tree has no cycles.
     Transform transform;               ///< to the parent's space
     std::vector<std::uint32_t> meshes; ///< indices into Assets::meshes
+    /// Material objects, one per mesh. A 0, or a missing one at the end: the mesh's own.
+    std::vector<ObjectId> materials;
     bool visible = true;
     bool dynamic = false; ///< lit from the grid, sends no bounced light
 
     bool operator==(const Node&) const = default;
+};
+
+/// A file, or a shape that the program makes, whose meshes and images follow in Assets those of the
+/// scene and of the files before it.
+struct AssetFile {
+    std::string path; ///< a .gltf, .glb, .png or .jpg; or a shape's name (shape_mesh.h)
+    std::uint32_t firstMesh = 0, firstImage = 0; ///< indices into Assets
+
+    bool operator==(const AssetFile&) const = default;
 };
 
 /// Any object of a document. Mesh::material counts the Material objects in the order of their ids.
@@ -64,6 +75,9 @@ struct Document {
     glm::dvec3 origin{0};        ///< of world space, in the file's coordinates [m]; see origin.h
     std::map<ObjectId, Object> objects;
     ObjectId nextId = 1;
+    /// What was added to the scene's assets. Edits refer to it; undoing them leaves it here,
+    /// because it may be redone. Project files keep what objects refer to.
+    std::vector<AssetFile> files;
 
     bool operator==(const Document&) const = default;
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,13 +20,29 @@ static glm::mat3 normalMatrix(const glm::mat4& m) {
     return glm::dot(x, cofactor[0]) < 0 ? -cofactor : cofactor;
 }
 
-static void addInstances(Scene& scene, const Node& node, ObjectId id, const Placement& at) {
-    for (const std::uint32_t mesh : node.meshes) {
+/// Position of each Material object among them, which is its index into Scene::materials.
+using MaterialIndices = std::map<ObjectId, std::uint32_t>;
+
+static MaterialIndices materialIndices(const Document& document) {
+    MaterialIndices indices;
+    for (const auto& [id, object] : document.objects)
+        if (std::holds_alternative<Material>(object))
+            indices.emplace(id, std::uint32_t(indices.size()));
+    return indices;
+}
+
+static void addInstances(Scene& scene, const Node& node, ObjectId id, const Placement& at,
+                         const MaterialIndices& materials) {
+    for (std::size_t i = 0; i < node.meshes.size(); ++i) {
+        const std::uint32_t mesh = node.meshes[i];
         if (mesh >= scene.assets->meshes.size())
             continue; // the scene file lost it since the project was saved
         Instance instance;
         instance.mesh = mesh;
-        instance.material = scene.assets->meshes[mesh].material;
+        const auto assigned =
+            i < node.materials.size() ? materials.find(node.materials[i]) : materials.end();
+        instance.material =
+            assigned != materials.end() ? assigned->second : scene.assets->meshes[mesh].material;
         instance.node = id;
         instance.dynamic = at.dynamic;
         instance.toWorld = glm::mat4(at.toWorld);
@@ -90,12 +107,13 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, do
     scene.assets = assets ? std::move(assets) : std::make_shared<const Assets>();
     scene.origin = document.origin;
     Placements placements(document);
+    const MaterialIndices materials = materialIndices(document);
     for (const auto& [id, object] : document.objects) {
         if (const Node* node = std::get_if<Node>(&object)) {
             if (node->meshes.empty())
                 continue;
             if (const Placement at = placements.of(id); at.visible)
-                addInstances(scene, *node, id, at);
+                addInstances(scene, *node, id, at, materials);
         } else if (const Material* material = std::get_if<Material>(&object)) {
             scene.materials.push_back(*material);
         } else if (const Light* light = std::get_if<Light>(&object)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/material_edit.h"
 #include "editor_ui/document/selection.h"
 #include "editor_ui/view/picking.h"
 #include "tests/editor_ui/cornell_view.h"
@@ -59,10 +60,12 @@ TEST_F(SelectionTest, AMeshsMaterialIsTheOneOfItsNumberInTheDocument) {
     auto assets = std::make_shared<Assets>(*state.assets);
     assets->meshes[0].material = 1;
     state.assets = assets;
-    EXPECT_EQ(materialOf(state, 0), idNamed(state, "Glow"));
+    const Node node{.meshes = {0, 7}};
+    EXPECT_EQ(materialOf(state, node, 0), idNamed(state, "Glow"));
     assets->meshes[0].material = 2;
-    EXPECT_EQ(materialOf(state, 0), 0u);
-    EXPECT_EQ(materialOf(state, 7), 0u);
+    EXPECT_EQ(materialOf(state, node, 0), 0u);
+    EXPECT_EQ(materialOf(state, node, 1), 0u);
+    EXPECT_EQ(materialOf(state, node, 2), 0u);
 }
 
 /// Many objects cost about as many steps, not their square: 20 000 would take minutes.
@@ -84,7 +87,7 @@ TEST(Picking, AClickFindsTheMeshAndItsMaterial) {
     const auto& node = std::get<Node>(v.state.document.objects.at(picked->node));
     EXPECT_NE(std::ranges::find(node.meshes, picked->mesh), node.meshes.end());
     EXPECT_TRUE(std::holds_alternative<Material>(
-        v.state.document.objects.at(materialOf(v.state, picked->mesh))));
+        v.state.document.objects.at(materialOf(v.state, node, 0))));
     const glm::vec2 back = *toPixel(v.state.view.picture(), picked->position);
     EXPECT_NEAR(glm::length(back - pixel), 0, 0.05f);
     v.ui.frames(v.state); // the inspector shows the mesh and its material

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/project_file.h"
 
+#include "engine/files/asset_file.h"
 #include "engine/files/image_file.h"
 #include "engine/files/sky_file.h"
 #include "tests/core/temporary_folder.h"
@@ -111,6 +112,103 @@ TEST(ProjectFile, WithoutAnOriginPlacesAreInTheFilesCoordinatesAllTheSame) {
     ASSERT_TRUE(loaded) << loaded.error().message;
     const Scene scene = flatten(loaded->document, loaded->assets);
     EXPECT_EQ(scene.lights.at(0).position, glm::vec3(2, 0.5f, 0));
+}
+
+/// Adds a file's assets to a scene, as the editor does.
+AddedAssets add(ImportedScene& scene, const std::string& path) {
+    Result<AddedAssets> added = addAssetFile(*scene.assets, path);
+    EXPECT_TRUE(added) << added.error().message;
+    scene.assets = added->assets;
+    scene.document.files.push_back(added->file);
+    return std::move(*added);
+}
+
+TEST(ProjectFile, FilesThatWereAddedAreReadAgain) {
+    const Workspace w;
+    writeFile(w.file("models/other.glb"), triangleScene().glb());
+    ASSERT_TRUE(writePng(w.file("models/red.png"), {"", 1, 1, {255, 0, 0, 255}}));
+    ImportedScene scene = *importGltf(w.scene());
+    add(scene, w.file("models/other.glb")); // nothing refers to it
+    const AssetFile box = add(scene, "shape:box").file;
+    const AssetFile red = add(scene, w.file("models/red.png")).file;
+    Material paint{.name = "paint"};
+    paint.baseColorTexture.image = std::int32_t(red.firstImage);
+    const ObjectId material = addObject(scene.document, paint);
+    addObject(scene.document,
+              Node{.name = "block", .meshes = {0, box.firstMesh}, .materials = {0, material}});
+    const std::string project = w.file("projects/p.limn");
+    const Result<void> saved = saveProject(project, scene.document);
+    ASSERT_TRUE(saved) << saved.error().message;
+    EXPECT_EQ(fileBytes(project).find("other.glb"), std::string::npos);
+    EXPECT_NE(fileBytes(project).find("\"../models/red.png\""), std::string::npos);
+
+    const Result<ImportedScene> loaded = loadProject(project);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_FALSE(hasRepair(*loaded, "no longer"));
+    EXPECT_FALSE(hasRepair(*loaded, "white"));
+    const Scene flat = flatten(loaded->document, loaded->assets);
+    const Instance& block = flat.instances.back();
+    EXPECT_EQ(flat.meshOf(block).name, "Box");
+    EXPECT_EQ(flat.materialOf(block).name, "paint");
+    EXPECT_EQ(sampleTexture(*flat.assets, flat.materialOf(block).baseColorTexture, {0, 0}, true),
+              glm::vec4(1, 0, 0, 1));
+    // What is saved again is what was loaded.
+    ASSERT_TRUE(saveProject(w.file("projects/q.limn"), loaded->document));
+    EXPECT_TRUE(loadProject(w.file("projects/q.limn"))->document == loaded->document);
+}
+
+TEST(ProjectFile, AddedMeshesAreFoundWhereTheSceneHasMoreOrFewerThanBefore) {
+    const Workspace w;
+    GltfBuilder two = triangleScene();
+    two.mesh(two.json["meshes"][0]["primitives"][0]);
+    ImportedScene scene = *importGltf(w.scene());
+    const AssetFile sphere = add(scene, "shape:sphere").file;
+    const AssetFile box = add(scene, "shape:box").file;
+    addObject(scene.document, Node{.meshes = {box.firstMesh, sphere.firstMesh}});
+    const std::string project = w.file("projects/p.limn");
+    ASSERT_TRUE(saveProject(project, scene.document));
+    const auto names = [&] {
+        const Result<ImportedScene> loaded = loadProject(project);
+        EXPECT_TRUE(loaded) << loaded.error().message;
+        std::vector<std::string> found;
+        const Node& node = std::get<Node>(loaded->document.objects.rbegin()->second);
+        for (const std::uint32_t mesh : node.meshes)
+            found.push_back(loaded->assets->meshes[mesh].name);
+        return found;
+    };
+    EXPECT_EQ(names(), (std::vector<std::string>{"Box", "Sphere"}));
+    writeFile(w.scene(), two.glb());
+    EXPECT_EQ(names(), (std::vector<std::string>{"Box", "Sphere"}));
+    GltfBuilder none;
+    none.json["scenes"] = {{{"nodes", nlohmann::json::array()}}};
+    writeFile(w.scene(), none.glb());
+    EXPECT_EQ(names(), (std::vector<std::string>{"Box", "Sphere"}));
+}
+
+TEST(ProjectFile, AnAddedImageThatIsGoneIsShownWhiteAndASceneIsAnError) {
+    const Workspace w;
+    writeFile(w.file("models/other.glb"), triangleScene().glb());
+    ASSERT_TRUE(writePng(w.file("models/red.png"), {"", 1, 1, {255, 0, 0, 255}}));
+    ImportedScene scene = *importGltf(w.scene());
+    Material paint;
+    paint.baseColorTexture.image =
+        std::int32_t(add(scene, w.file("models/red.png")).file.firstImage);
+    addObject(scene.document, paint);
+    addObject(scene.document,
+              Node{.meshes = {add(scene, w.file("models/other.glb")).file.firstMesh}});
+    const std::string project = w.file("projects/p.limn");
+    ASSERT_TRUE(saveProject(project, scene.document));
+    fs::remove(w.file("models/red.png"));
+    const Result<ImportedScene> white = loadProject(project);
+    ASSERT_TRUE(white) << white.error().message;
+    EXPECT_TRUE(hasRepair(*white, "red.png"));
+    ASSERT_EQ(white->assets->images.size(), 1u);
+    EXPECT_EQ(white->assets->images[0].rgba, std::vector<std::uint8_t>(4, 255));
+    fs::remove(w.file("models/other.glb"));
+    const Result<ImportedScene> gone = loadProject(project);
+    ASSERT_FALSE(gone);
+    EXPECT_NE(gone.error().message.find("p.limn: files: "), std::string::npos);
+    EXPECT_NE(gone.error().message.find("other.glb"), std::string::npos);
 }
 
 TEST(ProjectFile, TheSceneIsStoredRelativeSoThatTheFolderMayMove) {

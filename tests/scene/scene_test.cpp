@@ -182,6 +182,27 @@ bool showsAll(const Camera& camera, const Bounds& bounds) {
     return true;
 }
 
+TEST(Flatten, AssignedMaterialsReplaceThoseOfTheMeshes) {
+    auto assets = std::make_shared<Assets>();
+    assets->meshes.resize(3);
+    assets->meshes[0].material = assets->meshes[1].material = assets->meshes[2].material = 1;
+    Document document;
+    const ObjectId first = addObject(document, Material{.name = "first"});
+    addObject(document, Material{.name = "second"});
+    const ObjectId node = addObject(document, Node{.meshes = {0, 1, 2}});
+    const ObjectId third = addObject(document, Material{.name = "third"});
+    std::get<Node>(document.objects.at(node)).materials = {third, 0}; // the last one is missing
+    Scene scene = flatten(document, assets);
+    EXPECT_EQ(scene.materialOf(scene.instances.at(0)).name, "third");
+    EXPECT_EQ(scene.materialOf(scene.instances.at(1)).name, "second");
+    EXPECT_EQ(scene.materialOf(scene.instances.at(2)).name, "second");
+    std::get<Node>(document.objects.at(node)).materials = {first, node, 1000}; // no materials
+    scene = flatten(document, assets);
+    EXPECT_EQ(scene.materialOf(scene.instances.at(0)).name, "first");
+    EXPECT_EQ(scene.materialOf(scene.instances.at(1)).name, "second");
+    EXPECT_EQ(scene.materialOf(scene.instances.at(2)).name, "second");
+}
+
 TEST(ChooseCamera, ANameWinsThenTheFirst) {
     Scene scene = sceneOf(unitTriangle());
     scene.cameras = {Camera{.name = "a"}, Camera{.name = "b"}};

@@ -47,6 +47,46 @@ TEST(Surfels, AreasSumToTheLitSidesExactly) {
     EXPECT_NEAR(double(set.surfels.size()), 5000, 100);
 }
 
+/// Two squares of one mesh side by side; the second one has the two-sided material.
+Scene squaresOfTwoKinds() {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    Material curtain = lambert(glm::vec3(0.5f));
+    curtain.doubleSided = true;
+    b.addMaterial(curtain);
+    const std::uint32_t square = b.addMesh(quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0));
+    b.addInstance(square);
+    b.addInstance(square, glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0),
+                                    glm::vec4(0, 0, 1, 0), glm::vec4(3, 0, 0, 1)));
+    Scene scene = b.build();
+    scene.instances[1].material = 1;
+    return scene;
+}
+
+TEST(Surfels, AMeshMayBeOneSidedHereAndTwoSidedThere) {
+    const Scene scene = squaresOfTwoKinds();
+    const SurfelSet set = placeSurfels(scene, 300);
+    const std::uint32_t middle = set.instanceBegin[1];
+    ASSERT_EQ(set.surfels.size(), 3 * middle);
+    std::vector<double> area(2);
+    for (std::size_t i = 0; i < set.surfels.size(); ++i) {
+        area[set.surfels.instance[i]] += double(set.surfels.area[i]);
+        EXPECT_EQ(set.surfels.normal[i].z > 0, i < 2 * middle);
+    }
+    EXPECT_NEAR(area[0], 1, 1e-5);
+    EXPECT_NEAR(area[1], 2, 1e-5);
+    // Every surfel is a leaf of the one tree, once.
+    const ClusterTree tree = buildClusterTree(scene, set);
+    ASSERT_EQ(tree.surfels, set.surfels.size());
+    EXPECT_EQ(tree.left.size(), tree.leaves() - 1);
+    std::vector<int> parents(tree.size());
+    for (std::size_t k = 0; k < tree.left.size(); ++k) {
+        ++parents[tree.left[k]];
+        ++parents[tree.right[k]];
+    }
+    EXPECT_EQ(std::ranges::count(parents, 1), std::ptrdiff_t(tree.size() - 1));
+}
+
 // Relaxation pushes surfels of the large faces onto the rim, which gets more of them than its area
 // asks for.
 TEST(Surfels, AreasThatTheyOwnAreThoseOfTheirSides) {

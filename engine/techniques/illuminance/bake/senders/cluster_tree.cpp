@@ -150,16 +150,42 @@ glm::vec3 skyCellDirection(std::uint32_t cell) {
     return {r * std::cos(angle), height, r * std::sin(angle)};
 }
 
+/// The surfels on the front of a two-sided mesh.
+static MeshSurfels frontOf(const MeshSurfels& both) {
+    MeshSurfels front = both;
+    const std::size_t n = both.frontCount;
+    front.position.resize(n);
+    front.normal.resize(n);
+    front.triangle.resize(n);
+    front.barycentric.resize(n);
+    if (!front.areas.empty())
+        front.areas.resize(n);
+    return front;
+}
+
+/// Whether an instance has surfels on its front only, while others of its mesh are two-sided.
+static bool hasFrontOnly(const SurfelSet& set, const Instance& instance, std::size_t index) {
+    const std::size_t n = set.instanceBegin[index + 1] - set.instanceBegin[index];
+    return n > 0 && n < set.meshes[instance.mesh].size();
+}
+
 ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Progress& progress,
                              StageStore* store) {
     ClusterTree tree;
     tree.surfels = std::uint32_t(set.surfels.size());
     tree.skyCells = kSkyCells;
-    std::vector<MergeTree> meshes(set.meshes.size());
+    std::vector<MergeTree> meshes(set.meshes.size()), fronts(set.meshes.size());
+    std::vector<bool> needsFront(set.meshes.size());
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (hasFrontOnly(set, scene.instances[i], i))
+            needsFront[scene.instances[i].mesh] = true;
     parallelRanges(meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t m = begin; m < end; ++m)
+        for (std::size_t m = begin; m < end; ++m) {
             if (set.meshes[m].size() > 0 && !progress.cancelled())
                 meshes[m] = keptMeshTree(set.meshes[m], scene.bake, progress, store);
+            if (needsFront[m] && !progress.cancelled())
+                fronts[m] = keptMeshTree(frontOf(set.meshes[m]), scene.bake, progress, store);
+        }
     });
     if (progress.cancelled())
         return {};
@@ -168,9 +194,10 @@ ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Pro
         const std::uint32_t begin = set.instanceBegin[i], end = set.instanceBegin[i + 1];
         if (begin == end)
             continue;
+        const Instance& instance = scene.instances[i];
+        const auto& trees = hasFrontOnly(set, instance, i) ? fronts : meshes;
         const std::uint32_t node = append(
-            meshes[scene.instances[i].mesh], end - begin,
-            [&](std::uint32_t k) { return begin + k; }, tree);
+            trees[instance.mesh], end - begin, [&](std::uint32_t k) { return begin + k; }, tree);
         roots.push_back(instanceRoot(set.surfels, begin, end, node));
     }
     joinRoots(roots, scene, appendSky(tree), progress, tree);

@@ -123,6 +123,15 @@ std::vector<double> meanDensities(const Scene& scene, std::span<const MeshDensit
     return mean;
 }
 
+/// Whether a mesh needs surfels on both sides: an instance of it that sends light is two-sided.
+std::vector<bool> twoSidedMeshes(const Scene& scene) {
+    std::vector<bool> both(scene.assets->meshes.size());
+    for (const Instance& i : scene.instances)
+        if (sendsLight(scene, i) && isTwoSided(scene.materialOf(i)))
+            both[i.mesh] = true;
+    return both;
+}
+
 /// Number of surfels per mesh in proportion to the areas of its instances times its mean density,
 /// but at least minSurfels(), which raises some at the expense of the others.
 std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<double>& area,
@@ -136,9 +145,8 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<
             ++users[scene.instances[i].mesh];
         }
     const std::vector<std::uint32_t> least = minSurfels(scene, area, target);
-    const auto sides = [&](std::size_t m) {
-        return isTwoSided(scene.materials[scene.assets->meshes[m].material]) ? 2U : 1U;
-    };
+    const std::vector<bool> twoSided = twoSidedMeshes(scene);
+    const auto sides = [&](std::size_t m) { return twoSided[m] ? 2U : 1U; };
     std::vector<bool> fixed(sum.size());
     for (bool changed = true; changed;) {
         changed = false;
@@ -236,11 +244,14 @@ void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& 
     const auto areaOf = [&](std::size_t i) {
         return local.areas.empty() ? local.area : local.areas[i];
     };
+    // Another instance of the mesh may be two-sided where this one is not.
+    const std::size_t count =
+        isTwoSided(scene.materialOf(instance)) ? local.size() : local.frontCount;
     double sum = 0;
-    for (std::size_t i = 0; i < local.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
         sum += double(areaOf(i) * glm::length(instance.normalToWorld * local.normal[i]));
     const double exact = sum > 0 ? area / sum : 1;
-    for (std::size_t i = 0; i < local.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 n = instance.normalToWorld * local.normal[i];
         const float stretch = glm::length(n);
         out.position.push_back(instance.toWorld * glm::vec4(local.position[i], 1));
@@ -300,10 +311,9 @@ static void meshSurfelFields(A& a, S& s, const Mesh& mesh, bool twoSided) {
 }
 
 static MeshSurfels meshSurfels(const Scene& scene, std::size_t m, std::uint32_t count,
-                               const MeshDensity& density, const Progress& progress,
+                               bool twoSided, const MeshDensity& density, const Progress& progress,
                                StageStore* store) {
     const Mesh& mesh = scene.assets->meshes[m];
-    const bool twoSided = isTwoSided(scene.materials[mesh.material]);
     const SurfelPlacement placement = scene.bake.placement;
     const std::uint64_t key = hashValue(std::uint32_t(placement) << 1 | std::uint32_t(twoSided),
                                         hashValue(count, hashDensity(density, hashMesh(mesh))));
@@ -325,11 +335,13 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
     const std::vector<double> area = litAreas(scene);
     const std::vector<std::uint32_t> counts =
         surfelsPerMesh(scene, area, meanDensities(scene, density), target);
+    const std::vector<bool> twoSided = twoSidedMeshes(scene);
     result.meshes.resize(counts.size());
     parallelRanges(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m)
             if (counts[m] > 0 && !progress.cancelled())
-                result.meshes[m] = meshSurfels(scene, m, counts[m], densityOf(m), progress, store);
+                result.meshes[m] =
+                    meshSurfels(scene, m, counts[m], twoSided[m], densityOf(m), progress, store);
     });
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         result.instanceBegin.push_back(std::uint32_t(result.surfels.size()));
