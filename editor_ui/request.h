@@ -19,6 +19,7 @@ struct Request {
         BakeToError, ///< EditorState::bakeError
         CancelBake,
         Export,
+        SavePictures, ///< the viewport's and the reference's
         CancelExport,
         Recover,
         DiscardRecovery,
@@ -26,7 +27,7 @@ struct Request {
         Screenshot,
         Quit
     } kind;
-    /// Of NewFromScene, Open, OpenSkyImage, AddFile (AssetFile::path), Save, Export.
+    /// Of NewFromScene, Open, OpenSkyImage, AddFile (AssetFile::path), Save, Export, SavePictures.
     std::string path;
     bool discardsChanges = false;              ///< unsaved changes are lost without asking
     Transform place = {};                      ///< of a shape, to world space

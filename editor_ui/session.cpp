@@ -142,6 +142,9 @@ void Session::handle(const Request& request) {
     case Request::Kind::Export:
         startExport(request.path);
         break;
+    case Request::Kind::SavePictures:
+        savePictures(request.path);
+        break;
     case Request::Kind::CancelExport:
         m_exportJob.cancel();
         break;
@@ -309,6 +312,23 @@ void Session::takeAdded() {
     if (!shapeOfPath(m_adding.path))
         log(LogLine::Level::Info, "Added " + m_adding.path);
     useFile(state, m_adding, added.file, added.imported);
+}
+
+void Session::savePictures(const std::string& path) {
+    if (!m_comparison || !m_comparison->test)
+        complain("Not saved", path + ": there is no reference of this view yet");
+    else if (!m_files.savePictures(path, m_comparison->test, m_comparison->set))
+        complain("Not saved", path + ": another file is being opened or saved; try again");
+}
+
+void Session::takePictures() {
+    const auto written = m_files.takePictures();
+    if (!written)
+        return;
+    if (*written)
+        log(LogLine::Level::Info, "Saved " + **written);
+    else
+        complain("Not saved", written->error().message);
 }
 
 void Session::takeSaved() {
@@ -491,8 +511,9 @@ void Session::followReference() {
             m_picture && m_picture->camera == view.camera && m_picture->view == view.view;
         wanted = {traced.set,
                   same ? std::shared_ptr<const ImageF>(m_picture, &m_picture->image) : nullptr,
-                  compare.mode == Compare::Difference, view.tonemap, view.exposureEv};
+                  compare.mode, view.tonemap, view.exposureEv};
     }
+    m_comparison = wanted;
     m_comparisonJob.set(std::move(wanted));
     m_beside = m_comparisonJob.result();
     compare.reference = {traced.running,  traced.set ? 4 * traced.set->samplesPerPixel : 0,
@@ -508,6 +529,7 @@ void Session::update() {
     takeOpened();
     takeSky();
     takeAdded();
+    takePictures();
     takeSaved();
     takeBaked();
     takeExported();

@@ -78,6 +78,8 @@ private:
     void takeSky();
     void addFile(const Request& request);
     void takeAdded();
+    void savePictures(const std::string& path);
+    void takePictures();
     void takeSaved();
     void takeBaked();
     void showGoal(const std::string& goal);
@@ -109,6 +111,7 @@ private:
     ExportJob m_exportJob;
     ReferenceJob m_referenceJob;
     ComparisonJob m_comparisonJob;
+    std::optional<ComparisonOrder> m_comparison;    ///< its newest order
     std::shared_ptr<const LinearPicture> m_picture; ///< null: none yet
     ComparedPicture m_beside;
     ExplainJob m_explainJob;

@@ -50,12 +50,14 @@ static bool fits(const ComparisonOrder& order) {
 
 static std::shared_ptr<const Image> pictureOf(const ComparisonOrder& order) {
     const ImageF mean = meanImage(order.set->first(), order.set->second());
-    if (!order.difference)
+    if (order.shown == Compare::Reference)
         return std::make_shared<const Image>(
             toneMappedImage(mean, order.tonemap, order.exposureEv));
     if (!fits(order))
         return nullptr;
-    return std::make_shared<const Image>(errorHeatmap(*order.test, mean));
+    return std::make_shared<const Image>(order.shown == Compare::Flip
+                                             ? flipHeatmap(*order.test, mean)
+                                             : errorHeatmap(*order.test, mean));
 }
 
 static std::optional<Comparison> errorOf(const ComparisonOrder& order) {

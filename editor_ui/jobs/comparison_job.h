@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/view/compare_state.h"
 #include "engine/measure/reference_set.h"
 #include "engine/scene/image.h"
 #include "engine/scene/view.h"
@@ -18,7 +19,7 @@ namespace limn {
 struct ComparisonOrder {
     std::shared_ptr<const ReferenceSet> set; ///< not null
     std::shared_ptr<const ImageF> test;      ///< linear picture of the same view; null: none
-    bool difference = false; ///< errorHeatmap() of the test instead of the reference itself
+    Compare shown = Compare::Reference;      ///< not Off; else a map of the test's error
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
 

@@ -2,8 +2,10 @@
 #include "editor_ui/jobs/file_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
+#include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/files/sky_file.h"
+#include "engine/measure/compare.h"
 #include "engine/techniques/technique_table.h"
 
 #include <filesystem>
@@ -167,7 +169,7 @@ bool FileJob::save(std::string path, Document document, std::shared_ptr<const Pr
 
 bool FileJob::busy() const {
     const std::lock_guard lock(m_mutex);
-    return m_running || m_opened || m_sky || m_added || m_saved;
+    return m_running || m_opened || m_sky || m_added || m_saved || m_pictures;
 }
 
 std::optional<Result<OpenedFile>> FileJob::takeOpened() {
@@ -183,6 +185,28 @@ std::optional<Result<Sky>> FileJob::takeSky() {
 std::optional<Result<AddedFile>> FileJob::takeAdded() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_added, {});
+}
+
+bool FileJob::savePictures(std::string path, std::shared_ptr<const ImageF> picture,
+                           std::shared_ptr<const ReferenceSet> references) {
+    return start([this, path = std::move(path), picture = std::move(picture),
+                  references = std::move(references)] {
+        const std::string stem = fs::path(path).replace_extension().string();
+        const std::string ours = stem + "-limn.exr", theirs = stem + "-reference.exr";
+        Result<void> written = writeExr(ours, *picture);
+        if (written)
+            written = writeExr(theirs, meanImage(references->first(), references->second()));
+        const std::lock_guard lock(m_mutex);
+        if (written)
+            m_pictures = ours + " and " + theirs;
+        else
+            m_pictures = tl::make_unexpected(written.error());
+    });
+}
+
+std::optional<Result<std::string>> FileJob::takePictures() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_pictures, {});
 }
 
 std::optional<Result<Document>> FileJob::takeSaved() {

@@ -4,6 +4,7 @@
 #include "editor_ui/jobs/bake_job.h"
 #include "engine/files/asset_file.h"
 #include "engine/gltf/gltf_import.h"
+#include "engine/measure/reference_set.h"
 
 #include <atomic>
 #include <functional>
@@ -63,6 +64,12 @@ public:
     std::optional<Result<Sky>> takeSky();
     /// Returns what the last add() read, or its error, once.
     std::optional<Result<AddedFile>> takeAdded();
+    /// Writes a picture and the mean of its references as linear EXRs, NAME-limn.exr and
+    /// NAME-reference.exr for `path` NAME.exr.
+    bool savePictures(std::string path, std::shared_ptr<const ImageF> picture,
+                      std::shared_ptr<const ReferenceSet> references);
+    /// Returns the paths of the pictures that were written, or the error, once.
+    std::optional<Result<std::string>> takePictures();
     /// Returns the document that was written, or the error, once.
     std::optional<Result<Document>> takeSaved();
 
@@ -79,6 +86,7 @@ private:
     std::optional<Result<Sky>> m_sky;
     std::optional<Result<AddedFile>> m_added;
     std::optional<Result<Document>> m_saved;
+    std::optional<Result<std::string>> m_pictures;
 };
 
 /// Bounding box of each mesh in object space; 0 for an empty mesh.

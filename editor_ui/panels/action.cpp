@@ -214,6 +214,12 @@ template <Compare mode>
 bool compares(const EditorState& s) {
     return s.compare.mode == mode;
 }
+bool canSavePictures(const EditorState& s) {
+    return s.compare.reference.error.has_value(); // both pictures exist
+}
+void savePictures(EditorState& s) {
+    openFileBrowser(s, FileBrowser::Purpose::SavePictures);
+}
 /// The action that shows an overlay; null: none. Its id is "overlay." and the overlay's name, with
 /// underscores.
 Action overlayAction(const OverlayKind* kind) {
@@ -353,6 +359,8 @@ std::vector<Action> fixedActions() {
     {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Normals>, isChosen<&ViewState::view, View::Normals>},
     {"compare.reference", "Path-traced reference beside it", Menu::View, shift('R'), kNoKey, true, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
     {"compare.difference", "Difference to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
+    {"compare.flip", "Perceived difference (FLIP) to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Flip>, compares<Compare::Flip>},
+    {"compare.save", "Save both pictures\u2026", Menu::View, kNoKey, kNoKey, false, canSavePictures, savePictures},
     {"view.focus", "Focus selection", Menu::View, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
     {"view.camera", "Scene camera", Menu::View, plain(key::kPad0), kNoKey, false, hasCamera, sceneCamera},
     {"view.front", "From the front", Menu::View, plain(key::kPad1), kNoKey, true, always, lookFromSide<Side::Front>},

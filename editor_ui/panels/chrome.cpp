@@ -89,15 +89,17 @@ void menuBar(EditorState& state) {
 
 static void toolButton(EditorState& state, const char* id, const char* label) {
     const Action& action = actionById(id);
-    const bool active = action.checked(state);
+    const bool active = action.checked && action.checked(state);
+    ImGui::BeginDisabled(!action.enabled(state));
     if (active)
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     if (ImGui::Button(label))
         runAction(state, action);
     if (active)
         ImGui::PopStyleColor();
-    wrappedTooltip(
-        (std::string(action.label) + " (" + shortcutText(shortcutOf(state, action)) + ")").c_str());
+    ImGui::EndDisabled();
+    const std::string key = shortcutText(shortcutOf(state, action));
+    wrappedTooltip((action.label + (key.empty() ? key : " (" + key + ")")).c_str());
     ImGui::SameLine();
 }
 
@@ -142,6 +144,8 @@ static void tonemapCombo(EditorState& state) {
 void viewBar(EditorState& state) {
     toolCombo(state);
     toolButton(state, "compare.reference", "Ref");
+    if (state.compare.mode != Compare::Off)
+        toolButton(state, "compare.save", "EXR\u2026");
     viewCombo(state);
     overlayCombo(state);
     ImGui::SameLine();

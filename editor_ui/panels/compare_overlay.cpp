@@ -70,6 +70,19 @@ static std::string errorText(const Comparison& c) {
         c.nrmse, c.nrmseNoise, c.nrmseMost, 100 * c.bias, 100 * c.biasNoise, c.flip);
 }
 
+static const char* shownText(Compare mode) {
+    switch (mode) {
+    case Compare::Off:
+    case Compare::Reference:
+        break;
+    case Compare::Difference:
+        return "Difference: blue darker, orange brighter, up to 50 %";
+    case Compare::Flip:
+        return "FLIP, perceived difference: violet 0, green 0.5, yellow 1";
+    }
+    return "Path traced";
+}
+
 void compareOverlay(const EditorState& state) {
     const CompareState& compare = state.compare;
     if (compare.mode == Compare::Off)
@@ -80,10 +93,7 @@ void compareOverlay(const EditorState& state) {
     list.AddLine({x, top}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3);
     list.AddLine({x, top}, {x, bottom}, compare.held ? color::kHandleLit : IM_COL32_WHITE, 1);
     label({x - 12, top + 8}, 1, "Limn", IM_COL32_WHITE);
-    const bool difference = compare.mode == Compare::Difference;
-    label({x + 12, top + 8}, 0,
-          difference ? "Difference: blue darker, orange brighter, up to 50 %" : "Path traced",
-          IM_COL32_WHITE);
+    label({x + 12, top + 8}, 0, shownText(compare.mode), IM_COL32_WHITE);
     const float line = ImGui::GetTextLineHeight() + 5;
     const float left = view.origin.x + 12;
     if (compare.reference.error)

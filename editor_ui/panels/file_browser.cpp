@@ -30,6 +30,8 @@ static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
         return extension == ".limn";
     case FileBrowser::Purpose::SkyImage:
         return extension == ".hdr" || extension == ".exr";
+    case FileBrowser::Purpose::SavePictures:
+        return extension == ".exr";
     case FileBrowser::Purpose::ExportTo:
         return true;
     }
@@ -77,9 +79,13 @@ void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
         browser.name = current.filename().string();
     if (purpose == FileBrowser::Purpose::SaveAs)
         browser.name = current.empty() ? "untitled.limn" : current.stem().string() + ".limn";
+    if (purpose == FileBrowser::Purpose::SavePictures)
+        browser.name = current.empty() ? "untitled.exr" : current.stem().string() + ".exr";
     std::error_code error;
     fs::path folder = current.parent_path();
-    if (purpose == FileBrowser::Purpose::SaveAs && state.projectPath.empty() && state.sample)
+    const bool saves =
+        purpose == FileBrowser::Purpose::SaveAs || purpose == FileBrowser::Purpose::SavePictures;
+    if (saves && state.projectPath.empty() && state.sample)
         folder = documentsFolder(); // what came with the program is not the user's to replace
     readFolder(browser, (folder.empty() ? fs::current_path(error) : folder).string());
     state.fileBrowser = std::move(browser);
@@ -107,6 +113,8 @@ static const char* title(FileBrowser::Purpose purpose) {
         return "Add the objects of a file";
     case FileBrowser::Purpose::Texture:
         return "Texture";
+    case FileBrowser::Purpose::SavePictures:
+        return "Save NAME-limn.exr and NAME-reference.exr";
     }
     return "";
 }
@@ -118,6 +126,7 @@ static const char* acceptLabel(FileBrowser::Purpose purpose) {
     case FileBrowser::Purpose::SkyImage:
         return "Open";
     case FileBrowser::Purpose::SaveAs:
+    case FileBrowser::Purpose::SavePictures:
         return "Save";
     case FileBrowser::Purpose::ExportTo:
     case FileBrowser::Purpose::Texture:
@@ -169,6 +178,19 @@ static bool entryList(FileBrowser& browser) {
     return chosen;
 }
 
+/// The request to write two pictures; the first time that one of them exists, a warning instead.
+static std::optional<Request> picturesRequest(FileBrowser& browser, const fs::path& path) {
+    const std::string stem = fs::path(path).replace_extension().string();
+    std::error_code error;
+    for (const char* end : {"-limn.exr", "-reference.exr"})
+        if (fs::exists(stem + end, error) && !browser.overwrite) {
+            browser.overwrite = true;
+            browser.error = stem + end + " exists. Press Save again to replace it";
+            return {};
+        }
+    return Request{Request::Kind::SavePictures, stem + ".exr"};
+}
+
 /// The request for the chosen file; sets browser.error when there is none yet.
 static std::optional<Request> accepted(FileBrowser& browser) {
     if (browser.name.empty()) {
@@ -192,6 +214,8 @@ static std::optional<Request> accepted(FileBrowser& browser) {
         }
         return Request{Request::Kind::Save, path.string()};
     }
+    if (browser.purpose == FileBrowser::Purpose::SavePictures)
+        return picturesRequest(browser, path);
     if (browser.purpose == FileBrowser::Purpose::ExportTo)
         return Request{Request::Kind::Export, path.string()};
     if (!fs::exists(path, error)) {

@@ -19,7 +19,8 @@ struct FileBrowser {
         SkyImage,
         ExportTo,
         AddScene,
-        Texture
+        Texture,
+        SavePictures
     } purpose = Purpose::Open;
     struct Entry {
         std::string name;

@@ -11,8 +11,9 @@
 
 namespace limn {
 
-/// What stands beside Limn's picture: nothing, the path-traced picture, or the difference to it.
-enum class Compare : std::uint8_t { Off, Reference, Difference };
+/// What stands beside Limn's picture: nothing, the path-traced picture, the signed difference to
+/// it, or the difference that one perceives.
+enum class Compare : std::uint8_t { Off, Reference, Difference, Flip };
 
 /// The reference as the panels show it.
 struct ReferenceStatus {

@@ -4,6 +4,7 @@
 #include "engine/math/luminance.h"
 #include "engine/measure/flip.h"
 #include "engine/measure/ssim.h"
+#include "engine/overlay/palette.h"
 
 #include <algorithm>
 #include <cassert>
@@ -135,6 +136,12 @@ ImageF displayed(const ImageF& image, const std::vector<bool>& valid, float expo
     return result;
 }
 
+/// The exposure at which the mean of the valid pixels is middle grey.
+float exposureOf(const ImageF& reference, const std::vector<bool>& valid) {
+    const double mean = meanOfValid(reference, valid);
+    return mean > 0 ? float(double(kMiddleGrey) / mean) : 1;
+}
+
 Plane displayedLuminance(const ImageF& image) {
     Plane plane{image.width, image.height, {}};
     for (glm::vec3 c : image.rgb)
@@ -151,8 +158,7 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference) {
     Comparison c;
     c.invalidPixels = std::uint64_t(std::count(valid.begin(), valid.end(), false));
     numericErrors(test, reference, valid, c);
-    const double mean = meanOfValid(reference, valid);
-    const float exposure = mean > 0 ? float(double(kMiddleGrey) / mean) : 1;
+    const float exposure = exposureOf(reference, valid);
     const ImageF t = displayed(test, valid, exposure), r = displayed(reference, valid, exposure);
     c.ssim = meanOfValid(ssimMap(displayedLuminance(t), displayedLuminance(r)), valid, 1);
     c.flip = meanOfValid(flipMap(t, r), valid, 0);
@@ -222,6 +228,22 @@ Image errorHeatmap(const ImageF& test, const ImageF& reference) {
         }
         for (int k = 0; k < 3; ++k)
             map.rgba.push_back(std::uint8_t(std::lround(color[k])));
+        map.rgba.push_back(255);
+    }
+    return map;
+}
+
+Image flipHeatmap(const ImageF& test, const ImageF& reference) {
+    Image map{"FLIP", reference.width, reference.height, {}};
+    map.rgba.reserve(reference.rgb.size() * 4);
+    const std::vector<bool> valid = validPixels(test, reference);
+    const float exposure = exposureOf(reference, valid);
+    const Plane flip =
+        flipMap(displayed(test, valid, exposure), displayed(reference, valid, exposure));
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        const glm::vec3 color = valid[i] ? viridis(flip.values[i]) : glm::vec3(1, 0, 1);
+        for (int k = 0; k < 3; ++k)
+            map.rgba.push_back(std::uint8_t(std::lround(255 * color[k])));
         map.rgba.push_back(255);
     }
     return map;

@@ -47,6 +47,10 @@ ImageF meanImage(const ImageF& a, const ImageF& b);
 /// are magenta. Sizes must be equal.
 Image errorHeatmap(const ImageF& test, const ImageF& reference);
 
+/// The FLIP error of each pixel, measured as Comparison::flip, in the viridis colours of 0 (dark
+/// violet) to 1 (yellow); invalid pixels are magenta. Sizes must be equal.
+Image flipHeatmap(const ImageF& test, const ImageF& reference);
+
 /// Number of pixels with a NaN or Inf.
 std::uint64_t countInvalidPixels(const ImageF& image);
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/comparison_job.h"
 #include "editor_ui/jobs/reference_job.h"
+#include "editor_ui/panels/action.h"
+#include "engine/files/image_file.h"
+#include "engine/measure/compare.h"
 #include "tests/core/source_path.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/small_session.h"
 
 #include <cmath>
@@ -126,27 +130,44 @@ TEST_F(ComparisonTest, APictureOfHalfTheLightHasABiasOfMinusFiftyPercent) {
     auto half = std::make_shared<ImageF>(meanImage(set->first(), set->second()));
     for (glm::vec3& c : half->rgb)
         c *= 0.5f;
-    const ComparedPicture compared = compare({set, half, false, Tonemap::None, 0});
+    const ComparedPicture compared = compare({set, half, Compare::Reference, Tonemap::None, 0});
     ASSERT_TRUE(compared.image);
     ASSERT_TRUE(compared.error);
     EXPECT_NEAR(compared.error->bias, -0.5, 1e-5);
 }
 
 TEST_F(ComparisonTest, WithoutAPictureOfItsSizeTheReferenceAloneIsShown) {
-    EXPECT_FALSE(compare({set, nullptr, false, Tonemap::Aces, 0}).error);
+    EXPECT_FALSE(compare({set, nullptr, Compare::Reference, Tonemap::Aces, 0}).error);
     EXPECT_TRUE(job.result().image);
     auto small = std::make_shared<ImageF>(ImageF{2, 2, std::vector<glm::vec3>(4)});
-    EXPECT_FALSE(compare({set, small, false, Tonemap::Aces, 0}).error);
-    EXPECT_FALSE(compare({set, small, true, Tonemap::Aces, 0}).image); // no difference to show
+    EXPECT_FALSE(compare({set, small, Compare::Reference, Tonemap::Aces, 0}).error);
+    EXPECT_FALSE(compare({set, small, Compare::Difference, Tonemap::Aces, 0})
+                     .image); // no difference to show
 }
 
 TEST_F(ComparisonTest, TheDifferenceToItselfIsOneColour) {
     const auto same = std::make_shared<const ImageF>(meanImage(set->first(), set->second()));
-    const ComparedPicture compared = compare({set, same, true, Tonemap::Aces, 0});
-    ASSERT_TRUE(compared.image);
-    const auto& rgba = compared.image->rgba;
-    for (std::size_t i = 0; i < rgba.size(); i += 4)
-        EXPECT_TRUE(std::equal(rgba.begin(), rgba.begin() + 4, rgba.begin() + std::ptrdiff_t(i)));
+    for (const Compare shown : {Compare::Difference, Compare::Flip}) {
+        const ComparedPicture compared = compare({set, same, shown, Tonemap::Aces, 0});
+        ASSERT_TRUE(compared.image);
+        const auto& rgba = compared.image->rgba;
+        for (std::size_t i = 0; i < rgba.size(); i += 4)
+            EXPECT_TRUE(
+                std::equal(rgba.begin(), rgba.begin() + 4, rgba.begin() + std::ptrdiff_t(i)));
+    }
+}
+
+TEST_F(ComparisonTest, FlipShowsThePerceivedDifferenceAndNotTheSignedOne) {
+    auto half = std::make_shared<ImageF>(meanImage(set->first(), set->second()));
+    const ImageF mean = *half;
+    for (glm::vec3& c : half->rgb)
+        c *= 0.5f;
+    const ComparedPicture flip = compare({set, half, Compare::Flip, Tonemap::Aces, 0});
+    ASSERT_TRUE(flip.image);
+    EXPECT_EQ(flip.image->rgba, flipHeatmap(*half, mean).rgba);
+    const ComparedPicture difference = compare({set, half, Compare::Difference, Tonemap::Aces, 0});
+    ASSERT_TRUE(difference.image);
+    EXPECT_NE(flip.image->rgba, difference.image->rgba);
 }
 
 TEST(SessionReference, StandsBesideThePictureAndIsTakenAwayAgain) {
@@ -166,8 +187,30 @@ TEST(SessionReference, StandsBesideThePictureAndIsTakenAwayAgain) {
     ASSERT_TRUE(
         runUntil(session, [&] { return session.state.compare.reference.error.has_value(); }));
     EXPECT_NEAR(session.state.compare.reference.error->bias, -1, 1e-6); // black
+
+    const TemporaryFolder folder;
+    ASSERT_TRUE(actionById("compare.save").enabled(session.state));
+    session.state.requests.push_back({Request::Kind::SavePictures, folder.file("room.exr")});
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_FALSE(session.state.notice);
+    const Result<ImageF> ours = readFloatImage(folder.file("room-limn.exr"));
+    const Result<ImageF> theirs = readFloatImage(folder.file("room-reference.exr"));
+    ASSERT_TRUE(ours) << ours.error().message;
+    ASSERT_TRUE(theirs) << theirs.error().message;
+    EXPECT_TRUE(*ours == picture.image);
+    const Result<Comparison> compared = compareImages(*ours, *theirs);
+    ASSERT_TRUE(compared);
+    EXPECT_NEAR(compared->bias, -1, 1e-6);
+    session.state.requests.push_back({Request::Kind::SavePictures, folder.file("absent/room.exr")});
+    session.update();
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    ASSERT_TRUE(session.state.notice);
+    EXPECT_NE(session.state.notice->text.find("absent/room-limn.exr"), std::string::npos);
+
     session.state.compare.mode = Compare::Off;
     session.update();
+    EXPECT_FALSE(actionById("compare.save").enabled(session.state));
     EXPECT_FALSE(session.compared().image);
     EXPECT_EQ(session.state.compare.reference.samples, 0u);
 }

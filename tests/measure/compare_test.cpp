@@ -270,6 +270,23 @@ TEST(Compare, NoiseLowersSimilarityMoreThanBrightness) {
               compareImages(noisy, reference)->ssim + 0.1);
 }
 
+TEST(Heatmap, ShowsFlipOfEachPixelFromVioletToYellow) {
+    ImageF reference = constantImage(64, 32, glm::vec3(0.4f)), test = reference;
+    for (std::uint32_t y = 0; y < 32; ++y)
+        for (std::uint32_t x = 0; x < 32; ++x)
+            test.rgb[y * 64 + x] = {4, 0, 0};
+    test.rgb[5 * 64 + 60].y = std::numeric_limits<float>::infinity();
+    const Image map = flipHeatmap(test, reference);
+    ASSERT_EQ(map.rgba.size(), 64u * 32 * 4);
+    const auto pixel = [&](std::size_t x, std::size_t y) { return &map.rgba[4 * (y * 64 + x)]; };
+    const std::uint8_t* wrong = pixel(4, 16);
+    const std::uint8_t* equal = pixel(60, 30);
+    EXPECT_EQ(glm::ivec3(equal[0], equal[1], equal[2]), glm::ivec3(0x44, 0x01, 0x54));
+    EXPECT_GT(wrong[1], 120) << "red for grey is far towards yellow";
+    EXPECT_EQ(glm::ivec3(pixel(60, 5)[0], pixel(60, 5)[1], pixel(60, 5)[2]),
+              glm::ivec3(255, 0, 255));
+}
+
 TEST(Heatmap, IsBlueWhereTooDarkAndOrangeWhereTooBright) {
     ImageF reference = constantImage(4, 1, glm::vec3(1)), test = reference;
     test.rgb[0] = glm::vec3(0.2f);
