@@ -135,15 +135,23 @@ void VirtualScreen::focusWindow() {
     xdotool({"search", "--sync", "--onlyvisible", "--name", "Limn", "windowfocus"});
 }
 
-void VirtualScreen::click(glm::vec2 p) {
+void VirtualScreen::move(glm::vec2 p) {
     xdotool({"mousemove", std::to_string(int(p.x + 0.5f)), std::to_string(int(p.y + 0.5f))});
+}
+
+void VirtualScreen::click(glm::vec2 p) {
+    move(p);
     xdotool({"click", "1"});
 }
 
+void VirtualScreen::clickWith(const std::string& modifier, glm::vec2 p) {
+    move(p);
+    xdotool({"keydown", modifier});
+    xdotool({"click", "1"});
+    xdotool({"keyup", modifier});
+}
+
 void VirtualScreen::drag(glm::vec2 from, glm::vec2 to) {
-    const auto move = [&](glm::vec2 p) {
-        xdotool({"mousemove", std::to_string(int(p.x + 0.5f)), std::to_string(int(p.y + 0.5f))});
-    };
     move(from);
     xdotool({"mousedown", "1"});
     constexpr int kSteps = 6;
@@ -156,8 +164,13 @@ void VirtualScreen::key(const std::string& name) {
     xdotool({"key", name});
 }
 
-/// XWD: a header of big-endian words, a table of colours, rows of pixels.
-std::size_t VirtualScreen::colorsIn(glm::vec2 origin, glm::vec2 size) const {
+void VirtualScreen::type(const std::string& text) {
+    xdotool({"type", "--delay", "30", text});
+}
+
+/// XWD: a header of big-endian words, a table of colours, rows of pixels (blue, green, red,
+/// unused).
+Image VirtualScreen::picture() const {
     std::ifstream in(fs::path(m_folder) / "Xvfb_screen0", std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(in)), {});
     const auto word = [&](std::size_t at) {
@@ -168,10 +181,26 @@ std::size_t VirtualScreen::colorsIn(glm::vec2 origin, glm::vec2 size) const {
     };
     const std::size_t header = word(0), bytesPerLine = word(48), tableEntries = word(76);
     const std::size_t pixels = header + 12 * tableEntries;
+    Image image{.name = "screen", .width = word(16), .height = word(20), .rgba = {}};
+    image.rgba.reserve(std::size_t(image.width) * image.height * 4);
+    for (std::size_t y = 0; y < image.height; ++y)
+        for (std::size_t x = 0; x < image.width; ++x) {
+            const std::size_t at = pixels + y * bytesPerLine + x * 4;
+            for (const std::size_t channel : {2, 1, 0})
+                image.rgba.push_back(std::uint8_t(bytes.at(at + channel)));
+            image.rgba.push_back(255);
+        }
+    return image;
+}
+
+std::size_t VirtualScreen::colorsIn(glm::vec2 origin, glm::vec2 size) const {
+    const Image image = picture();
     std::set<std::string> colors;
     for (std::size_t y = std::size_t(origin.y); y < std::size_t(origin.y + size.y); ++y)
-        for (std::size_t x = std::size_t(origin.x); x < std::size_t(origin.x + size.x); ++x)
-            colors.insert(bytes.substr(pixels + y * bytesPerLine + x * 4, 3));
+        for (std::size_t x = std::size_t(origin.x); x < std::size_t(origin.x + size.x); ++x) {
+            const std::uint8_t* pixel = image.rgba.data() + (y * image.width + x) * 4;
+            colors.emplace(pixel, pixel + 3);
+        }
     return colors.size();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/image.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +31,7 @@ public:
     int wait();
     /// Ends it at once, as the kernel does when memory is short.
     void kill();
+    pid_t id() const { return m_pid; } ///< -1 once it has ended
 
 private:
     pid_t m_pid = -1;
@@ -41,9 +44,17 @@ public:
     std::vector<std::string> environment() const;
 
     void focusWindow();
+    void move(glm::vec2 pixel);
     void click(glm::vec2 pixel);
+    /// Clicks while a modifier is held: "ctrl".
+    void clickWith(const std::string& modifier, glm::vec2 pixel);
     void drag(glm::vec2 from, glm::vec2 to);
+    /// A key by its X name, with modifiers before it: "ctrl+s".
     void key(const std::string& name);
+    void type(const std::string& text);
+
+    /// What the screen shows.
+    Image picture() const;
 
     /// Number of different colours in a rectangle of the screen.
     std::size_t colorsIn(glm::vec2 origin, glm::vec2 size) const;

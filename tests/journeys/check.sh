@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# tests/journeys/check.sh [FILTER]: uses the editor's window as a person would, by mouse and keys on a screen without a monitor,
+# and leaves pictures of the screen in build/journeys. FILTER is GoogleTest's. 1 if anything failed.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+.ci/install build test
+.ci/build release limn journeys
+build/release/journeys --gtest_filter="${1:-*}"
+echo "Pictures: build/journeys"

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/app/virtual_screen.h"
+#include "tests/editor_ui/headless.h"
+#include "tests/journeys/screen_text.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace limn {
+
+/// Someone who uses the editor's window by real mouse and key events and sees only its pixels: each
+/// text that is clicked is found on the screen first. Pictures of the screen are left in
+/// build/journeys/TEST. Skips itself without Xvfb and xdotool.
+struct Journey : testing::Test {
+    std::filesystem::path scratch; ///< the user's home, removed at the end
+    std::filesystem::path pictures;
+    std::optional<VirtualScreen> screen;
+    std::optional<ChildProcess> editor;
+    std::optional<HeadlessUi> font; ///< by which text is found
+
+    /// A new screen, at `dpi` for the program as for us.
+    void startScreen(int width = 1280, int height = 800, int dpi = 96);
+    /// Opens a scene in a window as large as the screen, or none.
+    void startEditor(const std::string& scene, const std::vector<std::string>& more = {});
+    void TearDown() override;
+
+    /// Skips the test and returns true where a scene of others is not there.
+    static bool lacks(const std::string& path);
+
+    /// Waits until the text stands on the screen; returns false if it does not within `seconds`.
+    bool sees(const std::string& text, double seconds = 60, const ScreenRect& within = {});
+    /// Waits until it does not.
+    bool seesNoMore(const std::string& text, double seconds = 60);
+    /// Waits until the screen does not change for a second, at most `seconds`.
+    void settle(double seconds = 60);
+    /// Waits for the text and clicks the middle of the first place of it; fails the test if there
+    /// is none.
+    void click(const std::string& text, const ScreenRect& within = {});
+    void clickAt(glm::vec2 pixel) { screen->click(pixel); }
+    /// Runs an action by its whole label, as the list of all actions has it (Ctrl-P).
+    void run(const std::string& action);
+    /// Types into the field beside a label of the inspector.
+    void setField(const std::string& label, const std::string& value);
+    /// Types a path into the open file dialog and accepts it.
+    void enterPath(const std::string& path);
+    /// Waits until bake and light are up to date.
+    void waitForLight(double seconds = 300);
+    /// Writes build/journeys/TEST/NAME.png.
+    void shot(const std::string& name);
+
+    /// What --stats-json wrote when the editor was last idle; null: nothing yet.
+    nlohmann::json statistics() const;
+    bool waitFor(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 300);
+    /// Ctrl-Q; expects no unsaved changes and an exit without an error.
+    void quit();
+
+    int width = 0, height = 0;
+    /// The parts of the window that no journey resizes.
+    ScreenRect outliner() const;
+    ScreenRect inspector() const;
+
+private:
+    int m_dpi = 96;
+};
+
+} // namespace limn
