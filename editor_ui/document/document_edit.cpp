@@ -151,15 +151,18 @@ static bool* shownFlag(Object& object) {
     return nullptr;
 }
 
+/// Ids of objects that are gone are skipped.
 static void setShown(EditorState& state, const std::vector<ObjectId>& ids, bool shown,
                      const char* verb) {
     Edit edit{verb, {}};
     for (ObjectId id : ids) {
-        const Object& before = state.document.objects.at(id);
-        Object after = before;
+        const Object* before = findObject(state, id);
+        if (!before)
+            continue;
+        Object after = *before;
         if (bool* flag = shownFlag(after); flag && *flag != shown) {
             *flag = shown;
-            edit.changes.push_back({id, before, std::move(after)});
+            edit.changes.push_back({id, *before, std::move(after)});
         }
     }
     if (edit.changes.size() == 1)

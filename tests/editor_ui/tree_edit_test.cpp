@@ -202,6 +202,18 @@ TEST_F(TreeEditTest, IsolatingHidesTheOthersAndTheSameKeyShowsThem) {
     EXPECT_EQ(state.history.edits.size(), 2u);
 }
 
+TEST_F(TreeEditTest, TheOthersAreShownAgainAfterOneOfThemWasDeleted) {
+    addRoot("Loose", {});
+    get<Node>("Loose").meshes = {0};
+    select({"Left"});
+    toggleIsolated(state);
+    select({"Loose"});
+    deleteSelection(state);
+    toggleIsolated(state);
+    EXPECT_TRUE(get<Node>("Right").visible);
+    EXPECT_FALSE(isIsolated(state));
+}
+
 TEST_F(TreeEditTest, StaticObjectsBecomeDynamicTogether) {
     get<Node>("Left").dynamic = true;
     const Document start = state.document;

@@ -108,13 +108,13 @@ struct RandomUser {
 
 /// The law: whatever the user does, undoing everything gives the first document back and redoing
 /// everything the last one, with undo and redo in between as well.
-void randomUseCanBeUndoneAndRedone(unsigned seed, std::size_t& editCount) {
+void randomUseCanBeUndoneAndRedone(unsigned seed, int events, std::size_t& editCount) {
     SCOPED_TRACE(seed);
     HeadlessUi ui;
     EditorState state = fullEditor();
     const Document before = state.document;
     RandomUser user{.rng = std::mt19937(seed)};
-    for (int i = 0; i < 2500; ++i) {
+    for (int i = 0; i < events; ++i) {
         const std::size_t applied = state.history.applied;
         user.act(ui, state);
         ui.frames(state);
@@ -140,8 +140,16 @@ void randomUseCanBeUndoneAndRedone(unsigned seed, std::size_t& editCount) {
 TEST(UndoLaw, RandomUseOfTheWholeInterfaceCanBeUndoneAndRedone) {
     std::size_t editCount = 0;
     for (unsigned seed = 1; seed <= 12; ++seed)
-        randomUseCanBeUndoneAndRedone(seed, editCount);
+        randomUseCanBeUndoneAndRedone(seed, 2500, editCount);
     EXPECT_GT(editCount, 200u) << editCount; // else the random input does not reach the widgets
+    RecordProperty("edits", int(editCount));
+}
+
+/// A minute: for ./check --journeys.
+TEST(UndoLaw, DISABLED_TwentySoaksOfFiveThousandEventsCanBeUndoneAndRedone) {
+    std::size_t editCount = 0;
+    for (unsigned seed = 101; seed <= 120; ++seed)
+        randomUseCanBeUndoneAndRedone(seed, 5000, editCount);
     RecordProperty("edits", int(editCount));
 }
 
