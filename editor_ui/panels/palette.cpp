@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -62,7 +63,8 @@ void palettePopup(EditorState& state) {
     }
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({display.x / 2, display.y * 0.15f}, ImGuiCond_Always, {0.5f, 0});
-    ImGui::SetNextWindowSize({std::min(420.f, display.x), std::min(420.f, display.y * 0.7f)});
+    const float size = 420 * uiScale();
+    ImGui::SetNextWindowSize({std::min(size, display.x), std::min(size, display.y * 0.7f)});
     if (!ImGui::BeginPopup("All actions"))
         return;
     if (ImGui::IsWindowAppearing())

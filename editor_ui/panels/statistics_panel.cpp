@@ -13,22 +13,23 @@
 
 namespace limn {
 
-/// `square`: colour of a square left of the value, as the plot has it; 0: none.
+/// `square`: colour of a square before the label, as the plot has it; 0: none.
 static void row(const char* label, const std::string& value, const char* tooltip,
                 std::uint32_t square = 0) {
     ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
-    elidedText(label, ImGui::GetContentRegionAvail().x);
-    ImGui::PopStyleColor();
-    wrappedTooltip(tooltip);
     ImGui::TableNextColumn();
     if (square != 0) {
         const float side = ImGui::GetFontSize() * 0.6f;
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float y = at.y + ImGui::GetFontSize() * 0.25f;
         ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, square);
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetFontSize() * 0.85f);
     }
+    ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
+    elidedText(label, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    wrappedTooltip(tooltip);
+    ImGui::TableNextColumn();
     const float indent = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
     if (indent > 0)
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Start screen, sheet of keys, axes and read-out over the picture, and that nothing is clipped.
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/time_history.h"
 #include "tests/editor_ui/headless.h"
 
 #include <imgui_internal.h>
@@ -204,6 +205,43 @@ TEST(Workspace, NothingIsClippedAtAnySizeOfTheScreenAndInBothThemes) {
                                          std::to_string(id));
                 }
             }
+}
+
+TEST(Statistics, ColoursOfStepsCoverNoTextHoweverLongAStepTakes) {
+    HeadlessUi ui(1280, 800);
+    EditorState state = fullEditor();
+    state.relight.last.steps = {{"cache_light", "Cache light", "", 12345.67}};
+    for (int i = 0; i < 3; ++i)
+        ui.frames(state);
+    std::vector<ImDrawVert> vertices;
+    const ImDrawData* drawn = ImGui::GetDrawData();
+    for (int i = 0; i < drawn->CmdListsCount; ++i)
+        for (const ImDrawVert& v : drawn->CmdLists[i]->VtxBuffer)
+            vertices.push_back(v);
+    ImRect square(FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX);
+    for (const ImDrawVert& v : vertices)
+        if (v.col == kStepColors[0])
+            square.Add(v.pos);
+    ASSERT_FALSE(square.IsInverted());
+    for (const ImDrawVert& v : vertices)
+        EXPECT_FALSE(v.col == ImGui::GetColorU32(ImGuiCol_Text) && square.Contains(v.pos))
+            << v.pos.x << ", " << v.pos.y;
+}
+
+TEST(PaletteOfActions, IsAsLargeOnAScreenOfTwiceTheDensity) {
+    const auto sizeAt = [](float scale) {
+        HeadlessUi ui(1280 * scale, 800 * scale, scale);
+        EditorState state = fullEditor();
+        runAction(state, actionById("edit.palette"));
+        for (int i = 0; i < 3; ++i)
+            ui.frames(state);
+        const ImVector<ImGuiPopupData>& popups = ImGui::GetCurrentContext()->OpenPopupStack;
+        return popups.empty() ? ImVec2(0, 0) : popups[0].Window->Size;
+    };
+    const ImVec2 once = sizeAt(1), twice = sizeAt(2);
+    EXPECT_GT(once.x, 0);
+    EXPECT_EQ(twice.x, 2 * once.x);
+    EXPECT_EQ(twice.y, 2 * once.y);
 }
 
 } // namespace
