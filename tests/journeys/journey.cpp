@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "engine/files/image_file.h"
+#include "engine/files/project_file.h"
 #include "tests/core/source_path.h"
 
 #include <chrono>
@@ -26,7 +27,7 @@ static bool within(double seconds, const std::function<bool()>& done) {
     do {
         if (done())
             return true;
-        sleepFor(0.2);
+        sleepFor(0.4);
     } while (Clock::now() < end);
     return done();
 }
@@ -84,6 +85,16 @@ bool Journey::lacks(const std::string& path) {
     return true;
 }
 
+std::string Journey::draftCornell() const {
+    Document document = loadProject(sourcePath("projects/cornell/cornell.limn"))->document;
+    for (auto& [id, object] : document.objects)
+        if (auto* settings = std::get_if<BakeSettings>(&object))
+            kBakePresets[0].applyTo(*settings);
+    const std::string path = (scratch / "room.limn").string();
+    EXPECT_TRUE(saveProject(path, document));
+    return path;
+}
+
 bool Journey::sees(const std::string& text, double seconds, const ScreenRect& where) {
     return limn::within(seconds,
                         [&] {
@@ -104,8 +115,16 @@ void Journey::settle(double seconds) {
         Image now = screen->picture();
         equal = now == before ? equal + 1 : 0;
         before = std::move(now);
-        return equal >= 5;
+        return equal >= 3;
     });
+}
+
+/// Where the text stands as a whole label.
+static std::vector<ScreenRect> labels(const Image& screen, const std::string& text,
+                                      const ScreenRect& where) {
+    std::vector<ScreenRect> found = findText(screen, text, where);
+    std::erase_if(found, [&](const ScreenRect& r) { return !endsThere(screen, r); });
+    return found;
 }
 
 void Journey::click(const std::string& text, const ScreenRect& where) {
@@ -113,12 +132,27 @@ void Journey::click(const std::string& text, const ScreenRect& where) {
         shot("lacks " + text);
         FAIL() << "the screen shows no \"" << text << "\"";
     }
-    clickAt(findText(screen->picture(), text, where).front().middle());
+    const Image shown = screen->picture();
+    std::vector<ScreenRect> found = labels(shown, text, where);
+    if (found.empty())
+        found = findText(shown, text, where);
+    if (!found.empty())
+        clickAt(found.front().middle());
+}
+
+void Journey::rest() {
+    screen->move({float(width) / 2, 12}); // the menu bar, where nothing stands
+    sleepFor(0.3);
 }
 
 void Journey::run(const std::string& action) {
-    screen->key("ctrl+p");
-    ASSERT_TRUE(sees("Type to find an action", 20));
+    bool open = false;
+    for (int i = 0; i < 3 && !open; ++i) { // the window may not have had the focus yet
+        screen->focusWindow();
+        screen->key("ctrl+p");
+        open = sees("Type to find an action", 20);
+    }
+    ASSERT_TRUE(open);
     screen->type(action);
     sleepFor(0.3);
     screen->key("Return");
@@ -138,16 +172,76 @@ ScreenRect Journey::inspector() const {
             {layout.right * scale, float(height) - layout.bottom * scale}};
 }
 
-void Journey::setField(const std::string& label, const std::string& value) {
-    ASSERT_TRUE(sees(label, 20, inspector())) << label;
-    const ScreenRect at = findText(screen->picture(), label, inspector()).front();
-    const glm::vec2 field(float(width) - 0.25f * inspector().size.x, at.middle().y);
-    screen->move(field);
-    screen->clickWith("ctrl", field);
+ScreenRect Journey::picture() const {
+    const float scale = float(m_dpi) / 96, left = outliner().size.x + 5 * scale;
+    const float top = 58 * scale; // menu and view bar
+    return {{left, top},
+            {inspector().origin.x - left - 5 * scale, outliner().size.y - 40 * scale - top}};
+}
+
+void Journey::select(const std::string& name) {
+    const float scale = float(m_dpi) / 96;
+    const glm::vec2 filter(100 * scale, 42 * scale);
+    clickAt(filter);
     screen->key("ctrl+a");
-    screen->type(value);
+    screen->type(name);
+    const ScreenRect rows{{0, 56 * scale}, outliner().size - glm::vec2(0, 56 * scale)};
+    click(name, rows);
+    clickAt(filter);
+    screen->key("ctrl+a");
+    screen->key("Delete");
     screen->key("Return");
     sleepFor(0.3);
+}
+
+ScreenRect Journey::exportDialog() const {
+    const float wide = 510 * float(m_dpi) / 96;
+    return {{(float(width) - wide) / 2, 0}, {wide, float(height)}};
+}
+
+glm::vec2 Journey::fieldAt(const std::string& label, ScreenRect panel) {
+    if (panel.size.x <= 0)
+        panel = inspector();
+    std::vector<ScreenRect> found;
+    if (!limn::within(20, [&] {
+            found = labels(screen->picture(), label, panel);
+            return !found.empty();
+        })) {
+        ADD_FAILURE() << "the panel shows no \"" << label << "\"";
+        return {};
+    }
+    return {panel.origin.x + 0.47f * panel.size.x, found.front().middle().y};
+}
+
+void Journey::setField(const std::string& label, const std::vector<std::string>& values,
+                       const ScreenRect& panel) {
+    screen->clickWith("ctrl", fieldAt(label, panel));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i > 0)
+            screen->key("Tab");
+        screen->key("ctrl+a");
+        screen->type(values[i]);
+    }
+    screen->key("Return");
+    rest();
+}
+
+void Journey::choose(const std::string& label, const std::string& entry, const ScreenRect& panel) {
+    const glm::vec2 field = fieldAt(label, panel);
+    clickAt(field);
+    sleepFor(1);
+    // The entries stand below or above the field, which may show the same words.
+    std::vector<ScreenRect> found = labels(screen->picture(), entry, {});
+    std::erase_if(found, [&](const ScreenRect& r) {
+        return r.origin.x < field.x - 40 || std::abs(r.middle().y - field.y) < 8;
+    });
+    if (found.empty()) {
+        ADD_FAILURE() << "no entry \"" << entry << "\" beside " << label;
+        shot("lacks " + entry);
+        return;
+    }
+    clickAt(found.front().middle());
+    rest();
 }
 
 void Journey::enterPath(const std::string& path) {
@@ -162,7 +256,9 @@ void Journey::enterPath(const std::string& path) {
 }
 
 void Journey::waitForLight(double seconds) {
-    EXPECT_TRUE(sees("Bake up to date", seconds));
+    const float status = 45 * float(m_dpi) / 96;
+    EXPECT_TRUE(
+        sees("Bake up to date", seconds, {{0, float(height) - status}, {float(width), status}}));
     settle();
 }
 

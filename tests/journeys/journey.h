@@ -32,6 +32,9 @@ struct Journey : testing::Test {
     void startEditor(const std::string& scene, const std::vector<std::string>& more = {});
     void TearDown() override;
 
+    /// Writes the sample Cornell with the settings of a draft bake; returns the project's path.
+    std::string draftCornell() const;
+
     /// Skips the test and returns true where a scene of others is not there.
     static bool lacks(const std::string& path);
 
@@ -45,14 +48,21 @@ struct Journey : testing::Test {
     /// is none.
     void click(const std::string& text, const ScreenRect& within = {});
     void clickAt(glm::vec2 pixel) { screen->click(pixel); }
+    /// Moves the mouse away, so that no tooltip covers what is read next.
+    void rest();
     /// Runs an action by its whole label, as the list of all actions has it (Ctrl-P).
     void run(const std::string& action);
-    /// Types into the field beside a label of the inspector.
-    void setField(const std::string& label, const std::string& value);
+    /// Selects an object by its name, through the filter of the list on the left.
+    void select(const std::string& name);
+    /// Types into the fields beside a label of a panel, the inspector where it is of size 0.
+    void setField(const std::string& label, const std::vector<std::string>& values,
+                  const ScreenRect& panel = {});
+    /// Opens the list beside a label of such a panel and clicks an entry of it.
+    void choose(const std::string& label, const std::string& entry, const ScreenRect& panel = {});
     /// Types a path into the open file dialog and accepts it.
     void enterPath(const std::string& path);
     /// Waits until bake and light are up to date.
-    void waitForLight(double seconds = 300);
+    void waitForLight(double seconds = 600);
     /// Writes build/journeys/TEST/NAME.png.
     void shot(const std::string& name);
 
@@ -66,8 +76,13 @@ struct Journey : testing::Test {
     /// The parts of the window that no journey resizes.
     ScreenRect outliner() const;
     ScreenRect inspector() const;
+    ScreenRect picture() const;
+    ScreenRect exportDialog() const;
 
 private:
+    /// Of what stands beside a label, near its left end.
+    glm::vec2 fieldAt(const std::string& label, ScreenRect panel);
+
     int m_dpi = 96;
 };
 

@@ -4,10 +4,19 @@
 #include "tests/core/source_path.h"
 #include "tests/journeys/journey.h"
 
+#include <variant>
+
 namespace limn {
 namespace {
 
-struct LightJourney : Journey {};
+struct LightJourney : Journey {
+    /// Adds a light of the Add menu where the picture is clicked, as a share of its size.
+    void addAt(const std::string& kind, glm::vec2 share) {
+        run(kind);
+        clickAt(picture().origin + share * picture().size);
+        settle(10);
+    }
+};
 
 TEST_F(LightJourney, ASceneWithoutLightsSaysSoAndIsLitByOneClick) {
     const std::string scene = sourcePath("../shared/scenes/godot-room/room.glb");
@@ -24,6 +33,115 @@ TEST_F(LightJourney, ASceneWithoutLightsSaysSoAndIsLitByOneClick) {
     waitForLight();
     EXPECT_TRUE(seesNoMore("Nothing lights this scene.", 5));
     shot("2-lit");
+}
+
+// Its lamps are not added yet: no action opens while a field has the focus.
+TEST_F(LightJourney, DISABLED_AnEmptySponzaIsLitToAFinishedLookAndSaved) {
+    const std::string scene = sourcePath("../shared/scenes/sponza-crytek/Sponza.gltf");
+    if (lacks(scene))
+        return;
+    startScreen(1280, 960);
+    if (!screen)
+        return;
+    startEditor(scene);
+    ASSERT_TRUE(sees("Nothing lights this scene.", 200));
+    settle(30);
+    shot("1-empty");
+    click("Add sun and sky");
+    waitForLight(500);
+    shot("2-sun-and-sky");
+    setField("Elevation (°)", {"68"});
+    setField("Azimuth (°)", {"20"});
+    setField("Strength (lux)", {"12"});
+    waitForLight();
+    shot("3-sun-turned");
+    const struct {
+        glm::vec2 at;
+        std::vector<std::string> color;
+    } lamps[] = {{{0.2f, 0.7f}, {"1", "0.25", "0.1"}},
+                 {{0.4f, 0.75f}, {"0.2", "0.5", "1"}},
+                 {{0.65f, 0.75f}, {"0.3", "1", "0.4"}},
+                 {{0.85f, 0.7f}, {"1", "0.2", "0.7"}}};
+    for (const auto& lamp : lamps) {
+        addAt("Point light", lamp.at);
+        setField("Colour", lamp.color);
+        setField("Strength (cd)", {"8"});
+    }
+    waitForLight();
+    shot("4-four-lamps");
+    addAt("Rectangle light", {0.5f, 0.3f});
+    setField("Size (m)", {"2", "1"});
+    setField("Radiance (nits)", {"6"});
+    waitForLight();
+    shot("5-area-light");
+    screen->key("ctrl+s");
+    ASSERT_TRUE(sees("Save as", 20));
+    const std::string saved = (scratch / "finished.limn").string();
+    enterPath(saved);
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }, 60));
+    settle();
+    shot("6-saved");
+    quit();
+    const auto project = loadProject(saved);
+    ASSERT_TRUE(project);
+    std::size_t lights = 0;
+    for (const auto& [id, object] : project->document.objects)
+        lights += std::holds_alternative<Light>(object);
+    EXPECT_EQ(lights, 6U);
+}
+
+TEST_F(LightJourney, TheCornerOfCornellIsExplainedByClicks) {
+    startScreen();
+    if (!screen)
+        return;
+    startEditor(draftCornell());
+    waitForLight();
+    click("Explain");
+    clickAt(picture().origin + glm::vec2(0.723f, 0.86f) * picture().size); // the floor at the wall
+    ASSERT_TRUE(sees("Red, green, blue", 60));
+    settle(30);
+    shot("1-by-origin");
+    click("By sender");
+    EXPECT_TRUE(sees("Right wall (Green)", 30));
+    settle(20);
+    shot("2-by-sender");
+}
+
+TEST_F(LightJourney, TwoTechniquesAreComparedBySwitching) {
+    startScreen();
+    if (!screen)
+        return;
+    startEditor(draftCornell());
+    waitForLight();
+    shot("1-illuminance");
+    select("Technique");
+    choose("Technique", "Ambient");
+    settle(30);
+    shot("2-ambient");
+    screen->key("ctrl+z");
+    EXPECT_TRUE(sees("Bake up to date", 60)) << "the bake is kept";
+    settle(30);
+    shot("3-illuminance-again");
+}
+
+// Has not passed yet.
+TEST_F(LightJourney, DISABLED_MemoryIsHalvedAtTheLeastError) {
+    startScreen(1280, 960);
+    if (!screen)
+        return;
+    startEditor(draftCornell());
+    waitForLight();
+    select("Bake settings");
+    settle(20);
+    shot("1-medium");
+    screen->key("shift+r");
+    sees("nRMSE", 60);
+    settle(120);
+    shot("2-error-before");
+    setField("Links (n_L)", {"32"});
+    waitForLight();
+    settle(120);
+    shot("3-half-the-links");
 }
 
 } // namespace

@@ -164,4 +164,18 @@ std::vector<ScreenRect> findText(const Image& screen, const std::string& text,
     return found;
 }
 
+bool endsThere(const Image& screen, const ScreenRect& text) {
+    const int gap = std::max(int(ImGui::GetFontSize() * 0.45f), 1); // wider than a space
+    const auto left = std::size_t(text.origin.x + text.size.x), top = std::size_t(text.origin.y);
+    int least = 255, most = 0;
+    for (std::size_t y = top; y < top + std::size_t(text.size.y); ++y)
+        for (std::size_t x = left; x < std::min(left + std::size_t(gap), std::size_t(screen.width));
+             ++x) {
+            const int green = screen.rgba[(y * screen.width + x) * 4 + 1];
+            least = std::min(least, green), most = std::max(most, green);
+        }
+    constexpr int kEven = 24; // of 255: a row's ground, but no letter
+    return most - least < kEven;
+}
+
 } // namespace limn

@@ -24,4 +24,8 @@ struct ScreenRect {
 std::vector<ScreenRect> findText(const Image& screen, const std::string& text,
                                  const ScreenRect& within = {});
 
+/// Whether nothing stands close behind the text: it is a whole label and not the beginning of a
+/// longer one.
+bool endsThere(const Image& screen, const ScreenRect& text);
+
 } // namespace limn
