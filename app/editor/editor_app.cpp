@@ -30,6 +30,7 @@ struct ImGuiContextOwner {
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.ConfigDragClickToInputText = true;
+        io.ConfigInputTextCursorBlink = false; // each blink would draw the whole window
         mapKeys();
         applyTheme();
         const float scale = window.scale();
@@ -59,7 +60,6 @@ std::string settingsFile() {
 /// Frames drawn after the last event, so that hover and layout of ImGui settle.
 constexpr int kFramesAfterEvent = 2;
 constexpr double kLookWhenIdleSeconds = 0.25, kLookWhenBusySeconds = 0.05;
-constexpr double kCursorBlinkSeconds = 0.4;
 
 /// The window, the session and what draws them. Members are destroyed last to first.
 class EditorApp {
@@ -104,9 +104,7 @@ private:
 /// Sleeps until there is something to draw. Returns false after a wait that brought nothing.
 bool EditorApp::waitForWork() {
     const EditorState& state = m_session.state;
-    double seconds = m_picture.secondsToNext();
-    if (ImGui::GetIO().WantTextInput)
-        seconds = seconds < 0 ? kCursorBlinkSeconds : std::min(seconds, kCursorBlinkSeconds);
+    const double seconds = m_picture.secondsToNext();
     const bool due =
         m_framesOwed > 0 || state.view.animating || state.playing || m_window->pending();
     const auto before = Clock::now();

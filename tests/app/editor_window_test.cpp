@@ -222,6 +222,21 @@ TEST_F(EditorWindowTest, AnIdleEditorDrawsNothingOnceItKnowsWhichDeviceRelightsF
         }
 }
 
+TEST_F(EditorWindowTest, AFocusedTextFieldDrawsNothing) {
+    ASSERT_TRUE(waitFor([](const auto& s) {
+        return s["bake_up_to_date"] && s["relight_converged"] && s["relight_gpu_ms"] > 0;
+    }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const std::uint64_t before = readStats()["frames"];
+    screen->focusWindow();
+    screen->key("ctrl+p"); // its field has the focus
+    std::this_thread::sleep_for(std::chrono::seconds(20));
+    screen->key("Escape");
+    screen->key("ctrl+q");
+    EXPECT_EQ(editor->wait(), 0);
+    EXPECT_LE(readStats()["frames"].get<std::uint64_t>(), before + 40); // those of the keys
+}
+
 struct EditorOnGpuTest : EditorWindowTest {
     std::string relightOn() const override { return "gpu"; }
 };
