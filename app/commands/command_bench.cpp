@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
+#include "app/bench/bench_techniques.h"
 #include "app/techniques/technique_program.h"
 
 #include "engine/core/replace_file.h"
@@ -77,6 +78,7 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 void addBenchCommand(CLI::App& app, Run& run) {
     CLI::App* bench = app.add_subcommand("bench", "Run a benchmark and write its table");
     bench->require_subcommand(1);
+    addTechniquesBench(*bench, run);
     for (const TechniqueProgram* program : techniquePrograms())
         program->addBenches(*bench, run);
 }

@@ -55,6 +55,7 @@ struct Technique {
     const char* label;   ///< for people
     const char* summary; ///< what it does, in a sentence or two
     const char* source;  ///< authors, title, year
+    /// The first, unless it is a switch, trades time for error: benchmarks vary it.
     std::span<const TechniqueSetting> settings;
     std::span<const OverlayKind> overlays; ///< of its precomputed data
     const Precomputation* precomputation;  ///< null: nothing is precomputed

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/techniques_page.h"
+
+#include "engine/core/base64.h"
+#include "engine/files/image_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+constexpr std::array kMilliseconds = {2., 5., 10., 33., 100.};
+constexpr std::array kMebibytes = {1., 4., 16., 64., 256.};
+
+/// Colours that colour-blind people tell apart (Okabe, Ito. Color Universal Design. 2008), with a
+/// mark for each.
+struct Ink {
+    const char *color, *mark;
+};
+constexpr std::array<Ink, 6> kInks = {{{"#0072b2", "\u25cf"},
+                                       {"#d55e00", "\u25a0"},
+                                       {"#009e73", "\u25b2"},
+                                       {"#cc79a7", "\u25c6"},
+                                       {"#000000", "\u2716"},
+                                       {"#e69f00", "\u2605"}}};
+
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+    return result;
+}
+
+/// Techniques in the order of the rows, with their inks.
+std::map<std::string, Ink> inksOf(const std::vector<Json>& rows) {
+    std::map<std::string, Ink> inks;
+    for (const Json& row : rows)
+        inks.try_emplace(row["technique"].get<std::string>(), kInks[inks.size() % kInks.size()]);
+    return inks;
+}
+
+/// A logarithmic axis from `lower` to `upper`, both > 0, over pixels [from, to].
+struct Axis {
+    double lower, upper, from, to;
+
+    double at(double value) const {
+        const double share = std::log(value / lower) / std::log(upper / lower);
+        return from + share * (to - from);
+    }
+};
+
+/// Smallest value on a time axis [ms] and on a memory axis [MiB]; less costs nothing.
+constexpr double kNothing = 0.01;
+
+/// A row's value of `key` in a unit, at least kNothing.
+double valueIn(const Json& row, const std::string& key, double unit) {
+    return std::max(row[key].get<double>() / unit, kNothing);
+}
+
+/// An axis from one power of ten to another, around all values of `key`.
+Axis axisOf(const std::vector<Json>& rows, const std::string& key, double unit, double from,
+            double to) {
+    double lower = 1e30, upper = kNothing;
+    for (const Json& row : rows) {
+        lower = std::min(lower, valueIn(row, key, unit));
+        upper = std::max(upper, valueIn(row, key, unit));
+    }
+    const double first = std::pow(10, std::floor(std::log10(std::min(lower, upper)))),
+                 last = std::pow(10, std::ceil(std::log10(upper)));
+    return {first, last > first ? last : 10 * first, from, to};
+}
+
+/// A chart of error over `key` in a unit.
+std::string chart(const std::vector<Json>& rows, const std::string& key, double unit,
+                  const char* title) {
+    constexpr double kWidth = 480, kHeight = 310, kLeft = 46, kBottom = 270, kTop = 26,
+                     kRight = 450;
+    const Axis x = axisOf(rows, key, unit, kLeft, kRight),
+               y = axisOf(rows, "nrmse", 1, kBottom, kTop);
+    std::string svg = fmt::format(
+        "<svg viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" role=\"img\" aria-label=\"{}\">\n",
+        kWidth, kHeight, kWidth, kHeight, title);
+    const auto line = [&](double x0, double y0, double x1, double y1) {
+        svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+                           "stroke=\"#ddd\"/>\n",
+                           x0, y0, x1, y1);
+    };
+    const auto text = [&](double tx, double ty, const char* anchor, const std::string& what,
+                          const char* color) {
+        svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}"
+                           "</text>\n",
+                           tx, ty, anchor, color, what);
+    };
+    for (double v = x.lower; v <= 1.001 * x.upper; v *= 10) {
+        line(x.at(v), kTop, x.at(v), kBottom);
+        text(x.at(v), kBottom + 16, "middle", fmt::format("{:g}", v), "#444");
+    }
+    for (double v = y.lower; v <= 1.001 * y.upper; v *= 10) {
+        line(kLeft, y.at(v), kRight, y.at(v));
+        text(kLeft - 6, y.at(v) + 4, "end", fmt::format("{:g}", v), "#444");
+    }
+    for (const auto& [technique, ink] : inksOf(rows))
+        for (const Json& row : rows)
+            if (row["technique"] == technique)
+                svg += fmt::format(
+                    "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"{}\">{}"
+                    "<title>{}, {}</title></text>\n",
+                    x.at(valueIn(row, key, unit)), y.at(valueIn(row, "nrmse", 1)) + 5, ink.color,
+                    ink.mark, escaped(technique), escaped(row["settings"].get<std::string>()));
+    text((kLeft + kRight) / 2, kHeight - 4, "middle", title, "#444");
+    text(4, 11, "start", "nRMSE", "#444");
+    return svg + "</svg>\n";
+}
+
+std::string legend(const std::vector<Json>& rows) {
+    std::string html = "<p>";
+    for (const auto& [technique, ink] : inksOf(rows))
+        html += fmt::format("<span style=\"color:{}\">{}</span> {} &nbsp; ", ink.color, ink.mark,
+                            escaped(technique));
+    return html + "</p>\n";
+}
+
+template <std::size_t N>
+std::string winners(const std::vector<Json>& rows, const std::string& key, double unit,
+                    const char* title, const std::array<double, N>& budgets) {
+    std::string html =
+        fmt::format("<table><tr><th>{}</th><th>smallest error</th><th>nRMSE</th></tr>\n", title);
+    for (const double budget : budgets) {
+        const Json* best = bestWithin(rows, key, budget * unit);
+        html += fmt::format("<tr><td>{:g}</td>", budget);
+        html += best ? fmt::format("<td>{}, {}</td><td>{:.3f}</td></tr>\n",
+                                   escaped((*best)["technique"].get<std::string>()),
+                                   escaped((*best)["settings"].get<std::string>()),
+                                   (*best)["nrmse"].get<double>())
+                     : "<td>none</td><td></td></tr>\n";
+    }
+    return html + "</table>\n";
+}
+
+std::string number(const Json& value, const char* format, double unit = 1) {
+    return value.is_null() ? "" : fmt::format(fmt::runtime(format), value.get<double>() / unit);
+}
+
+std::string allRows(const std::vector<Json>& rows) {
+    std::string html =
+        "<table><tr><th>technique</th><th>settings</th><th>precompute [s]</th><th>MiB</th>"
+        "<th>light moves [ms]</th><th>colour</th><th>material</th><th>object</th>"
+        "<th>nRMSE</th><th>bias</th><th>nRMSE, one bounce</th><th>bias</th></tr>\n";
+    for (const Json& r : rows)
+        html += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+            "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            escaped(r["technique"].get<std::string>()), escaped(r["settings"].get<std::string>()),
+            number(r["seconds"], "{:.2f}"), number(r["bytes"], "{:.2f}", 1 << 20),
+            number(r["light_ms"], "{:.2f}"), number(r["color_ms"], "{:.2f}"),
+            number(r["material_ms"], "{:.2f}"), number(r["object_ms"], "{:.2f}"),
+            number(r["nrmse"], "{:.3f}"), number(r["bias"], "{:+.1f} %", 0.01),
+            number(r["one_bounce_nrmse"], "{:.3f}"),
+            number(r["one_bounce_bias"], "{:+.1f} %", 0.01));
+    return html + "</table>\n";
+}
+
+} // namespace
+
+const Json* bestWithin(const std::vector<Json>& rows, const std::string& key, double budget) {
+    const Json* best = nullptr;
+    for (const Json& row : rows)
+        if (row[key].get<double>() <= budget && (!best || row["nrmse"] < (*best)["nrmse"]))
+            best = &row;
+    return best;
+}
+
+Result<std::string> techniquesPage(const std::vector<PageScene>& scenes) {
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\">"
+        "<title>Techniques of bounced light</title>\n"
+        "<style>body{font:15px/1.45 sans-serif;max-width:1120px;margin:2em auto;padding:0 1em}"
+        "table{border-collapse:collapse;margin:.6em 0}td,th{padding:.15em .6em;text-align:right;"
+        "border-bottom:1px solid "
+        "#ddd;white-space:nowrap;font-size:13px}th{white-space:normal}td:nth-child(-n+2),th:nth-"
+        "child(-n+2){text-align:left}"
+        "figure{display:inline-block;margin:.4em}figcaption{font-size:13px}svg{font:12px "
+        "sans-serif}</style>\n<h1>Techniques of bounced light</h1>\n"
+        "<p>Error is that of irradiance against path tracing with all bounces, by two references "
+        "of "
+        "independent noise. Times are those of updates on the CPU until the light is up to date "
+        "everywhere. Memory is what updates read and write. A scene's sky and emissive surfaces "
+        "count: techniques that cannot light by them are dark there.</p>\n";
+    for (const PageScene& scene : scenes) {
+        html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(scene.name), escaped(scene.note));
+        html += legend(scene.rows);
+        html += chart(scene.rows, "light_ms", 1, "ms after a light has moved");
+        html += chart(scene.rows, "bytes", 1 << 20, "MiB");
+        html += winners(scene.rows, "light_ms", 1, "at most [ms]", kMilliseconds);
+        html += winners(scene.rows, "bytes", 1 << 20, "at most [MiB]", kMebibytes);
+        html += allRows(scene.rows);
+        for (const PagePicture& picture : scene.pictures) {
+            const Result<std::string> png = encodePng(picture.image);
+            if (!png)
+                return tl::make_unexpected(png.error());
+            html += fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\" "
+                                "width=\"300\"><figcaption>{0}</figcaption></figure>\n",
+                                escaped(picture.caption), base64(*png));
+        }
+    }
+    return html + "</html>\n";
+}
+
+} // namespace limn

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace limn {
+
+/// Bytes as text, by RFC 4648, section 4.
+std::string base64(std::string_view bytes);
+
+} // namespace limn
