@@ -75,13 +75,6 @@ struct Measured {
     }
 };
 
-double meanOf(const ImageF& image) {
-    double sum = 0;
-    for (const glm::vec3 p : image.rgb)
-        sum += double(p.x) + double(p.y) + double(p.z);
-    return sum / (3 * double(image.rgb.size()));
-}
-
 Json settingsOf(const BakeSettings& s) {
     return {{"surfels", s.surfels},
             {"lightmap", s.lightmapCaches},

@@ -10,6 +10,7 @@
 #include "engine/core/replace_file.h"
 #include "engine/lighting/fastest_update.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/measure/compare.h"
 #include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
 #include "engine/scene/tone_map.h"
@@ -174,13 +175,10 @@ double bytesOf(const std::vector<LightingCounter>& counters) {
     return sum;
 }
 
-/// Exposure at which a picture's mean is middle grey.
+/// Exposure at which a picture's mean is middle grey [stops].
 float exposureOf(const ImageF& image) {
-    double sum = 0;
-    for (const glm::vec3 p : image.rgb)
-        sum += double(p.x + p.y + p.z) / 3;
-    const double mean = sum / double(std::max<std::size_t>(image.rgb.size(), 1));
-    return mean > 0 ? float(std::log2(0.18 / mean)) : 0;
+    const double mean = meanOf(image);
+    return mean > 0 ? float(std::log2(double(kMiddleGrey) / mean)) : 0;
 }
 
 /// The scene with its lights moved as in run k, or, where it has none, with a brighter sky and

@@ -2,8 +2,10 @@
 #include "editor_ui/document/added_file.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/document/material_edit.h"
 #include "editor_ui/editor_state.h"
 #include "engine/scene/origin.h"
+#include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -26,9 +28,7 @@ void takeAssets(EditorState& state, AddedAssets& added, std::vector<Bounds> mesh
 void addShape(EditorState& state, const AssetFile& shape, const Transform& place) {
     commitGesture(state);
     const std::string kind = state.assets->meshes[shape.firstMesh].name;
-    Material material;
-    material.name = freeName(state.document, kind + " material");
-    material.baseColor = {0.5f, 0.5f, 0.5f, 1};
+    Material material = greyMaterial(freeName(state.document, kind + " material"));
     const ObjectId materialId = state.document.nextId, id = materialId + 1;
     Node node;
     node.name = freeName(state.document, kind);
@@ -63,8 +63,7 @@ struct Adoption {
         }
     }
     void adopt(Material& material) const {
-        for (TextureRef* texture : {&material.baseColorTexture, &material.metallicRoughnessTexture,
-                                    &material.normalTexture, &material.emissiveTexture})
+        for (TextureRef* texture : texturesOf(material))
             if (texture->image >= 0)
                 texture->image += std::int32_t(file.firstImage);
     }

@@ -13,7 +13,8 @@ struct EditorState;
 /// The file of the document that `path` names, if its assets are there already; else null.
 const AssetFile* findAssetFile(const Document& document, const std::string& path);
 
-/// Makes assets that were read the editor's. The objects of the document stay as they are.
+/// Replaces the editor's assets by `added`, which holds them too, and records its file in the
+/// document. The objects of the document stay as they are.
 void takeAssets(EditorState& state, AddedAssets& added, std::vector<Bounds> meshBounds);
 
 /// Each of these functions is one undo step, and selects what it adds.

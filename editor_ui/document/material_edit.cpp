@@ -4,6 +4,7 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/editor_state.h"
 #include "engine/scene/find_object.h"
+#include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
 #include <set>
@@ -26,17 +27,7 @@ const char* textureSlotName(TextureSlot slot) {
 }
 
 TextureRef& textureIn(Material& material, TextureSlot slot) {
-    switch (slot) {
-    case TextureSlot::BaseColor:
-        return material.baseColorTexture;
-    case TextureSlot::MetallicRoughness:
-        return material.metallicRoughnessTexture;
-    case TextureSlot::Normal:
-        return material.normalTexture;
-    case TextureSlot::Emissive:
-        break;
-    }
-    return material.emissiveTexture;
+    return *texturesOf(material)[std::size_t(slot)];
 }
 
 ObjectId materialOf(const EditorState& state, const Node& node, std::size_t mesh) {
@@ -84,12 +75,17 @@ void assignMaterial(EditorState& state, const std::vector<ObjectId>& nodes, Obje
         applyEdit(state, {"Assign " + given->name, assignments(state, nodes, material, mesh)});
 }
 
+Material greyMaterial(std::string name) {
+    Material material;
+    material.name = std::move(name);
+    material.baseColor = {0.5f, 0.5f, 0.5f, 1};
+    return material;
+}
+
 ObjectId assignNewMaterial(EditorState& state, const std::vector<ObjectId>& nodes,
                            ObjectId original, std::optional<std::uint32_t> mesh) {
     commitGesture(state);
-    Material material;
-    material.name = "Material";
-    material.baseColor = {0.5f, 0.5f, 0.5f, 1};
+    Material material = greyMaterial("Material");
     if (const auto* copied = findObjectAs<Material>(state.document, original))
         material = *copied;
     material.name = freeName(state.document, material.name);

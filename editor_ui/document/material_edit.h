@@ -5,13 +5,14 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace limn {
 
 struct EditorState;
 
-/// The textures of a material.
+/// The textures of a material, in the order of texturesOf().
 enum class TextureSlot : std::uint8_t { BaseColor, MetallicRoughness, Normal, Emissive };
 
 inline constexpr std::array<TextureSlot, 4> kTextureSlots = {
@@ -27,7 +28,10 @@ TextureRef& textureIn(Material& material, TextureSlot slot);
 /// document's.
 ObjectId materialOf(const EditorState& state, const Node& node, std::size_t mesh);
 
-/// Each of these functions is one undo step. Where it does not apply, it changes and records
+/// A matte grey material of albedo 0.5.
+Material greyMaterial(std::string name);
+
+/// Each of the functions below is one undo step. Where it does not apply, it changes and records
 /// nothing.
 
 /// Gives `material` to all meshes of `nodes`, or only to `mesh` of them (an index into
@@ -36,7 +40,7 @@ void assignMaterial(EditorState& state, const std::vector<ObjectId>& nodes, Obje
                     std::optional<std::uint32_t> mesh = {});
 
 /// Adds a copy of `original` under a name of its own, gives it to `nodes` as assignMaterial() does,
-/// and returns its id. `original` 0: a grey material, matte, of albedo 0.5.
+/// and returns its id. `original` 0: of greyMaterial().
 ObjectId assignNewMaterial(EditorState& state, const std::vector<ObjectId>& nodes,
                            ObjectId original, std::optional<std::uint32_t> mesh = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/file_job.h"
 
+#include "editor_ui/document/picture_files.h"
 #include "editor_ui/jobs/background_priority.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
@@ -191,8 +192,7 @@ bool FileJob::savePictures(std::string path, std::shared_ptr<const ImageF> pictu
                            std::shared_ptr<const ReferenceSet> references) {
     return start([this, path = std::move(path), picture = std::move(picture),
                   references = std::move(references)] {
-        const std::string stem = fs::path(path).replace_extension().string();
-        const std::string ours = stem + "-limn.exr", theirs = stem + "-reference.exr";
+        const auto [ours, theirs] = pictureFiles(path);
         Result<void> written = writeExr(ours, *picture);
         if (written)
             written = writeExr(theirs, meanImage(references->first(), references->second()));

@@ -64,8 +64,8 @@ public:
     std::optional<Result<Sky>> takeSky();
     /// Returns what the last add() read, or its error, once.
     std::optional<Result<AddedFile>> takeAdded();
-    /// Writes a picture and the mean of its references as linear EXRs, NAME-limn.exr and
-    /// NAME-reference.exr for `path` NAME.exr.
+    /// Writes a picture and the mean of its references as linear EXRs to pictureFiles(path)
+    /// (editor_ui/document/picture_files.h).
     bool savePictures(std::string path, std::shared_ptr<const ImageF> picture,
                       std::shared_ptr<const ReferenceSet> references);
     /// Returns the paths of the pictures that were written, or the error, once.

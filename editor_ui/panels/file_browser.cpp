@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/panels/file_browser.h"
 
+#include "editor_ui/document/picture_files.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/theme.h"
@@ -180,15 +181,14 @@ static bool entryList(FileBrowser& browser) {
 
 /// The request to write two pictures; the first time that one of them exists, a warning instead.
 static std::optional<Request> picturesRequest(FileBrowser& browser, const fs::path& path) {
-    const std::string stem = fs::path(path).replace_extension().string();
     std::error_code error;
-    for (const char* end : {"-limn.exr", "-reference.exr"})
-        if (fs::exists(stem + end, error) && !browser.overwrite) {
+    for (const std::string& file : pictureFiles(path))
+        if (fs::exists(file, error) && !browser.overwrite) {
             browser.overwrite = true;
-            browser.error = stem + end + " exists. Press Save again to replace it";
+            browser.error = file + " exists. Press Save again to replace it";
             return {};
         }
-    return Request{Request::Kind::SavePictures, stem + ".exr"};
+    return Request{Request::Kind::SavePictures, fs::path(path).replace_extension(".exr").string()};
 }
 
 /// The request for the chosen file; sets browser.error when there is none yet.

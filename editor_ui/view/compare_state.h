@@ -12,7 +12,7 @@
 namespace limn {
 
 /// What stands beside Limn's picture: nothing, the path-traced picture, the signed difference to
-/// it, or the difference that one perceives.
+/// it, or the perceived difference (FLIP).
 enum class Compare : std::uint8_t { Off, Reference, Difference, Flip };
 
 /// The reference as the panels show it.

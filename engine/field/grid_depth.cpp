@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/grid_depth.h"
 
+#include "engine/math/octahedral.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,15 +32,8 @@ std::uint32_t texelAt(int x, int y) {
 
 } // namespace
 
-float norm1(glm::vec3 v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 GridDepthLookup gridDepthLookup(glm::vec3 d) {
-    glm::vec2 p = glm::vec2(d) / norm1(d);
-    if (d.z < 0)
-        p = {std::copysign(1 - std::abs(p.y), d.x), std::copysign(1 - std::abs(p.x), d.y)};
-    const glm::vec2 at = (p * 0.5f + 0.5f) * float(kSide) - 0.5f;
+    const glm::vec2 at = (octahedralSquare(d) * 0.5f + 0.5f) * float(kSide) - 0.5f;
     const glm::vec2 base = glm::floor(at), f = at - base;
     const int x = int(base.x), y = int(base.y);
     return {{texelAt(x, y), texelAt(x + 1, y), texelAt(x, y + 1), texelAt(x + 1, y + 1)},
@@ -46,9 +41,7 @@ GridDepthLookup gridDepthLookup(glm::vec3 d) {
 }
 
 glm::vec3 gridDepthPoint(std::uint32_t texel) {
-    const glm::vec2 p = (glm::vec2(texel % kSide, texel / kSide) + 0.5f) * (2.f / kSide) - 1.f;
-    const float z = 1 - std::abs(p.x) - std::abs(p.y), fold = std::max(-z, 0.f);
-    return {p.x - std::copysign(fold, p.x), p.y - std::copysign(fold, p.y), z};
+    return octahedralPoint((glm::vec2(texel % kSide, texel / kSide) + 0.5f) * (2.f / kSide) - 1.f);
 }
 
 float gridReach(const Bounds& bounds, glm::uvec3 size) {

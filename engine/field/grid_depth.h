@@ -36,9 +36,6 @@ GridDepthLookup gridDepthLookup(glm::vec3 d);
 /// Centre of a texel on the octahedron, |p|_1 = 1.
 glm::vec3 gridDepthPoint(std::uint32_t texel);
 
-/// The 1-norm |v|_1 = |x| + |y| + |z|.
-float norm1(glm::vec3 v);
-
 /// |w|_1 from a cell's centre to the farthest centre of a cell that shares points with it [m].
 float gridReach(const Bounds& bounds, glm::uvec3 size);
 

@@ -3,9 +3,9 @@
 
 #include "engine/files/image_file.h"
 #include "engine/scene/mesh/shape_mesh.h"
+#include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <iterator>
@@ -23,11 +23,6 @@ bool isSceneFile(const std::string& path) {
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return char(std::tolower(c)); });
     return extension == ".gltf" || extension == ".glb";
-}
-
-static std::array<TextureRef*, 4> texturesOf(Material& material) {
-    return {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-            &material.emissiveTexture};
 }
 
 namespace {

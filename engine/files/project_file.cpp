@@ -9,6 +9,7 @@
 #include "engine/scene/mesh/shape_mesh.h"
 #include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
+#include "engine/scene/surface/material_textures.h"
 
 #include <filesystem>
 
@@ -103,9 +104,7 @@ static void dropLost(ImportedScene& scene) {
         if (Node* node = std::get_if<Node>(&object))
             meshes += dropLostMeshes(*node, scene.assets->meshes.size());
         if (Material* material = std::get_if<Material>(&object))
-            for (TextureRef* texture :
-                 {&material->baseColorTexture, &material->metallicRoughnessTexture,
-                  &material->normalTexture, &material->emissiveTexture})
+            for (TextureRef* texture : texturesOf(*material))
                 lose(*texture);
     }
     if (meshes)

@@ -42,10 +42,7 @@ glm::vec3 unpackRgb9e5(std::uint32_t packed) {
 }
 
 Oct16 packOct(glm::vec3 d) {
-    const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-    glm::vec2 p = sum > 0 ? glm::vec2(d.x, d.y) / sum : glm::vec2(0);
-    if (d.z < 0)
-        p = {std::copysign(1 - std::abs(p.y), d.x), std::copysign(1 - std::abs(p.x), d.y)};
+    const glm::vec2 p = norm1(d) > 0 ? octahedralSquare(d) : glm::vec2(0);
     const auto snorm = [](float v) {
         return std::uint16_t(std::int16_t(std::lround(std::clamp(v, -1.f, 1.f) * 32767.f)));
     };

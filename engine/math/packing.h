@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/math/octahedral.h"
+
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
 #include <glm/geometric.hpp>
@@ -41,11 +42,8 @@ Oct16 packOct(glm::vec3 d);
 
 /// Unnormalised octahedral direction; must be normalised before use.
 inline glm::vec3 unpackOctUnnormalised(std::uint16_t px, std::uint16_t py) {
-    const float x = float(std::int16_t(px)) * (1 / 32767.f),
-                y = float(std::int16_t(py)) * (1 / 32767.f);
-    const float z = 1 - std::abs(x) - std::abs(y);
-    const float fold = std::fmax(-z, 0.f);
-    return {x - std::copysign(fold, x), y - std::copysign(fold, y), z};
+    return octahedralPoint(glm::vec2(float(std::int16_t(px)) * (1 / 32767.f),
+                                     float(std::int16_t(py)) * (1 / 32767.f)));
 }
 
 inline glm::vec3 unpackOct(std::uint16_t px, std::uint16_t py) {

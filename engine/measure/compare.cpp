@@ -23,7 +23,6 @@ namespace {
 constexpr double kRelMseFloor = 0.01;    ///< of mean(ref)^2
 constexpr double kRelMseDropped = 0.001; ///< share of the worst pixels
 constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseMost
-constexpr float kMiddleGrey = 0.18f;     ///< where the reference's mean goes before tone mapping
 constexpr float kHeatmapFull = 0.5f;     ///< relative error of the darkest colours
 constexpr float kHeatmapFloor = 0.05f;   ///< of mean(ref), keeps black pixels from ruling the map
 
@@ -201,6 +200,13 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
     const double squareNoise = ratio(std::sqrt(productVariance) / count, scale * scale);
     c->nrmseNoise = std::min(std::sqrt(squareNoise), ratio(squareNoise, 2 * c->nrmse));
     return c;
+}
+
+double meanOf(const ImageF& image) {
+    double sum = 0;
+    for (const glm::vec3 p : image.rgb)
+        sum += channelMean(p);
+    return sum / double(std::max<std::size_t>(image.rgb.size(), 1));
 }
 
 ImageF meanImage(const ImageF& a, const ImageF& b) {

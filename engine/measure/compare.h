@@ -8,10 +8,13 @@
 
 namespace limn {
 
+/// Where exposures put the mean of a picture.
+inline constexpr float kMiddleGrey = 0.18f;
+
 /// Error of a linear image against a reference of the same size. Numeric metrics are computed
 /// before any tone mapping; x / 0 is infinite, 0 / 0 is 0. For SSIM and FLIP both images are
-/// exposed so that the reference's mean becomes 0.18, and mapped by the ACES curve; FLIP assumes 67
-/// pixels per degree.
+/// exposed so that the reference's mean becomes kMiddleGrey, and mapped by the ACES curve; FLIP
+/// assumes 67 pixels per degree.
 struct Comparison {
     double nrmse = 0; ///< rms(test - ref) / mean(ref), over all channels
     double nrmseMost =
@@ -38,6 +41,9 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference);
 /// r2.
 Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
                                  const ImageF& reference2);
+
+/// Mean of all channels of all pixels; 0 for an empty image.
+double meanOf(const ImageF& image);
 
 /// (a + b) / 2. Sizes must be equal.
 ImageF meanImage(const ImageF& a, const ImageF& b);

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/light/rectangle_light.h"
+#include "engine/scene/light/unit_light.h"
 
 #include <algorithm>
 #include <array>
@@ -148,17 +149,9 @@ std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, c
 
 } // namespace
 
-Light rsmShape(Light light) {
-    light.name.clear();
-    light.enabled = true;
-    light.color = glm::vec3(1);
-    light.strength = 1;
-    return light;
-}
-
 ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& of,
                             std::uint32_t size, const Progress& progress) {
-    const Light light = rsmShape(of);
+    const Light light = unitLight(of);
     struct Row {
         std::vector<RsmTexel> texels;
         std::uint32_t rays = 0;

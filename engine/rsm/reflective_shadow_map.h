@@ -29,16 +29,13 @@ struct ReflectiveShadowMap {
     std::uint64_t rays = 0;       ///< traced for it
 };
 
-/// Casts the map of a light; whether it is on does not matter. `size`: texels along the side of a
-/// view, >= 1. A sun has one view, over the scene's bounds. A spot of up to 60 degrees has one, any
-/// other spot and a point light have the six faces of a cube. A rectangle is four point lights in
-/// the middles of its quarters, each with a cube of half the size. Materials are those of `scene`;
-/// `trace` may be of an older scene of equal geometry. The result is incomplete when cancelled.
+/// Casts the map of a light as unitLight() makes it: lights that this makes equal have equal maps.
+/// `size`: texels along the side of a view, >= 1. A sun has one view, over the scene's bounds. A
+/// spot of up to 60 degrees has one, any other spot and a point light have the six faces of a cube.
+/// A rectangle is four point lights in the middles of its quarters, each with a cube of half the
+/// size. Materials are those of `scene`; `trace` may be of an older scene of equal geometry. The
+/// result is incomplete when cancelled.
 ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& light,
                             std::uint32_t size, const Progress& progress = {});
-
-/// The light with what its map does not depend on set to fixed values: lights whose shapes are
-/// equal have equal maps.
-Light rsmShape(Light light);
 
 } // namespace limn

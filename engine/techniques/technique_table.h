@@ -28,7 +28,7 @@ Result<std::shared_ptr<const Precomputed>> readPrecomputed(const std::string& pa
 /// The overlays of every technique, in the order of the techniques.
 std::vector<const OverlayKind*> overlayKinds();
 
-/// "illuminance or ambient or lpv", for messages and --help.
+/// Names of all techniques, "A or B or C", for messages and --help.
 std::string techniqueNames();
 
 /// What is wrong with a document's choice: an unknown technique, or a setting that none has; empty:

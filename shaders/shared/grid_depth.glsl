@@ -20,13 +20,22 @@ uint gridDepthTexel(int x, int y) {
     return uint(y * GRID_DEPTH_SIDE + x);
 }
 
-float seenFromCell(uint cell, vec3 way, float reach) {
-    const float length1 = abs(way.x) + abs(way.y) + abs(way.z);
-    const uint first = cell * uint(GRID_DEPTH_SIDE * GRID_DEPTH_SIDE);
-    vec2 p = way.xy / max(length1, 1e-30);
+float norm1(vec3 v) {
+    return abs(v.x) + abs(v.y) + abs(v.z);
+}
+
+// Place of direction `way` in the map [texels], from the centre of the first texel.
+vec2 gridDepthPlace(vec3 way) {
+    vec2 p = way.xy / max(norm1(way), 1e-30);
     if (way.z < 0.0)
         p = vec2(unfolded(1.0 - abs(p.y), way.x), unfolded(1.0 - abs(p.x), way.y));
-    const vec2 at = (p * 0.5 + 0.5) * float(GRID_DEPTH_SIDE) - 0.5;
+    return (p * 0.5 + 0.5) * float(GRID_DEPTH_SIDE) - 0.5;
+}
+
+float seenFromCell(uint cell, vec3 way, float reach) {
+    const float length1 = norm1(way);
+    const uint first = cell * uint(GRID_DEPTH_SIDE * GRID_DEPTH_SIDE);
+    const vec2 at = gridDepthPlace(way);
     const vec2 base = floor(at), f = at - base;
     float inverse = 0.0;
     for (int k = 0; k < 4; ++k) {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Weight of a cell of the grid by the moments of its distances, as in engine/field/grid_moments.h. Needs gridDepth[] with
-// the moments' floats, and gridDepthTexel() and unfolded() of grid_depth.glsl.
+// the moments' floats, and gridDepthPlace() and gridDepthTexel() of grid_depth.glsl.
 
 float momentsWeight(uint cell, vec3 way, vec3 normal, bool smoothWeights) {
     const uint first = cell * uint(GRID_DEPTH_SIDE * GRID_DEPTH_SIDE);
-    const float length1 = abs(way.x) + abs(way.y) + abs(way.z), r = length(way);
-    vec2 p = way.xy / max(length1, 1e-30);
-    if (way.z < 0.0)
-        p = vec2(unfolded(1.0 - abs(p.y), way.x), unfolded(1.0 - abs(p.x), way.y));
-    const vec2 at = (p * 0.5 + 0.5) * float(GRID_DEPTH_SIDE) - 0.5;
+    const float r = length(way);
+    const vec2 at = gridDepthPlace(way);
     const vec2 base = floor(at), f = at - base;
     vec2 moments = vec2(0);
     for (int k = 0; k < 4; ++k) {

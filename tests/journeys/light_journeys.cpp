@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Someone lights scenes.
+// Journeys of a user who lights scenes.
 #include "engine/files/project_file.h"
 #include "tests/core/source_path.h"
 #include "tests/journeys/journey.h"

@@ -18,7 +18,7 @@ struct TextMask {
     float norm = 0;              ///< length of `coverage` as a vector
 };
 
-/// The atlas where a linear sampler reads it.
+/// Bilinear lookup of the font atlas at (x, y) [texels].
 float sampled(const unsigned char* alpha, int width, int height, float x, float y) {
     const auto texel = [&](int column, int row) {
         column = std::clamp(column, 0, width - 1);
@@ -120,7 +120,8 @@ struct Luminance {
     }
 };
 
-/// How alike they are, from 0 to 1; text may be brighter or darker than its ground.
+/// Absolute correlation of the screen at (x, y) with the mask, in [0, 1]. Text may be brighter or
+/// darker than its background.
 float likeness(const Luminance& screen, const TextMask& mask, int x, int y) {
     const double count = double(mask.coverage.size());
     const double sum = screen.over(screen.sums, x, y, mask.width, mask.height);
@@ -152,7 +153,8 @@ std::vector<ScreenRect> findText(const Image& screen, const std::string& text,
     const int left = std::max(int(area.origin.x), 0), top = std::max(int(area.origin.y), 0);
     const int right = std::min(int(area.origin.x + area.size.x), luminance.width) - mask.width;
     const int bottom = std::min(int(area.origin.y + area.size.y), luminance.height) - mask.height;
-    // Another word of the same font reaches .7; the device's sampling costs less than .03.
+    // Measured: other words of the same font correlate by up to 0.7, the same word by 0.97 and
+    // more.
     constexpr float kFound = 0.93f;
     std::vector<ScreenRect> found;
     for (int y = top; y <= bottom; ++y)

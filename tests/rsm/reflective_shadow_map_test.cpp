@@ -2,6 +2,7 @@
 #include "engine/rsm/reflective_shadow_map.h"
 
 #include "engine/core/parallel.h"
+#include "engine/scene/light/unit_light.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -141,10 +142,10 @@ TEST(ReflectiveShadowMap, IsTheSameForAnyColourAndNumberOfThreads) {
         EXPECT_EQ(again.texels[i].position, map.texels[i].position);
         EXPECT_EQ(again.texels[i].incident, map.texels[i].incident);
     }
-    EXPECT_EQ(rsmShape(point), rsmShape({.kind = LightKind::Point, .position = point.position}));
+    EXPECT_EQ(unitLight(point), unitLight({.kind = LightKind::Point, .position = point.position}));
     Light moved = point;
     moved.position.x += 1;
-    EXPECT_NE(rsmShape(point), rsmShape(moved));
+    EXPECT_NE(unitLight(point), unitLight(moved));
 }
 
 TEST(ReflectiveShadowMap, StopsWhenCancelledAndNeedsNoSurface) {

@@ -2,18 +2,12 @@
 #include "engine/render/shadows/parted_lights.h"
 
 #include "engine/scene/light/light_parts.h"
+#include "engine/scene/light/unit_light.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace limn::render {
-
-static Light shapeOf(Light light) {
-    light.name.clear();
-    light.color = glm::vec3(1);
-    light.strength = 1;
-    return light;
-}
 
 void PartedLights::set(const Scene& scene, std::uint64_t sceneVersion) {
     m_before = std::move(m_known);
@@ -38,7 +32,7 @@ void PartedLights::set(const Scene& scene, std::uint64_t sceneVersion) {
 }
 
 const std::vector<Light>& PartedLights::partsOf(const Light& light, const Scene& scene) {
-    const Light shape = shapeOf(light);
+    const Light shape = unitLight(light);
     const auto known = std::ranges::find(m_before, shape, &Known::shape);
     m_known.push_back(
         {shape, known != m_before.end() ? known->parts : partsBetweenWalls(shape, scene)});

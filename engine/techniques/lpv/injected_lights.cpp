@@ -2,6 +2,7 @@
 #include "engine/techniques/lpv/injected_lights.h"
 
 #include "engine/rsm/reflective_shadow_map.h"
+#include "engine/scene/light/unit_light.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/lpv/blockers.h"
 
@@ -29,7 +30,7 @@ InjectedLight injectLight(const TraceScene& trace, const Scene& scene, const Lig
         samples[t.instance].push_back(
             lobeOff(lattice, t.position, t.normal,
                     t.albedo * (t.incident * std::numbers::inv_pi_v<float>)));
-    InjectedLight injected{.shape = rsmShape(light), .rays = map.rays};
+    InjectedLight injected{.shape = unitLight(light), .rays = map.rays};
     for (const auto& [instance, ofIt] : samples)
         injected.parts.push_back({instance, sumByCell(ofIt, lattice.cells())});
     return injected;

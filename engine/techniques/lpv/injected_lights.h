@@ -21,7 +21,7 @@ struct InjectedInstance {
 
 /// What surfaces reflect of a light of colour 1 and strength 1.
 struct InjectedLight {
-    Light shape; ///< rsmShape()
+    Light shape; ///< unitLight()
     std::vector<InjectedInstance> parts;
     std::uint64_t rays = 0; ///< of its shadow map
 };

@@ -2,15 +2,15 @@
 #include "engine/techniques/lpv/lpv.h"
 
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/math/sh.h"
-#include "engine/rsm/reflective_shadow_map.h"
+#include "engine/scene/light/unit_light.h"
 #include "engine/techniques/lpv/blockers.h"
 #include "engine/techniques/lpv/injected_lights.h"
 #include "engine/techniques/lpv/propagation.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -101,7 +101,7 @@ struct Surfaces {
     bool operator==(const Surfaces&) const = default;
 };
 
-/// Without what changes no diffuse reflection.
+/// The material with everything reset that does not affect its diffuse reflection.
 Material diffusePart(Material m) {
     const Material plain;
     m.name.clear();
@@ -140,7 +140,7 @@ std::vector<Emission> emissionOf(const Scene& scene, const LpvSettings& settings
 /// A light that shines.
 struct Source {
     std::uint32_t index; ///< of Scene::lights
-    Light shape;         ///< rsmShape()
+    Light shape;         ///< unitLight()
     glm::vec3 colour;    ///< colour times strength
     bool operator==(const Source&) const = default;
 };
@@ -149,7 +149,7 @@ std::vector<Source> sourcesOf(const Scene& scene) {
     std::vector<Source> sources;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
         if (const Light& light = scene.lights[i]; shines(light))
-            sources.push_back({i, rsmShape(light), light.color * light.strength});
+            sources.push_back({i, unitLight(light), light.color * light.strength});
     return sources;
 }
 
@@ -161,24 +161,12 @@ std::array<float, 2> fieldFactors(bool fluxLookup, float cell) {
     return {g / factors[0], -g / factors[1]};
 }
 
-class Clock {
-public:
-    /// Milliseconds since the last call or the making.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double, std::milli>(now - std::exchange(m_last, now)).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
-};
-
 class LpvLighting : public Lighting {
 public:
     LpvLighting() { m_field.bands = 2; }
 
     LightingReport update(const LightingInput& input, const Progress& progress) override {
-        Clock whole;
+        Stopwatch whole;
         const LpvSettings settings = settingsOf(input.scene.technique);
         Inputs now{surfacesOf(input.scene, settings), settings, emissionOf(input.scene, settings),
                    sourcesOf(input.scene)};
@@ -264,7 +252,7 @@ private:
     /// False if cancelled.
     bool relight(const LightingInput& input, const Inputs& now, const Progress& progress,
                  Cost& cost) {
-        Clock clock;
+        Stopwatch clock;
         if (m_surfaces != now.surfaces) {
             m_surfaces = now.surfaces;
             m_lights.clear();
@@ -276,7 +264,7 @@ private:
         cost.blockerMs = clock.lap();
         std::erase_if(m_lights, [&](const InjectedLight& kept) {
             return std::ranges::none_of(input.scene.lights, [&](const Light& light) {
-                return rsmShape(light) == kept.shape;
+                return unitLight(light) == kept.shape;
             });
         });
         if (m_emission != now.emission) {

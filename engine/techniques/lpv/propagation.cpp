@@ -14,7 +14,7 @@ namespace limn {
 namespace {
 
 constexpr std::size_t kLanes = PaddedCells::kLanes;
-/// A value for each of some cells along x.
+/// Values of kLanes consecutive cells along x.
 typedef float Floats __attribute__((vector_size(4 * kLanes)));
 
 constexpr float kY0 = 0.28209479f, kY1 = 0.48860251f;        ///< Y_00; Y_1m of a coordinate of 1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/probes/octahedron.h"
 
-#include "engine/field/grid_depth.h"
+#include "engine/math/octahedral.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,8 @@ namespace limn {
 
 /// Centre of a texel on the octahedron |p|_1 = 1.
 static glm::vec3 pointOf(std::uint32_t side, std::uint32_t texel) {
-    const glm::vec2 p =
-        (glm::vec2(float(texel % side), float(texel / side)) + 0.5f) * (2.f / float(side)) - 1.f;
-    const float z = 1 - std::abs(p.x) - std::abs(p.y), fold = std::max(-z, 0.f);
-    return {p.x - std::copysign(fold, p.x), p.y - std::copysign(fold, p.y), z};
+    return octahedralPoint(
+        (glm::vec2(float(texel % side), float(texel / side)) + 0.5f) * (2.f / float(side)) - 1.f);
 }
 
 glm::vec3 Octahedron::direction(std::uint32_t texel) const {
@@ -25,9 +23,7 @@ glm::vec3 Octahedron::direction(std::uint32_t texel) const {
 }
 
 std::uint32_t Octahedron::texelAt(glm::vec3 d) const {
-    glm::vec2 p = glm::vec2(d) / norm1(d);
-    if (d.z < 0)
-        p = {std::copysign(1 - std::abs(p.y), d.x), std::copysign(1 - std::abs(p.x), d.y)};
+    const glm::vec2 p = octahedralSquare(d);
     const auto cell = [&](float v) {
         return std::min(std::uint32_t(std::max((v * 0.5f + 0.5f) * float(side), 0.f)), side - 1);
     };

@@ -8,8 +8,7 @@
 
 namespace limn {
 
-/// An octahedral map of all directions, side^2 texels: Cigolle et al. A Survey of Efficient
-/// Representations for Independent Unit Vectors. 2014.
+/// An octahedral map of all directions (engine/math/octahedral.h), side^2 texels.
 struct Octahedron {
     std::uint32_t side;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/probes/probe_inputs.h"
 
+#include "engine/scene/light/unit_light.h"
+
 namespace limn {
 
 ProbeInputs inputsOf(const Scene& scene, const ProbeGrid& grid, std::uint32_t side) {
@@ -21,13 +23,9 @@ ProbeInputs inputsOf(const Scene& scene, const ProbeGrid& grid, std::uint32_t si
         in.surfaces.push_back(surface);
         in.materialOf.push_back(instance.material);
     }
-    for (Light light : scene.lights) {
+    for (const Light& light : scene.lights) {
         in.shining.push_back(shines(light) ? 1 : 0);
-        light.name.clear();
-        light.enabled = true;
-        light.color = glm::vec3(1);
-        light.strength = 1;
-        in.lights.push_back(std::move(light));
+        in.lights.push_back(unitLight(light));
     }
     return in;
 }

@@ -32,7 +32,7 @@ struct ProbeInputs {
     std::vector<ProbeSurface> surfaces;    ///< per instance
     std::vector<std::uint32_t> materialOf; ///< per instance
     std::vector<Material> materials;
-    std::vector<Light> lights;         ///< with a colour and strength of 1, and on
+    std::vector<Light> lights;         ///< unitLight()
     std::vector<std::uint8_t> shining; ///< per light
     Sky sky;
 };

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/light/unit_light.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/trace/direct_light.h"
 
@@ -53,10 +54,7 @@ glm::vec3 radianceOf(const ProbeScene& in, const ProbeLight& light, std::uint32_
                      const ProbeHit& hit, const MapPoint& at, std::uint64_t& rays) {
     constexpr float kPi = std::numbers::pi_v<float>;
     if (origin < light.lights) {
-        Light unit = in.scene.lights[origin];
-        unit.enabled = true;
-        unit.color = glm::vec3(1);
-        unit.strength = 1;
+        const Light unit = unitLight(in.scene.lights[origin]);
         return at.albedo / kPi * shadowedLight(in.trace, unit, at.lit, kPointsOnRectangle, rays);
     }
     if (origin == light.emitters())

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/probes/probes.h"
 
+#include "engine/core/stopwatch.h"
 #include "engine/techniques/probes/probe_inputs.h"
 #include "engine/techniques/probes/probe_light.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -66,20 +66,6 @@ constexpr TechniqueSetting kBounces = {
     .whole = true};
 constexpr std::array kSettings = {kCount, kSide, kPerUpdate, kSmooth, kBounces};
 
-class Stopwatch {
-public:
-    /// Milliseconds since construction or the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double, std::milli> took = now - m_start;
-        m_start = now;
-        return took.count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
-};
-
 class ProbeLighting : public Lighting {
 public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
@@ -94,12 +80,12 @@ private:
     };
 
     void followScene(const Scene& scene);
-    std::vector<std::uint32_t> staleOrigins(std::uint32_t probe) const;
+    bool isStale(std::uint32_t probe, std::uint32_t origin) const;
     std::uint32_t countStale() const;
     void refresh(const LightingInput& input, std::uint32_t most, const Progress& progress,
                  Times& times);
     bool bounceIsDue(const Scene& scene);
-    void writeField(const Scene& scene);
+    void writeField();
     LightingReport report(const Times& times, std::uint32_t bounces) const;
 
     ProbeInputs m_inputs; ///< that the editions stand for
@@ -115,8 +101,9 @@ private:
     std::uint32_t m_refreshed = 0;   ///< probes, in the last update
     double m_before = 0;             ///< sum of the mean radiance when a bounce began
     bool m_bouncing = false;         ///< light bounces more than once
-    bool m_bounced = false;          ///< that, in the field
-    bool m_momentsChanged = false;
+    bool m_smooth = false;           ///< weights, GridMoments::smooth
+    bool m_momentsChanged = false;   ///< since the field was written
+    bool m_fieldStale = false;       ///< a sum of the same parts would be another
     IndirectField m_field;
 };
 
@@ -142,6 +129,7 @@ void ProbeLighting::followScene(const Scene& scene) {
         m_solidAngles = m_maps.map.solidAngles();
         m_probeMaps.assign(now.grid.count(), 0);
         m_field.grid.clear();
+        m_fieldStale = true;
         m_light.parts.clear();
         m_next = 0;
     }
@@ -151,7 +139,7 @@ void ProbeLighting::followScene(const Scene& scene) {
         m_editions.assign(m_light.origins(), 1);
         m_probeEditions.assign(m_light.parts.size(), 0);
     }
-    if (!sameSurfaces(now, m_inputs) || m_mapEdition == 0)
+    if (!sameSurfaces(now, m_inputs))
         ++m_mapEdition;
     for (std::uint32_t l = 0; l < std::min(now.lights.size(), m_inputs.lights.size()); ++l)
         if (now.lights[l] != m_inputs.lights[l])
@@ -161,31 +149,40 @@ void ProbeLighting::followScene(const Scene& scene) {
             ++m_editions[o];
     if (now.sky != m_inputs.sky)
         ++m_editions[m_light.sky()];
-    m_bouncing = settingOf(scene.technique, kBounces) > 0;
-    for (std::uint32_t p = 0; p < now.grid.count() && !m_bouncing; ++p)
-        m_light.part(p, m_light.bounced()) = {};
+    const bool bouncing = settingOf(scene.technique, kBounces) > 0;
+    if (std::exchange(m_bouncing, bouncing) && !bouncing)
+        for (std::uint32_t p = 0; p < now.grid.count(); ++p) {
+            m_light.part(p, m_light.bounced()) = {};
+            m_fieldStale = true;
+        }
+    const bool smooth = settingOf(scene.technique, kSmooth) > 0;
+    m_fieldStale |= std::exchange(m_smooth, smooth) != smooth;
+    std::vector<glm::vec3> colors;
+    for (const Light& light : scene.lights)
+        colors.push_back(weightOf(light));
+    m_fieldStale |= colors != m_colors;
+    m_colors = std::move(colors);
     m_inputs = std::move(now);
 }
 
-/// Origins of a probe that must be computed again. Light that nothing sends is left for later.
-std::vector<std::uint32_t> ProbeLighting::staleOrigins(std::uint32_t probe) const {
-    const bool noMap = m_probeMaps[probe] != m_mapEdition;
-    std::vector<std::uint32_t> stale;
-    for (std::uint32_t o = 0; o < m_light.origins(); ++o) {
-        const bool old =
-            m_probeEditions[std::size_t(probe) * m_light.origins() + o] != m_editions[o];
-        const bool dark =
-            o < m_light.lights ? !m_inputs.shining[o] : o == m_light.bounced() && !m_bouncing;
-        if ((old || noMap) && !dark)
-            stale.push_back(o);
-    }
-    return stale;
+/// Whether an origin of a probe must be recomputed. Light that nothing sends is left for later.
+bool ProbeLighting::isStale(std::uint32_t probe, std::uint32_t origin) const {
+    const bool dark = origin < m_light.lights ? !m_inputs.shining[origin]
+                                              : origin == m_light.bounced() && !m_bouncing;
+    if (dark)
+        return false;
+    return m_probeMaps[probe] != m_mapEdition ||
+           m_probeEditions[std::size_t(probe) * m_light.origins() + origin] != m_editions[origin];
 }
 
 std::uint32_t ProbeLighting::countStale() const {
     std::uint32_t count = 0;
     for (std::uint32_t p = 0; p < m_maps.grid.count(); ++p)
-        count += staleOrigins(p).empty() ? 0 : 1;
+        for (std::uint32_t o = 0; o < m_light.origins(); ++o)
+            if (isStale(p, o)) {
+                ++count;
+                break;
+            }
     return count;
 }
 
@@ -195,11 +192,15 @@ void ProbeLighting::refresh(const LightingInput& input, std::uint32_t most,
     const std::uint32_t count = m_maps.grid.count();
     const ProbeScene in{input.scene, *input.trace, m_maps, m_solidAngles, m_field};
     Stopwatch watch;
+    std::vector<std::uint32_t> origins; // that are stale
     std::uint32_t left = most;
     for (std::uint32_t k = 0; k < count && left > 0 && !progress.cancelled(); ++k) {
         const std::uint32_t p = m_next;
         m_next = (m_next + 1) % count;
-        const std::vector<std::uint32_t> origins = staleOrigins(p);
+        origins.clear();
+        for (std::uint32_t o = 0; o < m_light.origins(); ++o)
+            if (isStale(p, o))
+                origins.push_back(o);
         if (origins.empty())
             continue;
         watch.lap();
@@ -240,11 +241,8 @@ bool ProbeLighting::bounceIsDue(const Scene& scene) {
 }
 
 /// Sums the origins.
-void ProbeLighting::writeField(const Scene& scene) {
+void ProbeLighting::writeField() {
     const std::uint32_t count = m_maps.grid.count();
-    m_colors.clear();
-    for (const Light& light : scene.lights)
-        m_colors.push_back(weightOf(light));
     m_field.gridSize = m_maps.grid.size;
     m_field.gridBounds = m_maps.grid.bounds;
     m_field.grid.assign(std::size_t(count) * m_field.coefficients(), glm::vec4(0));
@@ -255,13 +253,13 @@ void ProbeLighting::writeField(const Scene& scene) {
                 sum += m_light.part(p, o)[i] * (o < m_light.lights ? m_colors[o] : glm::vec3(1));
             m_field.grid[i * count + p] = glm::vec4(sum, 0);
         }
-    const bool smooth = settingOf(scene.technique, kSmooth) > 0;
-    if (m_momentsChanged || !m_field.gridMoments || m_field.gridMoments->smooth != smooth) {
+    if (m_momentsChanged || !m_field.gridMoments || m_field.gridMoments->smooth != m_smooth) {
         auto moments = std::make_shared<GridMoments>(m_maps.moments);
-        moments->smooth = smooth;
+        moments->smooth = m_smooth;
         m_field.gridMoments = std::move(moments);
         m_momentsChanged = false;
     }
+    m_fieldStale = false;
     ++m_field.version;
 }
 
@@ -308,17 +306,10 @@ LightingReport ProbeLighting::update(const LightingInput& input, const Progress&
     bool written = false;
     do {
         refresh(input, most, progress, times);
-        std::vector<glm::vec3> colors;
-        for (const Light& light : input.scene.lights)
-            colors.push_back(weightOf(light));
-        const bool smooth = settingOf(input.scene.technique, kSmooth) > 0;
-        const bool asBefore = m_refreshed == 0 && colors == m_colors && m_field.gridMoments &&
-                              m_field.gridMoments->smooth == smooth && m_bouncing == m_bounced;
-        if (asBefore)
+        if (m_refreshed == 0 && !m_fieldStale)
             break;
-        m_bounced = m_bouncing;
         Stopwatch watch;
-        writeField(input.scene);
+        writeField();
         times.field += watch.lap();
         written = true;
         if (progress.cancelled() || countStale() > 0)

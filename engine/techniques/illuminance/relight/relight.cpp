@@ -3,6 +3,7 @@
 
 #include "engine/core/flush_denormals.h"
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
@@ -12,30 +13,11 @@
 #include "engine/techniques/illuminance/relight/surfel_read.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <glm/common.hpp>
 
 namespace limn {
-
-namespace {
-
-class Timer {
-public:
-    /// Milliseconds since the last call, or since construction.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double ms = std::chrono::duration<double, std::milli>(now - m_last).count();
-        m_last = now;
-        return ms;
-    }
-
-private:
-    std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
-};
-
-} // namespace
 
 bool needsGrid(const Scene& scene, const LightmapLayout& layout) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
@@ -305,7 +287,7 @@ void Relighter::State::writeField(const CacheFlags& which, bool grid) {
 
 /// Applies the changes in `scene`. Returns true if there were any.
 bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats) {
-    Timer timer;
+    Stopwatch timer;
     const bool materialsChanged = updateMaterials(scene);
     const bool skyChanged = updateSky(scene);
     const bool directChanged = updateSurfelLight(bake->surfels, scene, trace, direct);
@@ -350,10 +332,10 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     const FlushDenormals flush;
     State& s = *m_state;
     RelightStats stats;
-    Timer total;
+    Stopwatch total;
     s.links = {};
     const bool changed = s.takeScene(scene, trace, stats);
-    Timer timer;
+    Stopwatch timer;
     const bool bouncing = bounces > 0 && !s.convergence.reached();
     if (bouncing) {
         if (s.unread && !changed) {

@@ -45,7 +45,7 @@ class CutoutCollector {
 public:
     explicit CutoutCollector(const Scene& scene) : m_scene(scene) {}
 
-    /// The triangles to come are those of the instance.
+    /// Selects the instance whose triangles the next calls of add() name.
     void begin(const Instance& instance);
 
     /// The number of a triangle's cutout, or kOpaque; nothing where all of it is a hole.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gallery/gallery.h"
+#include "engine/measure/compare.h"
 #include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
 #include "engine/techniques/illuminance/relight/relight.h"
@@ -18,13 +19,6 @@ struct Figures {
     Comparison error;
     double leak = 0; ///< mean of the sealed room's picture over that of the lit one
 };
-
-double meanOf(const ImageF& image) {
-    double sum = 0;
-    for (const glm::vec3 p : image.rgb)
-        sum += double(p.x) + double(p.y) + double(p.z);
-    return sum / (3 * double(image.rgb.size()));
-}
 
 /// Small pictures of the irradiance in a coarse bake of a generated scene.
 Figures measure(std::uint64_t seed) {

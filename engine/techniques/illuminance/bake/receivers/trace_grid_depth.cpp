@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/bake/receivers/trace_grid_depth.h"
 
 #include "engine/core/parallel.h"
+#include "engine/math/octahedral.h"
 
 #include <algorithm>
 #include <array>
