@@ -19,6 +19,7 @@
 #include "editor_ui/view/gizmo_drag.h"
 #include "editor_ui/view/overlay_state.h"
 #include "editor_ui/view/placement.h"
+#include "engine/scene/exposure.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
@@ -37,7 +38,9 @@ enum class Navigation { None, Orbit, Pan, Fly };
 struct ViewState {
     View view = View::Lit;
     Tonemap tonemap = Tonemap::Aces;
-    float exposureEv = 0;
+    float exposureEv = 0;      ///< [-kMaxExposureEv, kMaxExposureEv]
+    bool autoExposure = false; ///< `exposureEv` follows the picture
+    CameraExposure physical;   ///< what `exposureEv` is shown as
     Camera camera;
     glm::vec2 origin{0}, size{1}; ///< [px]
     Tool tool = Tool::Move;

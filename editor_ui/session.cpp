@@ -61,7 +61,7 @@ Session::Session(SessionOptions options)
       m_files(m_options.projectsFolder, m_options.import, m_options.wake),
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
       m_relightJob(m_options.wake), m_exportJob(m_options.wake), m_referenceJob(m_options.wake),
-      m_comparisonJob(m_options.wake), m_explainJob(m_options.wake),
+      m_comparisonJob(m_options.wake), m_other(m_options.wake), m_explainJob(m_options.wake),
       m_recovery(m_options.recoveryFolder),
       m_settings(m_options.settingsFile, settingsIn(m_options.settingsFile)),
       m_followed(std::make_shared<const Document>()) {
@@ -501,7 +501,7 @@ void Session::followReference() {
     const glm::uvec2 size = glm::max(glm::uvec2(view.size), glm::uvec2(1));
     CompareState& compare = state.compare;
     std::optional<ReferenceOrder> order;
-    if (compare.mode != Compare::Off && view.view != View::Normals && !m_scene->instances.empty())
+    if (needsReference(compare.mode) && view.view != View::Normals && !m_scene->instances.empty())
         order = {m_scene, view.view, view.camera, size.x, size.y, compare.noise};
     m_referenceJob.set(std::move(order));
     const ReferenceProgress traced = m_referenceJob.progress();
@@ -519,6 +519,19 @@ void Session::followReference() {
     compare.reference = {traced.running,  traced.set ? 4 * traced.set->samplesPerPixel : 0,
                          traced.noise,    traced.seconds,
                          traced.fraction, m_beside.error};
+}
+
+void Session::followOtherTechnique() {
+    CompareState& compare = state.compare;
+    const std::string& own = m_scene->technique.technique;
+    if (compare.technique.empty() || compare.technique == own)
+        for (const Technique* technique : techniques()) // the last one that needs no bake
+            if (technique->name != own && !technique->precomputation)
+                compare.technique = technique->name;
+    const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
+    m_other.set(compare.mode == Compare::Technique ? compare.technique : std::string(), m_scene,
+                m_baked, {state.view.camera, size.x / size.y});
+    compare.techniqueText = m_other.text();
 }
 
 void Session::update() {
@@ -540,14 +553,16 @@ void Session::update() {
     bakeIfWanted();
     showExport();
     followReference();
+    followOtherTechnique();
     showExplanation();
     m_settings.keep(settingsOf(state));
 }
 
 bool Session::idle() const {
-    return !state.compare.reference.running && !m_comparisonJob.busy() && !m_files.busy() &&
-           !m_bakeJob.busy() && !m_exportJob.busy() && !m_explainJob.busy() && !m_bakeSoon &&
-           !state.relight.running && !m_relit.status.running && state.loading.empty();
+    return !state.compare.reference.running && !m_comparisonJob.busy() && !m_other.busy() &&
+           !m_files.busy() && !m_bakeJob.busy() && !m_exportJob.busy() && !m_explainJob.busy() &&
+           !m_bakeSoon && !state.relight.running && !m_relit.status.running &&
+           state.loading.empty();
 }
 
 double Session::bakeSeconds() const {

@@ -8,6 +8,7 @@
 #include "editor_ui/jobs/explain_job.h"
 #include "editor_ui/jobs/export_job.h"
 #include "editor_ui/jobs/file_job.h"
+#include "editor_ui/jobs/other_technique.h"
 #include "editor_ui/jobs/recovery_job.h"
 #include "editor_ui/jobs/reference_job.h"
 #include "editor_ui/jobs/relight_job.h"
@@ -33,14 +34,14 @@ public:
     /// .exr) becomes the sky of the open document, which is an edit.
     void open(const std::string& what);
 
-    /// What the viewport shows. The pointers change exactly when their contents do.
-    const std::shared_ptr<const Scene>& scene() const { return m_scene; } ///< never null
-    const std::shared_ptr<const LightmapLayout>& layout() const {
-        return m_layout;
-    } ///< null: no bake; fits scene()
-    const std::shared_ptr<const IndirectField>& field() const {
-        return m_relit.field;
-    } ///< null: no bake, or the viewport relights
+    /// What the viewport shows. The pointers change exactly when their contents do. The scene is
+    /// never null, and the layout fits it; null: no bake. The field is also null if the viewport
+    /// relights.
+    const std::shared_ptr<const Scene>& scene() const { return m_scene; }
+    const std::shared_ptr<const LightmapLayout>& layout() const { return m_layout; }
+    const std::shared_ptr<const IndirectField>& field() const { return m_relit.field; }
+    /// The same for the technique that state.compare puts beside it; a null scene: none.
+    const LitScene& other() const { return m_other.lit(); }
 
     /// Last successful bake and the scene it was made from; members are null if there is none.
     const BakedScene& baked() const { return m_baked; }
@@ -50,16 +51,14 @@ public:
                state.relightPlace.used() == RelightOn::Gpu;
     }
 
-    /// The light for an overlay of light; null if there is no such overlay or the viewport
-    /// relights.
+    /// Light for an overlay of it; null: there is no such overlay, or the viewport relights.
     const std::shared_ptr<const LightSnapshot>& lit() const { return m_relit.lit; }
 
-    /// Sets the newest picture of the viewport in full size, which the reference is compared with.
+    /// Sets the newest picture in full size, which the reference is compared with.
     void setPicture(std::shared_ptr<const LinearPicture> picture) {
         m_picture = std::move(picture);
     }
-    /// The reference or the difference to it, as state.compare asks; its image is null if there is
-    /// none.
+    /// What state.compare asks for of the reference; a null image: nothing, or not yet.
     const ComparedPicture& compared() const { return m_beside; }
 
     bool wantsQuit() const { return m_quit; }
@@ -87,6 +86,7 @@ private:
     void startExport(const std::string& path);
     void showExport();
     void followReference();
+    void followOtherTechnique();
     void showExplanation();
     void followDocument();
     void followTime();
@@ -114,6 +114,7 @@ private:
     std::optional<ComparisonOrder> m_comparison;    ///< its newest order
     std::shared_ptr<const LinearPicture> m_picture; ///< null: none yet
     ComparedPicture m_beside;
+    OtherTechnique m_other;
     ExplainJob m_explainJob;
     std::optional<ExplainOrder> m_explained; ///< the newest order
     double m_shownSeconds = 0;               ///< time of animated textures in m_scene
@@ -142,9 +143,5 @@ private:
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
     bool m_lightEdited = false; ///< since the scene was opened
 };
-
-/// Layout of `scene`'s instances in the atlas of `baked`. Instances unknown to `baked` have no
-/// place.
-LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapLayout& layout);
 
 } // namespace limn

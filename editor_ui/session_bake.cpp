@@ -3,32 +3,17 @@
 #include "editor_ui/session.h"
 
 #include "editor_ui/document/document_edit.h"
+#include "editor_ui/jobs/fitted_layout.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "editor_ui/panels/overlay_panel.h"
-#include "engine/lightmap/atlas.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include <glm/common.hpp>
 
 namespace limn {
-
-LightmapLayout layoutFor(const Scene& scene, const Scene& baked, const LightmapLayout& layout) {
-    LightmapLayout fitted = layout;
-    fitted.instances.assign(scene.instances.size(), {});
-    fitted.meshes.resize(std::max(fitted.meshes.size(), scene.assets->meshes.size()));
-    std::map<std::pair<ObjectId, std::uint32_t>, std::size_t> known;
-    for (std::size_t i = 0; i < baked.instances.size(); ++i)
-        known.emplace(std::pair(baked.instances[i].node, baked.instances[i].mesh), i);
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (const auto at = known.find({scene.instances[i].node, scene.instances[i].mesh});
-            at != known.end())
-            fitted.instances[i] = layout.instances[at->second];
-    return fitted;
-}
 
 /// Sets the cost of m_baked. `before`: the bake whose cost is known.
 void Session::measureCost(const BakedScene& before) {
@@ -79,16 +64,7 @@ bool Session::lightsBake() const {
 }
 
 void Session::fitLayout() {
-    if (!lightsBake())
-        m_layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(*m_scene));
-    else if (!m_baked.bake)
-        m_layout = nullptr;
-    else if (sameInstanceList(*m_scene,
-                              *m_baked.scene)) // a pointer into the bake, which it keeps alive
-        m_layout = std::shared_ptr<const LightmapLayout>(m_baked.bake, &m_baked.bake->layout());
-    else
-        m_layout = std::make_shared<const LightmapLayout>(
-            layoutFor(*m_scene, *m_baked.scene, m_baked.bake->layout()));
+    m_layout = layoutOf(*m_scene, m_baked);
 }
 
 void Session::takeBaked() {

@@ -51,6 +51,7 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     const std::lock_guard lock(m_mutex);
     m_result.image = std::move(images.shown);
     m_result.linear = std::move(images.linear);
+    m_result.metered = images.metered;
     ++m_result.number;
     m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
     m_result.stats = worker.viewport.stats();

@@ -25,6 +25,7 @@ struct PictureRequest {
     std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
     ViewportOptions options;
     bool linear = false; ///< DrawnPicture::linear is wanted too
+    bool meter = false;  ///< DrawnPicture::metered is wanted too
     bool moving = false; ///< shadow maps that change may be coarse
     OverlayRequest overlay;
     std::shared_ptr<const Precomputed> bake;    ///< bake that the overlay shows; null: no overlay
@@ -41,7 +42,8 @@ struct DrawnPicture {
     std::shared_ptr<const Image> image;          ///< tone-mapped; null: none yet
     std::uint64_t number = 0;                    ///< of this picture, counted from 1
     std::shared_ptr<const LinearPicture> linear; ///< null: not asked for
-    OverlayLegend legend;                        ///< of its overlay
+    std::optional<float> metered; ///< meteredExposure() of it; empty: not asked for, or black
+    OverlayLegend legend;         ///< of its overlay
     ViewportStats stats;
     bool running = false;                   ///< another one is being drawn
     std::shared_ptr<const Precomputed> lit; ///< bake that the following members are about

@@ -3,6 +3,7 @@
 
 #include "app/editor/measure_relight.h"
 #include "editor_ui/jobs/scene_changes.h"
+#include "engine/scene/exposure.h"
 #include "engine/techniques/device/device_table.h"
 
 #include <chrono>
@@ -165,6 +166,8 @@ DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& 
     if (shown.linear)
         images.linear = std::make_shared<const LinearPicture>(
             LinearPicture{viewport.readLinear(), o.camera, o.view});
+    if (shown.meter && o.view != View::Albedo && o.view != View::Normals)
+        images.metered = meteredExposure(viewport.readMetering());
     relight.running = bouncing();
     return images;
 }

@@ -12,6 +12,7 @@ namespace limn {
 struct DrawnImages {
     std::shared_ptr<const Image> shown;          ///< tone-mapped
     std::shared_ptr<const LinearPicture> linear; ///< null unless PictureRequest::linear
+    std::optional<float> metered;                ///< empty unless PictureRequest::meter
 };
 
 /// What RenderJob's thread draws with. No other thread uses it.

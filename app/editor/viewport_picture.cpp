@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include <glm/common.hpp>
@@ -13,9 +14,11 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr double kMovingMs = 60;       // a picture while things move should take no longer
-constexpr double kRestSeconds = 0.25;  // how long nothing moves before all pixels are drawn
-constexpr float kMinScale = 0.25f;     // of the window's pixels, per axis
+constexpr double kMovingMs = 60;      // a picture while things move should take no longer
+constexpr double kRestSeconds = 0.25; // how long nothing moves before all pixels are drawn
+constexpr float kMinScale = 0.25f;    // of the window's pixels, per axis
+/// Automatic exposure follows the picture in steps of at least this [EV].
+constexpr float kExposureStep = 0.1f;
 constexpr float kScaleStep = 1.f / 16; // so that the size does not change with every picture
 
 } // namespace
@@ -54,6 +57,10 @@ void ViewportPicture::takeDrawn(Session& session) {
     if (m_drawn.linear)
         session.setPicture(m_drawn.linear);
     takeRelit(session);
+    ViewState& view = state.view;
+    if (view.autoExposure && m_drawn.metered &&
+        std::abs(*m_drawn.metered - view.exposureEv) > kExposureStep)
+        view.exposureEv = *m_drawn.metered;
     if (!m_drawn.image)
         return;
     const Image& image = *m_drawn.image;
@@ -89,6 +96,46 @@ bool ViewportPicture::measureNow(const Session& session) {
     return true;
 }
 
+/// Keeps a picture of the other technique beside the newest one, of its size and exposure.
+void ViewportPicture::updateOther(Session& session) {
+    const LitScene& lit = session.other();
+    if (!lit.scene || !m_shown) {
+        m_otherJob = nullptr;
+        m_other = {};
+        m_otherLit = {};
+        return;
+    }
+    const bool fresh = !m_otherJob;
+    if (fresh)
+        m_otherJob = std::make_unique<RenderJob>(m_validate, m_wake);
+    if (fresh || m_otherLit != lit || m_otherOptions != m_options) {
+        m_otherLit = lit;
+        m_otherOptions = m_options;
+        PictureRequest request;
+        request.scene = lit.scene;
+        request.layout = lit.layout;
+        request.field = lit.field;
+        request.options = m_options;
+        request.moving = m_reduced;
+        m_otherJob->draw(std::move(request));
+    }
+    const bool failed = !m_other.error.empty();
+    m_other = m_otherJob->result();
+    if (!failed && !m_other.error.empty())
+        session.state.log.push_back(
+            {LogLine::Level::Error, "No picture of the other technique: " + m_other.error});
+    // References count their pictures from 1, too.
+    constexpr std::uint64_t kOfOther = std::uint64_t(1) << 63;
+    m_compared = {m_other.image, kOfOther | m_other.number, {}};
+}
+
+std::vector<std::string> ViewportPicture::validationMessages() const {
+    std::vector<std::string> all = m_job.validationMessages();
+    if (m_otherJob)
+        std::ranges::move(m_otherJob->validationMessages(), std::back_inserter(all));
+    return all;
+}
+
 void ViewportPicture::update(Session& session) {
     EditorState& state = session.state;
     takeDrawn(session);
@@ -97,6 +144,7 @@ void ViewportPicture::update(Session& session) {
     Shown shown{view.view,
                 view.tonemap,
                 view.exposureEv,
+                view.autoExposure,
                 view.camera,
                 full,
                 session.scene(),
@@ -107,13 +155,14 @@ void ViewportPicture::update(Session& session) {
                 session.lit(),
                 session.baked().bake,
                 session.viewportRelights(),
-                state.compare.mode != Compare::Off};
+                needsReference(state.compare.mode)};
     if (state.overlay.options.kind) {
         shown.overlay = state.overlay.options;
         shown.bake = state.overlay.bake;
     }
     m_compared = session.compared();
     m_split = state.compare.split;
+    updateOther(session);
     const bool changed = m_shown != shown;
     const auto now = Clock::now();
     const bool resting = std::chrono::duration<double>(now - m_changed).count() >= kRestSeconds;
@@ -125,16 +174,15 @@ void ViewportPicture::update(Session& session) {
     const float scale = changed ? chooseScale(full) : 1;
     m_reduced = scale < 1;
     const glm::uvec2 size = glm::max(glm::uvec2(glm::vec2(full) * scale), glm::uvec2(1));
-    m_job.draw({shown.scene, shown.layout, shown.field,
-                ViewportOptions{.view = view.view,
-                                .camera = view.camera,
-                                .width = size.x,
-                                .height = size.y,
-                                .tonemap = view.tonemap,
-                                .exposureEv = view.exposureEv},
-                shown.linear && !m_reduced, m_reduced, shown.overlay, shown.bake,
-                state.overlay.scene, shown.light, session.baked(), shown.relight,
-                measure ? state.trace : nullptr});
+    m_options = {.view = view.view,
+                 .camera = view.camera,
+                 .width = size.x,
+                 .height = size.y,
+                 .tonemap = view.tonemap,
+                 .exposureEv = view.exposureEv};
+    m_job.draw({shown.scene, shown.layout, shown.field, m_options, shown.linear && !m_reduced,
+                view.autoExposure, m_reduced, shown.overlay, shown.bake, state.overlay.scene,
+                shown.light, session.baked(), shown.relight, measure ? state.trace : nullptr});
     m_drawn = m_job.result();
     if (shown.relight)
         state.relight = m_drawn.relight;

@@ -16,7 +16,8 @@ namespace limn {
 class ViewportPicture {
 public:
     ViewportPicture(gpu::Device& windowDevice, bool validate, std::function<void()> wake)
-        : m_device(windowDevice), m_job(validate, std::move(wake)) {}
+        : m_device(windowDevice), m_validate(validate), m_wake(wake),
+          m_job(validate, std::move(wake)) {}
 
     /// Requests a new picture if one is due, takes in the last one drawn, and fills state.frame.
     void update(Session& session);
@@ -29,16 +30,19 @@ public:
     double secondsToNext() const;
 
     /// True if no picture is due or being drawn.
-    bool idle() const { return !m_drawn.running && secondsToNext() < 0; }
+    bool idle() const {
+        return !m_drawn.running && secondsToNext() < 0 && !(m_otherJob && m_other.running);
+    }
 
     std::shared_ptr<const Image> image() const { return m_drawn.image; }
-    std::vector<std::string> validationMessages() const { return m_job.validationMessages(); }
+    std::vector<std::string> validationMessages() const;
 
 private:
     struct Shown {
         View view = View::Lit;
         Tonemap tonemap = Tonemap::Aces;
         float exposureEv = 0;
+        bool autoExposure = false;
         Camera camera;
         glm::uvec2 size{0};
         std::shared_ptr<const Scene> scene;
@@ -59,10 +63,19 @@ private:
     void takeDrawn(Session& session);
     void takeRelit(Session& session);
     bool measureNow(const Session& session);
+    void updateOther(Session& session);
 
     gpu::Device& m_device;
+    bool m_validate;
+    std::function<void()> m_wake;
     RenderJob m_job;
     DrawnPicture m_drawn;
+    ViewportOptions m_options; ///< of the last request
+    /// Draws the scene as another technique lights it; null: not wanted.
+    std::unique_ptr<RenderJob> m_otherJob;
+    LitScene m_otherLit;            ///< of its last request
+    ViewportOptions m_otherOptions; ///< of its last request
+    DrawnPicture m_other;
     gpu::Image m_image; ///< on the window's device
     /// What m_image holds: numbers of the picture and of what it is compared with (0: nothing), and
     /// the column at which the latter begins.

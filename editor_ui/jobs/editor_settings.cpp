@@ -32,6 +32,8 @@ EditorSettings settingsOf(const EditorState& state) {
             .view = state.view.view,
             .tonemap = state.view.tonemap,
             .exposureEv = state.view.exposureEv,
+            .autoExposure = state.view.autoExposure,
+            .physical = state.view.physical,
             .overlay = overlay ? overlay->name : "",
             .showLights = state.view.showLights,
             .lightTheme = state.lightTheme,
@@ -44,6 +46,8 @@ void useSettings(EditorState& state, const EditorSettings& settings) {
     state.view.view = settings.view;
     state.view.tonemap = settings.tonemap;
     state.view.exposureEv = settings.exposureEv;
+    state.view.autoExposure = settings.autoExposure;
+    state.view.physical = settings.physical;
     state.overlay.options.kind = overlayNamed(settings.overlay);
     state.view.showLights = settings.showLights;
     state.lightTheme = settings.lightTheme;
@@ -58,6 +62,9 @@ std::string settingsToJson(const EditorSettings& s) {
                       {"view", kViewNames[std::size_t(s.view)]},
                       {"tonemap", kTonemapNames[std::size_t(s.tonemap)]},
                       {"exposure", s.exposureEv},
+                      {"automaticExposure", s.autoExposure},
+                      {"aperture", s.physical.aperture},
+                      {"iso", s.physical.iso},
                       {"overlay", s.overlay},
                       {"lightIcons", s.showLights},
                       {"lightTheme", s.lightTheme},
@@ -108,7 +115,10 @@ EditorSettings settingsFromJson(const std::string& text) {
     readNumber(in, "left", 0, kWidest, s.layout.left);
     readNumber(in, "right", 0, kWidest, s.layout.right);
     readNumber(in, "bottom", 0, kWidest, s.layout.bottom);
-    readNumber(in, "exposure", -10, 10, s.exposureEv);
+    readNumber(in, "exposure", -kMaxExposureEv, kMaxExposureEv, s.exposureEv);
+    readFlag(in, "automaticExposure", s.autoExposure);
+    readNumber(in, "aperture", kMinAperture, kMaxAperture, s.physical.aperture);
+    readNumber(in, "iso", kMinIso, kMaxIso, s.physical.iso);
     readName(in, "view", kViewNames, s.view);
     readName(in, "tonemap", kTonemapNames, s.tonemap);
     if (const OverlayKind* overlay = overlayNamed(readText(in, "overlay")))

@@ -13,8 +13,10 @@ struct EditorSettings {
     LayoutState layout;
     View view = View::Lit;
     Tonemap tonemap = Tonemap::Aces;
-    float exposureEv = 0; ///< [-10, 10]
-    std::string overlay;  ///< OverlayKind::name; empty: none
+    float exposureEv = 0; ///< [-kMaxExposureEv, kMaxExposureEv]
+    bool autoExposure = false;
+    CameraExposure physical;
+    std::string overlay; ///< OverlayKind::name; empty: none
     bool showLights = true;
     bool lightTheme = false;
     GizmoSettings gizmo;

@@ -236,6 +236,12 @@ Action overlayAction(const OverlayKind* kind) {
 void toggleLights(EditorState& s) {
     s.view.showLights = !s.view.showLights;
 }
+void toggleAutoExposure(EditorState& s) {
+    s.view.autoExposure = !s.view.autoExposure;
+}
+bool exposesByItself(const EditorState& s) {
+    return s.view.autoExposure;
+}
 bool lightsShown(const EditorState& s) {
     return s.view.showLights;
 }
@@ -358,6 +364,7 @@ std::vector<Action> fixedActions() {
     {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Albedo>, isChosen<&ViewState::view, View::Albedo>},
     {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Normals>, isChosen<&ViewState::view, View::Normals>},
     {"compare.reference", "Path-traced reference beside it", Menu::View, shift('R'), kNoKey, true, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
+    {"compare.technique", "Another technique beside it", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Technique>, compares<Compare::Technique>},
     {"compare.difference", "Difference to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
     {"compare.flip", "Perceived difference (FLIP) to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Flip>, compares<Compare::Flip>},
     {"compare.save", "Save both pictures\u2026", Menu::View, kNoKey, kNoKey, false, canSavePictures, savePictures},
@@ -375,6 +382,7 @@ std::vector<Action> fixedActions() {
     {"tool.scale", "Scale", Menu::View, plain('R'), kNoKey, false, always, choose<&ViewState::tool, Tool::Scale>, isChosen<&ViewState::tool, Tool::Scale>},
     {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
     {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
+    {"view.auto_exposure", "Automatic exposure", Menu::View, kNoKey, kNoKey, true, always, toggleAutoExposure, exposesByItself},
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
     {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},

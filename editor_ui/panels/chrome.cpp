@@ -3,9 +3,11 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/exposure_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/snap_steps.h"
+#include "editor_ui/panels/technique_combo.h"
 #include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
@@ -103,11 +105,27 @@ static void toolButton(EditorState& state, const char* id, const char* label) {
     ImGui::SameLine();
 }
 
-static void toolCombo(EditorState& state) {
+/// Widths of the lists above the picture [em], which a narrow window shrinks by one factor.
+struct BarWidths {
+    float tool = 6, technique = 8, view = 7, overlay = 8, tonemap = 8, exposure = 8;
+
+    /// `left`: width that they share [px].
+    static BarWidths within(float left) {
+        constexpr BarWidths kFull;
+        constexpr float kSum = kFull.tool + kFull.technique + kFull.view + kFull.overlay +
+                               kFull.tonemap + kFull.exposure;
+        const float em =
+            ImGui::GetFontSize() * std::clamp(left / (kSum * ImGui::GetFontSize()), 0.3f, 1.f);
+        return {kFull.tool * em,    kFull.technique * em, kFull.view * em,
+                kFull.overlay * em, kFull.tonemap * em,   kFull.exposure * em};
+    }
+};
+
+static void toolCombo(EditorState& state, float width) {
     const Action* tools[] = {&actionById("tool.select"), &actionById("tool.move"),
                              &actionById("tool.rotate"), &actionById("tool.scale")};
     const auto chosen = std::ranges::find_if(tools, [&](auto* t) { return t->checked(state); });
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
+    ImGui::SetNextItemWidth(width);
     if (ImGui::BeginCombo("##tool", (*chosen)->label, ImGuiComboFlags_HeightLarge)) {
         for (const Action* tool : tools)
             actionItem(state, *tool);
@@ -117,24 +135,24 @@ static void toolCombo(EditorState& state) {
     ImGui::SameLine();
 }
 
-static void viewCombo(EditorState& state) {
+static void viewCombo(EditorState& state, float width) {
     static constexpr const char* kViews[] = {"Lit",        "Direct only", "Indirect only",
                                              "Irradiance", "Albedo",      "Normals"};
     static_assert(std::size(kViews) == kViewNames.size());
     int view = int(state.view.view);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+    ImGui::SetNextItemWidth(width);
     if (ImGui::Combo("##view", &view, kViews, int(std::size(kViews))))
         state.view.view = View(view);
     wrappedTooltip("What the picture shows");
     ImGui::SameLine();
 }
 
-static void tonemapCombo(EditorState& state) {
+static void tonemapCombo(EditorState& state, float width) {
     static constexpr const char* kTonemaps[] = {"No tone mapping", "ACES fitted", "AgX",
                                                 "Khronos PBR Neutral"};
     static_assert(std::size(kTonemaps) == kTonemapNames.size());
     int tonemap = int(state.view.tonemap);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+    ImGui::SetNextItemWidth(width);
     if (ImGui::Combo("##tonemap", &tonemap, kTonemaps, int(std::size(kTonemaps))))
         state.view.tonemap = Tonemap(tonemap);
     wrappedTooltip("How scene light becomes display colours");
@@ -142,21 +160,22 @@ static void tonemapCombo(EditorState& state) {
 }
 
 void viewBar(EditorState& state) {
-    toolCombo(state);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const bool saves = needsReference(state.compare.mode);
+    const float buttons = ImGui::CalcTextSize(saves ? "RefEXR\u2026" : "Ref").x +
+                          (saves ? 4 : 2) * style.FramePadding.x +
+                          (saves ? 7 : 6) * style.ItemSpacing.x;
+    const BarWidths widths = BarWidths::within(ImGui::GetContentRegionAvail().x - buttons);
+    toolCombo(state, widths.tool);
+    techniqueCombo(state, widths.technique);
     toolButton(state, "compare.reference", "Ref");
-    if (state.compare.mode != Compare::Off)
+    if (saves)
         toolButton(state, "compare.save", "EXR\u2026");
-    viewCombo(state);
-    overlayCombo(state);
+    viewCombo(state, widths.view);
+    overlayCombo(state, widths.overlay);
     ImGui::SameLine();
-    tonemapCombo(state);
-    ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4,
-                                       ImGui::GetFontSize() * 11));
-    ImGui::SliderFloat("##exposure", &state.view.exposureEv, -10, 10, "%+.2f EV",
-                       ImGuiSliderFlags_AlwaysClamp);
-    wrappedTooltip(
-        "Exposure: light is multiplied by 2 to this power before tone mapping. Double-click or "
-        "Ctrl-click to type");
+    tonemapCombo(state, widths.tonemap);
+    exposureField(state.view, widths.exposure);
 }
 
 static void bakeProgress(EditorState& state) {

@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/theme.h"
+#include "engine/techniques/technique_table.h"
 
 #include <imgui.h>
 
@@ -74,6 +75,7 @@ static const char* shownText(Compare mode) {
     switch (mode) {
     case Compare::Off:
     case Compare::Reference:
+    case Compare::Technique:
         break;
     case Compare::Difference:
         return "Difference: blue darker, orange brighter, up to 50 %";
@@ -81,6 +83,11 @@ static const char* shownText(Compare mode) {
         return "FLIP, perceived difference: violet 0, green 0.5, yellow 1";
     }
     return "Path traced";
+}
+
+static std::string techniqueLabel(const std::string& name) {
+    const Technique* technique = findTechnique(name);
+    return technique ? technique->label : name;
 }
 
 void compareOverlay(const EditorState& state) {
@@ -92,10 +99,17 @@ void compareOverlay(const EditorState& state) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine({x, top}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3);
     list.AddLine({x, top}, {x, bottom}, compare.held ? color::kHandleLit : IM_COL32_WHITE, 1);
-    label({x - 12, top + 8}, 1, "Limn", IM_COL32_WHITE);
-    label({x + 12, top + 8}, 0, shownText(compare.mode), IM_COL32_WHITE);
     const float line = ImGui::GetTextLineHeight() + 5;
     const float left = view.origin.x + 12;
+    if (compare.mode == Compare::Technique) {
+        label({x - 12, top + 8}, 1,
+              techniqueLabel(singleton<TechniqueChoice>(state.document).technique), IM_COL32_WHITE);
+        label({x + 12, top + 8}, 0, techniqueLabel(compare.technique), IM_COL32_WHITE);
+        label({left, bottom - line - 6}, 0, compare.techniqueText, color::kDim);
+        return;
+    }
+    label({x - 12, top + 8}, 1, "Limn", IM_COL32_WHITE);
+    label({x + 12, top + 8}, 0, shownText(compare.mode), IM_COL32_WHITE);
     if (compare.reference.error)
         label({left, bottom - 2 * line - 6}, 0, errorText(*compare.reference.error),
               IM_COL32_WHITE);

@@ -47,9 +47,9 @@ void pickCacheAt(EditorState& state, glm::vec2 mouse) {
         pickCache(overlay, *cache);
 }
 
-void overlayCombo(EditorState& state) {
+void overlayCombo(EditorState& state, float width) {
     const OverlayKind*& shown = state.overlay.options.kind;
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    ImGui::SetNextItemWidth(width);
     const bool open = ImGui::BeginCombo("##overlay", shown ? shown->label : kNoOverlay.label,
                                         ImGuiComboFlags_HeightLargest);
     if (!open) {

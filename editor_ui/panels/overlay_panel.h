@@ -10,7 +10,7 @@ inline constexpr OverlayKind kNoOverlay = {
     .name = "none", .label = "No overlay", .tooltip = "The picture alone"};
 
 /// The list of overlays, for the bar above the picture.
-void overlayCombo(EditorState& state);
+void overlayCombo(EditorState& state, float width);
 
 /// Shows the overlay's parameter, the meaning of its colours, and details of a picked cache. Draws
 /// into the current window. Precondition: an overlay is shown.

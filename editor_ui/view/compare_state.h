@@ -8,12 +8,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace limn {
 
 /// What stands beside Limn's picture: nothing, the path-traced picture, the signed difference to
-/// it, or the perceived difference (FLIP).
-enum class Compare : std::uint8_t { Off, Reference, Difference, Flip };
+/// it, the perceived difference (FLIP), or the scene lit by another technique.
+enum class Compare : std::uint8_t { Off, Reference, Difference, Flip, Technique };
+
+/// Whether it shows or measures a path-traced picture.
+inline bool needsReference(Compare mode) {
+    return mode != Compare::Off && mode != Compare::Technique;
+}
 
 /// The reference as the panels show it.
 struct ReferenceStatus {
@@ -31,6 +37,8 @@ struct CompareState {
     bool held = false;  ///< the line at `split` is being dragged
     double noise = 0.01; ///< at which the reference is good enough, as ReferenceStatus::noise
     ReferenceStatus reference;
+    std::string technique;     ///< Technique::name of the other one; empty: not chosen yet
+    std::string techniqueText; ///< how far its light is, or why there is none
 };
 
 /// A picture of the viewport before tone mapping, and what it shows.

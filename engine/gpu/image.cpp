@@ -203,6 +203,34 @@ void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& ima
     imageBarrier(cmd, image.handle, aspect, kTransferWrite, kFragmentRead, image.mips - 1, 1);
 }
 
+/// Whatever used the image before, or will use it, in `layout`.
+static Access anyUse(VkImageLayout layout) {
+    Access outside = kAllWrites;
+    outside.access |= VK_ACCESS_2_MEMORY_READ_BIT;
+    outside.layout = layout;
+    return outside;
+}
+
+void sampleImage(Device& device, const Image& from, std::uint32_t width, std::uint32_t height,
+                 const Image& to, VkImageLayout layout) {
+    assert(width <= from.width && height <= from.height);
+    const VkImageAspectFlags aspect = aspectOf(from.format);
+    const Access outside = anyUse(layout);
+    device.immediate("sample image", [&](VkCommandBuffer cmd) {
+        imageBarrier(cmd, from.handle, aspect, outside, kTransferRead);
+        imageBarrier(cmd, to.handle, aspect, kUndefined, kTransferWrite);
+        const VkImageBlit region{
+            .srcSubresource = {aspect, 0, 0, 1},
+            .srcOffsets = {{0, 0, 0}, {std::int32_t(width), std::int32_t(height), 1}},
+            .dstSubresource = {aspect, 0, 0, 1},
+            .dstOffsets = {{0, 0, 0}, {std::int32_t(to.width), std::int32_t(to.height), 1}}};
+        vkCmdBlitImage(cmd, from.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+        imageBarrier(cmd, from.handle, aspect, kTransferRead, outside);
+        imageBarrier(cmd, to.handle, aspect, kTransferWrite, outside);
+    });
+}
+
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
                std::uint32_t height, std::span<std::byte> out, std::uint32_t layers) {
     assert(width <= image.width && height <= image.height && layers <= image.layers);
@@ -212,9 +240,7 @@ void readImage(Device& device, const Image& image, VkImageLayout layout, std::ui
                                   .memory = MemoryKind::Readback,
                                   .name = "read-back"});
     const VkImageAspectFlags aspect = aspectOf(image.format);
-    Access outside = kAllWrites;
-    outside.access |= VK_ACCESS_2_MEMORY_READ_BIT;
-    outside.layout = layout;
+    const Access outside = anyUse(layout);
     device.immediate("read image", [&](VkCommandBuffer cmd) {
         imageBarrier(cmd, image.handle, aspect, outside, kTransferRead);
         const VkBufferImageCopy region{.bufferOffset = 0,

@@ -69,6 +69,12 @@ void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
 void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& image,
                            std::span<const std::byte> bytes);
 
+/// Fills all of `to` with texels of the corner (0, 0, width, height) of `from` in even steps,
+/// without a filter. Both have one mip and layer, TRANSFER usage and `layout` before and after;
+/// what `to` held is lost. Waits for the GPU.
+void sampleImage(Device& device, const Image& from, std::uint32_t width, std::uint32_t height,
+                 const Image& to, VkImageLayout layout);
+
 /// Copies the corner (0, 0, width, height) of mip 0 of the first `layers` layers to the CPU, layer
 /// after layer, rows tightly packed. The image is in `layout` before and after. Waits for the GPU.
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,

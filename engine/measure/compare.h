@@ -2,14 +2,11 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/scene/image.h"
+#include "engine/scene/exposure.h"
 
 #include <cstdint>
 
 namespace limn {
-
-/// Where exposures put the mean of a picture.
-inline constexpr float kMiddleGrey = 0.18f;
 
 /// Error of a linear image against a reference of the same size. Numeric metrics are computed
 /// before any tone mapping; x / 0 is infinite, 0 / 0 is 0. For SSIM and FLIP both images are

@@ -91,6 +91,7 @@ struct NearestSeen {
 
 struct Targets {
     gpu::Image linear, color;
+    gpu::Image metering; ///< made when first needed
 };
 
 struct DepthRange {
@@ -535,13 +536,33 @@ VkImage Viewport::colorImage() const {
     return m_impl->targets.color.handle;
 }
 
+static ImageF readRgb(gpu::Device& device, const gpu::Image& image, std::uint32_t width,
+                      std::uint32_t height) {
+    std::vector<glm::vec4> texels(std::size_t(width) * height);
+    gpu::readImage(device, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, width, height,
+                   std::as_writable_bytes(std::span(texels)));
+    return {width, height, std::vector<glm::vec3>(texels.begin(), texels.end())};
+}
+
 ImageF Viewport::readLinear() {
     Impl& v = *m_impl;
     assert(v.frames > 0);
-    std::vector<glm::vec4> texels(std::size_t(v.width) * v.height);
-    gpu::readImage(v.device, v.targets.linear, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, v.width,
-                   v.height, std::as_writable_bytes(std::span(texels)));
-    return {v.width, v.height, std::vector<glm::vec3>(texels.begin(), texels.end())};
+    return readRgb(v.device, v.targets.linear, v.width, v.height);
+}
+
+ImageF Viewport::readMetering() {
+    Impl& v = *m_impl;
+    assert(v.frames > 0);
+    constexpr std::uint32_t kWidth = 64, kHeight = 36;
+    constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    if (!v.targets.metering) {
+        gpu::ImageDesc desc =
+            gpu::ImageDesc::renderTarget(kWidth, kHeight, kLinearFormat, "metering");
+        desc.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        v.targets.metering = gpu::Image(v.device, desc);
+    }
+    gpu::sampleImage(v.device, v.targets.linear, v.width, v.height, v.targets.metering, kLayout);
+    return readRgb(v.device, v.targets.metering, kWidth, kHeight);
 }
 
 Image Viewport::readTonemapped() {

@@ -30,6 +30,8 @@ struct ViewportOptions {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
+
+    bool operator==(const ViewportOptions&) const = default;
 };
 
 struct ViewportStats {
@@ -101,6 +103,8 @@ public:
     /// The linear, scene-referred result of the last render(), without the overlay. Waits for the
     /// GPU.
     ImageF readLinear();
+    /// 64 x 36 pixels of readLinear(), spread evenly over the picture: for meteredExposure().
+    ImageF readMetering();
     /// The tone-mapped result as on screen, RGBA8. Waits for the GPU.
     Image readTonemapped();
 

@@ -2,6 +2,7 @@
 // Pictures that light their bake themselves, one request after the other, without the thread.
 #include "app/editor/render_worker.h"
 
+#include "engine/scene/exposure.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
@@ -49,6 +50,23 @@ Image drawn(RenderWorker& worker, const PictureRequest& request) {
         image = *worker.draw(request, hurry).shown;
     EXPECT_FALSE(worker.bouncing());
     return image;
+}
+
+TEST_F(RenderWorkerTest, MetersThePictureWhereAskedTo) {
+    const std::atomic<bool> hurry = false;
+    RenderWorker worker(false);
+    PictureRequest request = looking(1, first);
+    drawn(worker, request);
+    EXPECT_FALSE(worker.draw(request, hurry).metered);
+    request.meter = request.linear = true;
+    for (const float exposure : {0.f, 5.f}) { // it does not depend on the exposure
+        request.options.exposureEv = exposure;
+        const DrawnImages images = worker.draw(request, hurry);
+        ASSERT_TRUE(images.metered && images.linear);
+        EXPECT_NEAR(*images.metered, *meteredExposure(images.linear->image), 0.05f);
+    }
+    request.options.view = View::Normals;
+    EXPECT_FALSE(worker.draw(request, hurry).metered) << "no light";
 }
 
 TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {

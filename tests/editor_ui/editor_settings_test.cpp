@@ -25,6 +25,8 @@ EditorSettings unusual() {
             .view = View::Irradiance,
             .tonemap = Tonemap::Agx,
             .exposureEv = -2.5f,
+            .autoExposure = true,
+            .physical = {2.8f, 400},
             .overlay = overlayKinds().front()->name,
             .showLights = false,
             .lightTheme = true,
@@ -50,7 +52,7 @@ TEST(EditorSettings, AnyTextGivesUsableOnes) {
     for (const std::string& text :
          {std::string(), std::string("{"), std::string("null"), std::string("[1]"),
           std::string(100000, '['), std::string("{\"left\": 1e999}"),
-          std::string("{\"left\": -1, \"right\": 1e30, \"bottom\": \"12\", \"exposure\": 11}"),
+          std::string("{\"left\": -1, \"right\": 1e30, \"bottom\": \"12\", \"exposure\": 21}"),
           std::string("{\"view\": 3, \"tonemap\": \"\", \"overlay\": \"none such\"}"),
           std::string("{\"lightIcons\": 0, \"bakeWhenNeeded\": \"no\", \"other\": {}}"),
           std::string("{\"moveStep\": -1, \"rotateStep\": 0, \"scaleStep\": 0, \"snap\": 1}"),
