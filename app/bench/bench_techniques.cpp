@@ -205,7 +205,8 @@ Result<Point> measure(const TechniquesBench& o, const Measured& m, const Techniq
     LightmapLayout layout = layoutWithoutLightmap(scene);
     double seconds = 0, bytes = 0;
     if (const Precomputation* p = technique.precomputation) {
-        const auto made = p->prepare(*m.trace, {.settings = &variant.bake}, progressOnStderr());
+        const auto made = p->prepare(
+            *m.trace, {.settings = &variant.bake, .choice = &variant.choice}, progressOnStderr());
         endProgressLine();
         if (!made)
             return fail(fmt::format("{}, {}: {}", m.name, variant.name, made.error().message));

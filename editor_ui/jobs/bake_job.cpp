@@ -72,9 +72,11 @@ Progress BakeJob::progress() {
 
 Result<std::shared_ptr<const Precomputed>> BakeJob::bakeWith(const Precomputation& precomputation,
                                                              const BakeSettings& settings,
+                                                             const TechniqueChoice& choice,
                                                              const TraceScene& trace) {
     return precomputation.prepare(
-        trace, {.settings = &settings, .store = &m_store, .memory = m_memory}, progress());
+        trace, {.settings = &settings, .choice = &choice, .store = &m_store, .memory = m_memory},
+        progress());
 }
 
 void BakeJob::setStep(std::string step) {
@@ -92,7 +94,7 @@ Result<BakedScene> BakeJob::bakeScene(const BakeOrder& order) {
     const Precomputation& precomputation = *precomputingTechnique(scene->technique).precomputation;
     const BakeSettings first = precomputation.preview(scene->bake);
     if (order.preview && first != scene->bake)
-        if (const auto rough = bakeWith(precomputation, first, *order.trace)) {
+        if (const auto rough = bakeWith(precomputation, first, scene->technique, *order.trace)) {
             const PrecomputedCost cost = (*rough)->expectedCost(
                 *scene, scene->bake, {.seconds = (*rough)->report().seconds});
             {
@@ -102,7 +104,7 @@ Result<BakedScene> BakeJob::bakeScene(const BakeOrder& order) {
             put(BakedScene{*rough, scene, order.trace, true});
             m_wake();
         }
-    const auto baked = bakeWith(precomputation, scene->bake, *order.trace);
+    const auto baked = bakeWith(precomputation, scene->bake, scene->technique, *order.trace);
     if (!baked)
         return tl::make_unexpected(baked.error());
     return BakedScene{*baked, scene, order.trace};

@@ -77,6 +77,7 @@ private:
     Result<BakedScene> bakeToGoal(const BakeOrder& order);
     Result<std::shared_ptr<const Precomputed>> bakeWith(const Precomputation& precomputation,
                                                         const BakeSettings& settings,
+                                                        const TechniqueChoice& choice,
                                                         const TraceScene& trace);
     Progress progress();
     void setStep(std::string step);

@@ -3,6 +3,7 @@
 
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <map>
@@ -106,6 +107,22 @@ void addSettings(const BakeSettings& baked, const BakeSettings& now, ChangeList&
     });
 }
 
+/// Calls visit(setting, before, now) for each setting of what `now` precomputes with.
+template <class Visit>
+void visitPrecomputed(const TechniqueChoice& before, const TechniqueChoice& now, Visit visit) {
+    for (const TechniqueSetting& setting : precomputingTechnique(now).settings)
+        if (setting.setting.invalidates == Invalidates::Bake)
+            visit(setting.setting, settingOf(before, setting), settingOf(now, setting));
+}
+
+/// Whether both choices precompute the same, with the same settings.
+bool samePrecomputation(const TechniqueChoice& a, const TechniqueChoice& b) {
+    bool same = &precomputingTechnique(a) == &precomputingTechnique(b);
+    visitPrecomputed(
+        a, b, [&](const Setting&, double before, double now) { same = same && before == now; });
+    return same;
+}
+
 } // namespace
 
 bool sameGeometry(const Scene& a, const Scene& b) {
@@ -131,7 +148,8 @@ bool sameLight(const Scene& a, const Scene& b) {
 
 bool sameBakeInputs(const Scene& a, const Scene& b) {
     return sameStaticGeometry(a, b) && a.bake == b.bake &&
-           std::ranges::equal(a.materials, b.materials, sameBakedMaterial);
+           std::ranges::equal(a.materials, b.materials, sameBakedMaterial) &&
+           samePrecomputation(a.technique, b.technique);
 }
 
 std::string bakeInputChanges(const Scene& baked, const Scene& now, const Document& document) {
@@ -146,6 +164,14 @@ std::string bakeInputChanges(const Scene& baked, const Scene& now, const Documen
                          ? (emits(now.materials[m]) ? "emits light now" : "emits no light now")
                          : "has other holes or sides");
     addSettings(baked.bake, now.bake, list);
+    if (&precomputingTechnique(baked.technique) != &precomputingTechnique(now.technique))
+        list.add("The technique", "changed");
+    else
+        visitPrecomputed(baked.technique, now.technique,
+                         [&](const Setting& setting, double before, double after) {
+                             if (before != after)
+                                 list.add(setting.label, "changed");
+                         });
     return list.text();
 }
 

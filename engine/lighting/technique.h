@@ -23,13 +23,15 @@ struct TechniqueSetting {
 class StageStore;
 
 struct PrepareOptions {
-    const BakeSettings* settings = nullptr; ///< instead of the scene's; null: the scene's
-    StageStore* store = nullptr;            ///< keeps finished stages; null: nothing is kept
+    const BakeSettings* settings = nullptr;  ///< instead of the scene's; null: the scene's
+    const TechniqueChoice* choice = nullptr; ///< the same
+    StageStore* store = nullptr;             ///< keeps finished stages; null: nothing is kept
     MemoryBudget memory;
 };
 
 /// How a technique computes its data in advance, and what is known of that beforehand.
 struct Precomputation {
+    const char* fileMark; ///< the first eight characters of its files, of no other technique
     /// Hash of everything that prepare() reads. Lights, albedo and the places of dynamic objects
     /// are not part of it.
     std::uint64_t (*inputHash)(const Scene& scene);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lightmap/layout_rules.h"
 
+#include "engine/core/hash.h"
+
 #include <algorithm>
 
 namespace limn {
@@ -53,6 +55,17 @@ bool chartsHoldVertices(const MeshCharts& c) {
             return false;
     }
     return true;
+}
+
+std::uint64_t hashLayout(const LightmapLayout& layout, std::uint64_t h) {
+    h = hashValue(layout.width, hashValue(layout.height, h));
+    for (const MeshCharts& m : layout.meshes) {
+        h = hashVector(m.sourceVertex, hashVector(m.indices, h));
+        h = hashVector(m.chartOfTriangle, hashVector(m.chartUv, hashVector(m.chartSize, h)));
+    }
+    for (const InstanceLightmap& i : layout.instances)
+        h = hashValue(i.backRows, hashVector(i.uv, h));
+    return hashVector(layout.snaps, h);
 }
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/reach.h"
+#include "engine/scene/scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -73,5 +74,40 @@ void chartFields(A& a, C& c, const Mesh* mesh) {
       rule::holds("smaller than its vertices' extent",
                   [&c](const auto&) { return chartsHoldVertices(c); }));
 }
+
+/// Lists the fields of a LightmapLayout of which `used` texels are read. `scene` is the one it was
+/// made for, or null if it is unknown.
+template <class A, class L>
+void layoutFields(A& a, L& l, std::uint64_t used, const Scene* scene) {
+    a("width", l.width, rule::any);
+    a("height", l.height, rule::holds("too large for its texels", [&](std::uint32_t height) {
+          return isAtlasSize(l.width, height, used);
+      }));
+    const auto perMesh = [scene](const auto& all) {
+        return !scene || all.size() == scene->assets->meshes.size();
+    };
+    a.each("meshes", l.meshes, rule::holds("not those of the scene", perMesh), [&](auto& m) {
+        const auto mesh = std::size_t(&m - l.meshes.data());
+        chartFields(a, m, scene ? &scene->assets->meshes[mesh] : nullptr);
+    });
+    const auto perInstance = [scene](const auto& all) {
+        return !scene || all.size() == scene->instances.size();
+    };
+    const auto perVertex = [&l, scene](std::size_t i) {
+        return scene ? l.meshes[scene->instances[i].mesh].sourceVertex.size() : 0;
+    };
+    a.each(
+        "instances", l.instances, rule::holds("not those of the scene", perInstance), [&](auto& i) {
+            const std::uint64_t vertices = perVertex(std::size_t(&i - l.instances.data()));
+            a("uv", i.uv, rule::within(0, 1), rule::holds("of another length", [&](const auto& uv) {
+                  return !scene || uv.empty() || uv.size() == vertices;
+              }));
+            a("backRows", i.backRows, rule::below(l.height));
+        });
+    a("snaps", l.snaps, [&l](const auto& snaps) { return snapDefect(snaps, l.width, l.height); });
+}
+
+/// Hash of everything in a layout.
+std::uint64_t hashLayout(const LightmapLayout& layout, std::uint64_t seed);
 
 } // namespace limn

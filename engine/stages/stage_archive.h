@@ -41,4 +41,12 @@ T keptOrMade(StageStore* store, std::uint64_t key, const Progress& progress, Fie
     return value;
 }
 
+/// Lists durations of stages by name [s].
+template <class A, class Seconds>
+void secondsFields(A& a, Seconds& seconds) {
+    a.each("stages", seconds, rule::any, [&](auto& stage) {
+        a("name", stage.first, rule::any), a("seconds", stage.second, rule::within(0, 1e9));
+    });
+}
+
 } // namespace limn

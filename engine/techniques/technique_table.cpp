@@ -8,7 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <fstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -38,17 +39,17 @@ const Technique& precomputingTechnique(const TechniqueChoice& choice) {
 
 Result<std::shared_ptr<const Precomputed>> readPrecomputed(const std::string& path,
                                                            const MemoryBudget& memory) {
-    std::optional<Error> first;
-    for (const Technique* technique : kTechniques) {
-        if (!technique->precomputation)
-            continue;
-        auto read = technique->precomputation->read(path, memory);
-        if (read)
-            return read;
-        if (!first)
-            first = read.error();
-    }
-    return tl::make_unexpected(*first);
+    std::array<char, 8> mark{};
+    std::ifstream(path, std::ios::binary).read(mark.data(), mark.size());
+    const auto reads = [&](const Technique* t) {
+        return t->precomputation &&
+               std::ranges::equal(mark, std::string_view(t->precomputation->fileMark));
+    };
+    const auto technique = std::ranges::find_if(kTechniques, reads);
+    // A file of no technique is refused by the first.
+    const Technique& reader =
+        technique == kTechniques.end() ? precomputingTechnique({}) : **technique;
+    return reader.precomputation->read(path, memory);
 }
 
 std::vector<const OverlayKind*> overlayKinds() {

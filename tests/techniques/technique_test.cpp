@@ -137,10 +137,10 @@ TEST(Techniques, PrecomputedDataIsReadAsItWasWrittenAndKnowsItsScene) {
         other.instances[0].toWorld[3].x += 1;
         EXPECT_NE(p->inputHash(other), data.inputHash());
         BakeSettings fewer = scene.bake;
-        fewer.surfels /= 2;
+        fewer.lightmapCaches /= 2;
         const auto coarse = p->prepare(trace, {.settings = &fewer}, {});
         ASSERT_TRUE(coarse) << coarse.error().message;
-        EXPECT_EQ((*coarse)->settings().surfels, fewer.surfels);
+        EXPECT_EQ((*coarse)->settings().lightmapCaches, fewer.lightmapCaches);
         EXPECT_NE((*coarse)->hash(), data.hash());
         const auto tooLarge = p->prepare(trace, {.memory = {.most = 1}}, {});
         EXPECT_FALSE(tooLarge);

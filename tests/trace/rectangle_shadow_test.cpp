@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/trace/rectangle_shadow.h"
 
-#include "engine/techniques/illuminance/relight/surfel_light.h"
+#include "engine/lighting/direct_irradiance.h"
 #include "tests/trace/simple_scene.h"
 
 #include <cmath>
@@ -78,7 +78,7 @@ TEST(RectangleShadow, UnderAnEdgeIsWhatTheSeenPartSends) {
     // One edge in the unit square: the error of n even points falls as n^-3/4 or better.
     EXPECT_LT(nrmse(4096), 2e-3);
     EXPECT_LT(nrmse(64), 0.02);
-    EXPECT_LT(nrmse(SurfelLight::kRectanglePoints), 0.05);
+    EXPECT_LT(nrmse(DirectIrradiance::kRectanglePoints), 0.05);
 }
 
 TEST(RectangleShadow, SurfelsGetColourTimesRadianceTimesTheShare) {
@@ -91,9 +91,9 @@ TEST(RectangleShadow, SurfelsGetColourTimesRadianceTimesTheShare) {
     }();
     const TraceScene trace(empty);
     const Surfels surfels = row(50);
-    SurfelLight state;
-    EXPECT_TRUE(updateSurfelLight(surfels, empty, trace, state));
-    EXPECT_EQ(state.raysTraced, 50 * SurfelLight::kRectanglePoints);
+    DirectIrradiance state;
+    EXPECT_TRUE(updateDirectIrradiance(surfels.position, surfels.normal, empty, trace, state));
+    EXPECT_EQ(state.raysTraced, 50 * DirectIrradiance::kRectanglePoints);
     for (std::size_t i = 0; i < surfels.size(); ++i) {
         const float share =
             rectangleIrradiance(lightRectangle(panel()), surfels.position[i], {0, 1, 0});
@@ -103,10 +103,10 @@ TEST(RectangleShadow, SurfelsGetColourTimesRadianceTimesTheShare) {
     }
     Scene brighter = empty;
     brighter.lights[0].strength = 10;
-    EXPECT_TRUE(updateSurfelLight(surfels, brighter, trace, state));
+    EXPECT_TRUE(updateDirectIrradiance(surfels.position, surfels.normal, brighter, trace, state));
     EXPECT_EQ(state.raysTraced, 0u) << "strength casts no other shadow";
     brighter.lights[0].size.x = 1;
-    EXPECT_TRUE(updateSurfelLight(surfels, brighter, trace, state));
+    EXPECT_TRUE(updateDirectIrradiance(surfels.position, surfels.normal, brighter, trace, state));
     EXPECT_GT(state.raysTraced, 0u);
 }
 
@@ -146,8 +146,8 @@ TEST(RectangleShadow, OfALightThatReachesThroughWallsIsThatOfItsPartInTheRoom) {
         light.size = glm::vec2(size);
         Scene lit = scene;
         lit.lights = {light};
-        SurfelLight state;
-        updateSurfelLight(floor, lit, trace, state);
+        DirectIrradiance state;
+        updateDirectIrradiance(floor.position, floor.normal, lit, trace, state);
         for (std::size_t i = 0; i < floor.size(); ++i) {
             const double truth = double(
                 rectangleIrradiance(lightRectangle(inRoom), floor.position[i], floor.normal[i]));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/techniques/illuminance/bench_relight_gpu.h"
 
+#include "engine/field/grid_placement.h"
 #include "engine/gpu/device.h"
+#include "engine/lighting/direct_irradiance.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/gpu/gpu_relight.h"
-#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 
 #include <chrono>
@@ -26,14 +27,14 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
     const std::vector<glm::vec3> sky = skyRadiosity(bake->tree, scene.sky);
     const auto most = int(bake->settings.bands);
     const auto bands = std::uint32_t(wanted == LitBands::All ? most : receiverBands(scene, most));
-    SurfelLight light;
+    DirectIrradiance light;
     std::vector<glm::vec3> albedo, emitted;
     surfelMaterials(bake->surfels, scene, albedo, emitted);
     for (int k = 0; k <= runs; ++k) {
         const Scene lit = sceneAt(k);
         const TraceScene moved(lit, trace);
         const auto start = std::chrono::steady_clock::now();
-        updateSurfelLight(bake->surfels, lit, moved, light);
+        updateDirectIrradiance(bake->surfels.position, bake->surfels.normal, lit, moved, light);
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g = (*relighter)

@@ -2,9 +2,10 @@
 #include "app/techniques/illuminance/device_oracle.h"
 
 #include "engine/core/log.h"
+#include "engine/field/grid_placement.h"
 #include "engine/gpu/device.h"
+#include "engine/lighting/direct_irradiance.h"
 #include "engine/techniques/illuminance/gpu/gpu_relight.h"
-#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 
 #include <algorithm>
@@ -45,9 +46,9 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
     const auto gpu = GpuRelighter::create(device, s.bake);
     if (!gpu)
         return broken();
-    SurfelLight light;
+    DirectIrradiance light;
     std::vector<glm::vec3> albedo, emitted;
-    updateSurfelLight(bake.surfels, s.scene, *s.trace, light);
+    updateDirectIrradiance(bake.surfels.position, bake.surfels.normal, s.scene, *s.trace, light);
     surfelMaterials(bake.surfels, s.scene, albedo, emitted);
     const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, s.scene.sky);
     const std::uint32_t bounces = std::min(s.scene.relight.maxBounces, kBounces);

@@ -41,6 +41,19 @@ std::uint64_t hashSurface(const Scene& scene, const Material& m, std::uint64_t s
     return h;
 }
 
+std::uint64_t hashStatic(const Scene& scene, std::uint64_t h) {
+    for (const Instance& i : scene.instances) {
+        h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), hashValue(i.node, h)));
+        if (i.dynamic)
+            continue; // its place and its material do not affect a bake
+        h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
+        // Whether a material emits guides the sampling; how much it emits does not.
+        const Material& m = scene.materialOf(i);
+        h = hashSurface(scene, m, hashValue(std::uint32_t(emits(m)), h));
+    }
+    return hashVector(hashMeshes(scene), h);
+}
+
 bool emits(const Material& m) {
     return m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
 }

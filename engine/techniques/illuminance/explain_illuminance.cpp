@@ -143,7 +143,7 @@ struct OriginTable {
     bool reflects(std::uint32_t s) const { return black.empty() || black[s] == 0; }
 
     void addLights() {
-        const SurfelLight& direct = state.direct;
+        const DirectIrradiance& direct = state.direct;
         const std::uint32_t surfels = state.bake.tree.surfels;
         std::vector<Weights> reflected(weights.passes.size());
         for (std::size_t p = 0; p < reflected.size(); ++p) {
@@ -153,7 +153,7 @@ struct OriginTable {
                     reflected[p][s] =
                         (weights.straight[p][s] + weights.bounced[p][s]) * state.albedo[s];
         }
-        std::size_t traced = 0; // SurfelLight holds the lights that shine and reach surfels
+        std::size_t traced = 0; // DirectIrradiance holds the lights that shine and reach surfels
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
             const Light& light = scene.lights[l];
             if (!shines(light) || !reaches(light, direct.bounds))

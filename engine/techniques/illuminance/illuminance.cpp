@@ -30,7 +30,8 @@ static std::unique_ptr<Lighting> light(const Prepared& prepared) {
     return std::make_unique<CpuIlluminance>(bakeOf(*prepared.data), prepared.scene);
 }
 
-static constexpr Precomputation kPrecomputation = {.inputHash = bakeInputHash,
+static constexpr Precomputation kPrecomputation = {.fileMark = kBakeMark,
+                                                   .inputHash = bakeInputHash,
                                                    .predict = predictIlluminance,
                                                    .preview = previewSettings,
                                                    .prepare = prepare,

@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
 
 #include "engine/field/grid_depth.h"
+#include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"

@@ -3,6 +3,7 @@
 
 #include "engine/field/grid_depth.h"
 #include "engine/lightmap/layout_rules.h"
+#include "engine/stages/stage_archive.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/bake/senders/tree_rules.h"
 #include "engine/techniques/illuminance/bake/settings_fields.h"
@@ -18,37 +19,6 @@ bool linksAreBounded(const Caches& caches, std::uint32_t bands);
 /// Whether each lightmap cache has a texel to itself and the grid's caches follow its cells in
 /// order.
 bool placesAreCaches(const Caches& caches, std::uint64_t texels, std::uint64_t cells);
-
-template <class A, class B>
-void lightmapFields(A& a, B& b, const Scene* scene) {
-    auto& l = b.lightmap;
-    a("width", l.width, rule::any);
-    a("height", l.height, rule::holds("too large for its caches", [&](std::uint32_t height) {
-          return isAtlasSize(l.width, height, b.caches.lightmapCount);
-      }));
-    const auto perMesh = [scene](const auto& all) {
-        return !scene || all.size() == scene->assets->meshes.size();
-    };
-    a.each("meshes", l.meshes, rule::holds("not those of the scene", perMesh), [&](auto& m) {
-        const auto mesh = std::size_t(&m - l.meshes.data());
-        chartFields(a, m, scene ? &scene->assets->meshes[mesh] : nullptr);
-    });
-    const auto perInstance = [scene](const auto& all) {
-        return !scene || all.size() == scene->instances.size();
-    };
-    const auto perVertex = [&l, scene](std::size_t i) {
-        return scene ? l.meshes[scene->instances[i].mesh].sourceVertex.size() : 0;
-    };
-    a.each(
-        "instances", l.instances, rule::holds("not those of the scene", perInstance), [&](auto& i) {
-            const std::uint64_t vertices = perVertex(std::size_t(&i - l.instances.data()));
-            a("uv", i.uv, rule::within(0, 1), rule::holds("of another length", [&](const auto& uv) {
-                  return !scene || uv.empty() || uv.size() == vertices;
-              }));
-            a("backRows", i.backRows, rule::below(l.height));
-        });
-    a("snaps", l.snaps, [&l](const auto& snaps) { return snapDefect(snaps, l.width, l.height); });
-}
 
 template <class A, class B>
 void surfelFields(A& a, B& b, const Scene* scene) {
@@ -133,8 +103,10 @@ void gridDepthFields(A& a, B& b) {
 template <class F>
 void forBakeChunks(const Scene* scene, F visit) {
     visit("SETTINGS", [](auto& a, auto& b) { settingsFields(a, b); });
-    visit("TIMINGS ", [](auto& a, auto& b) { timingFields(a, b); });
-    visit("LIGHTMAP", [scene](auto& a, auto& b) { lightmapFields(a, b, scene); });
+    visit("TIMINGS ", [](auto& a, auto& b) { secondsFields(a, b.seconds); });
+    visit("LIGHTMAP", [scene](auto& a, auto& b) {
+        layoutFields(a, b.lightmap, b.caches.lightmapCount, scene);
+    });
     visit("SURFELS ", [scene](auto& a, auto& b) { surfelFields(a, b, scene); });
     visit("CLUSTERS", [](auto& a, auto& b) { treeFields(a, b); });
     visit("CACHES  ", [](auto& a, auto& b) { cacheFields(a, b); });

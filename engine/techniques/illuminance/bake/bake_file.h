@@ -8,6 +8,9 @@
 
 namespace limn {
 
+/// First characters of the file of a bake.
+inline constexpr const char* kBakeMark = "LIMNBAKE";
+
 /// Writes a `.limnbake` file: versioned chunks with length and checksum, compressed by zstd. It is
 /// written to a temporary file and renamed.
 Result<void> writeBake(const std::string& path, const Bake& bake);

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/hash.h"
+#include "engine/lightmap/layout_rules.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 
 namespace limn {
 
 namespace {
-
-std::uint64_t hashLayout(const LightmapLayout& layout, std::uint64_t h) {
-    h = hashValue(layout.width, hashValue(layout.height, h));
-    for (const MeshCharts& m : layout.meshes) {
-        h = hashVector(m.sourceVertex, hashVector(m.indices, h));
-        h = hashVector(m.chartOfTriangle, hashVector(m.chartUv, hashVector(m.chartSize, h)));
-    }
-    for (const InstanceLightmap& i : layout.instances)
-        h = hashValue(i.backRows, hashVector(i.uv, h));
-    return hashVector(layout.snaps, h);
-}
 
 std::uint64_t hashSettings(const BakeSettings& s, std::uint64_t h) {
     for (const std::uint32_t v :
@@ -50,17 +40,7 @@ std::uint64_t Bake::hash() const {
 }
 
 std::uint64_t bakeInputHash(const Scene& scene) {
-    std::uint64_t h = hashSettings(scene.bake, 2);
-    for (const Instance& i : scene.instances) {
-        h = hashValue(i.mesh, hashValue(std::uint32_t(i.dynamic), hashValue(i.node, h)));
-        if (i.dynamic)
-            continue; // its place and its material do not affect a bake
-        h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
-        // Whether a material emits guides the sampling; how much it emits does not.
-        const Material& m = scene.materialOf(i);
-        h = hashSurface(scene, m, hashValue(std::uint32_t(emits(m)), h));
-    }
-    return hashVector(hashMeshes(scene), h);
+    return hashStatic(scene, hashSettings(scene.bake, 2));
 }
 
 } // namespace limn

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/field/grid_placement.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
 
@@ -11,6 +12,7 @@
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/reach.h"
 #include "engine/stages/stage_archive.h"
+#include "engine/stages/stage_clock.h"
 #include "engine/stages/stage_keys.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/receivers/fill_invalid.h"
@@ -25,7 +27,6 @@
 #include "engine/techniques/illuminance/bake/transport/trace_stage.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -34,31 +35,6 @@
 namespace limn {
 
 namespace {
-
-class StageClock {
-public:
-    /// `store` may be null.
-    StageClock(Bake& bake, const StageStore* store) : m_bake(bake), m_store(store) {
-        if (store)
-            m_traffic = store->traffic();
-    }
-    void finish(const char* stage) {
-        const auto now = std::chrono::steady_clock::now();
-        m_bake.seconds.emplace_back(stage, std::chrono::duration<double>(now - m_last).count());
-        m_last = now;
-        if (!m_store)
-            return;
-        const StageStore::Traffic before = std::exchange(m_traffic, m_store->traffic());
-        if (m_traffic.found > before.found && m_traffic.stored == before.stored)
-            m_bake.keptStages.emplace_back(stage);
-    }
-
-private:
-    Bake& m_bake;
-    const StageStore* m_store;
-    StageStore::Traffic m_traffic;
-    std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
-};
 
 /// The form factor linker's rays only tell which points lie in walls.
 std::uint32_t raysPerCache(const BakeSettings& settings) {
@@ -81,7 +57,7 @@ struct BakeRun {
     StageStore* store;                       ///< may be null
     const std::vector<std::uint64_t> meshes; ///< hashMeshes() of the scene
     Bake bake;
-    StageClock clock{bake, store};
+    StageClock clock{store};
     std::uint64_t rays = 0; ///< traced so far
     PlacedAtlas placed{};
     SurfelSet set{};
@@ -334,6 +310,8 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.lightmap = std::move(run.placed.atlas.layout);
     result.surfels = std::move(run.set.surfels);
     result.counts = countOf(scene, result, run.rays);
+    result.seconds = std::move(run.clock.seconds);
+    result.keptStages = std::move(run.clock.keptStages);
     return std::move(result);
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "engine/lightmap/layout_rules.h"
-#include "engine/scene/bake_settings_fields.h"
-#include "engine/scene/setting_text.h"
+#include "engine/scene/bake_settings_archive.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 
 namespace limn {
@@ -13,11 +12,7 @@ namespace limn {
 template <class A, class B>
 void settingsFields(A& a, B& b) {
     using rule::any;
-    visitBakeSettings(b.settings, [&](const Setting& setting, auto& value, const auto&... limits) {
-        a(setting.key, value, rule::holds("out of range", [&](const auto& v) {
-              return valueDefect(v, limits...).empty();
-          }));
-    });
+    bakeSettingsFields(a, b.settings);
     // The place of two settings that no bake depends on. Files keep it; its values are not used.
     std::uint32_t maxBounces = 1000;
     bool dynamicOcclusion = true;
@@ -32,13 +27,6 @@ void settingsFields(A& a, B& b) {
     a("triangles", c.triangles, any), a("surfels", c.surfels, any);
     a("clusters", c.clusters, any), a("caches", c.caches, any);
     a("invalidCaches", c.invalidCaches, any), a("links", c.links, any), a("rays", c.rays, any);
-}
-
-template <class A, class B>
-void timingFields(A& a, B& b) {
-    a.each("stages", b.seconds, rule::any, [&](auto& stage) {
-        a("name", stage.first, rule::any), a("seconds", stage.second, rule::within(0, 1e9));
-    });
 }
 
 } // namespace limn

@@ -3,6 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
+#include "engine/field/grid_placement.h"
 #include "engine/render/gpu_field.h"
 #include "engine/render/shadowed_lights.h"
 #include "engine/techniques/illuminance/bake/bake.h"

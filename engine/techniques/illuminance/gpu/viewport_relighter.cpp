@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/gpu/viewport_relighter.h"
 
+#include "engine/field/grid_placement.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 

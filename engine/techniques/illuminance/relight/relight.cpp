@@ -4,11 +4,12 @@
 #include "engine/core/flush_denormals.h"
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
+#include "engine/field/grid_placement.h"
+#include "engine/lighting/direct_irradiance.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
-#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/relight/surfel_read.h"
 
@@ -18,13 +19,6 @@
 #include <glm/common.hpp>
 
 namespace limn {
-
-bool needsGrid(const Scene& scene, const LightmapLayout& layout) {
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (i >= layout.instances.size() || layout.instances[i].uv.empty())
-            return true;
-    return false;
-}
 
 struct Relighter::State {
     std::shared_ptr<const Bake> bake;
@@ -46,7 +40,7 @@ struct Relighter::State {
     std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
     Sky sky;
     bool blackSky = true;
-    SurfelLight direct;
+    DirectIrradiance direct;
     std::vector<glm::vec3> indirect;  ///< irradiance per surfel [W m^-2]
     std::vector<glm::vec4> radiosity; ///< per node, as withLuma
     std::vector<glm::vec3> sh;        ///< bands^2 per cache
@@ -290,7 +284,8 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     Stopwatch timer;
     const bool materialsChanged = updateMaterials(scene);
     const bool skyChanged = updateSky(scene);
-    const bool directChanged = updateSurfelLight(bake->surfels, scene, trace, direct);
+    const bool directChanged =
+        updateDirectIrradiance(bake->surfels.position, bake->surfels.normal, scene, trace, direct);
     stats.lightsTraced = direct.lightsTraced;
     stats.shadowRays = direct.raysTraced;
     stats.lightsOff = std::uint32_t(scene.lights.size() - direct.lights.size());

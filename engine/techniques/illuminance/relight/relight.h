@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
+#include "engine/lighting/direct_irradiance.h"
 #include "engine/math/sh.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/relight/caches/cache_runs.h"
 #include "engine/techniques/illuminance/relight/caches/light_links.h"
-#include "engine/techniques/illuminance/relight/surfel_light.h"
 
 #include <array>
 #include <cstdint>
@@ -50,9 +50,6 @@ struct RelightStats {
 /// a link for 3 bands.
 enum class LitBands : std::uint8_t { Needed, All };
 
-/// Whether some instance of `scene` is lit from the grid: dynamic, or without lightmap.
-bool needsGrid(const Scene& scene, const LightmapLayout& layout);
-
 /// What a relight() computed with and what it left, for those who follow its light backwards. Valid
 /// until the next relight().
 struct RelightState {
@@ -67,7 +64,7 @@ struct RelightState {
     std::span<const glm::vec4> radiosity;                 ///< per node, as withLuma [W m^-2]
     std::span<const glm::vec3> albedo, emitted, indirect; ///< per surfel; emitted: pi L_e [W m^-2];
                                                           ///< indirect: irradiance [W m^-2]
-    const SurfelLight& direct;
+    const DirectIrradiance& direct;
 };
 
 /// Relights a bake on the CPU, at run time. Results that did not change since the last call are

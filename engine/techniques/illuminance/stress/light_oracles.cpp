@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/sample_field.h"
+#include "engine/lighting/direct_irradiance.h"
 #include "engine/math/sampling.h"
-#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/stress/oracle.h"
 
@@ -77,10 +77,11 @@ struct FirstLight {
 
 FirstLight firstLight(const LitScene& s) {
     FirstLight out;
-    SurfelLight direct;
+    DirectIrradiance direct;
     std::vector<glm::vec3> albedo;
     surfelMaterials(s.bake->surfels, s.scene, albedo, out.radiosity);
-    updateSurfelLight(s.bake->surfels, s.scene, *s.trace, direct);
+    updateDirectIrradiance(s.bake->surfels.position, s.bake->surfels.normal, s.scene, *s.trace,
+                           direct);
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         out.radiosity[i] += albedo[i] * direct.irradiance[i];
         out.maxAlbedo = std::max(out.maxAlbedo, largest(albedo[i]));

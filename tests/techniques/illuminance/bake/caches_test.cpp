@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which caches are worth rays, where those start, and what takes the place of the others.
+#include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/charts.h"
 #include "engine/scene/mesh/input_hash.h"

@@ -30,15 +30,6 @@ void addSurfaceCache(const Scene& scene, const AtlasTexel& texel, Caches& caches
 void addGridCaches(glm::uvec3 gridSize, const Bounds& gridBounds, Caches& caches,
                    CachePoints& points);
 
-/// Number of grid cells per axis: settings.grid; where that is 0 and some instance has no lightmap,
-/// cubes of about 1/12 of the longest side, between 2 and 32 per axis; otherwise 0.
-glm::uvec3 chooseGridSize(const Scene& scene, const LightmapLayout& layout,
-                          const BakeSettings& settings);
-
-/// Bounds of the grid: those of the static scene, widened where it is flat. A dynamic object beyond
-/// them reads the nearest cells.
-Bounds gridBoundsOf(const Scene& scene);
-
 /// Gives every surfel its four caches: those of the bilinear lookup at its place in the lightmap,
 /// on its side, which `lookup` snaps by rays of its own.
 void connectSurfels(const SideLookup& lookup, const Scene& scene, const LightmapLayout& layout,

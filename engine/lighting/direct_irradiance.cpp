@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/surfel_light.h"
+#include "engine/lighting/direct_irradiance.h"
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -48,14 +48,14 @@ std::vector<LightRectangle> rectanglesOf(const Light& light, const Scene& scene)
 }
 
 // Neighbours shift the points on the rectangle differently, so that the remaining pattern averages
-// out over a cluster.
+// out over an area.
 float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>& rectangles,
-                     glm::vec3 p, glm::vec3 n, std::uint32_t surfel, std::uint64_t& rays) {
-    const std::uint32_t bits = mixBits(surfel);
+                     glm::vec3 p, glm::vec3 n, std::uint32_t point, std::uint64_t& rays) {
+    const std::uint32_t bits = mixBits(point);
     const glm::vec2 shift(unitFloat(bits), unitFloat(mixBits(bits)));
     float sum = 0;
     for (const LightRectangle& r : rectangles)
-        sum += shadowedIrradiance(trace, r, p, n, SurfelLight::kRectanglePoints, shift, rays);
+        sum += shadowedIrradiance(trace, r, p, n, DirectIrradiance::kRectanglePoints, shift, rays);
     return sum;
 }
 
@@ -71,15 +71,15 @@ float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::
 }
 
 // Returns the shadow rays traced.
-std::uint64_t traceLight(const Surfels& surfels, const TraceScene& trace,
-                         SurfelLight::PerLight& out) {
+std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                         const TraceScene& trace, DirectIrradiance::PerLight& out) {
     const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
-    out.share.resize(surfels.size());
+    out.share.resize(positions.size());
     std::atomic<std::uint64_t> rays = 0;
-    parallelRanges(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
+    parallelRanges(positions.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::uint64_t mine = 0;
         for (std::size_t s = begin; s < end; ++s) {
-            const glm::vec3 p = surfels.position[s], n = surfels.normal[s];
+            const glm::vec3 p = positions[s], n = normals[s];
             out.share[s] = rectangles.empty()
                                ? pointShare(trace, out.light, p, n, mine)
                                : rectangleShare(trace, rectangles, p, n, std::uint32_t(s), mine);
@@ -89,9 +89,9 @@ std::uint64_t traceLight(const Surfels& surfels, const TraceScene& trace,
     return rays;
 }
 
-void sumLights(std::size_t surfels, SurfelLight& state) {
-    state.irradiance.assign(surfels, glm::vec3(0));
-    parallelRanges(surfels, 1024, [&](std::size_t begin, std::size_t end) {
+void sumLights(std::size_t points, DirectIrradiance& state) {
+    state.irradiance.assign(points, glm::vec3(0));
+    parallelRanges(points, 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t l = 0; l < state.lights.size(); ++l) {
             const glm::vec3 strength = state.summed[l].color * state.summed[l].strength;
             const std::vector<float>& share = state.lights[l].share;
@@ -103,12 +103,13 @@ void sumLights(std::size_t surfels, SurfelLight& state) {
 
 } // namespace
 
-bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceScene& trace,
-                       SurfelLight& state) {
+bool updateDirectIrradiance(std::span<const glm::vec3> positions,
+                            std::span<const glm::vec3> normals, const Scene& scene,
+                            const TraceScene& trace, DirectIrradiance& state) {
     state.lightsTraced = 0;
     state.raysTraced = 0;
-    if (state.irradiance.size() != surfels.size())
-        state.bounds = boundsOf(surfels.position);
+    if (state.irradiance.size() != positions.size())
+        state.bounds = boundsOf(positions);
     std::vector<Light>& lights = state.wanted;
     lights.clear();
     for (const Light& l : scene.lights)
@@ -116,37 +117,37 @@ bool updateSurfelLight(const Surfels& surfels, const Scene& scene, const TraceSc
             lights.push_back(withoutName(l));
     const std::uint64_t occluders = hashOccluders(trace.scene());
     if (occluders != state.occluders)
-        for (SurfelLight::PerLight& light : state.lights)
+        for (DirectIrradiance::PerLight& light : state.lights)
             light.light.enabled = false; // matches no light that shines
-    else if (lights == state.summed && state.irradiance.size() == surfels.size())
+    else if (lights == state.summed && state.irradiance.size() == positions.size())
         return false;
     state.occluders = occluders;
 
-    const auto hasShare = [](const SurfelLight::PerLight& l) { return !l.share.empty(); };
-    std::vector<SurfelLight::PerLight>& known = state.known;
+    const auto hasShare = [](const DirectIrradiance::PerLight& l) { return !l.share.empty(); };
+    std::vector<DirectIrradiance::PerLight>& known = state.known;
     known.clear();
     std::swap(known, state.lights);
     for (const Light& light : lights) {
         state.lights.push_back({shapeOf(light), {}});
-        SurfelLight::PerLight& next = state.lights.back();
+        DirectIrradiance::PerLight& next = state.lights.back();
         const auto same = std::ranges::find_if(
             known, [&](const auto& l) { return l.light == next.light && hasShare(l); });
         if (same != known.end())
             std::swap(next.share, same->share);
     }
     auto gone = known.begin(); // unused entries, whose memory is reused
-    for (SurfelLight::PerLight& light : state.lights) {
+    for (DirectIrradiance::PerLight& light : state.lights) {
         if (hasShare(light))
             continue;
         gone = std::find_if(gone, known.end(), hasShare);
         if (gone != known.end())
             std::swap(light.share, gone->share);
-        state.raysTraced += traceLight(surfels, trace, light);
+        state.raysTraced += traceLight(positions, normals, trace, light);
         ++state.lightsTraced;
     }
     std::swap(state.summed, lights);
     std::swap(state.before, state.irradiance);
-    sumLights(surfels.size(), state);
+    sumLights(positions.size(), state);
     return state.before != state.irradiance;
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/light/light.h"
+#include "engine/scene/scene.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Direct light at surface points, stored per light as the irradiance from a white light of unit
+/// strength at the same place. Changing a colour or a strength traces no ray.
+struct DirectIrradiance {
+    /// Number of shadow rays from a point to a rectangle.
+    static constexpr std::uint32_t kRectanglePoints = 16;
+
+    struct PerLight {
+        Light light; ///< as traced
+        std::vector<float>
+            share; ///< irradiance / (color * strength) at each point, shadow included
+    };
+    std::vector<PerLight> lights;
+    std::uint64_t occluders = 0; ///< hash of the instances that the shadows belong to
+    std::vector<Light> summed;   ///< lights that `irradiance` sums, without names
+    Bounds bounds;               ///< of the points
+
+    std::vector<glm::vec3> irradiance; ///< [W m^-2] per point, all lights
+    std::uint32_t lightsTraced = 0;    ///< by the last update
+    std::uint64_t raysTraced = 0;      ///< by the last update
+
+    // Buffers of the previous update, whose memory the next one reuses.
+    std::vector<Light> wanted;
+    std::vector<PerLight> known;
+    std::vector<glm::vec3> before;
+};
+
+/// Brings `state` up to date with the scene's lights at points with unit normals, on the side that
+/// is lit. Lights that are off, black, of no strength, out of reach of every point, or unchanged
+/// cost nothing. Returns true if any irradiance changed. The points are the same at every call with
+/// that state.
+bool updateDirectIrradiance(std::span<const glm::vec3> positions,
+                            std::span<const glm::vec3> normals, const Scene& scene,
+                            const TraceScene& trace, DirectIrradiance& state);
+
+} // namespace limn
