@@ -2,6 +2,7 @@
 #include "app/techniques/technique_program.h"
 
 #include "app/techniques/illuminance/illuminance_program.h"
+#include "app/techniques/sparse_probes/sparse_probes_program.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace limn {
 
-static constexpr std::array kPrograms = {&kIlluminanceProgram};
+static constexpr std::array kPrograms = {&kIlluminanceProgram, &kSparseProbesProgram};
 
 std::span<const TechniqueProgram* const> techniquePrograms() {
     return kPrograms;

@@ -23,7 +23,10 @@ enum class Stage : std::uint32_t {
     TraceBlock,
     TraceOfDocument,
     AimedHits,
-    Training
+    Training,
+    SparseProbes,
+    RelightRays,
+    SparseTransport
 };
 
 /// Key of a content; `inputs` is the hash of everything that it is computed from.

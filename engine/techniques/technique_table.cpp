@@ -5,6 +5,7 @@
 #include "engine/techniques/illuminance/illuminance.h"
 #include "engine/techniques/lpv/lpv.h"
 #include "engine/techniques/probes/probes.h"
+#include "engine/techniques/sparse_probes/sparse_probes.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,8 @@
 namespace limn {
 
 static constexpr std::array kTechniques = {&kIlluminanceTechnique, &kAmbientTechnique,
-                                           &kLpvTechnique, &kProbesTechnique};
+                                           &kLpvTechnique, &kProbesTechnique,
+                                           &kSparseProbesTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;

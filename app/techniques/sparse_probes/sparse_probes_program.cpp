@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "app/techniques/sparse_probes/sparse_probes_program.h"
+
+#include "app/commands/bake_options.h"
+
+#include "engine/core/hash.h"
+#include "engine/techniques/sparse_probes/sparse_probes.h"
+
+namespace limn {
+
+using Json = nlohmann::ordered_json;
+
+static Json describe(const Precomputed& data) {
+    Json json;
+    json["kind"] = "sparse probes";
+    json["settings"] = settingsJson(data.settings());
+    json["lightmap"] = {{"width", data.layout().width}, {"height", data.layout().height}};
+    json["input"] = hexHash(data.inputHash());
+    const nlohmann::json summary = bakeSummary(data);
+    for (const auto& [key, value] : summary.items())
+        json[key] = value;
+    return json;
+}
+
+constinit const TechniqueProgram kSparseProbesProgram = {
+    .technique = &kSparseProbesTechnique,
+    .describe = describe,
+    .print = [](const std::string&, const Json&) { return false; },
+    .addBenches = [](CLI::App&, Run&) {}};
+
+} // namespace limn

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/sparse_probes/prepared_sparse.h"
+
+#include "engine/techniques/sparse_probes/sparse_probes.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+const Technique& PreparedSparse::technique() const {
+    return kSparseProbesTechnique;
+}
+
+PrecomputedReport PreparedSparse::report() const {
+    const SparseBake& b = *m_bake;
+    const std::vector<float>& unseen = b.transport.unseen;
+    const double share = std::accumulate(unseen.begin(), unseen.end(), 0.) /
+                         double(std::max<std::size_t>(unseen.size(), 1));
+    return {.counts = {{"triangles", "Triangles", "Of the scene", double(b.triangles)},
+                       {"caches", "Receivers", "Lightmap texels", double(b.receivers.size())},
+                       {"probes", "Probes", "In the open air", double(b.probes.size())},
+                       {"unseen", "Unseen",
+                        "Share of the receivers' views that none of their probes sees", share,
+                        CounterUnit::Share},
+                       {"rays", "Rays", "Traced by the last bake", double(b.rays)}},
+            .bytes = sparseBytes(b.receivers.size(), b.sparse, b.probes.size()),
+            .seconds = b.seconds,
+            .keptStages = b.keptStages,
+            .notes = {}};
+}
+
+// The power of four that the bytes of the transport reach.
+std::string PreparedSparse::sizeClass() const {
+    return fmt::format("transport 4^{}",
+                       std::bit_width(m_bake->transport.coefficients.size() * 2) / 2);
+}
+
+// Charts and updates take time in proportion to the texels, transport to texels and rays.
+PrecomputedCost PreparedSparse::expectedCost(const Scene& scene, const BakeSettings& wanted,
+                                             const PrecomputedCost& measured) const {
+    const BakeSettings& made = m_bake->settings;
+    if (wanted == made)
+        return measured; // without the rounding of what follows
+    Scene with = scene;
+    with.bake = made;
+    const double before = wantedTexels(with);
+    with.bake = wanted;
+    const double texels = wantedTexels(with) / std::max(before, 1.),
+                 rays = double(wanted.rays) / double(made.rays);
+    PrecomputedCost cost = measured;
+    for (auto& [stage, seconds] : cost.seconds)
+        seconds *= stage == "transport" ? texels * rays : stage == "charts" ? texels : 1;
+    cost.updateMs = 0;
+    for (LightingStep& step : cost.update)
+        cost.updateMs += step.ms *= std::string_view(step.id) == "sparse_probes" ? 1 : texels;
+    cost.bytes *= texels;
+    return cost;
+}
+
+} // namespace limn

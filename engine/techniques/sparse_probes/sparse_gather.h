@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/indirect_field.h"
+#include "engine/techniques/sparse_probes/sparse_bake.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Harmonics of the radiance at probes [W m^-2 sr^-1]: for each probe bands^2 red values, then
+/// green, then blue.
+using ProbeRadiance = std::vector<float>;
+
+/// What probes see of the sky alone. `directions` and `basis` are those of the relight rays.
+ProbeRadiance gatherSky(const SparseBake& bake, std::span<const glm::vec3> directions,
+                        std::span<const float> basis, const Sky& sky);
+
+/// What probes see of the receivers, which send `radiance`, and of the sky:
+/// P_lm = sky + (4 pi / Q) sum over q of radiance(hit_q) Y_lm(d_q).
+void gatherProbes(const SparseBake& bake, std::span<const float> basis,
+                  std::span<const glm::vec3> radiance, const ProbeRadiance& sky,
+                  ProbeRadiance& probes);
+
+/// Irradiance of all receivers [W m^-2], E = max(0, sum of T_lm P_lm). `clampParts`: each probe's
+/// part of the sum is kept from being negative, too.
+void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, bool clampParts,
+                     std::vector<glm::vec3>& irradiance);
+
+/// Fills the field's grid with the mean of the eight probes nearest to each cell, by their weights
+/// and without regard to walls. The field has three bands.
+void fillGrid(const SparseBake& bake, const ProbeRadiance& probes, IndirectField& field);
+
+} // namespace limn
