@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/light/light_parts.h"
+#include "engine/scene/light/unit_light.h"
 #include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
@@ -20,13 +21,6 @@ namespace {
 
 Light withoutName(Light l) {
     l.name.clear();
-    return l;
-}
-
-/// The light with every property that does not affect shadows set to one.
-Light shapeOf(Light l) {
-    l.color = glm::vec3(1);
-    l.strength = 1;
     return l;
 }
 
@@ -128,7 +122,7 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
     known.clear();
     std::swap(known, state.lights);
     for (const Light& light : lights) {
-        state.lights.push_back({shapeOf(light), {}});
+        state.lights.push_back({unitLight(light), {}});
         DirectIrradiance::PerLight& next = state.lights.back();
         const auto same = std::ranges::find_if(
             known, [&](const auto& l) { return l.light == next.light && hasShare(l); });

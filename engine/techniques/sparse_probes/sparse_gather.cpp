@@ -7,6 +7,7 @@
 #include "engine/techniques/sparse_probes/relight_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include <glm/common.hpp>
@@ -87,17 +88,20 @@ void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, bool c
     });
 }
 
+glm::vec3 cellCentre(const IndirectField& field, std::uint32_t cell) {
+    const glm::uvec3 size = field.gridSize,
+                     at(cell % size.x, cell / size.x % size.y, cell / size.x / size.y);
+    return field.gridBounds.lower +
+           (glm::vec3(at) + 0.5f) * field.gridBounds.size() / glm::vec3(size);
+}
+
 void fillGrid(const SparseBake& bake, const ProbeRadiance& probes, IndirectField& field) {
     const std::size_t count = bake.coefficients(), cells = field.cells(),
                       common = std::min<std::size_t>(count, field.coefficients());
     field.grid.assign(cells * field.coefficients(), glm::vec4(0));
-    const glm::vec3 step = field.gridBounds.size() / glm::vec3(field.gridSize);
     parallelRanges(cells, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            const glm::uvec3 at(c % field.gridSize.x, c / field.gridSize.x % field.gridSize.y,
-                                c / field.gridSize.x / field.gridSize.y);
-            const NearProbes near =
-                nearestProbes(bake.probes, field.gridBounds.lower + (glm::vec3(at) + 0.5f) * step);
+            const NearProbes near = nearestProbes(bake.probes, cellCentre(field, std::uint32_t(c)));
             float sum = 0;
             for (const float w : near.weight)
                 sum += w;

@@ -4,7 +4,8 @@
 #include "engine/field/indirect_field.h"
 #include "engine/techniques/sparse_probes/sparse_bake.h"
 
-#include <array>
+#include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,13 @@ namespace limn {
 /// Harmonics of the radiance at probes [W m^-2 sr^-1]: for each probe bands^2 red values, then
 /// green, then blue.
 using ProbeRadiance = std::vector<float>;
+
+/// The field's constant harmonic of radiance of which surfaces read an irradiance of 1, whatever
+/// their normal: 1 / (A_0 Y_00).
+inline constexpr float kRadiancePerIrradiance = 2 * std::numbers::inv_sqrtpi_v<float>;
+
+/// The middle of a cell of the field's grid.
+glm::vec3 cellCentre(const IndirectField& field, std::uint32_t cell);
 
 /// What probes see of the sky alone. `directions` and `basis` are those of the relight rays.
 ProbeRadiance gatherSky(const SparseBake& bake, std::span<const glm::vec3> directions,

@@ -2,12 +2,11 @@
 #include "engine/techniques/sparse_probes/sparse_lighting.h"
 
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/field/grid_placement.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <functional>
 #include <numbers>
 #include <numeric>
@@ -17,25 +16,7 @@
 
 namespace limn {
 
-namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-
-class Stopwatch {
-public:
-    /// Milliseconds since construction or the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double, std::milli> took = now - m_start;
-        m_start = now;
-        return took.count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
-};
-
-} // namespace
+static constexpr float kPi = std::numbers::pi_v<float>;
 
 SparseLighting::SparseLighting(std::shared_ptr<const SparseBake> bake, const Scene& scene)
     : m_bake(std::move(bake)), m_points(pointsOf(scene, m_bake->receivers)),
@@ -140,9 +121,9 @@ void SparseLighting::writeField(bool grid) {
         m_field.grid.clear();
     const std::size_t texels = std::size_t(m_field.lightmapWidth) * m_field.lightmapHeight;
     m_field.lightmap.resize(texels * m_field.coefficients()); // all but the first layer stay 0
-    const float mean = 2 / std::sqrt(kPi);                    // 1 / (A_0 Y_00)
     for (std::size_t r = 0; r < m_irradiance.size(); ++r)
-        m_field.lightmap[m_bake->receivers.texel[r]] = glm::vec4(m_irradiance[r] * mean, 0);
+        m_field.lightmap[m_bake->receivers.texel[r]] =
+            glm::vec4(m_irradiance[r] * kRadiancePerIrradiance, 0);
     ++m_field.version;
 }
 

@@ -23,6 +23,8 @@ public:
     /// input.trace is not null.
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return &m_field; }
+    Explanation explain(const Scene& scene, const FieldReading& reading,
+                        const ExplainOptions& options) const override;
 
 private:
     /// Durations of an update's steps [ms].

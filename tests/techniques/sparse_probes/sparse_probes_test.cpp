@@ -2,7 +2,9 @@
 #include "engine/techniques/sparse_probes/sparse_probes.h"
 
 #include "engine/core/parallel.h"
+#include "engine/field/field_reading.h"
 #include "engine/field/sample_field.h"
+#include "engine/lightmap/texel_points.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/sparse_probes/prepared_sparse.h"
 #include "tests/trace/simple_scene.h"
@@ -344,6 +346,38 @@ TEST(SparseProbes, ADamagedFileIsRefused) {
     std::string flipped = bytes;
     flipped[bytes.size() / 2] = char(flipped[bytes.size() / 2] ^ 1);
     EXPECT_TRUE(refused(flipped));
+}
+
+TEST(SparseProbes, ExplainWhereTheirLightComesFrom) {
+    Scene scene = room();
+    scene.sky.radiance = glm::vec3(1);
+    scene.materials.push_back(simple::lambert(glm::vec3(0.5f), glm::vec3(3)));
+    scene.instances[1].material = 1;
+    LitBySparse s(scene, {}, 800);
+    s.scene.relight.tolerance = 0.01f;
+    s.update(200);
+    const Instance& walls = s.scene.instances[0];
+    const WorldPoint at = worldPoint(s.scene, walls, {0, glm::vec2(0.3f)});
+    const FieldPoint point{*s.lighting->field(), s.bake().lightmap, s.scene, 0, 0, 0.3f, 0.3f,
+                           at.position,          at.normal};
+    FieldReading reading;
+    addIrradiance(point, glm::vec3(1), reading);
+    const glm::vec3 is = sampleIrradiance(point);
+    const Explanation why = s.lighting->explain(s.scene, reading, {});
+    ASSERT_GT(is.x, 0.1f);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(totalOf(why.byOrigin)[c], is[c], 2e-3f * is[c]);
+        EXPECT_NEAR(totalOf(why.bySender)[c], is[c], 2e-3f * is[c]);
+    }
+    EXPECT_GE(why.byOrigin.size(), 4U);
+    // Without the block's light there is as much less as its row says.
+    double emitted = 0;
+    for (const LightRow& row : why.byOrigin)
+        if (row.kind == LightRowKind::Surface)
+            emitted += double(row.value.x);
+    s.scene.materials[1].emission = glm::vec3(0);
+    s.update(200);
+    EXPECT_NEAR(double(is.x - sampleIrradiance(point).x), emitted, 5e-3 * double(is.x));
 }
 
 TEST(SparseProbes, NothingToLightAndStrangeLightsAreHarmless) {
