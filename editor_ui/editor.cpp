@@ -3,11 +3,10 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/bottom_panel.h"
 #include "editor_ui/panels/chrome.h"
-#include "editor_ui/panels/explain_panel.h"
 #include "editor_ui/panels/help_sheet.h"
 #include "editor_ui/panels/inspector_panel.h"
-#include "editor_ui/panels/mixer_panel.h"
 #include "editor_ui/panels/no_light_hint.h"
 #include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
@@ -15,7 +14,6 @@
 #include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/save_dialog.h"
 #include "editor_ui/panels/start_screen.h"
-#include "editor_ui/panels/statistics_panel.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/viewport_panel.h"
 #include "editor_ui/view/gizmo.h"
@@ -25,9 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
+#include <string_view>
 
 namespace limn {
 
@@ -48,6 +44,8 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags kNoScroll =
+    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
 
 } // namespace
 
@@ -65,7 +63,9 @@ static LayoutState fitted(LayoutState layout, float width, float height) {
     layout.right =
         std::clamp(layout.right * scale, std::min(panel, sides / 2), sides - layout.left);
     const float most = std::max(height - picture, 20.f);
-    layout.bottom = std::clamp(layout.bottom * scale, std::min(80 * scale, most), most);
+    layout.bottom = layout.bottomOpen
+                        ? std::clamp(layout.bottom * scale, std::min(80 * scale, most), most)
+                        : std::min(closedBottomHeight(), most);
     return layout;
 }
 
@@ -124,47 +124,15 @@ static void splitters(LayoutState& wanted, const LayoutState& shown, const Place
          wanted.left);
     drag(-splitter("split right", {p.right.x - width, p.right.y, width, p.right.h}, true),
          shown.right, wanted.right);
-    drag(-splitter("split bottom", {p.bottom.x, p.bottom.y - width, p.bottom.w, width}, false),
-         shown.bottom, wanted.bottom);
-}
-
-static void bottomPanel(EditorState& state, const Rect& place) {
-    beginFixed("bottom", place);
-    state.explain.shown = state.explain.mutes = false;
-    state.explain.hovered = 0;
-    if (ImGui::BeginTabBar("tabs")) {
-        if (ImGui::BeginTabItem("Statistics")) {
-            statisticsPanel(state);
-            ImGui::EndTabItem();
-        }
-        if (ImGui::BeginTabItem("Lights")) {
-            state.explain.shown = true; // shares are those of the pixel that is clicked
-            mixerPanel(state);
-            ImGui::EndTabItem();
-        }
-        const bool bringUp = std::exchange(state.explain.bringUp, false);
-        if (ImGui::BeginTabItem("Explain", nullptr,
-                                bringUp ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None)) {
-            state.explain.shown = state.explain.mutes = true;
-            explainPanel(state);
-            ImGui::EndTabItem();
-        }
-        const std::string label = fmt::format("Log ({})###log", state.log.size());
-        if (ImGui::BeginTabItem(label.c_str())) {
-            logPanel(state);
-            ImGui::EndTabItem();
-        }
-        ImGui::EndTabBar();
-    }
-    ImGui::End();
+    if (wanted.bottomOpen)
+        drag(-splitter("split bottom", {p.bottom.x, p.bottom.y - width, p.bottom.w, width}, false),
+             shown.bottom, wanted.bottom);
 }
 
 static void picturePanel(EditorState& state, const Rect& place) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-    beginFixed("picture", place,
-               ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar |
-                   ImGuiWindowFlags_NoScrollWithMouse);
+    beginFixed("picture", place, ImGuiWindowFlags_NoBackground | kNoScroll);
     viewportPanel(state);
     ImGui::End();
     ImGui::PopStyleVar(2);
@@ -189,13 +157,13 @@ static void panels(EditorState& state, float menuHeight) {
         fitted(state.layout, display.x,
                display.y - menuHeight - 2 * ImGui::GetFrameHeight() - 22 * uiScale());
     const Places p = placesOf(layout, menuHeight);
-    constexpr ImGuiWindowFlags kNoScroll =
-        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     beginFixed("outliner", p.left);
     outlinerPanel(state);
     ImGui::End();
     rightPanels(state, p.right);
-    bottomPanel(state, p.bottom);
+    beginFixed("bottom", p.bottom, state.layout.bottomOpen ? 0 : kNoScroll);
+    bottomPanel(state);
+    ImGui::End();
     beginFixed("view bar", p.bar, kNoScroll);
     viewBar(state);
     ImGui::End();
@@ -227,6 +195,16 @@ static bool escape(EditorState& state) {
     return true;
 }
 
+/// Whether a text field leaves this key to the editor: it has Ctrl and a letter that edits no text,
+/// or it is F1 or F12.
+static bool worksWhileTyping(const Shortcut& shortcut) {
+    constexpr std::string_view kOfText = "ACVXYZ";
+    const bool letter = shortcut.key >= 'A' && shortcut.key <= 'Z';
+    if (letter && (shortcut.mods & kCtrl))
+        return kOfText.find(char(shortcut.key)) == std::string_view::npos;
+    return shortcut.key == key::kF1 || shortcut.key == key::kF12;
+}
+
 static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
     constexpr Shortcut kEsc{key::kEscape, kNoMods};
     const bool typing = ImGui::GetIO().WantTextInput;
@@ -237,8 +215,9 @@ static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
             continue;
         else if (!modal && !typing && keyOfDrag(state, shortcut))
             continue;
-        else if (!modal && !typing && !(flying && shortcut.mods == kNoMods))
-            runShortcut(state, shortcut);
+        else if (!modal && (!typing || worksWhileTyping(shortcut)) &&
+                 !(flying && shortcut.mods == kNoMods) && runShortcut(state, shortcut) && typing)
+            ImGui::ClearActiveID(); // what is typed next is not for the field
 }
 
 void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {

@@ -5,6 +5,7 @@
 #include "editor_ui/document/edit_history.h"
 #include "editor_ui/document/gesture.h"
 #include "editor_ui/document/selection.h"
+#include "editor_ui/panels/error_history.h"
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/keys.h"
@@ -13,6 +14,7 @@
 #include "editor_ui/panels/palette.h"
 #include "editor_ui/panels/recovery_dialog.h"
 #include "editor_ui/panels/statistics.h"
+#include "editor_ui/panels/workspace.h"
 #include "editor_ui/request.h"
 #include "editor_ui/view/compare_state.h"
 #include "editor_ui/view/explain_state.h"
@@ -26,6 +28,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -60,13 +63,6 @@ struct ViewState {
     Picture picture() const { return {camera, origin, size}; }
 };
 
-/// Widths of the fixed panels as the user wants them, at 96 dpi [px]. A small window shows less.
-struct LayoutState {
-    float left = 270, right = 350, bottom = 212;
-
-    bool operator==(const LayoutState&) const = default;
-};
-
 /// Euler angles as typed by the user, valid while the object still has `rotation`.
 struct EulerEdit {
     ObjectId id = 0;
@@ -95,8 +91,11 @@ struct EditorState {
     CompareState compare;
     std::set<ObjectId> solo; ///< lights and the sky that alone are shown; empty: all. See solo.h
     ExplainState explain;
-    LayoutState layout;
-    bool lightTheme = false; ///< light panels instead of dark ones
+    LayoutState layout; ///< of the current workspace
+    Workspace workspace = Workspace::Light;
+    WorkspaceStates workspaces = defaultWorkspaces(); ///< those of the others; see workspacesOf()
+    std::set<std::string> closedCards;                ///< titles of the inspector's closed cards
+    bool lightTheme = false;                          ///< light panels instead of dark ones
     OutlinerState outliner;
     EulerEdit euler;
     std::optional<FileBrowser> fileBrowser;
@@ -119,6 +118,7 @@ struct EditorState {
     LightingStatus relight;
     RelightPlace relightPlace;
     FrameStatus frame;
+    ErrorHistory errors;
     std::string loading; ///< what is being opened; empty: nothing
     std::vector<LogLine> log;
     std::vector<Request> requests; ///< taken by the session each frame

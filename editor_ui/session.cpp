@@ -449,6 +449,7 @@ void Session::followDocument() {
     if (state.document.objects == m_followed->objects && state.solo == m_solo && muted == m_muted)
         return;
     m_followed = std::make_shared<const Document>(state.document);
+    state.errors.restart(ErrorHistory::Clock::now());
     m_solo = state.solo;
     m_muted = muted;
     m_shownSeconds = state.seconds;
@@ -516,6 +517,8 @@ void Session::followReference() {
     m_comparison = wanted;
     m_comparisonJob.set(std::move(wanted));
     m_beside = m_comparisonJob.result();
+    if (m_beside.error)
+        state.errors.add(ErrorHistory::Clock::now(), m_beside.number, *m_beside.error);
     compare.reference = {traced.running,  traced.set ? 4 * traced.set->samplesPerPixel : 0,
                          traced.noise,    traced.seconds,
                          traced.fraction, m_beside.error};
@@ -558,11 +561,22 @@ void Session::update() {
     m_settings.keep(settingsOf(state));
 }
 
+WorkSet Session::working() const {
+    const bool opening = !state.loading.empty();
+    WorkSet set;
+    set[std::size_t(Work::Open)] = opening;
+    set[std::size_t(Work::Bake)] = m_bakeSoon || m_bakeJob.busy();
+    set[std::size_t(Work::Relight)] =
+        state.relight.running || m_relit.status.running || m_other.busy();
+    set[std::size_t(Work::Reference)] = state.compare.reference.running || m_comparisonJob.busy();
+    set[std::size_t(Work::Save)] = m_files.busy() && !opening;
+    set[std::size_t(Work::Explain)] = m_explainJob.busy();
+    set[std::size_t(Work::Export)] = m_exportJob.busy();
+    return set;
+}
+
 bool Session::idle() const {
-    return !state.compare.reference.running && !m_comparisonJob.busy() && !m_other.busy() &&
-           !m_files.busy() && !m_bakeJob.busy() && !m_exportJob.busy() && !m_explainJob.busy() &&
-           !m_bakeSoon && !state.relight.running && !m_relit.status.running &&
-           state.loading.empty();
+    return working().none();
 }
 
 double Session::bakeSeconds() const {

@@ -62,7 +62,10 @@ public:
     const ComparedPicture& compared() const { return m_beside; }
 
     bool wantsQuit() const { return m_quit; }
-    /// True if nothing is being opened, saved, baked, exported, explained, relit or path-traced.
+    /// What is being opened, saved, baked, exported, explained, relit or path-traced, results that
+    /// are not taken yet included.
+    WorkSet working() const;
+    /// True if none of this goes on.
     bool idle() const;
     /// Seconds of baking since the start, finished, cancelled or running.
     double bakeSeconds() const;

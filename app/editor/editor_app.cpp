@@ -57,6 +57,29 @@ std::string settingsFile() {
     return config.empty() ? config : config + "/editor.json";
 }
 
+double msBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+/// Milliseconds of a frame, all of it and by part.
+nlohmann::json frameJson(const FrameTime& frame) {
+    return {{"total_ms", frame.total()},     {"beyond_viewport_ms", frame.beyondViewport()},
+            {"panels_ms", frame.panels},     {"jobs_ms", frame.jobs},
+            {"viewport_ms", frame.viewport}, {"window_ms", frame.window}};
+}
+
+/// How far the picture is from the reference; null where there is none of this view.
+nlohmann::json comparisonJson(const Session& session) {
+    const ReferenceStatus& reference = session.state.compare.reference;
+    if (!reference.error)
+        return nullptr;
+    return {{"number", session.compared().number},
+            {"samples", reference.samples},
+            {"nrmse", reference.error->nrmse},
+            {"nrmse_noise", reference.error->nrmseNoise},
+            {"flip", reference.error->flip}};
+}
+
 /// Frames drawn after the last event, so that hover and layout of ImGui settle.
 constexpr int kFramesAfterEvent = 2;
 constexpr double kLookWhenIdleSeconds = 0.25, kLookWhenBusySeconds = 0.05;
@@ -81,10 +104,9 @@ private:
     bool waitForWork();
     void frame();
     bool fitSwapchain();
-    void draw();
+    void draw(FrameTime& time);
     void takeWindowEvents();
     void takeScreenshots();
-    void countFrame(double ms);
     void countLatency(double ms);
 
     EditorAppOptions m_options;
@@ -99,6 +121,7 @@ private:
     Clock::time_point m_lastFrame = Clock::now();
     int m_framesOwed = kFramesAfterEvent;
     bool m_wasIdle = false;
+    std::uint64_t m_compared = 0; ///< ComparedPicture::number of the latest frame
 };
 
 /// Sleeps until there is something to draw. Returns false after a wait that brought nothing.
@@ -135,6 +158,7 @@ void EditorApp::takeWindowEvents() {
 
 void EditorApp::frame() {
     const auto start = Clock::now();
+    const WorkSet before = m_session.working();
     ImGuiIO& io = ImGui::GetIO();
     const glm::uvec2 size = m_window->size();
     io.DisplaySize = {float(size.x), float(size.y)};
@@ -146,21 +170,19 @@ void EditorApp::frame() {
     drawEditor(m_session.state, pressed);
     ImGui::Render();
     m_window->showCursor(ImGui::GetMouseCursor());
+    const auto drawn = Clock::now();
     m_session.update();
     takeScreenshots();
+    const auto updated = Clock::now();
     m_picture.update(m_session);
-    draw();
+    FrameTime time{.panels = msBetween(start, drawn),
+                   .jobs = msBetween(drawn, updated),
+                   .viewport = msBetween(updated, Clock::now())};
+    draw(time);
     m_framesOwed = std::max(m_framesOwed - 1, 0);
-    countFrame(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-}
-
-void EditorApp::countFrame(double ms) {
-    FrameStatus& f = m_session.state.frame;
-    ++f.uiFrames;
-    f.uiMs = ms;
-    f.longestUiMs = std::max(f.longestUiMs, ms);
-    if ((m_session.field() || m_session.viewportRelights()) && m_session.state.relight.running)
-        f.longestUiWhileRelightingMs = std::max(f.longestUiWhileRelightingMs, ms);
+    FrameStatus& status = m_session.state.frame;
+    ++status.uiFrames;
+    status.frames.add(time, before | m_session.working());
 }
 
 void EditorApp::countLatency(double ms) {
@@ -180,7 +202,9 @@ bool EditorApp::fitSwapchain() {
     return true;
 }
 
-void EditorApp::draw() {
+/// Draws the window and adds to `time` what that took.
+void EditorApp::draw(FrameTime& time) {
+    const auto start = Clock::now();
     if (!fitSwapchain())
         return;
     const auto image = m_swapchain.acquire();
@@ -189,9 +213,13 @@ void EditorApp::draw() {
         return;
     }
     VkCommandBuffer cmd = m_device->begin("window");
+    const auto acquired = Clock::now();
     const WindowPicture picture = m_picture.record(cmd, m_session.state.view);
+    const auto copied = Clock::now();
     m_renderer.record(cmd, *image, picture);
     m_swapchain.present(cmd, *image);
+    time.viewport += msBetween(acquired, copied);
+    time.window = msBetween(start, acquired) + msBetween(copied, Clock::now());
 }
 
 void EditorApp::takeScreenshots() {
@@ -215,15 +243,20 @@ void EditorApp::writeStats() const {
     if (m_options.statsPath.empty())
         return;
     const EditorState& s = m_session.state;
+    nlohmann::json during;
+    for (std::size_t i = 0; i < kWorkNames.size(); ++i)
+        during[kWorkNames[i]] = frameJson(s.frame.frames.during[i]);
     const nlohmann::json json = {
         {"device", m_device->properties.deviceName},
         {"frames", s.frame.uiFrames},
         {"pictures", s.frame.pictures},
-        {"longest_frame_ms", s.frame.longestUiMs},
-        {"longest_frame_relighting_ms", s.frame.longestUiWhileRelightingMs},
+        {"longest_frame", frameJson(s.frame.frames.sinceStart)},
+        {"longest_frame_since_idle", frameJson(s.frame.frames.sinceIdle)},
+        {"longest_frame_during", during},
         {"longest_latency_ms", s.frame.longestLatencyMs},
         {"bake_seconds", m_session.bakeSeconds()},
         {"bake_seconds_since_light_edit", s.bake.secondsSinceLightEdit},
+        {"bake_bytes", totalOf(s.bake.last.bytes)},
         {"bake_up_to_date", s.bake.freshness == BakeFreshness::UpToDate},
         {"technique", singleton<TechniqueChoice>(s.document).technique},
         {"relight_calls", s.relight.calls},
@@ -234,6 +267,7 @@ void EditorApp::writeStats() const {
         {"edits", s.history.applied},
         {"selection", s.selection},
         {"unsaved", hasUnsavedChanges(s)},
+        {"comparison", comparisonJson(m_session)},
         {"validating", m_device->validating},
         {"validation_messages", validationMessages()},
     };
@@ -252,10 +286,16 @@ void EditorApp::run() {
         while (!m_swapchain.ready()) // events are still taken in while the GPU is behind
             m_window->wait(0.002);
         frame();
-        countLatency(std::chrono::duration<double, std::milli>(Clock::now() - wanted).count());
+        countLatency(msBetween(wanted, Clock::now()));
+        // A reference is refined for minutes, in which the editor is never idle.
+        if (const std::uint64_t number = m_session.compared().number; number != m_compared) {
+            m_compared = number;
+            writeStats();
+        }
         const bool idle = m_session.idle() && m_framesOwed == 0 && m_picture.idle();
         if (idle && !m_wasIdle) {
             writeStats();
+            m_session.state.frame.frames.idle();
             m_framesOwed = 1; // the panels show the last numbers
         }
         m_wasIdle = idle;

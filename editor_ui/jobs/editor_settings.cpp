@@ -4,7 +4,6 @@
 #include "engine/core/log.h"
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
-#include "engine/techniques/technique_table.h"
 
 #include <algorithm>
 #include <array>
@@ -18,23 +17,17 @@ namespace limn {
 using nlohmann::json;
 
 static constexpr std::array kSpaceNames{"world", "local", "view"};
-
-/// The overlay of this name; null if there is none.
-static const OverlayKind* overlayNamed(const std::string& name) {
-    const auto kinds = overlayKinds();
-    const auto at = std::ranges::find(kinds, name, [](const OverlayKind* k) { return k->name; });
-    return at == kinds.end() ? nullptr : *at;
-}
+static constexpr std::array kCompareNames{"off", "reference", "difference", "flip"}; // of Compare
 
 EditorSettings settingsOf(const EditorState& state) {
-    const OverlayKind* overlay = state.overlay.options.kind;
-    return {.layout = state.layout,
+    return {.workspace = state.workspace,
+            .workspaces = workspacesOf(state),
+            .closedCards = state.closedCards,
             .view = state.view.view,
             .tonemap = state.view.tonemap,
             .exposureEv = state.view.exposureEv,
             .autoExposure = state.view.autoExposure,
             .physical = state.view.physical,
-            .overlay = overlay ? overlay->name : "",
             .showLights = state.view.showLights,
             .lightTheme = state.lightTheme,
             .gizmo = state.view.gizmo,
@@ -42,30 +35,42 @@ EditorSettings settingsOf(const EditorState& state) {
 }
 
 void useSettings(EditorState& state, const EditorSettings& settings) {
-    state.layout = settings.layout;
+    useWorkspaces(state, settings.workspace, settings.workspaces);
+    state.closedCards = settings.closedCards;
     state.view.view = settings.view;
     state.view.tonemap = settings.tonemap;
     state.view.exposureEv = settings.exposureEv;
     state.view.autoExposure = settings.autoExposure;
     state.view.physical = settings.physical;
-    state.overlay.options.kind = overlayNamed(settings.overlay);
     state.view.showLights = settings.showLights;
     state.lightTheme = settings.lightTheme;
     state.view.gizmo = settings.gizmo;
     state.autoBake = settings.autoBake;
 }
 
+static json workspaceJson(const WorkspaceState& w) {
+    return {{"left", w.layout.left},
+            {"right", w.layout.right},
+            {"bottom", w.layout.bottom},
+            {"bottomOpen", w.layout.bottomOpen},
+            {"tab", kBottomTabNames[std::size_t(w.layout.tab)]},
+            {"overlay", w.overlay},
+            {"compare", kCompareNames[std::size_t(w.compare)]}};
+}
+
 std::string settingsToJson(const EditorSettings& s) {
-    const json out = {{"left", s.layout.left},
-                      {"right", s.layout.right},
-                      {"bottom", s.layout.bottom},
+    json workspaces;
+    for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
+        workspaces[kWorkspaceNames[i]] = workspaceJson(s.workspaces[i]);
+    const json out = {{"workspace", kWorkspaceNames[std::size_t(s.workspace)]},
+                      {"workspaces", workspaces},
+                      {"closedCards", s.closedCards},
                       {"view", kViewNames[std::size_t(s.view)]},
                       {"tonemap", kTonemapNames[std::size_t(s.tonemap)]},
                       {"exposure", s.exposureEv},
                       {"automaticExposure", s.autoExposure},
                       {"aperture", s.physical.aperture},
                       {"iso", s.physical.iso},
-                      {"overlay", s.overlay},
                       {"lightIcons", s.showLights},
                       {"lightTheme", s.lightTheme},
                       {"gizmoAxes", kSpaceNames[std::size_t(s.gizmo.space)]},
@@ -104,6 +109,19 @@ static void readName(const json& in, const char* key, const Names& names, T& val
         value = T(std::distance(names.begin(), at));
 }
 
+static void readWorkspace(const json& in, WorkspaceState& w) {
+    if (!in.is_object())
+        return;
+    constexpr float kWidest = 10000;
+    readNumber(in, "left", 0, kWidest, w.layout.left);
+    readNumber(in, "right", 0, kWidest, w.layout.right);
+    readNumber(in, "bottom", 0, kWidest, w.layout.bottom);
+    readFlag(in, "bottomOpen", w.layout.bottomOpen);
+    readName(in, "tab", kBottomTabNames, w.layout.tab);
+    w.overlay = readText(in, "overlay");
+    readName(in, "compare", kCompareNames, w.compare);
+}
+
 EditorSettings settingsFromJson(const std::string& text) {
     EditorSettings s;
     constexpr int kMaxDepth = 8; // the parser calls itself, and the stack ends
@@ -111,18 +129,21 @@ EditorSettings settingsFromJson(const std::string& text) {
         text, [](int depth, json::parse_event_t, json&) { return depth <= kMaxDepth; }, false);
     if (!in.is_object())
         return s;
-    constexpr float kWidest = 10000;
-    readNumber(in, "left", 0, kWidest, s.layout.left);
-    readNumber(in, "right", 0, kWidest, s.layout.right);
-    readNumber(in, "bottom", 0, kWidest, s.layout.bottom);
+    readName(in, "workspace", kWorkspaceNames, s.workspace);
+    if (const auto at = in.find("workspaces"); at != in.end() && at->is_object())
+        for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
+            if (const auto one = at->find(kWorkspaceNames[i]); one != at->end())
+                readWorkspace(*one, s.workspaces[i]);
+    if (const auto at = in.find("closedCards"); at != in.end() && at->is_array())
+        for (const json& title : *at)
+            if (title.is_string())
+                s.closedCards.insert(title.get<std::string>());
     readNumber(in, "exposure", -kMaxExposureEv, kMaxExposureEv, s.exposureEv);
     readFlag(in, "automaticExposure", s.autoExposure);
     readNumber(in, "aperture", kMinAperture, kMaxAperture, s.physical.aperture);
     readNumber(in, "iso", kMinIso, kMaxIso, s.physical.iso);
     readName(in, "view", kViewNames, s.view);
     readName(in, "tonemap", kTonemapNames, s.tonemap);
-    if (const OverlayKind* overlay = overlayNamed(readText(in, "overlay")))
-        s.overlay = overlay->name;
     readFlag(in, "lightIcons", s.showLights);
     readFlag(in, "lightTheme", s.lightTheme);
     readName(in, "gizmoAxes", kSpaceNames, s.gizmo.space);

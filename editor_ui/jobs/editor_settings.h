@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 
+#include <set>
 #include <string>
 
 namespace limn {
@@ -10,13 +11,14 @@ namespace limn {
 /// What the editor remembers of its window from one start to the next, and from one document to the
 /// next.
 struct EditorSettings {
-    LayoutState layout;
+    Workspace workspace = Workspace::Light;
+    WorkspaceStates workspaces = defaultWorkspaces();
+    std::set<std::string> closedCards; ///< of the inspector
     View view = View::Lit;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0; ///< [-kMaxExposureEv, kMaxExposureEv]
     bool autoExposure = false;
     CameraExposure physical;
-    std::string overlay; ///< OverlayKind::name; empty: none
     bool showLights = true;
     bool lightTheme = false;
     GizmoSettings gizmo;

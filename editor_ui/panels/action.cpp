@@ -254,8 +254,19 @@ void toggleTheme(EditorState& s) {
 bool hasLightTheme(const EditorState& s) {
     return s.lightTheme;
 }
-void resetLayout(EditorState& s) {
-    s.layout = {};
+template <Workspace workspace>
+void goTo(EditorState& s) {
+    switchWorkspace(s, workspace);
+}
+template <Workspace workspace>
+bool isIn(const EditorState& s) {
+    return s.workspace == workspace;
+}
+void toggleBottom(EditorState& s) {
+    s.layout.bottomOpen = !s.layout.bottomOpen;
+}
+bool bottomIsOpen(const EditorState& s) {
+    return s.layout.bottomOpen;
 }
 void screenshot(EditorState& s) {
     request(s, Request::Kind::Screenshot);
@@ -386,7 +397,12 @@ std::vector<Action> fixedActions() {
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
     {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
-    {"view.layout", "Reset panel sizes", Menu::View, kNoKey, kNoKey, false, always, resetLayout},
+    {"view.bottom", "Bottom panel", Menu::View, kNoKey, kNoKey, false, always, toggleBottom, bottomIsOpen},
+    {"workspace.light", "Light workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Light>, isIn<Workspace::Light>},
+    {"workspace.bake", "Bake workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Bake>, isIn<Workspace::Bake>},
+    {"workspace.inspect", "Inspect workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Inspect>, isIn<Workspace::Inspect>},
+    {"workspace.compare", "Compare workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Compare>, isIn<Workspace::Compare>},
+    {"workspace.reset", "Reset this workspace", Menu::Workspace, kNoKey, kNoKey, true, always, resetWorkspace},
     {"gizmo.middle", "Gizmo in the middle of the selection", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Middle>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Middle>},
     {"gizmo.origins", "Gizmo at the objects' origins", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Origins>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Origins>},
     {"gizmo.click", "Gizmo where the object was clicked", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Click>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Click>},

@@ -11,8 +11,9 @@ namespace limn {
 
 struct EditorState;
 
-/// Menus that list actions, in the order of the menu bar; Gizmo and Overlay are parts of View.
-enum class Menu { File, Edit, Add, View, Gizmo, Overlay, Bake, Help };
+/// Menus that list actions, in the order of the menu bar; Gizmo, Workspace and Overlay are parts of
+/// View.
+enum class Menu { File, Edit, Add, View, Gizmo, Workspace, Overlay, Bake, Help };
 
 /// One thing the user can do. Menus, shortcuts and the palette read the same table.
 struct Action {

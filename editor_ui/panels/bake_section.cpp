@@ -2,6 +2,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/bake_cost_table.h"
+#include "editor_ui/panels/card.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
 #include "editor_ui/panels/setting_row.h"
@@ -117,9 +118,7 @@ static void settingRows(FieldEdit& edit, BakeSettings& s, int group) {
     });
 }
 
-void bakeSection(FieldEdit& edit, BakeSettings& s) {
-    bakeStateLine(edit.state);
-    ImGui::Separator();
+static void allSettingRows(FieldEdit& edit, BakeSettings& s) {
     presetRow(edit, s);
     for (int group = 0; group < kResearchGroup; ++group) {
         if (group == kLightmapGroup)
@@ -133,9 +132,16 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
         ImGui::TreePop();
     }
     minTexelsLine(edit.state.prediction);
-    errorRow(edit.state);
-    ImGui::Separator();
-    bakeCostTable(edit.state);
+}
+
+void bakeSection(FieldEdit& edit, BakeSettings& s) {
+    bakeStateLine(edit.state);
+    if (card(edit.state, "Settings"))
+        allSettingRows(edit, s);
+    if (card(edit.state, "Bake to an error"))
+        errorRow(edit.state);
+    if (card(edit.state, "Predicted and measured"))
+        bakeCostTable(edit.state);
 }
 
 } // namespace limn

@@ -56,6 +56,7 @@ static void menu(EditorState& state, const char* label, Menu which) {
         snapSteps(state.view.gizmo);
     if (which == Menu::View) {
         menu(state, "Gizmo", Menu::Gizmo);
+        menu(state, "Workspace", Menu::Workspace);
         menu(state, "Overlay", Menu::Overlay);
     }
     ImGui::EndMenu();
@@ -68,6 +69,31 @@ static std::string documentTitle(const EditorState& state) {
     return hasUnsavedChanges(state) ? name + " (not saved)" : name;
 }
 
+static void workspaceButtons(EditorState& state) {
+    struct Button {
+        const char *label, *action, *tooltip;
+    };
+    static constexpr Button kButtons[] = {
+        {"Light", "workspace.light", "A large picture, for placing and tuning lights"},
+        {"Bake", "workspace.bake", "What a bake takes, beside the picture"},
+        {"Inspect", "workspace.inspect", "Where the light of a pixel comes from"},
+        {"Compare", "workspace.compare", "The path-traced reference beside the picture"}};
+    ImGui::Dummy({ImGui::GetFontSize(), 0});
+    for (const Button& button : kButtons) {
+        const Action& action = actionById(button.action);
+        const bool current = action.checked(state);
+        ImGui::PushStyleColor(ImGuiCol_Button, current
+                                                   ? ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive)
+                                                   : ImVec4(0, 0, 0, 0));
+        if (ImGui::SmallButton(button.label))
+            runAction(state, action);
+        ImGui::PopStyleColor();
+        wrappedTooltip(fmt::format("{}. A workspace remembers its panels, overlay and comparison",
+                                   button.tooltip)
+                           .c_str());
+    }
+}
+
 void menuBar(EditorState& state) {
     if (!ImGui::BeginMainMenuBar())
         return;
@@ -77,6 +103,7 @@ void menuBar(EditorState& state) {
     menu(state, "View", Menu::View);
     menu(state, "Bake", Menu::Bake);
     menu(state, "Help", Menu::Help);
+    workspaceButtons(state);
     const std::string title = documentTitle(state);
     const float room = ImGui::GetContentRegionAvail().x;
     const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, room - 20);

@@ -2,6 +2,7 @@
 #include "editor_ui/document/light_angles.h"
 #include "editor_ui/document/photometry.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/card.h"
 #include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
@@ -118,7 +119,7 @@ static void rangeRow(FieldEdit& edit, Light& light) {
     fieldEdited(edit, "Light range");
 }
 
-void lightSection(FieldEdit& edit, Light& light) {
+static void kindRows(FieldEdit& edit, Light& light) {
     fieldLabel<Light>(edit, "On", "Light that is off costs nothing (H)", &Light::enabled);
     ImGui::Checkbox("##on", &light.enabled);
     fieldEdited(edit, "Light on or off");
@@ -131,10 +132,9 @@ void lightSection(FieldEdit& edit, Light& light) {
     if (ImGui::Combo("##kind", &kind, "Sun\0Point\0Spot\0Rectangle\0"))
         light.kind = LightKind(kind);
     fieldEdited(edit, "Light kind");
-    ImGui::Separator();
-    colorRows(edit, light);
-    strengthRows(edit, light);
-    ImGui::Separator();
+}
+
+static void placeRows(FieldEdit& edit, Light& light) {
     fieldLabel("Position (m)", light.kind == LightKind::Directional
                                    ? "Only where the icon stands: a sun shines everywhere [m]"
                                    : "In the coordinates of the scene file [m]");
@@ -142,12 +142,28 @@ void lightSection(FieldEdit& edit, Light& light) {
     fieldEdited(edit, "Move");
     if (light.kind != LightKind::Point)
         directionRows(edit, light);
+}
+
+static void shapeRows(FieldEdit& edit, Light& light) {
     if (light.kind == LightKind::Spot)
         spotRows(edit, light);
     if (light.kind == LightKind::Rectangle)
         rectangleRows(edit, light);
     if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
         rangeRow(edit, light);
+}
+
+void lightSection(FieldEdit& edit, Light& light) {
+    if (card(edit.state, "Light"))
+        kindRows(edit, light);
+    if (card(edit.state, "Colour and strength")) {
+        colorRows(edit, light);
+        strengthRows(edit, light);
+    }
+    if (card(edit.state, "Place"))
+        placeRows(edit, light);
+    if (light.kind != LightKind::Directional && card(edit.state, "Shape and range"))
+        shapeRows(edit, light);
 }
 
 } // namespace limn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/material_edit.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/card.h"
 #include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/file_browser.h"
@@ -96,7 +97,7 @@ static void flipbookRows(FieldEdit& edit, Flipbook& flipbook) {
     fieldEdited(edit, "Animation speed");
 }
 
-void materialSection(FieldEdit& edit, Material& material) {
+static void surfaceRows(FieldEdit& edit, Material& material) {
     fieldLabel<Material>(edit, "Base colour",
                          "Linear; multiplies the texture. Bounced light takes its colour",
                          &Material::baseColor);
@@ -114,22 +115,29 @@ void materialSection(FieldEdit& edit, Material& material) {
     ImGui::SliderFloat("##roughness", &material.roughness, 0, 1, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
     fieldEdited(edit, "Roughness");
-    ImGui::Separator();
-    if (isMixed<Material>(edit, &Material::emission))
-        markMixed();
-    ImGui::TextDisabled("Emission");
-    colorAndStrength(edit, material.emission, "Emission", "Colour", "Emission (nits)",
-                     "Radiance the surface sends out [nits]; lights the scene without a new bake");
-    if (material.emissiveTexture.image >= 0)
-        flipbookRows(edit, material.emissiveFlipbook);
-    ImGui::Separator();
     fieldLabel<Material>(edit, "Double sided",
                          "Seen and lit from both sides; changing it needs a new bake",
                          &Material::doubleSided);
     ImGui::Checkbox("##double", &material.doubleSided);
     fieldEdited(edit, "Double sided");
-    ImGui::Separator();
-    ImGui::TextDisabled("Textures");
+}
+
+static void emissionRows(FieldEdit& edit, Material& material) {
+    if (isMixed<Material>(edit, &Material::emission))
+        markMixed();
+    colorAndStrength(edit, material.emission, "Emission", "Colour", "Emission (nits)",
+                     "Radiance the surface sends out [nits]; lights the scene without a new bake");
+    if (material.emissiveTexture.image >= 0)
+        flipbookRows(edit, material.emissiveFlipbook);
+}
+
+void materialSection(FieldEdit& edit, Material& material) {
+    if (card(edit.state, "Surface"))
+        surfaceRows(edit, material);
+    if (card(edit.state, "Emission"))
+        emissionRows(edit, material);
+    if (!card(edit.state, "Textures"))
+        return;
     for (const TextureSlot slot : kTextureSlots)
         textureRow(edit, material, slot);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/selection.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/card.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/inspector_panel.h"
 #include "editor_ui/panels/material_choice.h"
@@ -39,7 +40,7 @@ static void pickedRows(FieldEdit& edit) {
     if (!picked || picked->node != edit.id || picked->mesh >= state.assets->meshes.size())
         return;
     const Mesh& mesh = state.assets->meshes[picked->mesh];
-    ImGui::Separator();
+    ImGui::Spacing();
     fieldLabel("Clicked mesh", "The part of the object that was clicked in the picture");
     elidedText(mesh.name.empty() ? "Mesh " + std::to_string(picked->mesh) : mesh.name,
                ImGui::GetContentRegionAvail().x);
@@ -55,7 +56,7 @@ static void materialRows(FieldEdit& edit) {
     edit.seen = edit.state.document.objects.at(edit.id);
 }
 
-void nodeSection(FieldEdit& edit, Node& node) {
+static void transformRows(FieldEdit& edit, Node& node) {
     Transform& t = node.transform;
     fieldLabel("Position (m)", "In the parent's space [m]. Ctrl-click to type a number");
     positionField("##position", t.translation);
@@ -66,7 +67,9 @@ void nodeSection(FieldEdit& edit, Node& node) {
                      [](const Node& n) { return n.transform.scale; });
     ImGui::DragFloat3("##scale", &t.scale.x, 0.005f, 0, 0, "%.3f");
     fieldEdited(edit, "Scale");
-    ImGui::Separator();
+}
+
+static void visibilityRows(FieldEdit& edit, Node& node) {
     fieldLabel<Node>(edit, "Visible", "Hidden objects are neither drawn, baked nor lit",
                      &Node::visible);
     ImGui::Checkbox("##visible", &node.visible);
@@ -77,15 +80,28 @@ void nodeSection(FieldEdit& edit, Node& node) {
                      &Node::dynamic);
     ImGui::Checkbox("##dynamic", &node.dynamic);
     fieldEdited(edit, "Dynamic");
+}
+
+static void meshLine(const EditorState& state, const Node& node) {
     std::size_t triangles = 0;
     for (std::uint32_t mesh : node.meshes)
-        if (mesh < edit.state.assets->meshes.size())
-            triangles += edit.state.assets->meshes[mesh].triangleCount();
+        if (mesh < state.assets->meshes.size())
+            triangles += state.assets->meshes[mesh].triangleCount();
     ImGui::TextDisabled("%zu %s, %s triangles", node.meshes.size(),
                         node.meshes.size() == 1 ? "mesh" : "meshes",
                         groupedNumber(triangles).c_str());
-    materialRows(edit);
-    pickedRows(edit);
+}
+
+void nodeSection(FieldEdit& edit, Node& node) {
+    if (card(edit.state, "Transform"))
+        transformRows(edit, node);
+    if (card(edit.state, "Visibility"))
+        visibilityRows(edit, node);
+    if (card(edit.state, "Mesh and material")) {
+        meshLine(edit.state, node);
+        materialRows(edit);
+        pickedRows(edit);
+    }
 }
 
 } // namespace limn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/panels/frame_record.h"
 #include "editor_ui/panels/time_history.h"
 #include "engine/lighting/lighting_report.h"
 #include "engine/lighting/precomputed.h"
@@ -80,9 +81,7 @@ struct FrameStatus {
     std::uint64_t pictures = 0;          ///< viewport renders
     std::uint64_t surfacesDrawn = 0;     ///< of those, how many drew triangles
     std::uint64_t uiFrames = 0;
-    double uiMs = 0;        ///< last UI frame, without waiting for events
-    double longestUiMs = 0; ///< since the start
-    double longestUiWhileRelightingMs = 0;
+    FrameRecord frames;
     double longestLatencyMs =
         0; ///< from the event to the submitted frame, waits for the GPU included
 };

@@ -8,6 +8,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -49,7 +51,7 @@ static std::string ms(double milliseconds) {
     return fmt::format("{:.2f} ms", milliseconds);
 }
 
-static void timeTable(const EditorState& state) {
+static void timeTable(EditorState& state) {
     const FrameStatus& f = state.frame;
     if (!beginTable("time", "Time per step"))
         return;
@@ -65,7 +67,7 @@ static void timeTable(const EditorState& state) {
     ImGui::EndTable();
 }
 
-static void historyPlot(const EditorState& state) {
+static void historyPlot(EditorState& state) {
     timeHistory(state.relight.history);
 }
 
@@ -174,15 +176,49 @@ static void relightTable(EditorState& state) {
     ImGui::EndTable();
 }
 
-static void windowTable(const EditorState& state) {
+struct WorkLabel {
+    Work work;
+    const char *label, *tooltip;
+};
+
+static constexpr WorkLabel kWorkLabels[] = {
+    {Work::Open, "  opening", "The longest frame while the latest file was opened"},
+    {Work::Bake, "  baking", "The longest frame of the latest bake"},
+    {Work::Relight, "  relighting", "The longest frame while light bounced last"},
+    {Work::Reference, "  reference", "The longest frame while the reference was path-traced last"},
+    {Work::Save, "  saving", "The longest frame while a file was written last"},
+    {Work::Explain, "  explaining", "The longest frame while a pixel was explained last"},
+    {Work::Export, "  exporting", "The longest frame while light was exported last"},
+};
+static_assert(std::size(kWorkLabels) == kWorkNames.size());
+
+/// A frame without what the viewport's picture took of it; the tooltip has all parts.
+static void frameRow(const char* label, const FrameTime& frame, const char* what) {
+    row(label, ms(frame.beyondViewport()),
+        fmt::format("{}, without {:.1f} ms of the viewport: panels {:.1f} ms, jobs {:.1f} ms, "
+                    "window {:.1f} ms",
+                    what, frame.viewport, frame.panels, frame.jobs, frame.window)
+            .c_str());
+}
+
+static void frameTable(EditorState& state) {
     const FrameStatus& f = state.frame;
-    if (!beginTable("window", "Window"))
+    if (!beginTable("frames", "Frames of the window"))
         return;
-    row("UI frame", ms(f.uiMs), "The whole last frame of the window");
-    row("Longest", ms(f.longestUiMs), "Longest UI frame since the start");
-    row("  relighting", ms(f.longestUiWhileRelightingMs),
-        "Longest UI frame while light was bouncing: the window never waits for it");
-    row("UI frames", groupedNumber(f.uiFrames), "Counts up only while something happens");
+    frameRow("Last", f.frames.last, "The last frame of the window");
+    frameRow("Longest", f.frames.sinceStart, "The longest frame since the start");
+    frameRow("  since idle", f.frames.sinceIdle, "The longest frame since all work was done");
+    for (const WorkLabel& work : kWorkLabels)
+        if (const FrameTime& frame = f.frames.of(work.work); frame.total() > 0)
+            frameRow(work.label, frame, work.tooltip);
+    row("Frames", groupedNumber(f.uiFrames), "Counts up only while something happens");
+    ImGui::EndTable();
+}
+
+static void pictureTable(EditorState& state) {
+    const FrameStatus& f = state.frame;
+    if (!beginTable("picture", "Picture"))
+        return;
     row("Pictures", groupedNumber(f.pictures),
         "Drawn by the viewport; counts up only while something changes");
     row("  redrawn", groupedNumber(f.surfacesDrawn),
@@ -192,14 +228,14 @@ static void windowTable(const EditorState& state) {
     ImGui::EndTable();
 }
 
-static void countTable(const EditorState& state) {
+static void countTable(EditorState& state) {
     if (!beginTable("counts", "Counts"))
         return;
     counterRows(state.bake.last.counts);
     ImGui::EndTable();
 }
 
-static void byteTable(const EditorState& state) {
+static void byteTable(EditorState& state) {
     const std::vector<LightingCounter>& bytes = state.bake.last.bytes;
     if (!beginTable("bytes", "Memory"))
         return;
@@ -209,7 +245,7 @@ static void byteTable(const EditorState& state) {
     ImGui::EndTable();
 }
 
-static void bakeTable(const EditorState& state) {
+static void bakeTable(EditorState& state) {
     if (!beginTable("bake", "Last bake"))
         return;
     const StageSeconds& all = state.bake.last.seconds;
@@ -219,28 +255,32 @@ static void bakeTable(const EditorState& state) {
     ImGui::EndTable();
 }
 
-void statisticsPanel(EditorState& state) {
-    constexpr int kColumns = 7;
-    const float minimum = ImGui::GetFontSize() * 11.6f;
-    const float room = ImGui::GetContentRegionAvail().x;
-    const bool wide = room >= kColumns * minimum;
-    const ImVec2 size(wide ? 0 : kColumns * minimum, 0);
-    if (!ImGui::BeginTable("columns", kColumns,
+using Table = void (*)(EditorState&);
+
+/// Tables side by side, which scroll where the panel is narrower than they need.
+static void tablesInRow(EditorState& state, std::initializer_list<Table> tables, float ems) {
+    const auto count = int(tables.size());
+    const float minimum = ImGui::GetFontSize() * ems * float(count);
+    const float inner = ImGui::GetContentRegionAvail().x >= minimum ? 0 : minimum;
+    if (!ImGui::BeginTable("columns", count,
                            ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_ScrollX |
                                ImGuiTableFlags_ScrollY,
-                           {0, 0}, size.x))
+                           {0, 0}, inner))
         return;
     ImGui::TableNextRow();
-    const auto column = [&](auto* table) {
+    for (const Table table : tables) {
         ImGui::TableNextColumn();
         table(state);
-    };
-    column(timeTable);
-    column(historyPlot);
-    column(relightTable);
-    for (auto* table : {windowTable, countTable, byteTable, bakeTable})
-        column(table);
+    }
     ImGui::EndTable();
+}
+
+void profilePanel(EditorState& state) {
+    tablesInRow(state, {timeTable, historyPlot, relightTable, frameTable, pictureTable}, 12.5f);
+}
+
+void memoryPanel(EditorState& state) {
+    tablesInRow(state, {byteTable, countTable, bakeTable}, 12.5f);
 }
 
 void logPanel(const EditorState& state) {

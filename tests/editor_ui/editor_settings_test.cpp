@@ -21,13 +21,18 @@ namespace limn {
 namespace {
 
 EditorSettings unusual() {
-    return {.layout = {300, 400, 100},
+    WorkspaceStates workspaces = defaultWorkspaces();
+    workspaces[1] = {.layout = {300, 400, 100, true, BottomTab::Log},
+                     .overlay = overlayKinds().front()->name,
+                     .compare = Compare::Flip};
+    return {.workspace = Workspace::Bake,
+            .workspaces = workspaces,
+            .closedCards = {"Transform"},
             .view = View::Irradiance,
             .tonemap = Tonemap::Agx,
             .exposureEv = -2.5f,
             .autoExposure = true,
             .physical = {2.8f, 400},
-            .overlay = overlayKinds().front()->name,
             .showLights = false,
             .lightTheme = true,
             .gizmo = {.space = GizmoSpace::View,
@@ -51,9 +56,13 @@ TEST(EditorSettings, AnyTextGivesUsableOnes) {
     const EditorSettings usual;
     for (const std::string& text :
          {std::string(), std::string("{"), std::string("null"), std::string("[1]"),
-          std::string(100000, '['), std::string("{\"left\": 1e999}"),
-          std::string("{\"left\": -1, \"right\": 1e30, \"bottom\": \"12\", \"exposure\": 21}"),
-          std::string("{\"view\": 3, \"tonemap\": \"\", \"overlay\": \"none such\"}"),
+          std::string(100000, '['), std::string("{\"workspaces\": {\"light\": {\"left\": 1e999}}}"),
+          std::string("{\"workspaces\": {\"bake\": {\"left\": -1, \"right\": 1e30}}}"),
+          std::string("{\"workspaces\": {\"light\": {\"bottom\": \"12\", \"bottomOpen\": 1}}}"),
+          std::string("{\"workspaces\": {\"light\": {\"tab\": \"none such\", \"compare\": 3}}}"),
+          std::string("{\"workspaces\": [], \"workspace\": \"none such\", \"closedCards\": 1}"),
+          std::string("{\"workspaces\": {\"light\": 3}, \"exposure\": 21}"),
+          std::string("{\"view\": 3, \"tonemap\": \"\"}"),
           std::string("{\"lightIcons\": 0, \"bakeWhenNeeded\": \"no\", \"other\": {}}"),
           std::string("{\"moveStep\": -1, \"rotateStep\": 0, \"scaleStep\": 0, \"snap\": 1}"),
           std::string("{\"view\": \"\xff\xfe\"}")})

@@ -262,6 +262,7 @@ TEST(CommonEdit, TheInspectorEditsAllSelectedLightsInOneStep) {
         ui.frames(state);
     const float x = ImGui::GetIO().DisplaySize.x - state.layout.right * 0.54f;
     for (float y = 60; y < 260 && isOn("Lamp"); y += 4) {
+        state.closedCards.clear(); // by a click on a card's header
         ui.mouse(x, y);
         ui.frames(state);
         ui.button(true);

@@ -2,14 +2,19 @@
 // Start screen, sheet of keys, axes and read-out over the picture, and that nothing is clipped.
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/time_history.h"
+#include "editor_ui/panels/workspace.h"
+#include "engine/techniques/technique_table.h"
 #include "tests/editor_ui/headless.h"
 
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <chrono>
 #include <set>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace limn {
@@ -156,6 +161,10 @@ EditorState longEditor() {
     state.bake.last.keptStages = {"charts"};
     state.bake.measured = {state.bake.last.seconds, 3e9, {}, 1234};
     state.bake.expected = state.bake.measured;
+    for (int i = 0; i < 100; ++i)
+        state.errors.points.push_back({i * 12.5, 123.456 / (i + 1), 0.1});
+    for (FrameTime& frame : state.frame.frames.during)
+        frame = {12345.6, 7, 8, 9};
     state.frame.pictures = 3;
     state.frame.width = 1920, state.frame.height = 1080;
     return state;
@@ -207,9 +216,151 @@ TEST(Workspace, NothingIsClippedAtAnySizeOfTheScreenAndInBothThemes) {
             }
 }
 
+TEST(Workspaces, NothingIsClippedInAnyOfThem) {
+    struct Screen {
+        float width, height, scale;
+    };
+    for (const Screen& screen :
+         {Screen{1280, 720, 1}, Screen{1920, 1080, 1}, Screen{2560, 1440, 2}})
+        for (const bool empty : {false, true}) {
+            HeadlessUi ui(screen.width, screen.height, screen.scale);
+            EditorState state = empty ? emptyEditor() : longEditor();
+            for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
+                for (std::size_t tab = 0; tab < kBottomTabNames.size(); ++tab) {
+                    switchWorkspace(state, Workspace(i));
+                    state.layout.bottomOpen = true;
+                    state.layout.tab = BottomTab(tab);
+                    for (int frame = 0; frame < 3; ++frame)
+                        ui.frames(state);
+                    expectNothingClipped(fmt::format("{} x {}, {}, {}", screen.width, screen.height,
+                                                     kWorkspaceNames[i], kBottomTabNames[tab]));
+                }
+        }
+}
+
+TEST(Workspaces, EachRemembersItsPanelsOverlayAndComparison) {
+    EditorState state = fullEditor();
+    EXPECT_FALSE(state.layout.bottomOpen) << "the picture is large";
+    state.layout.left = 123;
+    state.overlay.options.kind = overlayKinds().front();
+    switchWorkspace(state, Workspace::Compare);
+    EXPECT_EQ(state.compare.mode, Compare::Reference);
+    EXPECT_EQ(state.overlay.options.kind, nullptr);
+    EXPECT_NE(state.layout.left, 123);
+    state.compare.mode = Compare::Flip;
+    state.layout.tab = BottomTab::Log;
+    switchWorkspace(state, Workspace::Light);
+    EXPECT_EQ(state.layout.left, 123);
+    EXPECT_EQ(state.overlay.options.kind, overlayKinds().front());
+    EXPECT_EQ(state.compare.mode, Compare::Off);
+    switchWorkspace(state, Workspace::Compare);
+    EXPECT_EQ(state.compare.mode, Compare::Flip);
+    EXPECT_EQ(state.layout.tab, BottomTab::Log);
+    resetWorkspace(state);
+    EXPECT_EQ(state.compare.mode, Compare::Reference);
+    EXPECT_EQ(state.layout, defaultWorkspaces()[std::size_t(Workspace::Compare)].layout);
+    switchWorkspace(state, Workspace::Light);
+    EXPECT_EQ(state.layout.left, 123) << "the others are not reset";
+}
+
+TEST(BottomPanel, ATabOpensItAndTheOpenTabClosesIt) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    for (int i = 0; i < 3; ++i)
+        ui.frames(state);
+    const float closed = state.view.size.y;
+    std::set<BottomTab> opened;
+    for (float x = 40; x < 600; x += 12) {
+        const ImGuiWindow* bottom = windowNamed("bottom");
+        ASSERT_TRUE(bottom);
+        const ImVec2 at(x, bottom->Pos.y + 20);
+        click(ui, state, at);
+        if (!state.layout.bottomOpen)
+            continue; // between two tabs
+        opened.insert(state.layout.tab);
+        ui.frames(state);
+        EXPECT_LT(state.view.size.y, closed);
+        click(ui, state, {x, windowNamed("bottom")->Pos.y + 20});
+        EXPECT_FALSE(state.layout.bottomOpen) << x;
+        ui.frames(state);
+        ui.frames(state);
+        EXPECT_EQ(state.view.size.y, closed);
+    }
+    EXPECT_EQ(opened.size(), kBottomTabNames.size());
+}
+
+TEST(Cards, AClickOnAHeaderHidesItsRowsWhateverIsSelected) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    const auto contentHeight = [&](const char* object) {
+        state.selection = {idNamed(state, object)};
+        for (int i = 0; i < 3; ++i)
+            ui.frames(state);
+        return windowNamed("inspector")->ContentSize.y;
+    };
+    const float open = contentHeight("Left"), other = contentHeight("Right");
+    const ImGuiWindow* inspector = windowNamed("inspector");
+    for (float y = inspector->Pos.y + 40; y < inspector->Pos.y + 300; y += 5) {
+        click(ui, state, {inspector->Pos.x + 60, y}); // labels do not react
+        if (state.closedCards.contains("Transform"))
+            break;
+    }
+    ASSERT_EQ(state.closedCards, std::set<std::string>{"Transform"});
+    EXPECT_LT(contentHeight("Left"), open - 3 * ImGui::GetFontSize());
+    EXPECT_LT(contentHeight("Right"), other - 3 * ImGui::GetFontSize());
+    state.closedCards.clear();
+    EXPECT_EQ(contentHeight("Left"), open);
+}
+
+TEST(TextFields, LeaveKeysThatEditNoTextToTheEditor) {
+    HeadlessUi ui;
+    EditorState state = fullEditor();
+    const std::size_t objects = state.document.objects.size();
+    for (int i = 0; i < 3; ++i)
+        ui.frames(state);
+    click(ui, state, {80, ImGui::GetFrameHeight() + 20}); // the filter of the list
+    ASSERT_TRUE(ImGui::GetIO().WantTextInput);
+    state.selection = {idNamed(state, "Lamp")};
+    ui.tap(key::of('C'), kCtrl);
+    ui.tap(key::of('H'));
+    ui.tap(key::kDelete);
+    ui.frames(state);
+    EXPECT_EQ(state.document.objects.size(), objects) << "the field's own keys";
+    EXPECT_TRUE(state.clipboard.objects.empty());
+    ui.tap(key::of('P'), kCtrl);
+    for (int i = 0; i < 3; ++i)
+        ui.frames(state);
+    EXPECT_FALSE(ImGui::GetCurrentContext()->OpenPopupStack.empty()) << "all actions";
+}
+
+TEST(ErrorPanel, KeepsTheErrorSinceTheLastEdit) {
+    using std::chrono::seconds;
+    ErrorHistory history;
+    const auto start = ErrorHistory::Clock::now();
+    history.restart(start);
+    history.add(start + seconds(1), 1, {.nrmse = 0.5, .nrmseNoise = 0.1});
+    history.add(start + seconds(2), 1, {.nrmse = 0.5, .nrmseNoise = 0.1});
+    ASSERT_EQ(history.points.size(), 1u) << "the same measurement";
+    EXPECT_EQ(history.points[0].seconds, 1);
+    for (std::uint64_t i = 2; i < 5000; ++i)
+        history.add(start + seconds(i), i, {.nrmse = 1 / double(i)});
+    EXPECT_LE(history.points.size(), ErrorHistory::kMaxPoints);
+    EXPECT_EQ(history.points.front().seconds, 1);
+    EXPECT_EQ(history.points.back().seconds, 4999);
+    EXPECT_TRUE(std::ranges::is_sorted(history.points, {}, &ErrorHistory::Point::seconds));
+    history.restart(start + seconds(6000));
+    history.add(start + seconds(6003), 4999, {.nrmse = 1});
+    EXPECT_TRUE(history.points.empty()) << "of the picture before the edit";
+    history.add(start + seconds(6004), 5000, {.nrmse = 1});
+    ASSERT_EQ(history.points.size(), 1u);
+    EXPECT_EQ(history.points[0].seconds, 4);
+}
+
 TEST(Statistics, ColoursOfStepsCoverNoTextHoweverLongAStepTakes) {
     HeadlessUi ui(1280, 800);
     EditorState state = fullEditor();
+    state.layout.bottomOpen = true;
+    state.layout.tab = BottomTab::Profile;
     state.relight.last.steps = {{"cache_light", "Cache light", "", 12345.67}};
     for (int i = 0; i < 3; ++i)
         ui.frames(state);
