@@ -41,7 +41,7 @@ public:
     const std::shared_ptr<const LightmapLayout>& layout() const { return m_layout; }
     const std::shared_ptr<const IndirectField>& field() const { return m_relit.field; }
     /// The same for the technique that state.compare puts beside it; a null scene: none.
-    const LitScene& other() const { return m_other.lit(); }
+    const ShownScene& other() const { return m_other.lit(); }
 
     /// Last successful bake and the scene it was made from; members are null if there is none.
     const BakedScene& baked() const { return m_baked; }

@@ -98,7 +98,7 @@ bool ViewportPicture::measureNow(const Session& session) {
 
 /// Keeps a picture of the other technique beside the newest one, of its size and exposure.
 void ViewportPicture::updateOther(Session& session) {
-    const LitScene& lit = session.other();
+    const ShownScene& lit = session.other();
     if (!lit.scene || !m_shown) {
         m_otherJob = nullptr;
         m_other = {};

@@ -73,7 +73,7 @@ private:
     ViewportOptions m_options; ///< of the last request
     /// Draws the scene as another technique lights it; null: not wanted.
     std::unique_ptr<RenderJob> m_otherJob;
-    LitScene m_otherLit;            ///< of its last request
+    ShownScene m_otherLit;          ///< of its last request
     ViewportOptions m_otherOptions; ///< of its last request
     DrawnPicture m_other;
     gpu::Image m_image; ///< on the window's device

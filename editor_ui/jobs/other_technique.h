@@ -10,12 +10,12 @@
 namespace limn {
 
 /// A scene with its bounced light. The pointers change exactly when their contents do.
-struct LitScene {
+struct ShownScene {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
     std::shared_ptr<const IndirectField> field;   ///< null: not lit yet, or no bake
 
-    bool operator==(const LitScene&) const = default;
+    bool operator==(const ShownScene&) const = default;
 };
 
 /// Lights the scene by a technique other than the document's, on the CPU, for a picture beside it.
@@ -31,7 +31,7 @@ public:
              const BakedScene& baked, const Viewpoint& view);
 
     /// The scene with that technique as its own; a null scene where none is set.
-    const LitScene& lit() const { return m_lit; }
+    const ShownScene& lit() const { return m_lit; }
     bool busy() const { return m_relit.status.running; }
     /// In words: how far the light is, or why there is none.
     std::string text() const;
@@ -41,7 +41,7 @@ private:
     std::unique_ptr<RelightJob> m_job; ///< null: no technique is set
     std::shared_ptr<const Scene> m_of; ///< the document's scene in m_lit
     std::shared_ptr<const Precomputed> m_bake;
-    LitScene m_lit;
+    ShownScene m_lit;
     Relit m_relit;
 };
 

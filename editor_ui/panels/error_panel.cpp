@@ -105,14 +105,14 @@ void errorPanel(EditorState& state) {
     const std::vector<ErrorHistory::Point>& points = state.errors.points;
     if (points.empty()) {
         ImGui::PushTextWrapPos(0);
-        if (state.compare.mode == Compare::Off)
+        if (!needsReference(state.compare.mode))
             ImGui::TextDisabled("The error is measured while the picture is compared with the "
                                 "path-traced reference.");
         else
             ImGui::TextDisabled("The first samples of the reference are being traced.");
         ImGui::PopTextWrapPos();
         const Action& compare = actionById("compare.reference");
-        if (state.compare.mode == Compare::Off && ImGui::Button("Compare"))
+        if (!needsReference(state.compare.mode) && ImGui::Button("Compare"))
             runAction(state, compare);
         return;
     }

@@ -44,7 +44,7 @@ TEST_F(OtherTechniqueTest, LightsACopyOfTheScene) {
 
 TEST_F(OtherTechniqueTest, KeepsItsPointersWhileNothingChanges) {
     ASSERT_TRUE(lit("lpv"));
-    const LitScene before = other.lit();
+    const ShownScene before = other.lit();
     other.set("lpv", scene, {}, view);
     EXPECT_EQ(other.lit(), before);
     Scene moved = *scene;
@@ -61,7 +61,7 @@ TEST_F(OtherTechniqueTest, FollowsAnotherChoiceAndEnds) {
     ASSERT_TRUE(lit("ambient"));
     EXPECT_EQ(other.lit().scene->technique.technique, "ambient");
     other.set("", scene, {}, view);
-    EXPECT_EQ(other.lit(), LitScene());
+    EXPECT_EQ(other.lit(), ShownScene());
     EXPECT_FALSE(other.busy());
 }
 

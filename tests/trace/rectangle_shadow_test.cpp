@@ -5,6 +5,7 @@
 #include "tests/trace/simple_scene.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -31,14 +32,19 @@ Scene halfRoofed(float height) {
     return b.build();
 }
 
-/// Surfels on the floor along +X, from -2 to 2 m.
-Surfels row(std::size_t count) {
-    Surfels s;
+/// Points that face up.
+struct FloorPoints {
+    std::vector<glm::vec3> position, normal;
+    std::size_t size() const { return position.size(); }
+};
+
+/// Points on the floor along +X, from -2 to 2 m.
+FloorPoints row(std::size_t count) {
+    FloorPoints s;
     for (std::size_t i = 0; i < count; ++i) {
         s.position.push_back({4 * (float(i) + 0.5f) / float(count) - 2, 0, 0.1f});
         s.normal.push_back({0, 1, 0});
     }
-    s.area.assign(count, 1);
     return s;
 }
 
@@ -59,16 +65,16 @@ TEST(RectangleShadow, UnderAnEdgeIsWhatTheSeenPartSends) {
     const float roof = 1;
     const Scene scene = halfRoofed(roof);
     const TraceScene trace(scene);
-    const Surfels surfels = row(400);
+    const FloorPoints line = row(400);
     const LightRectangle rectangle = lightRectangle(panel());
     const auto nrmse = [&](std::uint32_t points) {
         double squares = 0, mean = 0;
-        for (std::size_t i = 0; i < surfels.size(); ++i) {
+        for (std::size_t i = 0; i < line.size(); ++i) {
             std::uint64_t rays = 0;
             const glm::vec2 shift(float(i * 7 % 16) / 16, float(i * 11 % 16) / 16);
-            const double E = double(shadowedIrradiance(trace, rectangle, surfels.position[i],
+            const double E = double(shadowedIrradiance(trace, rectangle, line.position[i],
                                                        {0, 1, 0}, points, shift, rays));
-            const double expected = seen(panel(), roof, surfels.position[i]);
+            const double expected = seen(panel(), roof, line.position[i]);
             EXPECT_LE(rays, points);
             squares += (E - expected) * (E - expected);
             mean += expected;
@@ -81,7 +87,7 @@ TEST(RectangleShadow, UnderAnEdgeIsWhatTheSeenPartSends) {
     EXPECT_LT(nrmse(DirectIrradiance::kRectanglePoints), 0.05);
 }
 
-TEST(RectangleShadow, SurfelsGetColourTimesRadianceTimesTheShare) {
+TEST(RectangleShadow, PointsGetColourTimesRadianceTimesTheShare) {
     const Scene empty = [] {
         simple::SceneBuilder b;
         b.addMaterial(simple::lambert(glm::vec3(0.5f)));
@@ -90,23 +96,23 @@ TEST(RectangleShadow, SurfelsGetColourTimesRadianceTimesTheShare) {
         return b.build();
     }();
     const TraceScene trace(empty);
-    const Surfels surfels = row(50);
+    const FloorPoints line = row(50);
     DirectIrradiance state;
-    EXPECT_TRUE(updateDirectIrradiance(surfels.position, surfels.normal, empty, trace, state));
+    EXPECT_TRUE(updateDirectIrradiance(line.position, line.normal, empty, trace, state));
     EXPECT_EQ(state.raysTraced, 50 * DirectIrradiance::kRectanglePoints);
-    for (std::size_t i = 0; i < surfels.size(); ++i) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
         const float share =
-            rectangleIrradiance(lightRectangle(panel()), surfels.position[i], {0, 1, 0});
+            rectangleIrradiance(lightRectangle(panel()), line.position[i], {0, 1, 0});
         EXPECT_NEAR(state.irradiance[i].x, 5 * share, 1e-5f);
         EXPECT_NEAR(state.irradiance[i].y, 2.5f * share, 1e-5f);
         EXPECT_EQ(state.irradiance[i].z, 0);
     }
     Scene brighter = empty;
     brighter.lights[0].strength = 10;
-    EXPECT_TRUE(updateDirectIrradiance(surfels.position, surfels.normal, brighter, trace, state));
+    EXPECT_TRUE(updateDirectIrradiance(line.position, line.normal, brighter, trace, state));
     EXPECT_EQ(state.raysTraced, 0u) << "strength casts no other shadow";
     brighter.lights[0].size.x = 1;
-    EXPECT_TRUE(updateDirectIrradiance(surfels.position, surfels.normal, brighter, trace, state));
+    EXPECT_TRUE(updateDirectIrradiance(line.position, line.normal, brighter, trace, state));
     EXPECT_GT(state.raysTraced, 0u);
 }
 
@@ -130,13 +136,12 @@ TEST(RectangleShadow, OfALightThatReachesThroughWallsIsThatOfItsPartInTheRoom) {
     b.add(simple::box({-2, 0, -2.5f}, {2, 3, 2.5f}, true));
     const Scene scene = b.build();
     const TraceScene trace(scene);
-    Surfels floor;
+    FloorPoints floor;
     for (float x = -1.9f; x < 2; x += 0.2f)
         for (float z = -2.4f; z < 2.5f; z += 0.2f) {
             floor.position.push_back({x, 0, z});
             floor.normal.push_back({0, 1, 0});
         }
-    floor.area.assign(floor.position.size(), 1);
     Light inRoom = panel();
     inRoom.position.y = 2.6f;
     inRoom.size = {4, 5};
