@@ -397,7 +397,7 @@ std::vector<Action> fixedActions() {
     {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
     {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
     {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
-    {"view.bottom", "Bottom panel", Menu::View, kNoKey, kNoKey, false, always, toggleBottom, bottomIsOpen},
+    {"view.bottom_panel", "Bottom panel", Menu::View, kNoKey, kNoKey, false, always, toggleBottom, bottomIsOpen},
     {"workspace.light", "Light workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Light>, isIn<Workspace::Light>},
     {"workspace.bake", "Bake workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Bake>, isIn<Workspace::Bake>},
     {"workspace.inspect", "Inspect workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Inspect>, isIn<Workspace::Inspect>},

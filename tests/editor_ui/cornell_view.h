@@ -31,6 +31,7 @@ struct CornellView {
         const glm::vec3 centre = scene->bounds.centre();
         state.view.camera = {.eye = centre + scale * glm::vec3(0.1f, 0.05f, 8),
                              .target = centre + scale * glm::vec3(0.1f, 0.05f, 7)};
+        state.layout.bottomOpen = true; // so that the picture is wide
         ui.frames(state);
     }
 
