@@ -96,9 +96,9 @@ private:
     void showStatus();
     void showChanges();
     void bakeIfWanted();
-    /// True if the document's technique lights bakes.
-    bool lightsBake() const;
+    bool lightsBake() const; ///< true if the document's technique does
     void useBake(BakedScene baked);
+    void followOverlay();
     void measureCost(const BakedScene& before);
     void expectCost();
     void fitLayout();

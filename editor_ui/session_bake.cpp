@@ -53,9 +53,24 @@ void Session::useBake(BakedScene baked) {
         m_cost = {};
     }
     expectCost();
-    setOverlayBake(state.overlay, m_baked.bake, m_baked.scene);
+    followOverlay();
     fitLayout();
     m_relightJob.setBake(m_baked);
+}
+
+/// Sets what the overlay is made of: the snapshot of the light for those of a technique that
+/// precomputes nothing, else the bake.
+void Session::followOverlay() {
+    const OverlayKind* kind = state.overlay.options.kind;
+    const bool live = kind && !techniqueOf(*kind).precomputation;
+    std::shared_ptr<const OverlaySource> source = m_baked.bake;
+    std::shared_ptr<const Scene> scene = m_baked.scene;
+    if (live)
+        source = m_relit.lit, scene = m_relit.hashedScene;
+    if (kind && !isMadeOf(*kind, source.get()))
+        source = nullptr, scene = nullptr;
+    if (source != state.overlay.source)
+        setOverlaySource(state.overlay, std::move(source), std::move(scene));
 }
 
 bool Session::lightsBake() const {
@@ -115,6 +130,7 @@ static BakeFreshness freshness(const BakedScene& baked, const Relit& relit, cons
 
 void Session::showStatus() {
     m_relit = m_relightJob.result();
+    followOverlay();
     state.trace = m_relit.trace;
     m_relightJob.setLighting(!viewportRelights());
     const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));

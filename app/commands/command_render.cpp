@@ -106,17 +106,20 @@ CpuLight relight(const Scene& scene, Baked& baked) {
 
 Result<void> addOverlay(const Options& options, const Scene& scene, const Camera& camera,
                         Baked& baked) {
-    const Precomputed& data = *baked.prepared.data;
-    const Result<OverlayRequest> wanted = overlayRequest(
-        options.overlay, data, *baked.trace, camera, options.camera.width, options.camera.height);
-    if (!wanted)
-        return tl::make_unexpected(wanted.error());
     std::shared_ptr<const LightSnapshot> lit;
-    if (wanted->kind->showsLight) {
+    if (overlayKindOf(options.overlay)->showsLight) {
         relight(scene, baked);
         lit = baked.lighting->snapshot();
     }
-    baked.overlay = std::make_shared<const OverlayData>(data.overlay(*wanted, scene, lit.get()));
+    const OverlaySource* source = baked.prepared.data.get();
+    if (!source)
+        source = lit.get();
+    const Result<OverlayRequest> wanted =
+        overlayRequest(options.overlay, *source, *baked.trace, camera, options.camera.width,
+                       options.camera.height);
+    if (!wanted)
+        return tl::make_unexpected(wanted.error());
+    baked.overlay = std::make_shared<const OverlayData>(source->overlay(*wanted, scene, lit.get()));
     return {};
 }
 
@@ -127,14 +130,19 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
     Baked baked;
     baked.trace = std::make_shared<const TraceScene>(scene);
     baked.technique = findTechnique(scene.technique.technique);
+    if (options.overlay.wanted())
+        if (const auto fits = checkOverlayTechnique(options.overlay, *baked.technique); !fits)
+            return tl::make_unexpected(fits.error());
     const Precomputation* precomputation = baked.technique->precomputation;
     if (!precomputation) {
-        if (options.overlay.wanted() || !options.bake.empty())
-            return fail(fmt::format("{}: shows a bake, and the technique \"{}\" needs none",
-                                    options.overlay.wanted() ? "--overlay" : "--bake",
+        if (!options.bake.empty())
+            return fail(fmt::format("--bake: is a bake, and the technique \"{}\" needs none",
                                     baked.technique->name));
         baked.layout = std::make_shared<const LightmapLayout>(layoutWithoutLightmap(scene));
-        baked.light = true;
+        if (options.overlay.wanted())
+            if (const Result<void> added = addOverlay(options, scene, camera, baked); !added)
+                return tl::make_unexpected(added.error());
+        baked.light = light;
         return baked;
     }
     const auto made = obtainBake(options, *precomputation, scene, *baked.trace);

@@ -13,20 +13,20 @@ void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
     std::vector<std::string> names = {"none"};
     for (const OverlayKind* kind : overlayKinds())
         names.emplace_back(kind->name);
-    command.add_option("--overlay", flags.name, "Part of the bake to draw over a .png")
+    command.add_option("--overlay", flags.name, "What the technique computed, to draw over a .png")
         ->check(CLI::IsMember(names));
     command.add_option("--overlay-depth", flags.depth,
                        "Depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
                        "(default: 6)");
     CLI::Option* pick =
-        command.add_option("--pick", flags.pick, "Pixel x,y whose cache 'links' or 'lobes' show")
+        command.add_option("--pick", flags.pick, "Pixel x,y whose cache, cell or probe is shown")
             ->delimiter(',')
             ->expected(2);
-    command.add_option("--cache", flags.cache, "Number of the cache that 'links' or 'lobes' show")
+    command.add_option("--cache", flags.cache, "Number of the cache, cell or probe that is shown")
         ->excludes(pick);
 }
 
-static const OverlayKind* kindOf(const OverlayFlags& flags) {
+const OverlayKind* overlayKindOf(const OverlayFlags& flags) {
     for (const OverlayKind* kind : overlayKinds())
         if (kind->name == flags.name)
             return kind;
@@ -46,7 +46,7 @@ static std::string namesOf(const Takes& takes) {
 Result<void> checkOverlayFlags(const OverlayFlags& flags) {
     const auto hasDepth = [](const OverlayKind& kind) { return kind.hasDepth; };
     const auto picks = [](const OverlayKind& kind) { return kind.pick != OverlayPick::None; };
-    const OverlayKind* kind = kindOf(flags);
+    const OverlayKind* kind = overlayKindOf(flags);
     const bool picked = !flags.pick.empty() || flags.cache;
     if (flags.depth && !(kind && hasDepth(*kind)))
         return fail("--overlay-depth: is for --overlay " + namesOf(hasDepth));
@@ -57,37 +57,45 @@ Result<void> checkOverlayFlags(const OverlayFlags& flags) {
     return {};
 }
 
-static Result<std::uint32_t> pickedCache(const OverlayFlags& flags, const Precomputed& bake,
-                                         const TraceScene& trace, const Camera& camera,
-                                         glm::vec2 size) {
+Result<void> checkOverlayTechnique(const OverlayFlags& flags, const Technique& technique) {
+    const Technique& own = techniqueOf(*overlayKindOf(flags));
+    if (&own != &technique)
+        return fail(fmt::format("--overlay {}: is of the technique \"{}\", not of \"{}\"",
+                                flags.name, own.name, technique.name));
+    return {};
+}
+
+static Result<std::uint32_t> pickedNumber(const OverlayFlags& flags, const OverlaySource& source,
+                                          const TraceScene& trace, const Camera& camera,
+                                          glm::vec2 size) {
     const glm::vec2 at(float(flags.pick[0]), float(flags.pick[1]));
     if (at.x >= size.x || at.y >= size.y)
         return fail(fmt::format("--pick: the picture has {} x {} pixels", size.x, size.y));
     const glm::vec2 ndc = (at + 0.5f) / size * 2.f - 1.f;
     const glm::vec3 d = rayDirection(camera, size.x / size.y, ndc.x, -ndc.y);
     const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)});
-    const auto cache = hit ? bake.pickAt(trace.scene(), hit) : std::nullopt;
-    if (!cache)
-        return fail("--pick: there is no cache at this pixel");
-    return *cache;
+    const auto number = hit ? source.pickAt(trace.scene(), hit) : std::nullopt;
+    if (!number)
+        return fail("--pick: nothing at this pixel can be picked");
+    return *number;
 }
 
-Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const Precomputed& bake,
+Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const OverlaySource& source,
                                       const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height) {
     OverlayRequest options;
-    options.kind = kindOf(flags);
+    options.kind = overlayKindOf(flags);
     options.depth = flags.depth.value_or(options.depth);
     if (flags.cache) {
-        if (*flags.cache >= bake.pickCount())
-            return fail(fmt::format("--cache: the bake has {} caches, from 0", bake.pickCount()));
+        if (*flags.cache >= source.pickCount())
+            return fail(fmt::format("--cache: there are {} to pick from 0 on", source.pickCount()));
         options.pick = *flags.cache;
     } else if (!flags.pick.empty()) {
-        const Result<std::uint32_t> cache =
-            pickedCache(flags, bake, trace, camera, glm::vec2(width, height));
-        if (!cache)
-            return tl::make_unexpected(cache.error());
-        options.pick = *cache;
+        const Result<std::uint32_t> number =
+            pickedNumber(flags, source, trace, camera, glm::vec2(width, height));
+        if (!number)
+            return tl::make_unexpected(number.error());
+        options.pick = *number;
     }
     return options;
 }

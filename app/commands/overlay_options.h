@@ -2,7 +2,8 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/lighting/precomputed.h"
+#include "engine/lighting/overlay_source.h"
+#include "engine/lighting/technique.h"
 #include "engine/trace/trace_scene.h"
 
 #include <CLI/CLI.hpp>
@@ -29,9 +30,15 @@ void addOverlayFlags(CLI::App& command, OverlayFlags& flags);
 /// Fails if a flag does not apply to the named overlay or a flag that it needs is missing.
 Result<void> checkOverlayFlags(const OverlayFlags& flags);
 
-/// The overlay of `bake` that `flags` select. Precondition: checkOverlayFlags() succeeded. Fails if
-/// there is no such cache, or nothing to pick at the pixel of a picture of that size.
-Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const Precomputed& bake,
+/// The overlay that `flags` select; null: none.
+const OverlayKind* overlayKindOf(const OverlayFlags& flags);
+
+/// Fails if the overlay is not one of that technique's.
+Result<void> checkOverlayTechnique(const OverlayFlags& flags, const Technique& technique);
+
+/// The overlay of `source` that `flags` select. Precondition: checkOverlayFlags() succeeded. Fails
+/// if there is no such number, or nothing to pick at the pixel of a picture of that size.
+Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const OverlaySource& source,
                                       const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height);
 

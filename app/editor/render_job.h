@@ -28,9 +28,9 @@ struct PictureRequest {
     bool meter = false;  ///< DrawnPicture::metered is wanted too
     bool moving = false; ///< shadow maps that change may be coarse
     OverlayRequest overlay;
-    std::shared_ptr<const Precomputed> bake;    ///< bake that the overlay shows; null: no overlay
-    std::shared_ptr<const Scene> bakedScene;    ///< scene that `bake` was made from
-    std::shared_ptr<const LightSnapshot> light; ///< for overlays of light, unless `relight`
+    std::shared_ptr<const OverlaySource> overlaySource; ///< null: no overlay
+    std::shared_ptr<const Scene> overlayScene;          ///< scene that overlaySource was made from
+    std::shared_ptr<const LightSnapshot> light;         ///< for overlays of light, unless `relight`
     BakedScene lit;       ///< whose bounced light is shown; null members: no bake
     bool relight = false; ///< it is computed here, on the viewport's device, instead of `field`
     /// Trace scene of `scene`. If set, the time of relighting is first measured on either device;

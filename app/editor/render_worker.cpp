@@ -130,14 +130,14 @@ void RenderWorker::makeOverlay(const PictureRequest& request) {
                               (!shown.scene || shown.scene->materials != request.scene->materials);
     const bool light = kind && kind->showsLight, here = m_driver.lighting() != nullptr;
     const bool newLight = light && (request.light != shown.light || here);
-    if (request.bake == shown.bake && request.overlay == shown.overlay && !newMaterials &&
-        !newLight)
+    if (request.overlaySource == shown.overlaySource && request.overlay == shown.overlay &&
+        !newMaterials && !newLight)
         return;
     overlay = nullptr;
-    if (request.bake && kind) {
+    if (request.overlaySource && kind) {
         const auto lit = light && here ? m_driver.lighting()->snapshot() : request.light;
-        overlay = std::make_shared<const OverlayData>(request.bake->overlay(
-            request.overlay, relitScene(*request.bakedScene, *request.scene), lit.get()));
+        overlay = std::make_shared<const OverlayData>(request.overlaySource->overlay(
+            request.overlay, relitScene(*request.overlayScene, *request.scene), lit.get()));
     }
     viewport.setOverlay(overlay);
 }

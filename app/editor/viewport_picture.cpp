@@ -158,7 +158,7 @@ void ViewportPicture::update(Session& session) {
                 needsReference(state.compare.mode)};
     if (state.overlay.options.kind) {
         shown.overlay = state.overlay.options;
-        shown.bake = state.overlay.bake;
+        shown.overlaySource = state.overlay.source;
     }
     m_compared = session.compared();
     m_split = state.compare.split;
@@ -181,8 +181,9 @@ void ViewportPicture::update(Session& session) {
                  .tonemap = view.tonemap,
                  .exposureEv = view.exposureEv};
     m_job.draw({shown.scene, shown.layout, shown.field, m_options, shown.linear && !m_reduced,
-                view.autoExposure, m_reduced, shown.overlay, shown.bake, state.overlay.scene,
-                shown.light, session.baked(), shown.relight, measure ? state.trace : nullptr});
+                view.autoExposure, m_reduced, shown.overlay, shown.overlaySource,
+                state.overlay.scene, shown.light, session.baked(), shown.relight,
+                measure ? state.trace : nullptr});
     m_drawn = m_job.result();
     if (shown.relight)
         state.relight = m_drawn.relight;

@@ -49,7 +49,7 @@ private:
         std::shared_ptr<const LightmapLayout> layout;
         std::shared_ptr<const IndirectField> field;
         OverlayRequest overlay;
-        std::shared_ptr<const Precomputed> bake; ///< of the overlay; null: there is none
+        std::shared_ptr<const OverlaySource> overlaySource; ///< null: there is none
         std::shared_ptr<const LightSnapshot> light;
         std::shared_ptr<const Precomputed> lit; ///< whose light is shown
         bool relight = false;                   ///< by the viewport's device

@@ -206,12 +206,13 @@ void RelightJob::run() {
         auto scene = std::exchange(m_nextScene, nullptr);
         auto baked = std::exchange(m_nextBake, {});
         const bool keepLit = m_keepLit;
-        worker.view = keepLit ? std::nullopt : m_view;
+        const std::optional<Viewpoint> view = m_view;
         lock.unlock();
         if (scene)
             worker.takeScene(std::move(scene));
         if (baked)
             worker.takeBake(std::move(*baked));
+        worker.view = keepLit && worker.lightsBake ? std::nullopt : view;
         std::shared_ptr<const IndirectField> field;
         if (worker.hasWork()) {
             worker.relight(progress);
@@ -219,7 +220,7 @@ void RelightJob::run() {
         }
         if (!keepLit)
             worker.lit.reset();
-        else if (field || !worker.lit)
+        else if (field || !worker.lit || !worker.lights())
             worker.lit = worker.copyLit();
         lock.lock();
         if (field || !worker.lights())

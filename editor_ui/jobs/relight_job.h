@@ -42,8 +42,8 @@ public:
     /// there is no field.
     void setLighting(bool here);
 
-    /// Sets the viewpoint from which the field is seen. Without one, and while keepLit(true), all
-    /// caches are lit.
+    /// Sets the viewpoint from which the field is seen. Without one, and while keepLit(true) of a
+    /// bake, all caches are lit. Overlays of other techniques show what the viewpoint leaves stale.
     void setView(const Viewpoint& view);
 
     /// Sets whether Relit::lit is wanted for an overlay of light (initially false).

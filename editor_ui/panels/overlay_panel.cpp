@@ -12,39 +12,39 @@
 
 namespace limn {
 
-void pickCache(OverlayState& overlay, std::uint32_t cache) {
-    const bool known = overlay.bake && cache < overlay.bake->pickCount();
-    overlay.options.pick = known ? cache : ~0u;
+void pickNumber(OverlayState& overlay, std::uint32_t number) {
+    const bool known = overlay.source && number < overlay.source->pickCount();
+    overlay.options.pick = known ? number : ~0u;
     overlay.picked.clear();
     if (known)
-        overlay.picked = overlay.bake->describePick(*overlay.scene, cache);
+        overlay.picked = overlay.source->describePick(*overlay.scene, number);
 }
 
-void setOverlayBake(OverlayState& overlay, std::shared_ptr<const Precomputed> bake,
-                    std::shared_ptr<const Scene> scene) {
+void setOverlaySource(OverlayState& overlay, std::shared_ptr<const OverlaySource> source,
+                      std::shared_ptr<const Scene> scene) {
     std::uint32_t picked = ~0u;
-    if (const std::uint32_t old = overlay.options.pick; overlay.bake && bake && old != ~0u)
-        if (&overlay.bake->technique() == &bake->technique())
-            picked = bake->nearestPick(*overlay.bake, old).value_or(~0u);
-    overlay.bake = std::move(bake);
+    if (const std::uint32_t old = overlay.options.pick; overlay.source && source && old != ~0u)
+        if (&overlay.source->technique() == &source->technique())
+            picked = source->nearestPick(*overlay.source, old).value_or(~0u);
+    overlay.source = std::move(source);
     overlay.scene = std::move(scene);
-    overlay.maxDepth = overlay.bake ? overlay.bake->maxOverlayDepth() : 0;
-    pickCache(overlay, picked);
+    overlay.maxDepth = overlay.source ? overlay.source->maxOverlayDepth() : 0;
+    pickNumber(overlay, picked);
 }
 
-void pickCacheAt(EditorState& state, glm::vec2 mouse) {
+void pickAt(EditorState& state, glm::vec2 mouse) {
     OverlayState& overlay = state.overlay;
-    Hit hit = overlay.bake ? hitUnder(state, mouse) : Hit{};
+    Hit hit = overlay.source ? hitUnder(state, mouse) : Hit{};
     if (!hit)
         return;
     const Instance& seen = state.trace->scene().instances[hit.instance];
-    const auto& baked = overlay.scene->instances;
+    const auto& known = overlay.scene->instances;
     const auto same = std::ranges::find_if(
-        baked, [&](const Instance& i) { return i.node == seen.node && i.mesh == seen.mesh; });
-    // An instance unknown to the bake gets the number past the end: it is lit from the grid.
-    hit.instance = std::uint32_t(same - baked.begin());
-    if (const auto cache = overlay.bake->pickAt(*overlay.scene, hit))
-        pickCache(overlay, *cache);
+        known, [&](const Instance& i) { return i.node == seen.node && i.mesh == seen.mesh; });
+    // An instance unknown to a bake gets the number past the end: it is lit from the grid.
+    hit.instance = std::uint32_t(same - known.begin());
+    if (const auto number = overlay.source->pickAt(*overlay.scene, hit))
+        pickNumber(overlay, *number);
 }
 
 void overlayCombo(EditorState& state, float width) {
@@ -53,7 +53,7 @@ void overlayCombo(EditorState& state, float width) {
     const bool open = ImGui::BeginCombo("##overlay", shown ? shown->label : kNoOverlay.label,
                                         ImGuiComboFlags_HeightLargest);
     if (!open) {
-        wrappedTooltip("Part of the bake that is drawn over the picture");
+        wrappedTooltip("What a technique computed, drawn over the picture");
         return;
     }
     const auto entry = [&](const OverlayKind& text, const OverlayKind* kind) {
@@ -93,15 +93,15 @@ static void depthRow(OverlayState& overlay) {
                    "Ctrl-click to type");
 }
 
-static void cacheRow(OverlayState& overlay) {
-    int cache = int(overlay.options.pick); // ~0 is -1
-    fieldLabel("Cache", "Number of the cache shown; click a surface in the picture to pick the one "
-                        "that lights it");
-    if (ImGui::InputInt("##cache", &cache, 1, 100))
-        pickCache(overlay,
-                  std::uint32_t(std::clamp(cache, -1, int(overlay.bake->pickCount()) - 1)));
-    wrappedTooltip("Number of the cache shown; -1: none picked. Lightmap texels first, then the "
-                   "grid's cells");
+static void pickRow(OverlayState& overlay) {
+    const OverlayKind& kind = *overlay.options.kind;
+    int number = int(overlay.options.pick); // ~0 is -1
+    fieldLabel(kind.picked, "Number of what is picked; click a surface in the picture to pick what "
+                            "lights it");
+    if (ImGui::InputInt("##pick", &number, 1, 100))
+        pickNumber(overlay,
+                   std::uint32_t(std::clamp(number, -1, int(overlay.source->pickCount()) - 1)));
+    wrappedTooltip(kind.pickedTooltip);
 }
 
 static void lineRow(const OverlayLine& line) {
@@ -127,14 +127,20 @@ void overlayPanel(EditorState& state) {
                                                         : overlay.legend.title.c_str());
     wrappedTooltip(kind.tooltip);
     ImGui::Separator();
-    if (!overlay.bake) {
-        ImGui::TextColored(ImColor(color::warning()), "Nothing baked yet");
+    if (!isMadeOf(kind, overlay.source.get())) {
+        const Technique& technique = techniqueOf(kind);
+        ImGui::PushStyleColor(ImGuiCol_Text, color::warning());
+        if (technique.precomputation)
+            ImGui::TextUnformatted("Nothing baked yet");
+        else
+            ImGui::TextWrapped("Shown while the technique is \"%s\"", technique.label);
+        ImGui::PopStyleColor();
         return;
     }
     if (kind.hasDepth)
         depthRow(overlay);
     if (kind.pick != OverlayPick::None)
-        cacheRow(overlay);
+        pickRow(overlay);
     legendRows(overlay.legend);
     if (kind.describesPick)
         for (const OverlayLine& line : overlay.picked)

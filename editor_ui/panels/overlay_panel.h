@@ -12,19 +12,20 @@ inline constexpr OverlayKind kNoOverlay = {
 /// The list of overlays, for the bar above the picture.
 void overlayCombo(EditorState& state, float width);
 
-/// Shows the overlay's parameter, the meaning of its colours, and details of a picked cache. Draws
+/// Shows the overlay's parameter, the meaning of its colours, and details of what is picked. Draws
 /// into the current window. Precondition: an overlay is shown.
 void overlayPanel(EditorState& state);
 
-/// Sets the bake that the overlay shows. A picked cache is replaced by the nearest one of the same
-/// kind.
-void setOverlayBake(OverlayState& overlay, std::shared_ptr<const Precomputed> bake,
-                    std::shared_ptr<const Scene> scene);
+/// Sets what the overlay is made of. What was picked of the same technique is replaced by the
+/// nearest thing of the same kind.
+void setOverlaySource(OverlayState& overlay, std::shared_ptr<const OverlaySource> source,
+                      std::shared_ptr<const Scene> scene);
 
-/// Picks a cache to show and to describe; an index out of range clears the pick.
-void pickCache(OverlayState& overlay, std::uint32_t cache);
+/// Picks a cache, or whatever the source has, to show and to describe; a number out of range clears
+/// the pick.
+void pickNumber(OverlayState& overlay, std::uint32_t number);
 
-/// Picks the cache that lights the surface under the mouse; keeps the old one if there is none.
-void pickCacheAt(EditorState& state, glm::vec2 mouse);
+/// Picks what lights the surface under the mouse; keeps the old pick if there is none.
+void pickAt(EditorState& state, glm::vec2 mouse);
 
 } // namespace limn

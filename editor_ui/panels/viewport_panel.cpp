@@ -145,7 +145,7 @@ static void release(EditorState& state) {
     pick(state, view.pressedAt, io.KeyCtrl || io.KeyShift);
     const OverlayKind* overlay = state.overlay.options.kind;
     if (overlay && overlay->pick != OverlayPick::None)
-        pickCacheAt(state, view.pressedAt);
+        pickAt(state, view.pressedAt);
     if (state.explain.shown)
         explainAt(state, view.pressedAt);
 }

@@ -2,24 +2,19 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/lighting/light_snapshot.h"
 #include "engine/lighting/lighting_report.h"
+#include "engine/lighting/overlay_source.h"
 #include "engine/lightmap/lightmap_layout.h"
-#include "engine/overlay/overlay_data.h"
-#include "engine/overlay/overlay_kind.h"
 #include "engine/scene/scene.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace limn {
-
-struct Technique;
 
 /// Duration of each stage of a precomputation in order [s].
 using StageSeconds = std::vector<std::pair<std::string, double>>;
@@ -59,11 +54,8 @@ struct Prediction {
 
 /// What a technique computed of a scene in advance, so that its light can follow changes of lights,
 /// materials, sky and dynamic objects. Immutable.
-class Precomputed {
+class Precomputed : public OverlaySource {
 public:
-    virtual ~Precomputed() = default;
-
-    virtual const Technique& technique() const = 0;
     /// The settings that it was made with.
     virtual const BakeSettings& settings() const = 0;
     /// Precomputation::inputHash() of the scene that it was made from.
@@ -89,35 +81,6 @@ public:
     virtual std::string defect(const Scene& scene) const = 0;
     /// Writes a file that Precomputation::read() reads.
     virtual Result<void> write(const std::string& path) const = 0;
-
-    // Overlays, of the kinds in Technique::overlays. A technique without any keeps these.
-
-    /// Builds an overlay. `scene` is the one that this was made from; its materials may be newer.
-    /// `light` is read by kinds that show light and may be null.
-    virtual OverlayData overlay(const OverlayRequest& /*request*/, const Scene& /*scene*/,
-                                const LightSnapshot* /*light*/) const {
-        return {};
-    }
-    /// Largest OverlayRequest::depth.
-    virtual std::uint32_t maxOverlayDepth() const { return 0; }
-    /// Things are picked by their numbers below this.
-    virtual std::uint32_t pickCount() const { return 0; }
-    /// Number of the thing that lights the surface which was hit; std::nullopt: there is none.
-    /// `hit` names an instance of the baked scene, or one past its end for an unknown object.
-    virtual std::optional<std::uint32_t> pickAt(const Scene& /*scene*/, const Hit& /*hit*/) const {
-        return {};
-    }
-    /// Number of the thing here that lies nearest to number `pick` of `other`, which is of the same
-    /// technique.
-    virtual std::optional<std::uint32_t> nearestPick(const Precomputed& /*other*/,
-                                                     std::uint32_t /*pick*/) const {
-        return {};
-    }
-    /// Describes number `pick` for kinds with OverlayKind::describesPick. `scene` as for overlay().
-    virtual std::vector<OverlayLine> describePick(const Scene& /*scene*/,
-                                                  std::uint32_t /*pick*/) const {
-        return {};
-    }
 };
 
 /// Precomputed data with the scene that it was made from. Both are null where a technique

@@ -59,8 +59,9 @@ struct Technique {
     const char* source;  ///< authors, title, year
     /// The first, unless it is a switch, trades time for error: benchmarks vary it.
     std::span<const TechniqueSetting> settings;
-    std::span<const OverlayKind> overlays; ///< of its precomputed data
-    const Precomputation* precomputation;  ///< null: nothing is precomputed
+    /// Of its precomputed data, or, where it has none, of its light's snapshots; those show light.
+    std::span<const OverlayKind> overlays;
+    const Precomputation* precomputation; ///< null: nothing is precomputed
     /// Creates light on the CPU. Precondition: `prepared` holds data of this technique, and none
     /// where nothing is precomputed.
     std::unique_ptr<Lighting> (*light)(const Prepared& prepared);

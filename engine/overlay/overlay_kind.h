@@ -18,7 +18,11 @@ struct OverlayKind {
     bool showsMaterials = false; ///< changes with the materials of the scene
     bool hasDepth = false;       ///< OverlayRequest::depth applies
     OverlayPick pick = OverlayPick::None;
-    bool describesPick = false; ///< what is picked is described in words below the legend
+    bool describesPick = false;   ///< what is picked is described in words below the legend
+    const char* picked = "Cache"; ///< name of the things that are picked
+    const char* pickedTooltip =
+        "Number of the cache shown; -1: none picked. Lightmap texels first, "
+        "then the grid's cells";
 };
 
 /// An overlay with its parameters.

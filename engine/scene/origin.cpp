@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -63,6 +64,13 @@ glm::dvec3 originOf(const Document& document, std::span<const Mesh> meshes) {
         return glm::dvec3(0);
     const double step = std::exp2(std::ceil(std::log2(diagonal)));
     return glm::round(centre / step) * step;
+}
+
+std::string placeText(const glm::dvec3& origin, glm::vec3 p) {
+    const glm::dvec3 at = toFile(origin, p);
+    // Three significant digits distinguish positions only near the origin.
+    return origin == glm::dvec3(0) ? fmt::format("At {:.3g}, {:.3g}, {:.3g} m", at.x, at.y, at.z)
+                                   : fmt::format("At {:.3f}, {:.3f}, {:.3f} m", at.x, at.y, at.z);
 }
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/scene/mesh/mesh.h"
 
 #include <span>
+#include <string>
 
 namespace limn {
 
@@ -29,6 +30,9 @@ glm::dvec3 originOf(const Document& document, std::span<const Mesh> meshes);
 inline glm::dvec3 toFile(const glm::dvec3& origin, glm::vec3 p) {
     return origin + glm::dvec3(p);
 }
+
+/// "At 1.2, 0, -3.4 m", world point `p` in the file's coordinates.
+std::string placeText(const glm::dvec3& origin, glm::vec3 p);
 
 /// Converts point `p` in the file's coordinates to world space.
 inline glm::vec3 toWorld(const glm::dvec3& origin, const glm::dvec3& p) {

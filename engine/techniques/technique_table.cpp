@@ -62,6 +62,16 @@ std::vector<const OverlayKind*> overlayKinds() {
     return kinds;
 }
 
+const Technique& techniqueOf(const OverlayKind& kind) {
+    return **std::ranges::find_if(kTechniques, [&](const Technique* t) {
+        return std::ranges::any_of(t->overlays, [&](const OverlayKind& k) { return &k == &kind; });
+    });
+}
+
+bool isMadeOf(const OverlayKind& kind, const OverlaySource* source) {
+    return source && &source->technique() == &techniqueOf(kind);
+}
+
 std::string techniqueNames() {
     std::string names;
     for (const Technique* technique : kTechniques)

@@ -28,6 +28,12 @@ Result<std::shared_ptr<const Precomputed>> readPrecomputed(const std::string& pa
 /// The overlays of every technique, in the order of the techniques.
 std::vector<const OverlayKind*> overlayKinds();
 
+/// The technique that lists an overlay. Precondition: one does.
+const Technique& techniqueOf(const OverlayKind& kind);
+
+/// Whether an overlay of this kind can be made of `source`, which may be null.
+bool isMadeOf(const OverlayKind& kind, const OverlaySource* source);
+
 /// Names of all techniques, "A or B or C", for messages and --help.
 std::string techniqueNames();
 

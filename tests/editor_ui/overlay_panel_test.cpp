@@ -31,7 +31,7 @@ const OverlayKind* kindNamed(const std::string& name) {
 
 /// The caches of the bake that an overlay shows, which its picks number.
 const Caches& cachesOf(const OverlayState& overlay) {
-    return bakeOf(*overlay.bake)->caches;
+    return static_cast<const BakedIlluminance&>(*overlay.source).bake()->caches;
 }
 
 /// fullEditor() with a bake of a moment, looking at its two triangles.
@@ -51,7 +51,7 @@ struct BakedEditor {
     void rebake() {
         const auto trace = std::make_shared<const TraceScene>(*scene);
         state.trace = trace;
-        setOverlayBake(state.overlay, smallBake(*trace), scene);
+        setOverlaySource(state.overlay, smallBake(*trace), scene);
     }
 };
 
@@ -84,13 +84,13 @@ TEST(OverlayPanel, EveryOverlayIsDrawnWithAndWithoutABakeAndForEveryCache) {
         ui.frames(baked.state);
     }
     baked.state.overlay.options.kind = kindNamed("links");
-    for (std::uint32_t c = 0; c < baked.state.overlay.bake->pickCount(); ++c) {
-        pickCache(baked.state.overlay, c);
+    for (std::uint32_t c = 0; c < baked.state.overlay.source->pickCount(); ++c) {
+        pickNumber(baked.state.overlay, c);
         EXPECT_FALSE(baked.state.overlay.picked.empty());
         EXPECT_EQ(baked.state.overlay.options.pick, c);
         ui.frames(baked.state);
     }
-    pickCache(baked.state.overlay, 1u << 30);
+    pickNumber(baked.state.overlay, 1u << 30);
     EXPECT_TRUE(baked.state.overlay.picked.empty());
     ui.frames(baked.state);
 }
@@ -132,7 +132,7 @@ TEST(OverlayPanel, AClickPicksTheCacheBeneathItAndSelectsAsEver) {
 TEST(OverlayPanel, AnotherBakeKeepsThePlaceThatWasPicked) {
     BakedEditor baked;
     OverlayState& overlay = baked.state.overlay;
-    pickCache(overlay, cachesOf(overlay).lightmapCount / 2);
+    pickNumber(overlay, cachesOf(overlay).lightmapCount / 2);
     const glm::vec3 place = cachesOf(overlay).position[overlay.options.pick];
     baked.scene->bake.lightmapCaches = 400;
     baked.rebake();
@@ -142,7 +142,7 @@ TEST(OverlayPanel, AnotherBakeKeepsThePlaceThatWasPicked) {
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
         EXPECT_LE(glm::distance(caches.position[overlay.options.pick], place),
                   glm::distance(caches.position[c], place));
-    setOverlayBake(overlay, nullptr, nullptr);
+    setOverlaySource(overlay, nullptr, nullptr);
     EXPECT_EQ(overlay.options.pick, ~0u);
     EXPECT_TRUE(overlay.picked.empty());
 }

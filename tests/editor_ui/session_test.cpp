@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/overlay_panel.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/techniques/technique_table.h"
@@ -138,6 +139,44 @@ TEST_F(SessionTest, AnOverlayOfLightGetsWhatTheFieldWasMadeOf) {
     session.state.overlay.options.kind = nullptr;
     session.update();
     ASSERT_TRUE(runUntil(session, [&] { return !session.lit(); }));
+}
+
+TEST_F(SessionTest, AnOverlayOfATechniqueWithoutABakeIsMadeOfItsNewestLight) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    OverlayState& overlay = session.state.overlay;
+    EXPECT_EQ(overlay.source, session.baked().bake);
+    const auto kinds = overlayKinds();
+    const auto lobes = std::ranges::find(kinds, std::string_view("lpv-lobes"), &OverlayKind::name);
+    ASSERT_NE(lobes, kinds.end());
+    overlay.options.kind = *lobes;
+    session.update();
+    EXPECT_FALSE(overlay.source) << "another technique is chosen";
+    const auto choose = [&](const char* name) {
+        TechniqueChoice* choice = nullptr;
+        for (auto& [id, object] : session.state.document.objects)
+            if (!choice)
+                choice = std::get_if<TechniqueChoice>(&object);
+        if (choice)
+            choice->technique = name;
+        else
+            addObject(session.state.document, TechniqueChoice{.technique = name});
+    };
+    choose("lpv");
+    ASSERT_TRUE(runUntil(session, [&] { return overlay.source != nullptr; }));
+    EXPECT_STREQ(overlay.source->technique().name, "lpv");
+    pickNumber(overlay, 7);
+    EXPECT_FALSE(overlay.picked.empty());
+    const auto before = overlay.source;
+    lamp(session).strength *= 2;
+    ASSERT_TRUE(runUntil(session, [&] { return overlay.source && overlay.source != before; }));
+    EXPECT_EQ(overlay.options.pick, 7U);
+    choose("ambient");
+    ASSERT_TRUE(runUntil(session, [&] { return !overlay.source; }));
+    overlay.options.kind = nullptr;
+    session.update();
+    EXPECT_EQ(overlay.source, session.baked().bake);
 }
 
 TEST_F(SessionTest, AnEditedLightChangesTheFieldWithoutABakeAndUndoRestoresIt) {

@@ -148,35 +148,50 @@ TEST(Techniques, PrecomputedDataIsReadAsItWasWrittenAndKnowsItsScene) {
     }
 }
 
-TEST(Techniques, EveryOverlayOfWhatWasPrecomputedHasALegendAndItsPicksAreDescribed) {
+TEST(Techniques, EveryOverlayHasALegendAndItsPicksAreDescribed) {
     const Scene scene = smallRoom();
     const auto trace = std::make_shared<const TraceScene>(scene);
     for (const Technique* technique : techniques()) {
-        if (!technique->precomputation)
+        if (technique->overlays.empty())
             continue;
         SCOPED_TRACE(technique->name);
-        const Prepared prepared{*technique->precomputation->prepare(*trace, {}, {}),
-                                std::make_shared<const Scene>(scene)};
+        Prepared prepared;
+        if (technique->precomputation)
+            prepared = {*technique->precomputation->prepare(*trace, {}, {}),
+                        std::make_shared<const Scene>(scene)};
         const auto lighting = technique->light(prepared);
         lighting->update({.scene = scene, .trace = trace.get()}, {});
         const auto light = lighting->snapshot();
+        const OverlaySource* source = prepared.data.get();
+        if (!source)
+            source = light.get();
+        ASSERT_TRUE(source);
+        EXPECT_EQ(&source->technique(), technique);
         for (const OverlayKind& kind : technique->overlays) {
+            EXPECT_EQ(&techniqueOf(kind), technique) << kind.name;
+            EXPECT_TRUE(isMadeOf(kind, source)) << kind.name;
+            EXPECT_FALSE(isMadeOf(kind, nullptr)) << kind.name;
+            EXPECT_TRUE(technique->precomputation || kind.showsLight) << kind.name;
             const bool picks = kind.pick != OverlayPick::None;
-            ASSERT_TRUE(!picks || prepared.data->pickCount() > 0) << kind.name;
-            const OverlayData data =
-                prepared.data->overlay({.kind = &kind, .pick = picks ? 0 : ~0U}, scene,
-                                       kind.showsLight ? light.get() : nullptr);
-            EXPECT_FALSE(data.legend.title.empty()) << kind.name;
-            EXPECT_FALSE(data.marks.empty() && data.texels.empty()) << kind.name;
+            ASSERT_TRUE(!picks || source->pickCount() > 0) << kind.name;
+            for (const std::uint32_t pick : {0U, ~0U}) {
+                if (pick == ~0U && kind.pick == OverlayPick::Required)
+                    continue;
+                const OverlayData data =
+                    source->overlay({.kind = &kind, .pick = picks ? pick : ~0U}, scene,
+                                    kind.showsLight ? light.get() : nullptr);
+                EXPECT_FALSE(data.legend.title.empty()) << kind.name;
+                EXPECT_FALSE(data.marks.empty() && data.texels.empty()) << kind.name;
+            }
             if (!kind.describesPick)
                 continue;
-            const std::vector<OverlayLine> lines = prepared.data->describePick(scene, 0);
+            const std::vector<OverlayLine> lines = source->describePick(scene, 0);
             EXPECT_FALSE(lines.empty()) << kind.name;
             for (const OverlayLine& line : lines)
                 EXPECT_EQ(line.text.empty(), line.style == OverlayLine::Style::Separator);
         }
-        const std::uint32_t count = prepared.data->pickCount();
-        EXPECT_TRUE(count == 0 || prepared.data->nearestPick(*prepared.data, count / 2));
+        const std::uint32_t count = source->pickCount();
+        EXPECT_TRUE(count == 0 || source->nearestPick(*source, count / 2));
     }
 }
 

@@ -108,10 +108,10 @@ std::optional<std::uint32_t> BakedIlluminance::pickAt(const Scene& scene, const 
 }
 
 // The cache of the same kind nearest to a place.
-std::optional<std::uint32_t> BakedIlluminance::nearestPick(const Precomputed& other,
+std::optional<std::uint32_t> BakedIlluminance::nearestPick(const OverlaySource& other,
                                                            std::uint32_t pick) const {
     const Caches& caches = m_bake->caches;
-    const Caches& before = bakeOf(other)->caches;
+    const Caches& before = static_cast<const BakedIlluminance&>(other).bake()->caches;
     std::optional<std::uint32_t> nearest;
     float best = std::numeric_limits<float>::max();
     for (std::uint32_t c = 0; c < caches.size(); ++c)

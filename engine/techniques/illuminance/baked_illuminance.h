@@ -34,7 +34,7 @@ public:
     std::uint32_t maxOverlayDepth() const override;
     std::uint32_t pickCount() const override { return std::uint32_t(m_bake->caches.size()); }
     std::optional<std::uint32_t> pickAt(const Scene& scene, const Hit& hit) const override;
-    std::optional<std::uint32_t> nearestPick(const Precomputed& other,
+    std::optional<std::uint32_t> nearestPick(const OverlaySource& other,
                                              std::uint32_t pick) const override;
     std::vector<OverlayLine> describePick(const Scene& scene, std::uint32_t pick) const override;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/lighting/light_snapshot.h"
+#include "engine/techniques/illuminance/illuminance.h"
 #include "engine/techniques/illuminance/overlay/overlay.h"
 
 #include <utility>
@@ -12,6 +13,8 @@ namespace limn {
 class IlluminanceSnapshot : public LightSnapshot {
 public:
     explicit IlluminanceSnapshot(LitBake of) : lit(std::move(of)) {}
+
+    const Technique& technique() const override { return kIlluminanceTechnique; }
 
     const LitBake lit;
 };

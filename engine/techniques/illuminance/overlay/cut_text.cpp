@@ -69,14 +69,6 @@ void addFill(const LinkCut& cut, std::vector<OverlayLine>& lines) {
         lines.push_back({Style::Plain, "none: it is black"});
 }
 
-std::string placeText(const Scene& scene, glm::vec3 position) {
-    const glm::dvec3 p = toFile(scene.origin, position);
-    // Three significant digits distinguish positions only near the origin.
-    return scene.origin == glm::dvec3(0)
-               ? fmt::format("At {:.3g}, {:.3g}, {:.3g} m", p.x, p.y, p.z)
-               : fmt::format("At {:.3f}, {:.3f}, {:.3f} m", p.x, p.y, p.z);
-}
-
 } // namespace
 
 std::vector<OverlayLine> describeCut(const Bake& bake, const Scene& scene, std::uint32_t cache) {
@@ -87,7 +79,7 @@ std::vector<OverlayLine> describeCut(const Bake& bake, const Scene& scene, std::
         {Style::Separator, ""},
         {Style::Plain,
          fmt::format("{}, {}", kindText(caches.kind[cache]), valid ? "valid" : "invalid")},
-        {Style::Plain, placeText(scene, caches.position[cache])}};
+        {Style::Plain, placeText(scene.origin, caches.position[cache])}};
     if (!valid) {
         addFill(cut, lines);
         return lines;
