@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/lpv/injected_lights.h"
 
+#include "engine/math/sampling.h"
 #include "engine/rsm/reflective_shadow_map.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/scene/mesh/input_hash.h"
@@ -30,7 +31,16 @@ InjectedLight injectLight(const TraceScene& trace, const Scene& scene, const Lig
         samples[t.instance].push_back(
             lobeOff(lattice, t.position, t.normal,
                     t.albedo * (t.incident * std::numbers::inv_pi_v<float>)));
-    InjectedLight injected{.shape = unitLight(light), .rays = map.rays};
+    InjectedLight injected{
+        .shape = unitLight(light), .allTexels = map.texels.size(), .rays = map.rays};
+    const std::size_t shown = std::min(map.texels.size(), kShownTexels);
+    for (std::size_t k = 0; k < shown; ++k) {
+        // One of each stretch at random: even steps would pick texels in rows.
+        const std::size_t begin = k * map.texels.size() / shown,
+                          end = (k + 1) * map.texels.size() / shown;
+        const RsmTexel& t = map.texels[begin + mixBits(std::uint32_t(k)) % (end - begin)];
+        injected.texels.push_back({t.position, t.normal, t.albedo * t.incident});
+    }
     for (const auto& [instance, ofIt] : samples)
         injected.parts.push_back({instance, sumByCell(ofIt, lattice.cells())});
     return injected;

@@ -19,12 +19,24 @@ struct InjectedInstance {
     std::vector<CellLobe> cells;
 };
 
+/// A texel of a reflective shadow map, kept for overlays.
+struct ShownTexel {
+    glm::vec3 position{0};
+    glm::vec3 normal{0};    ///< unit, geometric, of the lit side
+    glm::vec3 reflected{0}; ///< flux of a light of colour 1 and strength 1, in RsmTexel's unit
+};
+
 /// What surfaces reflect of a light of colour 1 and strength 1.
 struct InjectedLight {
     Light shape; ///< unitLight()
     std::vector<InjectedInstance> parts;
-    std::uint64_t rays = 0; ///< of its shadow map
+    std::vector<ShownTexel> texels; ///< of its shadow map, evenly spread, at most kShownTexels
+    std::uint64_t allTexels = 0;    ///< number of those that reflect anything
+    std::uint64_t rays = 0;         ///< of its shadow map
 };
+
+/// Number of texels of a light that are kept for overlays.
+inline constexpr std::size_t kShownTexels = 4096;
 
 /// Casts the light's shadow map and injects its texels half a cell off their surfaces, each as a
 /// lobe of the flux that it reflects. Incomplete when cancelled.

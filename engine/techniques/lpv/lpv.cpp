@@ -7,6 +7,7 @@
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/lpv/blockers.h"
 #include "engine/techniques/lpv/injected_lights.h"
+#include "engine/techniques/lpv/lpv_overlay.h"
 #include "engine/techniques/lpv/propagation.h"
 
 #include <algorithm>
@@ -189,6 +190,26 @@ public:
 
     const IndirectField* field() const override { return &m_field; }
 
+    std::shared_ptr<const LightSnapshot> snapshot() const override {
+        if (!m_inputs)
+            return nullptr;
+        LitLattice lit{m_lattice, CellLight(m_lattice.size), {}, *m_blockers, {}, 0};
+        addInjected(m_emitters, glm::vec3(1), m_lattice, {}, lit.injected);
+        for (const Source& source : m_inputs->sources) {
+            const InjectedLight& light = *injectionOf(source.shape);
+            addInjected(light.parts, source.colour, m_lattice, {}, lit.injected);
+            for (const ShownTexel& texel : light.texels)
+                lit.texels.push_back({texel, texel.reflected * source.colour});
+            lit.allTexels += light.allTexels;
+        }
+        const std::size_t count = m_lattice.cells();
+        lit.sum.resize(count);
+        for (std::size_t c = 0; c < count; ++c)
+            for (std::size_t i = 0; i < lit.sum[c].size(); ++i)
+                lit.sum[c][i] = glm::vec3(m_field.grid[i * count + c]) / m_factors[i > 0];
+        return std::make_shared<const LpvSnapshot>(std::move(lit));
+    }
+
     /// Each light's row is what that light gives alone. Cells whose lobes point away from each
     /// other lose less to the clamp together, so the sum of these may differ from the light of all.
     Explanation explain(const Scene& scene, const FieldReading& reading,
@@ -361,7 +382,7 @@ constinit const Technique kLpvTechnique = {
     .source = "Kaplanyan, Dachsbacher. Cascaded Light Propagation Volumes for Real-Time Indirect "
               "Illumination. 2010",
     .settings = kSettings,
-    .overlays = {},
+    .overlays = kLpvOverlays,
     .precomputation = nullptr,
     .light = [](const Prepared&) {
         return std::unique_ptr<Lighting>(std::make_unique<LpvLighting>());
