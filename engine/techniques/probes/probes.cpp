@@ -4,6 +4,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/techniques/probes/probe_inputs.h"
 #include "engine/techniques/probes/probe_light.h"
+#include "engine/techniques/probes/probe_overlay.h"
 
 #include <algorithm>
 #include <array>
@@ -70,6 +71,7 @@ class ProbeLighting : public Lighting {
 public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return &m_field; }
+    std::shared_ptr<const LightSnapshot> snapshot() const override;
     Explanation explain(const Scene& scene, const FieldReading& reading,
                         const ExplainOptions& options) const override;
 
@@ -81,6 +83,7 @@ private:
 
     void followScene(const Scene& scene);
     bool isStale(std::uint32_t probe, std::uint32_t origin) const;
+    bool isStale(std::uint32_t probe) const; ///< any of its origins
     std::uint32_t countStale() const;
     void refresh(const LightingInput& input, std::uint32_t most, const Progress& progress,
                  Times& times);
@@ -95,15 +98,17 @@ private:
     /// Editions of the maps and the origins that are wanted, and those that each probe has.
     std::uint32_t m_mapEdition = 0;
     std::vector<std::uint32_t> m_editions, m_probeMaps, m_probeEditions;
-    std::vector<glm::vec3> m_colors; ///< per light, in the field: colour times strength
-    std::uint32_t m_next = 0;        ///< probe to be looked at first
-    std::uint64_t m_rays = 0;        ///< of the last update
-    std::uint32_t m_refreshed = 0;   ///< probes, in the last update
-    double m_before = 0;             ///< sum of the mean radiance when a bounce began
-    bool m_bouncing = false;         ///< light bounces more than once
-    bool m_smooth = false;           ///< weights, GridMoments::smooth
-    bool m_momentsChanged = false;   ///< since the field was written
-    bool m_fieldStale = false;       ///< a sum of the same parts would be another
+    std::vector<glm::vec3> m_colors;          ///< per light, in the field: colour times strength
+    std::uint32_t m_next = 0;                 ///< probe to be looked at first
+    std::uint64_t m_rays = 0;                 ///< of the last update
+    std::uint32_t m_refreshed = 0;            ///< probes, in the last update
+    std::uint32_t m_updates = 0;              ///< that refreshed any probe
+    std::vector<std::uint32_t> m_refreshedBy; ///< per probe: the last such update; 0: none
+    double m_before = 0;                      ///< sum of the mean radiance when a bounce began
+    bool m_bouncing = false;                  ///< light bounces more than once
+    bool m_smooth = false;                    ///< weights, GridMoments::smooth
+    bool m_momentsChanged = false;            ///< since the field was written
+    bool m_fieldStale = false;                ///< a sum of the same parts would be another
     IndirectField m_field;
 };
 
@@ -128,6 +133,7 @@ void ProbeLighting::followScene(const Scene& scene) {
         m_maps = emptyMaps(now.grid, now.side);
         m_solidAngles = m_maps.map.solidAngles();
         m_probeMaps.assign(now.grid.count(), 0);
+        m_refreshedBy.assign(now.grid.count(), 0);
         m_field.grid.clear();
         m_fieldStale = true;
         m_light.parts.clear();
@@ -175,14 +181,17 @@ bool ProbeLighting::isStale(std::uint32_t probe, std::uint32_t origin) const {
            m_probeEditions[std::size_t(probe) * m_light.origins() + origin] != m_editions[origin];
 }
 
+bool ProbeLighting::isStale(std::uint32_t probe) const {
+    for (std::uint32_t o = 0; o < m_light.origins(); ++o)
+        if (isStale(probe, o))
+            return true;
+    return false;
+}
+
 std::uint32_t ProbeLighting::countStale() const {
     std::uint32_t count = 0;
     for (std::uint32_t p = 0; p < m_maps.grid.count(); ++p)
-        for (std::uint32_t o = 0; o < m_light.origins(); ++o)
-            if (isStale(p, o)) {
-                ++count;
-                break;
-            }
+        count += isStale(p) ? 1 : 0;
     return count;
 }
 
@@ -218,6 +227,8 @@ void ProbeLighting::refresh(const LightingInput& input, std::uint32_t most,
         for (const std::uint32_t o : origins)
             m_probeEditions[std::size_t(p) * m_light.origins() + o] = m_editions[o];
         times.light += watch.lap();
+        m_updates += m_refreshed == 0 ? 1 : 0;
+        m_refreshedBy[p] = m_updates;
         ++m_refreshed;
         --left;
         progress.at("probes", float(k + 1) / float(count));
@@ -321,6 +332,21 @@ LightingReport ProbeLighting::update(const LightingInput& input, const Progress&
     return result;
 }
 
+std::shared_ptr<const LightSnapshot> ProbeLighting::snapshot() const {
+    const std::uint32_t count = m_maps.grid.count();
+    if (m_field.grid.empty())
+        return nullptr;
+    LitProbes lit{m_maps, std::vector<ProbeHarmonics>(count), std::vector<ProbeAge>(count)};
+    for (std::uint32_t p = 0; p < count; ++p) {
+        for (std::size_t i = 0; i < lit.light[p].size(); ++i)
+            lit.light[p][i] = glm::vec3(m_field.grid[i * count + p]);
+        lit.ages[p] = {.updates = m_updates - m_refreshedBy[p],
+                       .stale = isStale(p),
+                       .lit = m_refreshedBy[p] > 0};
+    }
+    return std::make_shared<const ProbeSnapshot>(std::move(lit));
+}
+
 Explanation ProbeLighting::explain(const Scene& scene, const FieldReading& reading,
                                    const ExplainOptions& options) const {
     if (!options.black.empty() || m_colors.size() != scene.lights.size())
@@ -366,7 +392,7 @@ constinit const Technique kProbesTechnique = {
     .source = "McGuire, Mara, Nowrouzezahrai, Luebke. Real-Time Global Illumination using "
               "Precomputed Light Field Probes. 2017",
     .settings = kSettings,
-    .overlays = {},
+    .overlays = kProbeOverlays,
     .precomputation = nullptr,
     .light = [](const Prepared&) {
         return std::unique_ptr<Lighting>(std::make_unique<ProbeLighting>());
