@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench_techniques.h"
 
+#include "app/bench/leak_room.h"
+#include "app/bench/live_light.h"
 #include "app/bench/moving_lights.h"
 #include "app/bench/techniques_page.h"
 #include "app/commands/progress_line.h"
@@ -79,6 +81,8 @@ struct Measured {
     std::unique_ptr<TraceScene> trace;
     ReferenceOptions view;
     ReferenceSet one, all; ///< of one bounce, and of all
+    ImageF lit;            ///< with direct light and all bounces
+    MotionTruth motion;    ///< of irradiance while lights move
 };
 
 Result<Measured> openMeasured(const TechniquesBench& o, const std::string& path) {
@@ -102,6 +106,11 @@ Result<Measured> openMeasured(const TechniquesBench& o, const std::string& path)
     ReferenceOptions once = m.view;
     once.maxBounces = 1;
     m.one = *renderReferenceSet(*m.trace, once, progressOnStderr());
+    ReferenceOptions lit = m.view;
+    lit.view = View::Lit;
+    lit.samplesPerPixel = o.samplesPerPixel;
+    m.lit = renderReference(*m.trace, lit, progressOnStderr()).image;
+    m.motion = renderMotion(*m.trace, m.view);
     endProgressLine();
     return m;
 }
@@ -191,14 +200,32 @@ Scene withOtherLight(const Scene& scene, int k) {
     return other;
 }
 
+/// A number for JSON, which has no infinities; null: none.
+Json finite(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
 /// A technique's light with some settings, its costs and its error.
 struct Point {
     Json row;
     ImageF picture;
 };
 
-Result<Point> measure(const TechniquesBench& o, const Measured& m, const Technique& technique,
-                      const Variant& variant) {
+/// Adds how the light follows its lights, and how much of it leaks.
+Result<void> addLiveColumns(const Measured& m, const LeakRoom& room, const Technique& technique,
+                            const Variant& variant, LiveLight live, Json& row) {
+    const Result<double> leak = room.leak(technique, variant.choice, variant.bake);
+    if (!leak)
+        return fail(fmt::format("leak, {}: {}", variant.name, leak.error().message));
+    row["leak"] = finite(*leak);
+    row["flicker"] = finite(live.flicker(m.motion));
+    const std::optional<std::uint32_t> lag = live.lag();
+    row["lag"] = lag ? Json(*lag) : Json(nullptr);
+    return {};
+}
+
+Result<Point> measure(const TechniquesBench& o, const Measured& m, const LeakRoom& room,
+                      const Technique& technique, const Variant& variant) {
     Scene scene = m.scene;
     scene.technique = variant.choice;
     Prepared prepared;
@@ -227,6 +254,10 @@ Result<Point> measure(const TechniquesBench& o, const Measured& m, const Techniq
     options.height = m.view.height;
     ImageF picture = renderField(*m.trace, *lighting->field(), layout, options);
     const Comparison all = *compareImages(picture, m.all), one = *compareImages(picture, m.one);
+    FieldRenderOptions whole = options;
+    whole.view = View::Lit;
+    const Comparison lit =
+        *compareImages(renderField(*m.trace, *lighting->field(), layout, whole), m.lit);
     Json row = {{"scene", m.name},          {"technique", technique.label},
                 {"settings", variant.name}, {"seconds", seconds},
                 {"bytes", bytes},           {"first_ms", first}};
@@ -249,6 +280,13 @@ Result<Point> measure(const TechniquesBench& o, const Measured& m, const Techniq
     row["one_bounce_nrmse"] = one.nrmse;
     row["one_bounce_bias"] = one.bias;
     row["nrmse_noise"] = all.nrmseNoise;
+    row["ssim"] = lit.ssim;
+    row["flip"] = lit.flip;
+    if (const Result<void> added =
+            addLiveColumns(m, room, technique, variant,
+                           {technique.light(prepared), scene, *m.trace, layout, options}, row);
+        !added)
+        return tl::make_unexpected(added.error());
     return Point{std::move(row), std::move(picture)};
 }
 
@@ -266,13 +304,19 @@ constexpr Column kColumns[] = {{"scene", -10, "scene"},
                                {"-1 %", 7, "nrmse_without_worst_percent", 3},
                                {"bias %", 7, "bias", 1, 100},
                                {"1 bounce", 8, "one_bounce_nrmse", 3},
-                               {"bias %", 7, "one_bounce_bias", 1, 100}};
+                               {"bias %", 7, "one_bounce_bias", 1, 100},
+                               {"SSIM", 6, "ssim", 3},
+                               {"FLIP", 6, "flip", 3},
+                               {"leak %", 7, "leak", 2, 100},
+                               {"flick. %", 8, "flicker", 2, 100},
+                               {"lag", 5, "lag"}};
 
 bool isWanted(const TechniquesBench& o, const Technique& technique) {
     return o.techniques.empty() || std::ranges::count(o.techniques, technique.name) > 0;
 }
 
-Result<PageScene> measureScene(const TechniquesBench& o, const std::string& path) {
+Result<PageScene> measureScene(const TechniquesBench& o, const LeakRoom& room,
+                               const std::string& path) {
     Result<Measured> opened = openMeasured(o, path);
     if (!opened)
         return tl::make_unexpected(opened.error());
@@ -290,7 +334,7 @@ Result<PageScene> measureScene(const TechniquesBench& o, const std::string& path
             continue;
         std::optional<Point> best;
         for (const Variant& variant : variantsOf(*technique, m.scene.bake)) {
-            Result<Point> point = measure(o, m, *technique, variant);
+            Result<Point> point = measure(o, m, room, *technique, variant);
             if (!point)
                 return tl::make_unexpected(point.error());
             if (!o.json)
@@ -312,17 +356,18 @@ Exit runTechniquesBench(const TechniquesBench& o) {
     const ThreadLimit threads(o.threads);
     if (!o.json)
         printTitles(kColumns);
+    const LeakRoom room(o.samplesPerPixel);
     Json rows = Json::array();
     std::vector<PageScene> pages;
     for (const std::string& path : o.scenes) {
-        Result<PageScene> page = measureScene(o, path);
+        Result<PageScene> page = measureScene(o, room, path);
         if (!page)
             return failed(page.error().message);
         for (const Json& row : page->rows)
             rows.push_back(row);
         pages.push_back(std::move(*page));
     }
-    const Result<std::string> html = techniquesPage(pages);
+    const Result<std::string> html = techniquesPage(pages, room.description());
     if (!html)
         return failed(html.error().message);
     if (const Exit written = writeRows(rows, o.output, "techniques", o.json); written != Exit::Done)

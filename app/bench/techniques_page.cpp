@@ -151,18 +151,22 @@ std::string allRows(const std::vector<Json>& rows) {
     std::string html =
         "<table><tr><th>technique</th><th>settings</th><th>precompute [s]</th><th>MiB</th>"
         "<th>light moves [ms]</th><th>colour</th><th>material</th><th>object</th>"
-        "<th>nRMSE</th><th>bias</th><th>nRMSE, one bounce</th><th>bias</th></tr>\n";
+        "<th>nRMSE</th><th>bias</th><th>nRMSE, one bounce</th><th>bias</th>"
+        "<th>SSIM</th><th>FLIP</th><th>leak</th><th>flicker</th><th>lag</th></tr>\n";
     for (const Json& r : rows)
         html += fmt::format(
             "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-            "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+            "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
             escaped(r["technique"].get<std::string>()), escaped(r["settings"].get<std::string>()),
             number(r["seconds"], "{:.2f}"), number(r["bytes"], "{:.2f}", 1 << 20),
             number(r["light_ms"], "{:.2f}"), number(r["color_ms"], "{:.2f}"),
             number(r["material_ms"], "{:.2f}"), number(r["object_ms"], "{:.2f}"),
             number(r["nrmse"], "{:.3f}"), number(r["bias"], "{:+.1f} %", 0.01),
             number(r["one_bounce_nrmse"], "{:.3f}"),
-            number(r["one_bounce_bias"], "{:+.1f} %", 0.01));
+            number(r["one_bounce_bias"], "{:+.1f} %", 0.01), number(r["ssim"], "{:.3f}"),
+            number(r["flip"], "{:.3f}"), number(r["leak"], "{:.2f} %", 0.01),
+            number(r["flicker"], "{:+.2f} %", 0.01), number(r["lag"], "{:.0f}"));
     return html + "</table>\n";
 }
 
@@ -176,7 +180,8 @@ const Json* bestWithin(const std::vector<Json>& rows, const std::string& key, do
     return best;
 }
 
-Result<std::string> techniquesPage(const std::vector<PageScene>& scenes) {
+Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
+                                   const std::string& leakRoom) {
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\">"
         "<title>Techniques of bounced light</title>\n"
@@ -191,7 +196,15 @@ Result<std::string> techniquesPage(const std::vector<PageScene>& scenes) {
         "of "
         "independent noise. Times are those of updates on the CPU until the light is up to date "
         "everywhere. Memory is what updates read and write. A scene's sky and emissive surfaces "
-        "count: techniques that cannot light by them are dark there.</p>\n";
+        "count: techniques that cannot light by them are dark there.</p>\n"
+        "<p>SSIM (1: equal) and FLIP (0: equal) are those of the tone-mapped picture with direct "
+        "light. Flicker and lag are measured as the editor shows light, with one update a frame. "
+        "Flicker is the change of irradiance between frames of a smooth move of the lights, less "
+        "that of path tracing, relative to the mean: below 0 light lags behind. Lag is the number "
+        "of updates after a jump of the lights until irradiance is within 5 % of what it becomes; "
+        "empty: it never is. Leak is the mean irradiance in a sealed dark room over that in the "
+        "lit one beside it: " +
+        escaped(leakRoom) + ".</p>\n";
     for (const PageScene& scene : scenes) {
         html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(scene.name), escaped(scene.note));
         html += legend(scene.rows);

@@ -28,8 +28,9 @@ struct PageScene {
 const Json* bestWithin(const std::vector<Json>& rows, const std::string& key, double budget);
 
 /// A page of HTML that needs no other file: for each scene error over time and over memory, who has
-/// the smallest error at equal time and at equal memory, all rows, and the pictures. Fails if a
-/// picture cannot be encoded.
-Result<std::string> techniquesPage(const std::vector<PageScene>& scenes);
+/// the smallest error at equal time and at equal memory, all rows, and the pictures. `leakRoom`:
+/// what the rooms are in which leaks were measured. Fails if a picture cannot be encoded.
+Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
+                                   const std::string& leakRoom);
 
 } // namespace limn
