@@ -19,6 +19,10 @@ static constexpr float kNear = 0.1f;
 static constexpr float kUpright = 0.8f; ///< cosine to the side's normal
 static constexpr float kWall = 0.4f;
 
+/// Share of the longer horizontal side that a room is at least as high as. Flatter scenes are
+/// landscapes and courts, whose objects have inward-facing sides, too.
+static constexpr float kFlat = 1.f / 40;
+
 /// Adds the triangles of one instance to the inward-facing wall area of each side [m^2].
 static void addWalls(const Scene& scene, const Instance& instance, std::array<double, 4>& area) {
     const Mesh& mesh = scene.meshOf(instance);
@@ -99,10 +103,13 @@ static Camera alongHall(const Bounds& bounds) {
     return lookAt(eye, target);
 }
 
-/// A room has inward-facing walls on at least three of its four sides. With one side open the
-/// camera looks in from there; if closed, it is inside. Anything else is an object, seen from a
-/// corner.
+/// A room is not flat and has inward-facing walls on at least three of its four sides. With one
+/// side open the camera looks in from there; if closed, it is inside. Anything else is an object,
+/// seen from a corner.
 static Camera defaultView(const Scene& scene) {
+    const glm::vec3 size = scene.bounds.size();
+    if (size.y < kFlat * std::max(size.x, size.z))
+        return fromCorner(scene.bounds);
     const std::array<float, 4> walls = measureWalls(scene);
     const auto open = std::ranges::count_if(walls, [](float w) { return w < kWall; });
     if (open == 0)

@@ -235,6 +235,24 @@ TEST(ChooseCamera, AClosedHallIsSeenFromInsideAlongIt) {
     EXPECT_GT(std::abs(camera.target.x - camera.eye.x), 10);
 }
 
+/// Rows of blocks have walls that face inward along every side, but nowhere between them is room.
+TEST(ChooseCamera, AWideCourtOfBlocksIsSeenFromAbove) {
+    Mesh court;
+    for (int i = 0; i < 20; ++i)
+        for (int k = 0; k < 20; ++k) {
+            const glm::vec3 at(5 * i, 0, 5 * k), x{4, 0, 0}, y{0, 2, 0}, z{0, 0, 4};
+            addRectangle(court, at, z, y);     // -x
+            addRectangle(court, at + x, y, z); // +x
+            addRectangle(court, at, y, x);     // -z
+            addRectangle(court, at + z, x, y); // +z
+            addRectangle(court, at + y, z, x); // top
+        }
+    const Scene scene = sceneOf(court);
+    const Camera camera = chooseCamera(scene, {});
+    EXPECT_TRUE(showsAll(camera, scene.bounds));
+    EXPECT_GT(camera.eye.y, 2);
+}
+
 TEST(Camera, RaysGoThroughTheirPixels) {
     Camera camera;
     camera.eye = {3, 1, -2};
