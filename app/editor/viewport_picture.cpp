@@ -26,6 +26,8 @@ constexpr float kScaleStep = 1.f / 16; // so that the size does not change with 
 float ViewportPicture::chooseScale(glm::uvec2 full) const {
     const double all = m_msPerPixel * double(full.x) * double(full.y),
                  most = std::max(kMovingMs - m_shadowMs, kMovingMs / 4);
+    if (m_msPerPixel == 0) // not known: the first picture of hundreds of lights may take a minute
+        return kMinScale;
     if (all <= most)
         return 1;
     const float wanted = float(std::sqrt(most / all));

@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/bar_combo.h"
 #include "editor_ui/panels/exposure_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/overlay_panel.h"
@@ -152,13 +153,25 @@ static void toolCombo(EditorState& state, float width) {
     const Action* tools[] = {&actionById("tool.select"), &actionById("tool.move"),
                              &actionById("tool.rotate"), &actionById("tool.scale")};
     const auto chosen = std::ranges::find_if(tools, [&](auto* t) { return t->checked(state); });
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::BeginCombo("##tool", (*chosen)->label, ImGuiComboFlags_HeightLarge)) {
+    if (beginBarCombo("##tool", (*chosen)->label, "What the gizmo in the picture does (Q, W, E, R)",
+                      width)) {
         for (const Action* tool : tools)
             actionItem(state, *tool);
         ImGui::EndCombo();
     }
-    wrappedTooltip("What the gizmo in the picture does (Q, W, E, R)");
+    ImGui::SameLine();
+}
+
+/// A list of all values of an enumeration, by name.
+template <class Value, std::size_t n>
+static void valueCombo(const char* id, Value& value, const char* const (&names)[n],
+                       const char* tooltip, float width) {
+    if (beginBarCombo(id, names[std::size_t(value)], tooltip, width)) {
+        for (std::size_t i = 0; i < n; ++i)
+            if (ImGui::Selectable(names[i], i == std::size_t(value)))
+                value = Value(i);
+        ImGui::EndCombo();
+    }
     ImGui::SameLine();
 }
 
@@ -166,24 +179,15 @@ static void viewCombo(EditorState& state, float width) {
     static constexpr const char* kViews[] = {"Lit",        "Direct only", "Indirect only",
                                              "Irradiance", "Albedo",      "Normals"};
     static_assert(std::size(kViews) == kViewNames.size());
-    int view = int(state.view.view);
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::Combo("##view", &view, kViews, int(std::size(kViews))))
-        state.view.view = View(view);
-    wrappedTooltip("What the picture shows");
-    ImGui::SameLine();
+    valueCombo("##view", state.view.view, kViews, "What the picture shows", width);
 }
 
 static void tonemapCombo(EditorState& state, float width) {
     static constexpr const char* kTonemaps[] = {"No tone mapping", "ACES fitted", "AgX",
                                                 "Khronos PBR Neutral"};
     static_assert(std::size(kTonemaps) == kTonemapNames.size());
-    int tonemap = int(state.view.tonemap);
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::Combo("##tonemap", &tonemap, kTonemaps, int(std::size(kTonemaps))))
-        state.view.tonemap = Tonemap(tonemap);
-    wrappedTooltip("How scene light becomes display colours");
-    ImGui::SameLine();
+    valueCombo("##tonemap", state.view.tonemap, kTonemaps,
+               "How scene light becomes display colours", width);
 }
 
 void viewBar(EditorState& state) {

@@ -108,6 +108,8 @@ void errorPanel(EditorState& state) {
         if (!needsReference(state.compare.mode))
             ImGui::TextDisabled("The error is measured while the picture is compared with the "
                                 "path-traced reference.");
+        else if (!state.compare.reference.running)
+            ImGui::TextDisabled("There is no reference of this view.");
         else
             ImGui::TextDisabled("The first samples of the reference are being traced.");
         ImGui::PopTextWrapPos();

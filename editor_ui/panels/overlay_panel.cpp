@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/panels/overlay_panel.h"
 
+#include "editor_ui/panels/bar_combo.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/view/picking.h"
@@ -49,13 +50,9 @@ void pickAt(EditorState& state, glm::vec2 mouse) {
 
 void overlayCombo(EditorState& state, float width) {
     const OverlayKind*& shown = state.overlay.options.kind;
-    ImGui::SetNextItemWidth(width);
-    const bool open = ImGui::BeginCombo("##overlay", shown ? shown->label : kNoOverlay.label,
-                                        ImGuiComboFlags_HeightLargest);
-    if (!open) {
-        wrappedTooltip("What a technique computed, drawn over the picture");
+    if (!beginBarCombo("##overlay", shown ? shown->label : kNoOverlay.label,
+                       "What a technique computed, drawn over the picture", width))
         return;
-    }
     const auto entry = [&](const OverlayKind& text, const OverlayKind* kind) {
         if (ImGui::Selectable(text.label, shown == kind))
             shown = kind;

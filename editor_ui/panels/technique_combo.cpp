@@ -3,6 +3,7 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/bar_combo.h"
 #include "editor_ui/panels/field.h"
 #include "engine/techniques/technique_table.h"
 
@@ -45,9 +46,9 @@ static void besideItems(EditorState& state, const std::string& own) {
 void techniqueCombo(EditorState& state, float width) {
     const std::string own = singleton<TechniqueChoice>(state.document).technique;
     const Technique* current = findTechnique(own);
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::BeginCombo("##technique", current ? current->label : own.c_str(),
-                          ImGuiComboFlags_HeightLarge)) {
+    if (beginBarCombo("##technique", current ? current->label : own,
+                      "What computes bounced light, and another technique to compare it with",
+                      width)) {
         ImGui::TextDisabled("Technique");
         for (const Technique* technique : techniques()) {
             if (ImGui::Selectable(technique->label, technique == current))
@@ -59,7 +60,6 @@ void techniqueCombo(EditorState& state, float width) {
         besideItems(state, own);
         ImGui::EndCombo();
     }
-    wrappedTooltip("What computes bounced light, and another technique to compare it with");
     ImGui::SameLine();
 }
 

@@ -23,7 +23,7 @@ static WorkspaceState& kept(WorkspaceStates& states, Workspace workspace) {
 WorkspaceStates defaultWorkspaces() {
     WorkspaceStates states; // Light keeps the picture large
     WorkspaceState& bake = kept(states, Workspace::Bake);
-    bake.layout = {.right = 400, .bottomOpen = true, .tab = BottomTab::Memory};
+    bake.layout = {.right = 400, .bottom = 240, .bottomOpen = true, .tab = BottomTab::Memory};
     WorkspaceState& inspect = kept(states, Workspace::Inspect);
     inspect.layout = {.left = 220, .bottom = 260, .bottomOpen = true, .tab = BottomTab::Explain};
     WorkspaceState& compare = kept(states, Workspace::Compare);
