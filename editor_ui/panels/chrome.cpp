@@ -6,6 +6,7 @@
 #include "editor_ui/panels/bar_combo.h"
 #include "editor_ui/panels/exposure_field.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/snap_steps.h"
 #include "editor_ui/panels/technique_combo.h"
@@ -15,6 +16,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -117,13 +120,13 @@ void menuBar(EditorState& state) {
     ImGui::EndMainMenuBar();
 }
 
-static void toolButton(EditorState& state, const char* id, const char* label) {
+static void toolButton(EditorState& state, const char* id, const char* label, ImVec2 size = {}) {
     const Action& action = actionById(id);
     const bool active = action.checked && action.checked(state);
     ImGui::BeginDisabled(!action.enabled(state));
     if (active)
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    if (ImGui::Button(label))
+    if (ImGui::Button(label, size))
         runAction(state, action);
     if (active)
         ImGui::PopStyleColor();
@@ -133,31 +136,35 @@ static void toolButton(EditorState& state, const char* id, const char* label) {
     ImGui::SameLine();
 }
 
+constexpr float kToolGap = 2; // between the buttons of the tools [px]
+
 /// Widths of the lists above the picture [em], which a narrow window shrinks by one factor.
 struct BarWidths {
-    float tool = 6, technique = 8, view = 7, overlay = 8, tonemap = 8, exposure = 8;
+    float technique = 12, view = 7, overlay = 9, exposure = 8;
 
     /// `left`: width that they share [px].
     static BarWidths within(float left) {
         constexpr BarWidths kFull;
-        constexpr float kSum = kFull.tool + kFull.technique + kFull.view + kFull.overlay +
-                               kFull.tonemap + kFull.exposure;
+        constexpr float kSum = kFull.technique + kFull.view + kFull.overlay + kFull.exposure;
         const float em =
             ImGui::GetFontSize() * std::clamp(left / (kSum * ImGui::GetFontSize()), 0.3f, 1.f);
-        return {kFull.tool * em,    kFull.technique * em, kFull.view * em,
-                kFull.overlay * em, kFull.tonemap * em,   kFull.exposure * em};
+        return {kFull.technique * em, kFull.view * em, kFull.overlay * em, kFull.exposure * em};
     }
 };
 
-static void toolCombo(EditorState& state, float width) {
-    const Action* tools[] = {&actionById("tool.select"), &actionById("tool.move"),
-                             &actionById("tool.rotate"), &actionById("tool.scale")};
-    const auto chosen = std::ranges::find_if(tools, [&](auto* t) { return t->checked(state); });
-    if (beginBarCombo("##tool", (*chosen)->label, "What the gizmo in the picture does (Q, W, E, R)",
-                      width)) {
-        for (const Action* tool : tools)
-            actionItem(state, *tool);
-        ImGui::EndCombo();
+/// A square button for each tool of the gizmo.
+static void toolIcons(EditorState& state) {
+    static constexpr std::pair<const char*, Icon> kTools[] = {{"tool.select", Icon::Pointer},
+                                                              {"tool.move", Icon::Move},
+                                                              {"tool.rotate", Icon::Rotate},
+                                                              {"tool.scale", Icon::Scale}};
+    const float side = ImGui::GetFrameHeight();
+    for (const auto& [id, icon] : kTools) {
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        toolButton(state, id, (std::string("##") + id).c_str(), {side, side});
+        drawIcon(*ImGui::GetWindowDrawList(), icon, {corner.x + side / 2, corner.y + side / 2},
+                 0.6f * side, ImGui::GetColorU32(ImGuiCol_Text));
+        ImGui::SameLine(0, kToolGap);
     }
     ImGui::SameLine();
 }
@@ -182,22 +189,15 @@ static void viewCombo(EditorState& state, float width) {
     valueCombo("##view", state.view.view, kViews, "What the picture shows", width);
 }
 
-static void tonemapCombo(EditorState& state, float width) {
-    static constexpr const char* kTonemaps[] = {"No tone mapping", "ACES fitted", "AgX",
-                                                "Khronos PBR Neutral"};
-    static_assert(std::size(kTonemaps) == kTonemapNames.size());
-    valueCombo("##tonemap", state.view.tonemap, kTonemaps,
-               "How scene light becomes display colours", width);
-}
-
 void viewBar(EditorState& state) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const bool saves = needsReference(state.compare.mode);
     const float buttons = ImGui::CalcTextSize(saves ? "RefEXR\u2026" : "Ref").x +
                           (saves ? 4 : 2) * style.FramePadding.x +
-                          (saves ? 7 : 6) * style.ItemSpacing.x;
+                          (saves ? 6 : 5) * style.ItemSpacing.x + 4 * ImGui::GetFrameHeight() +
+                          3 * kToolGap;
     const BarWidths widths = BarWidths::within(ImGui::GetContentRegionAvail().x - buttons);
-    toolCombo(state, widths.tool);
+    toolIcons(state);
     techniqueCombo(state, widths.technique);
     toolButton(state, "compare.reference", "Ref");
     if (saves)
@@ -205,7 +205,6 @@ void viewBar(EditorState& state) {
     viewCombo(state, widths.view);
     overlayCombo(state, widths.overlay);
     ImGui::SameLine();
-    tonemapCombo(state, widths.tonemap);
     exposureField(state.view, widths.exposure);
 }
 

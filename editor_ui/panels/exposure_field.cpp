@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,16 @@ static void cameraFields(ViewState& view) {
         expose(view, exposureOfShutter(camera, seconds));
 }
 
+static void tonemapCombo(ViewState& view) {
+    static constexpr const char* kNames[] = {"None", "ACES fitted", "AgX", "Khronos PBR Neutral"};
+    static_assert(std::size(kNames) == kTonemapNames.size());
+    int tonemap = int(view.tonemap);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
+    if (ImGui::Combo("Tone mapping", &tonemap, kNames, int(std::size(kNames))))
+        view.tonemap = Tonemap(tonemap);
+    wrappedTooltip("How scene light becomes display colours");
+}
+
 void exposureField(ViewState& view, float width) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(width - gap - ImGui::GetFrameHeight());
@@ -75,9 +86,11 @@ void exposureField(ViewState& view, float width) {
     ImGui::SameLine(0, gap);
     if (ImGui::ArrowButton("##exposure more", ImGuiDir_Down))
         ImGui::OpenPopup("exposure");
-    wrappedTooltip("Automatic exposure, EV100 and camera settings");
+    wrappedTooltip("Tone mapping, automatic exposure, EV100 and camera settings");
     if (!ImGui::BeginPopup("exposure"))
         return;
+    tonemapCombo(view);
+    ImGui::Separator();
     ImGui::Checkbox("Automatic", &view.autoExposure);
     wrappedTooltip("The exposure follows the picture: most of it is middle grey. Exports and saved "
                    "pictures do not depend on it");

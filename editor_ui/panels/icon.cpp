@@ -44,6 +44,12 @@ static void eye(const Pen& pen) {
     pen.list.AddBezierQuadratic(pen.at(-1, 0), pen.at(0, 1.1f), pen.at(1, 0), pen.color, pen.width);
 }
 
+/// Two strokes from a point back along both axes; dx, dy: +-1, where the corner points.
+static void corner(const Pen& pen, float x, float y, float dx, float dy) {
+    pen.line(x, y, x - 0.35f * dx, y);
+    pen.line(x, y, x, y - 0.35f * dy);
+}
+
 void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, ImU32 color) {
     const Pen pen{list, centre, size / 2, color, size >= 18 ? 1.8f : 1.3f};
     switch (icon) {
@@ -112,6 +118,34 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, ImU32 colo
     case Icon::Hidden:
         eye(pen);
         pen.line(-0.8f, 0.8f, 0.8f, -0.8f);
+        break;
+    case Icon::Pointer:
+        pen.line(-0.5f, -0.8f, -0.5f, 0.5f);
+        pen.line(-0.5f, -0.8f, 0.45f, 0.15f);
+        pen.line(-0.5f, 0.5f, -0.15f, 0.2f);
+        pen.line(0.45f, 0.15f, 0, 0.15f);
+        pen.line(-0.15f, 0.2f, 0.1f, 0.75f);
+        break;
+    case Icon::Move:
+        pen.line(-0.85f, 0, 0.85f, 0);
+        pen.line(0, -0.85f, 0, 0.85f);
+        for (const float way : {-1.f, 1.f}) {
+            pen.line(0.85f * way, 0, 0.55f * way, -0.3f);
+            pen.line(0.85f * way, 0, 0.55f * way, 0.3f);
+            pen.line(0, 0.85f * way, -0.3f, 0.55f * way);
+            pen.line(0, 0.85f * way, 0.3f, 0.55f * way);
+        }
+        break;
+    case Icon::Rotate:
+        list.PathArcTo(centre, 0.7f * pen.half, -0.6f, 4.4f);
+        list.PathStroke(color, 0, pen.width);
+        pen.line(0.58f, -0.4f, 0.72f, -0.85f);
+        pen.line(0.58f, -0.4f, 0.15f, -0.5f);
+        break;
+    case Icon::Scale:
+        pen.rect(-0.75f, 0.1f, -0.1f, 0.75f);
+        pen.line(-0.1f, 0.1f, 0.75f, -0.75f);
+        corner(pen, 0.75f, -0.75f, 1, -1);
         break;
     }
 }

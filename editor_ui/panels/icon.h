@@ -17,7 +17,11 @@ enum class Icon {
     Sky,
     Settings,
     Shown,
-    Hidden
+    Hidden,
+    Pointer,
+    Move,
+    Rotate,
+    Scale
 };
 
 /// Draws a line icon of `size` pixels, centred; needs no font.
