@@ -153,17 +153,7 @@ TEST_F(SessionTest, AnOverlayOfATechniqueWithoutABakeIsMadeOfItsNewestLight) {
     overlay.options.kind = *lobes;
     session.update();
     EXPECT_FALSE(overlay.source) << "another technique is chosen";
-    const auto choose = [&](const char* name) {
-        TechniqueChoice* choice = nullptr;
-        for (auto& [id, object] : session.state.document.objects)
-            if (!choice)
-                choice = std::get_if<TechniqueChoice>(&object);
-        if (choice)
-            choice->technique = name;
-        else
-            addObject(session.state.document, TechniqueChoice{.technique = name});
-    };
-    choose("lpv");
+    chooseTechnique(session.state.document, "lpv");
     ASSERT_TRUE(runUntil(session, [&] { return overlay.source != nullptr; }));
     EXPECT_STREQ(overlay.source->technique().name, "lpv");
     pickNumber(overlay, 7);
@@ -172,7 +162,7 @@ TEST_F(SessionTest, AnOverlayOfATechniqueWithoutABakeIsMadeOfItsNewestLight) {
     lamp(session).strength *= 2;
     ASSERT_TRUE(runUntil(session, [&] { return overlay.source && overlay.source != before; }));
     EXPECT_EQ(overlay.options.pick, 7U);
-    choose("ambient");
+    chooseTechnique(session.state.document, "ambient");
     ASSERT_TRUE(runUntil(session, [&] { return !overlay.source; }));
     overlay.options.kind = nullptr;
     session.update();

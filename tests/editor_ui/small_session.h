@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <string>
 #include <thread>
 
 namespace limn {
@@ -23,6 +24,16 @@ inline Document smallDocument() {
         }
     addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = 1});
     return document;
+}
+
+/// Lets a technique light the document, which is no edit of its history.
+inline void chooseTechnique(Document& document, const std::string& name) {
+    for (auto& [id, object] : document.objects)
+        if (auto* choice = std::get_if<TechniqueChoice>(&object)) {
+            choice->technique = name;
+            return;
+        }
+    addObject(document, TechniqueChoice{.technique = name});
 }
 
 /// Updates the session until `done` returns true; returns false if a minute was not enough.

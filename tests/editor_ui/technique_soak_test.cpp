@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Lights one document by every technique in turn, again and again.
+#include "engine/techniques/technique_table.h"
+#include "tests/core/temporary_folder.h"
+#include "tests/editor_ui/small_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+namespace limn {
+namespace {
+
+/// Memory that the program has allocated and not freed [bytes].
+std::size_t bytesInUse() {
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+struct TechniqueSoak : testing::Test {
+    TemporaryFolder folder;
+    std::unique_ptr<Session> session;
+
+    void SetUp() override {
+        setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+        ASSERT_TRUE(saveProject(folder.file("small.limn"), smallDocument()));
+        session = std::make_unique<Session>(SessionOptions{
+            .projectsFolder = sourcePath("projects"), .wake = [] {}, .bakeOnOpen = true});
+        session->open(folder.file("small.limn"));
+        ASSERT_TRUE(rests());
+    }
+
+    /// Waits until bake and light are up to date.
+    bool rests() {
+        return runUntil(*session, [&] {
+            const BakeFreshness bake = session->state.bake.freshness;
+            return session->idle() && session->state.relight.converged &&
+                   (bake == BakeFreshness::UpToDate || bake == BakeFreshness::NotUsed);
+        });
+    }
+
+    bool lightAt(float x) {
+        for (auto& [id, object] : session->state.document.objects)
+            if (auto* light = std::get_if<Light>(&object))
+                light->position.x = x;
+        session->update();
+        return rests();
+    }
+
+    /// Each technique of the table lights the document with its lamp at three places.
+    void round() {
+        for (const Technique* technique : techniques()) {
+            chooseTechnique(session->state.document, technique->name);
+            for (const float x : {-0.3f, 0.f, 0.3f}) {
+                ASSERT_TRUE(lightAt(x)) << technique->name << " does not come to rest";
+                ASSERT_TRUE(session->field()) << technique->name;
+                EXPECT_EQ(session->scene()->technique.technique, technique->name);
+                if (technique->precomputation) {
+                    EXPECT_STREQ(session->baked().bake->technique().name, technique->name);
+                }
+            }
+        }
+    }
+};
+
+TEST_F(TechniqueSoak, EveryTechniqueComesToRestAfterEveryOther) {
+    round();
+    round();
+}
+
+/// Ten minutes: for ./check --journeys.
+TEST_F(TechniqueSoak, DISABLED_TenMinutesOfSwitchingTakeNoMoreMemoryThanTheFirstRounds) {
+    using Clock = std::chrono::steady_clock;
+    std::size_t early = 0; // most after one of the first rounds
+    for (int i = 0; i < 3; ++i) {
+        round();
+        early = std::max(early, bytesInUse());
+    }
+    const auto end = Clock::now() + std::chrono::minutes(10);
+    int rounds = 3;
+    std::size_t late = 0;
+    for (; Clock::now() < end; ++rounds) {
+        round();
+        late = bytesInUse();
+        EXPECT_LE(late, early + early / 50) << "after " << rounds << " rounds";
+    }
+    fmt::print("{} rounds; {:.1f} MiB after the first three, {:.1f} MiB at the end\n", rounds,
+               double(early) / (1 << 20), double(late) / (1 << 20));
+}
+
+} // namespace
+} // namespace limn
