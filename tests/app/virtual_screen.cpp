@@ -107,10 +107,10 @@ std::optional<VirtualScreen> startVirtualScreen(int width, int height, const std
     int ends[2];
     if (pipe(ends) != 0)
         return {};
-    VirtualScreen screen(
-        ChildProcess({"Xvfb", "-displayfd", "3", "-screen", "0",
-                      fmt::format("{}x{}x24", width, height), "-fbdir", folder, "-nolisten", "tcp"},
-                     {}, folder, ends[1]));
+    VirtualScreen screen(ChildProcess({"Xvfb", "-displayfd", "3", "-screen", "0",
+                                       fmt::format("{}x{}x24", width, height), "-fbdir", folder,
+                                       "-nolisten", "tcp", "-noreset"},
+                                      {}, folder, ends[1]));
     close(ends[1]);
     screen.m_display = readLine(ends[0]);
     close(ends[0]);

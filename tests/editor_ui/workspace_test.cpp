@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Start screen, sheet of keys, axes and read-out over the picture, and that nothing is clipped.
 #include "editor_ui/panels/action.h"
+#include "editor_ui/panels/bar_combo.h"
 #include "editor_ui/panels/time_history.h"
 #include "editor_ui/panels/workspace.h"
 #include "engine/techniques/technique_table.h"
@@ -287,6 +288,34 @@ TEST(BottomPanel, ATabOpensItAndTheOpenTabClosesIt) {
         EXPECT_EQ(state.view.size.y, closed);
     }
     EXPECT_EQ(opened.size(), kBottomTabNames.size());
+}
+
+/// What such a list and, below the mouse, its tooltip say.
+std::string textOfBarCombo(const std::string& shown, float width) {
+    ImGui::GetIO().MousePos = {20, 20};
+    for (int frame = 0; frame < 3; ++frame) { // what is hovered is known from the frame before
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::Begin("bar", nullptr, ImGuiWindowFlags_NoDecoration);
+        ImGui::LogToClipboard(); // until the tooltip ends, or the window
+        if (beginBarCombo("##combo", shown, "What it is", width))
+            ImGui::EndCombo();
+        ImGui::End();
+        ImGui::Render();
+    }
+    return ImGui::GetClipboardText();
+}
+
+TEST(BarCombo, SaysInItsTooltipWhatItIsTooNarrowFor) {
+    const HeadlessUi ui;
+    const std::string wide = textOfBarCombo("Light field probes", 300);
+    EXPECT_EQ(wide.find("..."), wide.npos) << wide;
+    EXPECT_LT(wide.find("Light field probes"), wide.find("What it is")) << wide;
+    EXPECT_EQ(wide.find("Light field probes"), wide.rfind("Light field probes")) << wide;
+    const std::string narrow = textOfBarCombo("Light field probes", 80);
+    EXPECT_LT(narrow.find("..."), narrow.find("Light field probes")) << narrow;
+    EXPECT_LT(narrow.find("Light field probes"), narrow.find("What it is")) << narrow;
+    EXPECT_NE(narrow.find("What it is"), narrow.npos) << narrow;
 }
 
 TEST(Cards, AClickOnAHeaderHidesItsRowsWhateverIsSelected) {

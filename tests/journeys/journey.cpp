@@ -141,7 +141,8 @@ void Journey::click(const std::string& text, const ScreenRect& where) {
 }
 
 void Journey::rest() {
-    screen->move({float(width) / 2, 12}); // the menu bar, where nothing stands
+    // The right end of the status bar, where nothing stands.
+    screen->move({float(width) - 20, float(height) - 12});
     sleepFor(0.3);
 }
 
@@ -150,7 +151,7 @@ void Journey::run(const std::string& action) {
     for (int i = 0; i < 3 && !open; ++i) { // the window may not have had the focus yet
         screen->focusWindow();
         screen->key("ctrl+p");
-        open = sees("Type to find an action", 20);
+        open = sees("New from scene", 20); // the first action; a cursor covers part of the hint
     }
     ASSERT_TRUE(open);
     screen->type(action);
@@ -159,24 +160,33 @@ void Journey::run(const std::string& action) {
     sleepFor(0.3);
 }
 
+float Journey::upperHeight() const {
+    const float scale = float(m_dpi) / 96, tabs = 45; // the status bar is as high
+    return float(height) - (tabs + (layout.bottomOpen ? layout.bottom : tabs)) * scale;
+}
+
+void Journey::showTab(const std::string& label) {
+    const float scale = float(m_dpi) / 96, top = upperHeight();
+    const bool found = sees(label, 60, {{0, top - 10 * scale}, {600 * scale, 60 * scale}});
+    ASSERT_TRUE(found) << "no tab " << label;
+    click(label, {{0, top - 10 * scale}, {600 * scale, 60 * scale}});
+    layout.bottomOpen = true;
+    settle(10);
+}
+
 ScreenRect Journey::outliner() const {
-    const LayoutState layout;
-    const float scale = float(m_dpi) / 96;
-    return {{0, 0}, {layout.left * scale, float(height) - layout.bottom * scale}};
+    return {{0, 0}, {layout.left * float(m_dpi) / 96, upperHeight()}};
 }
 
 ScreenRect Journey::inspector() const {
-    const LayoutState layout;
-    const float scale = float(m_dpi) / 96;
-    return {{float(width) - layout.right * scale, 0},
-            {layout.right * scale, float(height) - layout.bottom * scale}};
+    const float wide = layout.right * float(m_dpi) / 96;
+    return {{float(width) - wide, 0}, {wide, upperHeight()}};
 }
 
 ScreenRect Journey::picture() const {
     const float scale = float(m_dpi) / 96, left = outliner().size.x + 5 * scale;
     const float top = 58 * scale; // menu and view bar
-    return {{left, top},
-            {inspector().origin.x - left - 5 * scale, outliner().size.y - 40 * scale - top}};
+    return {{left, top}, {inspector().origin.x - left - 5 * scale, upperHeight() - top}};
 }
 
 void Journey::select(const std::string& name) {
@@ -185,6 +195,7 @@ void Journey::select(const std::string& name) {
     clickAt(filter);
     screen->key("ctrl+a");
     screen->type(name);
+    settle(20); // the list is shown anew with each letter
     const ScreenRect rows{{0, 56 * scale}, outliner().size - glm::vec2(0, 56 * scale)};
     click(name, rows);
     clickAt(filter);
@@ -259,6 +270,8 @@ void Journey::waitForLight(double seconds) {
     const float status = 45 * float(m_dpi) / 96;
     EXPECT_TRUE(
         sees("Bake up to date", seconds, {{0, float(height) - status}, {float(width), status}}));
+    // Without a picture the window stands still, too.
+    EXPECT_TRUE(waitFor([](const auto& s) { return s["pictures"] > 0; }, seconds));
     settle();
 }
 

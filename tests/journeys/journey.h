@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "editor_ui/panels/workspace.h"
 #include "tests/app/virtual_screen.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/journeys/screen_text.h"
@@ -73,11 +74,16 @@ struct Journey : testing::Test {
     void quit();
 
     int width = 0, height = 0;
-    /// The parts of the window that no journey resizes.
+    LayoutState layout; ///< of the window; bottomOpen follows showTab()
+    /// Opens a tab of the bottom panel.
+    void showTab(const std::string& label);
+    /// The parts of the window that no journey resizes by hand.
     ScreenRect outliner() const;
     ScreenRect inspector() const;
     ScreenRect picture() const;
     ScreenRect exportDialog() const;
+
+    float upperHeight() const; ///< down to the bottom panel [px]
 
 private:
     /// Of what stands beside a label, near its left end.

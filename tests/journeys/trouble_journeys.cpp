@@ -168,8 +168,7 @@ TEST_F(TroubleJourney, ADamagedProjectIsRefusedWhereOneLooks) {
     EXPECT_TRUE(seesNoMore("Not opened", 10));
 }
 
-// Has not passed yet.
-TEST_F(TroubleJourney, DISABLED_FiveHundredLightsAreShownAndOneOfThemIsEdited) {
+TEST_F(TroubleJourney, FiveHundredLightsAreShownAndOneOfThemIsEdited) {
     startScreen();
     if (!screen)
         return;
@@ -180,15 +179,15 @@ TEST_F(TroubleJourney, DISABLED_FiveHundredLightsAreShownAndOneOfThemIsEdited) {
     shot("1-lamps");
     select("Lamp 250");
     setField("Strength (cd)", {"1"});
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 1 && s["relight_converged"]; }));
     waitForLight(300);
     shot("2-one-brighter");
-    click("Lights", {{0, float(height) - 260}, {400, 260}});
-    settle(20);
+    showTab("Lights");
+    EXPECT_TRUE(sees("Lamp 5", 10, {{0, upperHeight()}, {float(width), float(height)}}));
     shot("3-mixer");
 }
 
-// Has not passed yet.
-TEST_F(TroubleJourney, DISABLED_FiveThousandObjectsAreLitSelectedAndMoved) {
+TEST_F(TroubleJourney, FiveThousandObjectsAreLitSelectedAndMoved) {
     startScreen();
     if (!screen)
         return;
@@ -197,7 +196,9 @@ TEST_F(TroubleJourney, DISABLED_FiveThousandObjectsAreLitSelectedAndMoved) {
     click("Add sun and sky");
     waitForLight(600);
     shot("1-lit");
+    clickAt(picture().origin + glm::vec2(8)); // the keys are the picture's
     screen->key("ctrl+a");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["selection"].size() > 5000; }));
     settle(30);
     shot("2-all-selected");
     screen->key("Escape");
@@ -205,7 +206,12 @@ TEST_F(TroubleJourney, DISABLED_FiveThousandObjectsAreLitSelectedAndMoved) {
     screen->key("f");
     settle(60);
     shot("3-one-selected");
-    RecordProperty("longest_frame_ms", int(statistics()["longest_frame_ms"].get<double>()));
+    setField("Position (m)", {"0", "3", "0"});
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 2; })) << "with the sun's";
+    waitForLight(600);
+    shot("4-moved");
+    fmt::print("longest frame {:.1f} ms\n",
+               statistics()["longest_frame"]["beyond_viewport_ms"].get<double>());
 }
 
 } // namespace

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// How long the window keeps someone waiting while it works.
+#include "tests/journeys/journey.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace limn {
+namespace {
+
+struct ResponseJourney : Journey {
+    /// Bakes a sample, explains a pixel, traces the reference, saves, and prints the longest frame
+    /// of each [ms]. Times of a machine are no reason to fail.
+    void printLongestFrames(const std::string& sample) {
+        startScreen();
+        if (!screen)
+            return;
+        startEditor(sample);
+        waitForLight();
+        showTab("Explain");
+        clickAt(picture().origin + 0.6f * picture().size);
+        ASSERT_TRUE(sees("Red, green, blue", 120));
+        screen->key("shift+r");
+        ASSERT_TRUE(waitFor([](const auto& s) {
+            return !s["comparison"].is_null() && s["comparison"]["samples"] >= 16;
+        }));
+        screen->key("shift+r");
+        screen->key("ctrl+shift+s");
+        ASSERT_TRUE(sees("Save as", 20));
+        const std::filesystem::path saved = scratch / "saved.limn";
+        enterPath(saved.string());
+        ASSERT_TRUE(waitFor(
+            [&](const auto& s) { return std::filesystem::exists(saved) && took(s, "save") > 0; }));
+        showTab("Profile");
+        shot(sample);
+        const nlohmann::json now = statistics();
+        for (const char* work : {"open", "bake", "relight", "explain", "reference", "save"}) {
+            EXPECT_GT(took(now, work), 0) << work;
+            fmt::print("{}, {}: {}\n", sample, work, now["longest_frame_during"][work].dump());
+        }
+    }
+
+private:
+    static double took(const nlohmann::json& statistics, const std::string& work) {
+        return statistics["longest_frame_during"][work]["beyond_viewport_ms"];
+    }
+};
+
+TEST_F(ResponseJourney, TheLongestFramesOfCornellAreToldByWork) {
+    printLongestFrames("cornell");
+}
+
+TEST_F(ResponseJourney, TheLongestFramesOfTheAtriumAreToldByWork) {
+    printLongestFrames("atrium");
+}
+
+} // namespace
+} // namespace limn
