@@ -43,14 +43,36 @@ bool compareHandle(EditorState& state, bool hovered) {
     return on || compare.held;
 }
 
-/// Text on a dark ground; `align` 0: begins at `at`, 1: ends there.
-static void label(ImVec2 at, float align, const std::string& text, ImU32 ink) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+/// Text on a dark ground, wrapped at `width` [px]; `align` 0: begins at `at`, 1: ends there.
+/// Returns its height.
+static float label(ImVec2 at, float align, const std::string& text, ImU32 ink, float width) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
     at.x -= align * size.x;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({at.x - 5, at.y - 2}, {at.x + size.x + 5, at.y + size.y + 2}, color::kGround,
                        3);
-    list.AddText(at, ink, text.c_str());
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text.c_str(), nullptr, width);
+    return size.y;
+}
+
+/// Names what is drawn on the two sides of the line; a side too narrow for words has no name.
+static void sideLabels(const ViewState& view, float x, const std::string& left,
+                       const std::string& right) {
+    const float y = view.origin.y + 8, narrowest = 4 * ImGui::GetFontSize();
+    const float toLeft = x - view.origin.x - 24, toRight = view.origin.x + view.size.x - x - 24;
+    if (toLeft >= narrowest)
+        label({x - 12, y}, 1, left, IM_COL32_WHITE, toLeft);
+    if (toRight >= narrowest)
+        label({x + 12, y}, 0, right, IM_COL32_WHITE, toRight);
+}
+
+/// Stands in the lower left corner, `above` pixels above the picture's end. Returns the pixels up
+/// to what stands above it.
+static float footLabel(const ViewState& view, const std::string& text, ImU32 ink, float above) {
+    const float width = std::max(view.size.x - 24, 1.f);
+    const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y;
+    const float y = view.origin.y + view.size.y - above - height;
+    return above + 5 + label({view.origin.x + 12, y}, 0, text, ink, width);
 }
 
 static std::string referenceText(const ReferenceStatus& r) {
@@ -99,21 +121,17 @@ void compareOverlay(const EditorState& state) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine({x, top}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3);
     list.AddLine({x, top}, {x, bottom}, compare.held ? color::kHandleLit : IM_COL32_WHITE, 1);
-    const float line = ImGui::GetTextLineHeight() + 5;
-    const float left = view.origin.x + 12;
+    constexpr float kFoot = 11; // pixels below the last line
     if (compare.mode == Compare::Technique) {
-        label({x - 12, top + 8}, 1,
-              techniqueLabel(singleton<TechniqueChoice>(state.document).technique), IM_COL32_WHITE);
-        label({x + 12, top + 8}, 0, techniqueLabel(compare.technique), IM_COL32_WHITE);
-        label({left, bottom - line - 6}, 0, compare.techniqueText, color::kDim);
+        sideLabels(view, x, techniqueLabel(singleton<TechniqueChoice>(state.document).technique),
+                   techniqueLabel(compare.technique));
+        footLabel(view, compare.techniqueText, color::kDim, kFoot);
         return;
     }
-    label({x - 12, top + 8}, 1, "Limn", IM_COL32_WHITE);
-    label({x + 12, top + 8}, 0, shownText(compare.mode), IM_COL32_WHITE);
+    sideLabels(view, x, "Limn", shownText(compare.mode));
+    const float above = footLabel(view, referenceText(compare.reference), color::kDim, kFoot);
     if (compare.reference.error)
-        label({left, bottom - 2 * line - 6}, 0, errorText(*compare.reference.error),
-              IM_COL32_WHITE);
-    label({left, bottom - line - 6}, 0, referenceText(compare.reference), color::kDim);
+        footLabel(view, errorText(*compare.reference.error), IM_COL32_WHITE, above);
 }
 
 } // namespace limn

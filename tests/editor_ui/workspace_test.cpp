@@ -2,6 +2,7 @@
 // Start screen, sheet of keys, axes and read-out over the picture, and that nothing is clipped.
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/bar_combo.h"
+#include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/time_history.h"
 #include "editor_ui/panels/workspace.h"
 #include "engine/techniques/technique_table.h"
@@ -75,6 +76,36 @@ TEST(StartScreen, IsGoneWhileSomethingIsOpenOrBeingOpened) {
     ui.frames(loading);
     ui.frames(loading);
     EXPECT_TRUE(windowNamed("start"));
+}
+
+/// How far the grounds of labels in the picture reach to the right [px]; 0: there is none.
+float rightEndOfLabels() {
+    float end = 0;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+        for (const ImDrawVert& v : window->DrawList->VtxBuffer)
+            if (window->Active && v.col == color::kGround)
+                end = std::max(end, v.pos.x);
+    return end;
+}
+
+TEST(CompareOverlay, ItsTextStaysInANarrowPicture) {
+    for (const float scale : {1.f, 2.f}) {
+        HeadlessUi ui(900 * scale, 600 * scale, scale);
+        EditorState state = fullEditor();
+        state.view.showLights = false; // their icons are cut off at the picture's edge
+        state.compare.mode = Compare::Difference;
+        state.compare.reference.samples = 64;
+        state.compare.reference.running = true;
+        state.compare.reference.error = Comparison{};
+        for (const float split : {0.f, 0.5f, 1.f}) {
+            state.compare.split = split;
+            ui.frames(state);
+            ui.frames(state);
+            const float edge = state.view.origin.x + state.view.size.x;
+            EXPECT_GT(rightEndOfLabels(), state.view.origin.x) << "there are labels";
+            EXPECT_LE(rightEndOfLabels(), edge) << scale << ", " << split;
+        }
+    }
 }
 
 TEST(HelpSheet, OpensByItsKeyAndEscClosesIt) {
