@@ -73,6 +73,8 @@ Session::Session(SessionOptions options)
 }
 
 void Session::log(LogLine::Level level, std::string text) {
+    if (state.log.size() >= kMaxLogLines)
+        state.log.erase(state.log.begin());
     state.log.push_back({level, std::move(text)});
 }
 

@@ -86,6 +86,9 @@ struct FrameStatus {
         0; ///< from the event to the submitted frame, waits for the GPU included
 };
 
+/// The log keeps this many of its newest lines.
+inline constexpr std::size_t kMaxLogLines = 1000;
+
 /// A line of the log.
 struct LogLine {
     enum class Level { Info, Warning, Error } level = Level::Info;

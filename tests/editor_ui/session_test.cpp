@@ -459,6 +459,17 @@ TEST_F(SessionTest, ADroppedPanoramaBecomesTheSkyEvenOfAChangedDocumentAndIsUndo
     EXPECT_EQ(session.state.document, before);
 }
 
+TEST_F(SessionTest, TheLogKeepsItsNewestLines) {
+    SessionOptions unbaked = options();
+    unbaked.bakeOnOpen = false;
+    Session session(unbaked);
+    session.state.log.assign(kMaxLogLines, {LogLine::Level::Info, "old"});
+    session.state.requests.push_back({Request::Kind::Open, (folder / "none.gltf").string()});
+    ASSERT_TRUE(runUntil(session, [&] { return session.state.notice.has_value(); }));
+    EXPECT_EQ(session.state.log.size(), kMaxLogLines);
+    EXPECT_EQ(session.state.log.back().level, LogLine::Level::Error);
+}
+
 TEST_F(SessionTest, WhatCannotBeOpenedIsSaidWithFileAndReasonUntilItIsDismissed) {
     SessionOptions unbaked = options();
     unbaked.bakeOnOpen = false;
