@@ -7,6 +7,7 @@
 #include "editor_ui/panels/chrome.h"
 #include "editor_ui/panels/help_sheet.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/key_map.h"
 #include "editor_ui/panels/no_light_hint.h"
 #include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
@@ -205,13 +206,30 @@ static bool worksWhileTyping(const Shortcut& shortcut) {
     return shortcut.key == key::kF1 || shortcut.key == key::kF12;
 }
 
+static constexpr Shortcut kEsc{key::kEscape, kNoMods};
+
+/// Gives the key to the action that the sheet of keys waits for one for. Returns false if it waits
+/// for none.
+static bool takeNewKey(EditorState& state, const Shortcut& pressed) {
+    std::string& id = state.palette.assigning;
+    if (id.empty())
+        return false;
+    const bool none = pressed == Shortcut{key::kBackspace, kNoMods};
+    if (none || isAssignable(pressed))
+        assignKey(state, actionById(id.c_str()), none ? Shortcut{} : pressed);
+    if (none || isAssignable(pressed) || pressed == kEsc)
+        id.clear();
+    return true;
+}
+
 static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
-    constexpr Shortcut kEsc{key::kEscape, kNoMods};
     const bool typing = ImGui::GetIO().WantTextInput;
     const bool flying = state.view.navigation == Navigation::Fly; // W, Q, ... steer
     const bool modal = state.fileBrowser || state.confirm || state.recovery || state.exportDialog;
     for (const Shortcut& shortcut : pressed)
-        if (!modal && shortcut == kEsc && escape(state))
+        if (takeNewKey(state, shortcut))
+            continue;
+        else if (!modal && shortcut == kEsc && escape(state))
             continue;
         else if (!modal && !typing && keyOfDrag(state, shortcut))
             continue;

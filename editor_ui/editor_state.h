@@ -8,7 +8,7 @@
 #include "editor_ui/panels/error_history.h"
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
-#include "editor_ui/panels/keys.h"
+#include "editor_ui/panels/key_map.h"
 #include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/palette.h"
@@ -96,6 +96,7 @@ struct EditorState {
     WorkspaceStates workspaces = defaultWorkspaces(); ///< those of the others; see workspacesOf()
     std::set<std::string> closedCards;                ///< titles of the inspector's closed cards
     bool lightTheme = false;                          ///< light panels instead of dark ones
+    KeyMap keys;                                      ///< the user's own
     OutlinerState outliner;
     EulerEdit euler;
     std::optional<FileBrowser> fileBrowser;

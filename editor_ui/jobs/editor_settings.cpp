@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/editor_settings.h"
 
+#include "editor_ui/panels/action.h"
 #include "engine/core/log.h"
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
@@ -32,7 +33,8 @@ EditorSettings settingsOf(const EditorState& state) {
             .showLights = state.view.showLights,
             .lightTheme = state.lightTheme,
             .gizmo = state.view.gizmo,
-            .autoBake = state.autoBake};
+            .autoBake = state.autoBake,
+            .keys = state.keys};
 }
 
 void useSettings(EditorState& state, const EditorSettings& settings) {
@@ -47,6 +49,7 @@ void useSettings(EditorState& state, const EditorSettings& settings) {
     state.lightTheme = settings.lightTheme;
     state.view.gizmo = settings.gizmo;
     state.autoBake = settings.autoBake;
+    state.keys = settings.keys;
 }
 
 static json workspaceJson(const WorkspaceState& w) {
@@ -63,6 +66,9 @@ std::string settingsToJson(const EditorSettings& s) {
     json workspaces;
     for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
         workspaces[kWorkspaceNames[i]] = workspaceJson(s.workspaces[i]);
+    json keys = json::object();
+    for (const auto& [id, shortcut] : s.keys)
+        keys[id] = shortcutText(shortcut);
     const json out = {{"workspace", kWorkspaceNames[std::size_t(s.workspace)]},
                       {"workspaces", workspaces},
                       {"closedCards", s.closedCards},
@@ -80,7 +86,8 @@ std::string settingsToJson(const EditorSettings& s) {
                       {"rotateStep", s.gizmo.rotateStep},
                       {"scaleStep", s.gizmo.scaleStep},
                       {"blenderKeys", s.gizmo.blenderKeys},
-                      {"bakeWhenNeeded", s.autoBake}};
+                      {"bakeWhenNeeded", s.autoBake},
+                      {"keys", keys}};
     return out.dump(2) + '\n';
 }
 
@@ -123,6 +130,24 @@ static void readWorkspace(const json& in, WorkspaceState& w) {
     readName(in, "compare", kCompareNames, w.compare);
 }
 
+/// Reads the keys of actions that there are. Two actions with the same key would hide one of them,
+/// so the second one keeps its own.
+static void readKeys(const json& in, KeyMap& keys) {
+    const auto at = in.find("keys");
+    if (at == in.end() || !at->is_object())
+        return;
+    for (const Action& action : actions()) {
+        const auto text = at->find(action.id);
+        if (text == at->end() || !text->is_string())
+            continue;
+        const auto shortcut = shortcutFromText(text->get<std::string>());
+        const bool none = shortcut == Shortcut{};
+        const auto same = [&](const auto& chosen) { return chosen.second == shortcut; };
+        if (none || (shortcut && isAssignable(*shortcut) && std::ranges::none_of(keys, same)))
+            keys[action.id] = *shortcut;
+    }
+}
+
 EditorSettings settingsFromJson(const std::string& text) {
     EditorSettings s;
     constexpr int kMaxDepth = 8; // the parser calls itself, and the stack ends
@@ -154,6 +179,7 @@ EditorSettings settingsFromJson(const std::string& text) {
     readNumber(in, "scaleStep", kMinScaleStep, kMaxScaleStep, s.gizmo.scaleStep);
     readFlag(in, "blenderKeys", s.gizmo.blenderKeys);
     readFlag(in, "bakeWhenNeeded", s.autoBake);
+    readKeys(in, s.keys);
     return s;
 }
 

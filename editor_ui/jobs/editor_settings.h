@@ -23,6 +23,7 @@ struct EditorSettings {
     bool lightTheme = false;
     GizmoSettings gizmo;
     bool autoBake = true;
+    KeyMap keys;
 
     bool operator==(const EditorSettings&) const = default;
 };

@@ -8,6 +8,7 @@
 #include "editor_ui/document/selection.h"
 #include "editor_ui/document/tree_edit.h"
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/key_map.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/view/camera_control.h"
 #include "editor_ui/view/gizmo.h"
@@ -271,6 +272,12 @@ bool bottomIsOpen(const EditorState& s) {
 void screenshot(EditorState& s) {
     request(s, Request::Kind::Screenshot);
 }
+bool hasOwnKeys(const EditorState& s) {
+    return !s.keys.empty();
+}
+void resetKeys(EditorState& s) {
+    s.keys.clear();
+}
 void askHelp(EditorState& s) {
     s.palette.helpAsked = true;
 }
@@ -416,6 +423,7 @@ std::vector<Action> fixedActions() {
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
     {"help.keys", "Keys and mouse", Menu::Help, plain(key::kF1), kNoKey, false, always, askHelp},
+    {"help.reset_keys", "Reset all keys", Menu::Help, kNoKey, kNoKey, false, hasOwnKeys, resetKeys},
     };
 }
 // clang-format on
@@ -463,19 +471,18 @@ std::string actionLabel(const EditorState& state, const Action& action) {
 }
 
 Shortcut shortcutOf(const EditorState& state, const Action& action) {
-    if (state.view.gizmo.blenderKeys && action.id == "tool.scale")
-        return kNoKey;
-    if (state.view.gizmo.blenderKeys && action.id == "grab.rotate")
-        return plain('R');
-    return action.shortcut;
+    const std::vector<Shortcut> keys = shortcutsOf(state, action);
+    return keys.empty() ? kNoKey : keys.front();
 }
 
 bool runShortcut(EditorState& state, const Shortcut& pressed) {
-    for (const Action& action : actions())
-        if (shortcutOf(state, action) == pressed || action.alternative == pressed) {
+    for (const Action& action : actions()) {
+        const std::vector<Shortcut> keys = shortcutsOf(state, action);
+        if (std::ranges::find(keys, pressed) != keys.end()) {
             runAction(state, action);
             return true;
         }
+    }
     return false;
 }
 

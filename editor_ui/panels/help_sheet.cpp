@@ -4,12 +4,14 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/key_map.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace limn {
 
@@ -31,9 +33,10 @@ constexpr Habit kMouse[] = {
     {"Drag a copy", "Alt on a handle of the gizmo"},
     {"Type into a slider", "Ctrl and click, or double-click"}};
 
-constexpr std::pair<Menu, const char*> kGroups[] = {{Menu::File, "File"}, {Menu::Edit, "Edit"},
-                                                    {Menu::Add, "Add"},   {Menu::View, "View"},
-                                                    {Menu::Bake, "Bake"}, {Menu::Help, "Help"}};
+const std::pair<const char*, std::vector<Menu>> kGroups[] = {
+    {"File", {Menu::File}}, {"Edit", {Menu::Edit}},
+    {"Add", {Menu::Add}},   {"View", {Menu::View, Menu::Gizmo, Menu::Workspace, Menu::Overlay}},
+    {"Bake", {Menu::Bake}}, {"Help", {Menu::Help}}};
 
 void row(const char* what, const std::string& how) {
     ImGui::TableNextRow();
@@ -52,26 +55,40 @@ void heading(const char* text) {
 }
 
 std::string keysOf(const EditorState& state, const Action& action) {
-    std::string keys = shortcutText(shortcutOf(state, action));
-    if (const std::string other = shortcutText(action.alternative); !other.empty())
-        keys += ", " + other;
-    return keys;
+    std::string text;
+    for (const Shortcut& key : shortcutsOf(state, action))
+        text += (text.empty() ? "" : ", ") + shortcutText(key);
+    return text;
 }
 
-void rows(const EditorState& state) {
+/// A row whose click waits for the action's new key.
+void keyRow(EditorState& state, const Action& action) {
+    std::string& assigning = state.palette.assigning;
+    const bool waits = assigning == action.id;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(action.label);
+    ImGui::PopTextWrapPos();
+    ImGui::TableNextColumn();
+    const std::string keys = waits ? "Press a key" : keysOf(state, action);
+    if (ImGui::Selectable((keys + "###" + action.id).c_str(), waits,
+                          ImGuiSelectableFlags_SpanAllColumns |
+                              ImGuiSelectableFlags_DontClosePopups))
+        assigning = waits ? std::string() : action.id;
+    wrappedTooltip(waits ? "Esc: keep the old key. Backspace: no key"
+                         : "Click, then press a new key for this");
+}
+
+void rows(EditorState& state) {
     heading("Mouse");
     for (const Habit& habit : kMouse)
         row(habit.what, habit.how);
-    for (const auto& [menu, title] : kGroups) {
-        bool first = true;
-        for (const Action& action : actions()) {
-            const std::string keys = keysOf(state, action);
-            if (action.menu != menu || keys.empty())
-                continue;
-            if (std::exchange(first, false))
-                heading(title);
-            row(action.label, keys);
-        }
+    for (const auto& [title, menus] : kGroups) {
+        heading(title);
+        for (const Action& action : actions())
+            if (std::ranges::find(menus, action.menu) != menus.end())
+                keyRow(state, action);
     }
 }
 
@@ -85,10 +102,12 @@ void helpSheet(EditorState& state) {
     ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize(
         {std::min(font * 38, display.x), std::min(font * 40, display.y * 0.9f)});
-    if (!ImGui::BeginPopup("Keys and mouse"))
+    if (!ImGui::BeginPopup("Keys and mouse")) {
+        state.palette.assigning.clear();
         return;
+    }
     ImGui::TextUnformatted("Keys and mouse");
-    wrappedTooltip("Esc closes this sheet");
+    wrappedTooltip("A click on a row gives its action a new key. Esc closes this sheet");
     ImGui::Separator();
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("What", ImGuiTableColumnFlags_WidthStretch, 0.45f);

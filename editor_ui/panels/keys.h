@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace limn {
 
@@ -34,7 +36,11 @@ struct Shortcut {
     bool operator==(const Shortcut&) const = default;
 };
 
-/// "Ctrl-Shift-Z", "Numpad 1"; empty for no key.
+/// "Ctrl-Shift-Z", "Numpad 1"; empty for no key, and for a key that has no name here.
 std::string shortcutText(const Shortcut& shortcut);
+
+/// The shortcut with this text, as shortcutText() writes it: kNone for an empty text, nothing if
+/// there is no such shortcut.
+std::optional<Shortcut> shortcutFromText(std::string_view text);
 
 } // namespace limn

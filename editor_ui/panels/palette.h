@@ -14,6 +14,7 @@ struct Palette {
     std::string filter;
     int chosen = 0;         ///< row of the list that Enter runs
     bool helpAsked = false; ///< asks helpSheet() to open its sheet; cleared there
+    std::string assigning;  ///< id of the action that the next key is given to; empty: none
 };
 
 /// Draws the palette while it is open. Up and Down choose an action, Enter or a click runs it.

@@ -41,7 +41,8 @@ EditorSettings unusual() {
                       .rotateStep = 5,
                       .scaleStep = 0.5f,
                       .blenderKeys = true},
-            .autoBake = false};
+            .autoBake = false,
+            .keys = {{"edit.undo", {key::of('U'), kAlt}}, {"edit.redo", {}}}};
 }
 
 TEST(EditorSettings, AreReadAsTheyWereWritten) {
@@ -65,6 +66,9 @@ TEST(EditorSettings, AnyTextGivesUsableOnes) {
           std::string("{\"view\": 3, \"tonemap\": \"\"}"),
           std::string("{\"lightIcons\": 0, \"bakeWhenNeeded\": \"no\", \"other\": {}}"),
           std::string("{\"moveStep\": -1, \"rotateStep\": 0, \"scaleStep\": 0, \"snap\": 1}"),
+          std::string(
+              "{\"keys\": {\"edit.undo\": 3, \"none.such\": \"A\", \"file.open\": \"Ctrl-\"}}"),
+          std::string("{\"keys\": {\"edit.undo\": \"Esc\", \"edit.redo\": \"\xff\"}}"),
           std::string("{\"view\": \"\xff\xfe\"}")})
         EXPECT_EQ(settingsFromJson(text), usual) << text.substr(0, 80);
     const std::string good = settingsToJson(unusual());
