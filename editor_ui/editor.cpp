@@ -208,16 +208,17 @@ static bool worksWhileTyping(const Shortcut& shortcut) {
 
 static constexpr Shortcut kEsc{key::kEscape, kNoMods};
 
-/// Gives the key to the action that the sheet of keys waits for one for. Returns false if it waits
-/// for none.
+/// Assigns the key to the action whose row in the sheet of keys waits for it. Returns false if no
+/// row waits.
 static bool takeNewKey(EditorState& state, const Shortcut& pressed) {
     std::string& id = state.palette.assigning;
     if (id.empty())
         return false;
     const bool none = pressed == Shortcut{key::kBackspace, kNoMods};
-    if (none || isAssignable(pressed))
+    const bool assigned = none || isAssignable(pressed);
+    if (assigned)
         assignKey(state, actionById(id.c_str()), none ? Shortcut{} : pressed);
-    if (none || isAssignable(pressed) || pressed == kEsc)
+    if (assigned || pressed == kEsc)
         id.clear();
     return true;
 }

@@ -130,8 +130,8 @@ static void readWorkspace(const json& in, WorkspaceState& w) {
     readName(in, "compare", kCompareNames, w.compare);
 }
 
-/// Reads the keys of actions that there are. Two actions with the same key would hide one of them,
-/// so the second one keeps its own.
+/// Reads the user's keys. Unknown actions are ignored; of several actions with the same key, only
+/// the first one in the table of actions gets it.
 static void readKeys(const json& in, KeyMap& keys) {
     const auto at = in.find("keys");
     if (at == in.end() || !at->is_object())

@@ -2,6 +2,7 @@
 #include "editor_ui/panels/compare_overlay.h"
 
 #include "editor_ui/editor_state.h"
+#include "editor_ui/panels/picture_label.h"
 #include "editor_ui/panels/theme.h"
 #include "engine/techniques/technique_table.h"
 
@@ -43,36 +44,23 @@ bool compareHandle(EditorState& state, bool hovered) {
     return on || compare.held;
 }
 
-/// Text on a dark ground, wrapped at `width` [px]; `align` 0: begins at `at`, 1: ends there.
-/// Returns its height.
-static float label(ImVec2 at, float align, const std::string& text, ImU32 ink, float width) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
-    at.x -= align * size.x;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x - 5, at.y - 2}, {at.x + size.x + 5, at.y + size.y + 2}, color::kGround,
-                       3);
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text.c_str(), nullptr, width);
-    return size.y;
-}
-
 /// Names what is drawn on the two sides of the line; a side too narrow for words has no name.
 static void sideLabels(const ViewState& view, float x, const std::string& left,
                        const std::string& right) {
     const float y = view.origin.y + 8, narrowest = 4 * ImGui::GetFontSize();
     const float toLeft = x - view.origin.x - 24, toRight = view.origin.x + view.size.x - x - 24;
     if (toLeft >= narrowest)
-        label({x - 12, y}, 1, left, IM_COL32_WHITE, toLeft);
+        pictureLabel({x - 12, y}, {1, 0}, left, IM_COL32_WHITE, toLeft);
     if (toRight >= narrowest)
-        label({x + 12, y}, 0, right, IM_COL32_WHITE, toRight);
+        pictureLabel({x + 12, y}, {0, 0}, right, IM_COL32_WHITE, toRight);
 }
 
-/// Stands in the lower left corner, `above` pixels above the picture's end. Returns the pixels up
-/// to what stands above it.
+/// Draws text at the left edge of the picture, its lower end `above` pixels above the picture's.
+/// Returns `above` for another text on top of it.
 static float footLabel(const ViewState& view, const std::string& text, ImU32 ink, float above) {
+    const ImVec2 at(view.origin.x + 12, view.origin.y + view.size.y - above);
     const float width = std::max(view.size.x - 24, 1.f);
-    const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y;
-    const float y = view.origin.y + view.size.y - above - height;
-    return above + 5 + label({view.origin.x + 12, y}, 0, text, ink, width);
+    return above + 5 + pictureLabel(at, {0, 1}, text, ink, width).y;
 }
 
 static std::string referenceText(const ReferenceStatus& r) {

@@ -61,7 +61,7 @@ std::string keysOf(const EditorState& state, const Action& action) {
     return text;
 }
 
-/// A row whose click waits for the action's new key.
+/// Draws the row of an action. After a click on it, the next key is assigned to the action.
 void keyRow(EditorState& state, const Action& action) {
     std::string& assigning = state.palette.assigning;
     const bool waits = assigning == action.id;

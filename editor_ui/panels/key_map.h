@@ -12,7 +12,7 @@ namespace limn {
 struct Action;
 struct EditorState;
 
-/// The keys that the user has chosen, by the action's id; kNone: the action has no key.
+/// Keys that the user has assigned to actions, by action id; kNone: the action has no key.
 using KeyMap = std::map<std::string, Shortcut>;
 
 /// The keys that run an action: those of the table, or the one that the user has chosen. May be

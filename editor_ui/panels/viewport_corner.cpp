@@ -4,6 +4,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/picture_label.h"
 #include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
@@ -119,13 +120,10 @@ void pictureReadout(const EditorState& state) {
     const std::string text = elided(
         fmt::format("{} \u00d7 {}, {:.1f} ms{}", f.width, f.height, f.viewportMs, refining(state)),
         view.size.x - 4 * margin);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const ImVec2 at(view.origin.x + view.size.x - size.x - 2 * margin,
-                    view.origin.y + view.size.y - size.y - 1.5f * margin);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x - margin, at.y - margin / 2},
-                       {at.x + size.x + margin, at.y + size.y + margin / 2}, color::kGround, 3);
-    list.AddText(at, IM_COL32(210, 212, 216, 255), text.c_str());
+    const ImVec2 corner(view.origin.x + view.size.x - 2 * margin,
+                        view.origin.y + view.size.y - 1.5f * margin);
+    pictureLabel(corner, {1, 1}, text, IM_COL32(210, 212, 216, 255), 0,
+                 {.margin = {margin, margin / 2}});
 }
 
 } // namespace limn

@@ -6,6 +6,7 @@
 #include "editor_ui/panels/explain_panel.h"
 #include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/picture_label.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/panels/viewport_corner.h"
 #include "editor_ui/view/camera_control.h"
@@ -290,13 +291,8 @@ static void explainedPoint(const EditorState& state) {
 /// Text on a dark ground in the middle of the picture's width, wrapped to it, at height `y` [px].
 static void pictureText(const EditorState& state, const char* text, float y, ImU32 ink) {
     const float wrap = std::max(state.view.size.x - 32, 50.f);
-    const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, wrap);
-    const ImVec2 at(state.view.origin.x + (state.view.size.x - size.x) / 2,
-                    state.view.origin.y + y);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x - 8, at.y - 4}, {at.x + size.x + 8, at.y + size.y + 4}, color::kGround,
-                       4);
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, ink, text, nullptr, wrap);
+    pictureLabel({state.view.origin.x + state.view.size.x / 2, state.view.origin.y + y}, {0.5f, 0},
+                 text, ink, wrap, {.margin = {8, 4}, .rounding = 4});
 }
 
 /// Where a light would stand if one clicked now.

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/panels/key_map.h"
 
-#include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/action.h"
 #include "tests/editor_ui/headless.h"
 
-#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -50,7 +48,7 @@ TEST(KeyMap, ANewKeyRunsTheActionAndTheOldOneDoesNot) {
     EXPECT_EQ(state.document.objects.size(), before.size() - 1);
 }
 
-/// Every key runs one action.
+/// Expects that no two actions share a key.
 void expectNoKeyTwice(const EditorState& state) {
     std::map<std::pair<int, int>, std::string> owner;
     for (const Action& action : actions())
@@ -84,8 +82,8 @@ TEST(KeyMap, KeysOfDialogsAndTextsAreNotAssigned) {
     EXPECT_TRUE(isAssignable(kAltU));
 }
 
-/// Opens the sheet of keys and waits for a key for this action.
-void wait(HeadlessUi& ui, EditorState& state, const char* id) {
+/// Opens the sheet of keys and lets the row of this action wait for a key.
+void waitForKey(HeadlessUi& ui, EditorState& state, const char* id) {
     state.palette.helpAsked = true;
     ui.frames(state);
     state.palette.assigning = id;
@@ -96,20 +94,20 @@ TEST(HelpSheet, TakesTheNextKeyForAnAction) {
     HeadlessUi ui;
     EditorState state = fullEditor();
     const Action& undo = actionById("edit.undo");
-    wait(ui, state, "edit.undo");
+    waitForKey(ui, state, "edit.undo");
     ui.tap(key::kEscape);
     ui.frames(state);
     EXPECT_EQ(state.palette.assigning, "");
     EXPECT_TRUE(state.keys.empty()) << "Esc keeps the old key";
     EXPECT_TRUE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) << "and the sheet";
-    wait(ui, state, "edit.undo");
+    waitForKey(ui, state, "edit.undo");
     ui.tap(key::kEnter);
     ui.frames(state);
     EXPECT_EQ(state.palette.assigning, "edit.undo") << "Enter is no key for it";
     ui.tap(key::of('U'), kAlt);
     ui.frames(state);
     EXPECT_EQ(shortcutsOf(state, undo), std::vector{kAltU});
-    wait(ui, state, "edit.undo");
+    waitForKey(ui, state, "edit.undo");
     ui.tap(key::kBackspace);
     ui.frames(state);
     EXPECT_TRUE(shortcutsOf(state, undo).empty());

@@ -78,7 +78,7 @@ TEST(StartScreen, IsGoneWhileSomethingIsOpenOrBeingOpened) {
     EXPECT_TRUE(windowNamed("start"));
 }
 
-/// How far the grounds of labels in the picture reach to the right [px]; 0: there is none.
+/// The right edge of the backgrounds of all labels in the picture [px]; 0: there is no label.
 float rightEndOfLabels() {
     float end = 0;
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
