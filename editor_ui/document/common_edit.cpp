@@ -23,6 +23,7 @@ static void copy(const Node& before, const Node& after, Node& other) {
     copyComponents(from.scale, to.scale, other.transform.scale);
     copyField(before.visible, after.visible, other.visible);
     copyField(before.dynamic, after.dynamic, other.dynamic);
+    copyField(before.texelDensity, after.texelDensity, other.texelDensity);
 }
 
 static void copy(const Light& before, const Light& after, Light& other) {

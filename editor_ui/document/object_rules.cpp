@@ -37,7 +37,8 @@ static bool valid(const Node& n) {
     const Transform& t = n.transform;
     const glm::vec3 s = t.scale;
     return finite(t.translation) && finite(s) && s.x != 0 && s.y != 0 && s.z != 0 &&
-           isUnit(glm::length(t.rotation));
+           isUnit(glm::length(t.rotation)) && n.texelDensity >= kMinTexelDensity &&
+           n.texelDensity <= kMaxTexelDensity;
 }
 
 static bool valid(const Flipbook& f) {

@@ -113,6 +113,8 @@ void ungroupSelection(EditorState& state) {
             Node& child = std::get<Node>(*edit.changes[i].after);
             child.visible = child.visible && group.visible;
             child.dynamic = child.dynamic || group.dynamic;
+            child.texelDensity = std::clamp(child.texelDensity * group.texelDensity,
+                                            kMinTexelDensity, kMaxTexelDensity);
         }
         edit.changes.push_back({id, group, {}});
         freed.insert(freed.end(), children.begin(), children.end());

@@ -37,7 +37,8 @@ bool sameInstance(const Instance& a, const Instance& b) {
 }
 
 bool sameBakedInstance(const Instance& a, const Instance& b) {
-    return sameObject(a, b) && (a.dynamic || a.toWorld == b.toWorld);
+    return sameObject(a, b) &&
+           (a.dynamic || (a.toWorld == b.toWorld && a.texelDensity == b.texelDensity));
 }
 
 /// What changed, each once, in the order found. Only the first few are kept as text.
@@ -68,6 +69,8 @@ std::string_view difference(const Instance& baked, const Instance& now) {
         return now.dynamic ? "became dynamic" : "became static";
     if (baked.material != now.material)
         return "has another material";
+    if (!now.dynamic && baked.texelDensity != now.texelDensity)
+        return "has another texel density";
     return sameBakedInstance(baked, now) ? "" : "moved";
 }
 

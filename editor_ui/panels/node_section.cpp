@@ -82,6 +82,18 @@ static void visibilityRows(FieldEdit& edit, Node& node) {
     fieldEdited(edit, "Dynamic");
 }
 
+static void lightmapRow(FieldEdit& edit, Node& node) {
+    fieldLabel<Node>(edit, "Texel density",
+                     "Lightmap texels per metre of this object, relative to what the bake would "
+                     "give it [times]; groups multiply that of what is in them. The bake's number "
+                     "of texels stays the same: other objects get fewer. Ctrl-click to type a "
+                     "number",
+                     &Node::texelDensity);
+    ImGui::SliderFloat("##texelDensity", &node.texelDensity, kMinTexelDensity, kMaxTexelDensity,
+                       "%.3g times", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Texel density");
+}
+
 static void meshLine(const EditorState& state, const Node& node) {
     std::size_t triangles = 0;
     for (std::uint32_t mesh : node.meshes)
@@ -97,6 +109,8 @@ void nodeSection(FieldEdit& edit, Node& node) {
         transformRows(edit, node);
     if (card(edit.state, "Visibility"))
         visibilityRows(edit, node);
+    if (card(edit.state, "Lightmap"))
+        lightmapRow(edit, node);
     if (card(edit.state, "Mesh and material")) {
         meshLine(edit.state, node);
         materialRows(edit);

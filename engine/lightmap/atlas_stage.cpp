@@ -74,6 +74,21 @@ void evenLamps(const Scene& scene, std::vector<MeshDensity>& surfels) {
             surfels[i.mesh] = {};
 }
 
+/// Multiplies the factors of the instances with a texel density of their own.
+void applyTexelDensity(const Scene& scene, const std::vector<MeshCharts>& charts,
+                       std::vector<std::vector<float>>& factors) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (instance.texelDensity == 1 || instance.dynamic)
+            continue;
+        factors.resize(scene.instances.size());
+        if (factors[i].empty())
+            factors[i].assign(charts[instance.mesh].chartSize.size(), 1);
+        for (float& factor : factors[i])
+            factor *= instance.texelDensity;
+    }
+}
+
 /// Whether an instance has a place in the atlas.
 bool hasCharts(const Scene& scene, const std::vector<MeshCharts>& charts, std::size_t instance) {
     return instance < scene.instances.size() && !scene.instances[instance].dynamic &&
@@ -276,6 +291,7 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
         return {};
     if (scene.bake.texelsPerMetre > 0)
         density.texels.clear(), density.varied.clear();
+    applyTexelDensity(scene, charts, density.texels);
     evenLamps(scene, density.surfels);
     LaidTexels laid = layTexels({trace, scene, meshes, charts, density, progress, store, rays});
     if (progress.cancelled())

@@ -18,7 +18,8 @@ struct PlacedAtlas {
 };
 
 /// Runs the stages charts, density and atlas with the scene's bake settings, reusing results in
-/// `store` (may be null). The texel density is uniform if the settings prescribe it. `meshes` is
+/// `store` (may be null). The texel density follows Instance::texelDensity alone if the settings
+/// prescribe it. `meshes` is
 /// hashMeshes(scene). Adds the rays traced to `rays`. Returns std::nullopt when cancelled.
 std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
                                       const std::vector<std::uint64_t>& meshes,

@@ -260,8 +260,9 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
                 const AtlasTexel& owner = grid[all[i].place];
                 const std::vector<LocalTexel> texels = coverBlock(all[i].parts);
                 all[i].rays = texels.size() * kRaysPerTexel;
-                // Texels of width base / 4^k have class k.
-                const double has = std::log2(double(base / owner.width)) / 2;
+                // Texels of width base / 4^k have class k, besides the instance's own density.
+                const float own = trace.scene().instances[owner.instance].texelDensity;
+                const double has = std::log2(double(base / (owner.width * own))) / 2;
                 // A single ray overestimates how near everything is; it counts as one class less.
                 const double detail =
                     std::max(probe.detail(owner, texels),

@@ -38,6 +38,8 @@ glm::mat4 matrix(const Transform& t);
 glm::dmat4 preciseMatrix(const Transform& t);
 
 /// A node of the tree; an instance carries meshes.
+inline constexpr float kMinTexelDensity = 1 / 16.f, kMaxTexelDensity = 16; ///< of a node
+
 struct Node {
     std::string name;
     ObjectId parent = 0;               ///< 0: a root. The tree has no cycles.
@@ -47,6 +49,8 @@ struct Node {
     std::vector<ObjectId> materials;
     bool visible = true;
     bool dynamic = false; ///< lit from the grid, sends no bounced light
+    /// Multiplies the lightmap's texels per metre, as do the densities of its groups.
+    float texelDensity = 1; ///< [kMinTexelDensity, kMaxTexelDensity]
 
     bool operator==(const Node&) const = default;
 };

@@ -3,6 +3,7 @@
 
 #include "engine/scene/find_object.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace limn {
@@ -39,6 +40,8 @@ Placement Placements::of(ObjectId id) {
                                 : glm::dmat4(glm::mat4(at.toWorld) * matrix(n.transform));
         at.visible = at.visible && n.visible;
         at.dynamic = at.dynamic || n.dynamic;
+        at.texelDensity =
+            std::clamp(at.texelDensity * n.texelDensity, kMinTexelDensity, kMaxTexelDensity);
         m_known.emplace(*child, at);
     }
     return at;

@@ -7,11 +7,12 @@
 
 namespace limn {
 
-/// Transform and flags of a node, combined with those of its ancestors.
+/// Transform, flags and density of a node, combined with those of its ancestors.
 struct Placement {
     glm::dmat4 toWorld{1};
     bool visible = true;
     bool dynamic = false;
+    float texelDensity = 1; ///< within the limits of a single node's
 };
 
 /// Placements of a document's nodes, each computed once. The document must outlive this object and

@@ -45,6 +45,7 @@ static void addInstances(Scene& scene, const Node& node, ObjectId id, const Plac
             assigned != materials.end() ? assigned->second : scene.assets->meshes[mesh].material;
         instance.node = id;
         instance.dynamic = at.dynamic;
+        instance.texelDensity = at.texelDensity;
         instance.toWorld = glm::mat4(at.toWorld);
         instance.normalToWorld = normalMatrix(instance.toWorld);
         scene.instances.push_back(instance);

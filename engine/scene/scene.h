@@ -29,6 +29,7 @@ struct Instance {
     std::uint32_t material = 0; ///< index into Scene::materials
     ObjectId node = 0;          ///< the node it came from
     bool dynamic = false;
+    float texelDensity = 1; ///< Placement::texelDensity
     glm::mat4 toWorld{1};
     /// sign(det) * cofactor matrix of toWorld; not normalised. As in glTF, a mirrored instance
     /// (negative determinant) has its front on the clockwise side, so the world's front normal of a

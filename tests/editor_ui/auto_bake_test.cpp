@@ -158,6 +158,8 @@ TEST(BakeInputChanges, NamesMaterialsAddedAndDeletedObjectsAndThoseThatBecameDyn
     const ObjectId left = idNamed(full, "Left");
     EXPECT_EQ(after("Left", [](Document&, Object& o) { std::get<Node>(o).dynamic = true; }),
               "Left became dynamic");
+    EXPECT_EQ(after("Left", [](Document&, Object& o) { std::get<Node>(o).texelDensity = 2; }),
+              "Left has another texel density");
     EXPECT_EQ(after("Left", [&](Document& d, Object&) { d.objects.erase(left); }),
               "An object was deleted");
     EXPECT_EQ(after("Left",

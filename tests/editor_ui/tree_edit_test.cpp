@@ -90,6 +90,8 @@ TEST_F(TreeEditTest, UngroupingFreesTheChildrenAndKeepsWhatTheGroupSaid) {
     group.transform.rotation = kTurned.rotation;
     group.visible = false;
     group.dynamic = true;
+    group.texelDensity = 4;
+    get<Node>("Left").texelDensity = 0.5f;
     const Document start = state.document;
     const glm::mat4 left = world("Left");
     select({"Group"});
@@ -100,6 +102,8 @@ TEST_F(TreeEditTest, UngroupingFreesTheChildrenAndKeepsWhatTheGroupSaid) {
     EXPECT_LT(difference(world("Left"), left), 1e-5f);
     EXPECT_FALSE(get<Node>("Left").visible);
     EXPECT_TRUE(get<Node>("Right").dynamic);
+    EXPECT_EQ(get<Node>("Left").texelDensity, 2);
+    EXPECT_EQ(get<Node>("Right").texelDensity, 4);
     EXPECT_EQ(state.selection, (std::vector{id("Left"), id("Right")}));
     expectOneUndoStep(start);
     select({"Left"});

@@ -77,6 +77,7 @@ private:
             n.meshes.push_back(std::uint32_t(m_random()));
         n.visible = coin();
         n.dynamic = coin();
+        n.texelDensity = 0.5f + unit();
         return n;
     }
     TextureRef texture() {

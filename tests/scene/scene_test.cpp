@@ -102,6 +102,23 @@ TEST(Flatten, TransformsVisibilityAndDynamicComeDownTheTree) {
     EXPECT_EQ(scene.bounds.upper, glm::vec3(1, 1, 0));
 }
 
+TEST(Flatten, TexelDensitiesMultiplyDownTheTreeWithinTheirLimits) {
+    auto assets = std::make_shared<Assets>();
+    assets->meshes = {unitTriangle()};
+    Document document;
+    const ObjectId root = addNode(document, 0, {}, {}), child = addNode(document, root, {}, {0});
+    const auto density = [&](float ofRoot, float ofChild) {
+        std::get<Node>(document.objects[root]).texelDensity = ofRoot;
+        std::get<Node>(document.objects[child]).texelDensity = ofChild;
+        return flatten(document, assets).instances[0].texelDensity;
+    };
+    EXPECT_EQ(density(1, 1), 1);
+    EXPECT_EQ(density(2, 3), 6);
+    EXPECT_EQ(density(0.5f, 4), 2);
+    EXPECT_EQ(density(16, 16), kMaxTexelDensity);
+    EXPECT_EQ(density(kMinTexelDensity, 0.25f), kMinTexelDensity);
+}
+
 TEST(Flatten, StaticBoundsLeaveDynamicInstancesAndInfinitePlacesOut) {
     auto assets = std::make_shared<Assets>();
     assets->meshes = {unitTriangle()};

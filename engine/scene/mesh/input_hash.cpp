@@ -47,6 +47,8 @@ std::uint64_t hashStatic(const Scene& scene, std::uint64_t h) {
         if (i.dynamic)
             continue; // its place and its material do not affect a bake
         h = hashBytes(&i.toWorld, sizeof i.toWorld, h);
+        if (i.texelDensity != 1)
+            h = hashValue(i.texelDensity, h);
         // Whether a material emits guides the sampling; how much it emits does not.
         const Material& m = scene.materialOf(i);
         h = hashSurface(scene, m, hashValue(std::uint32_t(emits(m)), h));

@@ -18,8 +18,8 @@ std::vector<std::uint64_t> hashMeshes(const Scene& scene);
 std::uint64_t hashSurface(const Scene& scene, const Material& material, std::uint64_t seed);
 
 /// Hash of everything that rays through the static scene depend on: meshes, instances, sides and
-/// holes, and which materials emit. Excludes lights, albedo, emission and the places and materials
-/// of dynamic instances.
+/// holes, which materials emit, and the instances' texel densities. Excludes lights, albedo,
+/// emission and the places and materials of dynamic instances.
 std::uint64_t hashStatic(const Scene& scene, std::uint64_t seed);
 
 bool emits(const Material& material);

@@ -178,6 +178,52 @@ TEST(Stages, MovingAChestInAHouseOnAWideGroundEqualsAFullBake) {
     EXPECT_EQ(back.counts.rays, 0U);
 }
 
+/// Texels of the instance's charts, by their area in the atlas.
+double texelsOf(const Bake& bake, const Scene& scene, std::size_t instance) {
+    const MeshCharts& charts = bake.lightmap.meshes[scene.instances[instance].mesh];
+    const std::vector<glm::vec2>& uv = bake.lightmap.instances[instance].uv;
+    double sum = 0;
+    for (std::size_t t = 0; t + 2 < charts.indices.size(); t += 3) {
+        const glm::dvec2 a(uv[charts.indices[t]]), b(uv[charts.indices[t + 1]]),
+            c(uv[charts.indices[t + 2]]);
+        sum += std::abs((b - a).x * (c - a).y - (b - a).y * (c - a).x) / 2;
+    }
+    return sum * bake.lightmap.width * bake.lightmap.height;
+}
+
+TEST(Stages, AnObjectOfTwiceTheTexelDensityHasFourTimesTheTexels) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(box(glm::vec3(0), glm::vec3(4), true));
+    b.add(box(glm::vec3(1), glm::vec3(2), false));
+    Scene scene = b.build();
+    scene.bake.surfels = 200;
+    scene.bake.rays = 32;
+    scene.bake.links = 8;
+    scene.bake.texelsPerMetre = 8;
+    StageStore store;
+    const Bake plain = baked(scene, &store);
+    EXPECT_NEAR(texelsOf(plain, scene, 0), 6 * 32 * 32, 0.01);
+    EXPECT_NEAR(texelsOf(plain, scene, 1), 6 * 8 * 8, 0.01);
+    scene.instances[1].texelDensity = 2;
+    EXPECT_NE(bakeInputHash(scene), plain.sceneHash);
+    const Bake dense = baked(scene, &store);
+    EXPECT_NEAR(texelsOf(dense, scene, 0), 6 * 32 * 32, 0.01);
+    EXPECT_NEAR(texelsOf(dense, scene, 1), 6 * 16 * 16, 0.01);
+    EXPECT_EQ(dense.hash(), baked(scene).hash());
+    // With a number of texels instead, that number stays and the ratio holds.
+    scene.bake.texelsPerMetre = 0;
+    scene.bake.lightmapCaches = 4000;
+    const Bake counted = baked(scene);
+    const double room = texelsOf(counted, scene, 0) / 96, block = texelsOf(counted, scene, 1) / 6;
+    EXPECT_NEAR(block / room, 4, 0.4); // sides are whole texels
+    EXPECT_NEAR(double(counted.caches.lightmapCount), 4000, 400);
+    scene.instances[1].texelDensity = 1;
+    scene.bake.texelsPerMetre = 8;
+    scene.bake.lightmapCaches = plain.settings.lightmapCaches;
+    EXPECT_EQ(baked(scene, &store).hash(), plain.hash());
+}
+
 TEST(Stages, ABakeIsTheSameWhereverADynamicObjectIs) {
     Blocks blocks;
     const Scene start = stagedRoom(blocks);
