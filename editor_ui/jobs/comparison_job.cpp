@@ -55,9 +55,10 @@ static std::shared_ptr<const Image> pictureOf(const ComparisonOrder& order) {
             toneMappedImage(mean, order.tonemap, order.exposureEv));
     if (!fits(order))
         return nullptr;
-    return std::make_shared<const Image>(order.shown == Compare::Flip
-                                             ? flipHeatmap(*order.test, mean)
-                                             : errorHeatmap(*order.test, mean));
+    const auto map = order.shown == Compare::Flip           ? flipHeatmap
+                     : order.shown == Compare::SquaredError ? squaredErrorHeatmap
+                                                            : errorHeatmap;
+    return std::make_shared<const Image>(map(*order.test, mean));
 }
 
 static std::optional<Comparison> errorOf(const ComparisonOrder& order) {

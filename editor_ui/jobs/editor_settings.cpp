@@ -18,8 +18,8 @@ namespace limn {
 using nlohmann::json;
 
 static constexpr std::array kSpaceNames{"world", "local", "view"};
-static constexpr std::array kCompareNames{"off", "reference", "difference", "flip",
-                                          "technique"}; // of Compare
+static constexpr std::array kCompareNames{"off",  "reference", "difference",
+                                          "flip", "relmse",    "technique"}; // of Compare
 
 EditorSettings settingsOf(const EditorState& state) {
     return {.workspace = state.workspace,

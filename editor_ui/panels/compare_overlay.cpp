@@ -91,6 +91,8 @@ static const char* shownText(Compare mode) {
         return "Difference: blue darker, orange brighter, up to 50 %";
     case Compare::Flip:
         return "FLIP, perceived difference: violet 0, green 0.5, yellow 1";
+    case Compare::SquaredError:
+        return "Squared relative error: violet 0.0001, green 0.01, yellow 1";
     }
     return "Path traced";
 }

@@ -13,8 +13,9 @@
 namespace limn {
 
 /// What stands beside Limn's picture: nothing, the path-traced picture, the signed difference to
-/// it, the perceived difference (FLIP), or the scene lit by another technique.
-enum class Compare : std::uint8_t { Off, Reference, Difference, Flip, Technique };
+/// it, the perceived difference (FLIP), the squared relative error, or the scene lit by another
+/// technique.
+enum class Compare : std::uint8_t { Off, Reference, Difference, Flip, SquaredError, Technique };
 
 /// Whether it shows or measures a path-traced picture.
 inline bool needsReference(Compare mode) {

@@ -23,6 +23,7 @@ namespace {
 constexpr double kRelMseFloor = 0.01;    ///< of mean(ref)^2
 constexpr double kRelMseDropped = 0.001; ///< share of the worst pixels
 constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseMost
+constexpr double kSmallestSquare = 1e-4; ///< squared relative error of the darkest colour
 constexpr float kHeatmapFull = 0.5f;     ///< relative error of the darkest colours
 constexpr float kHeatmapFloor = 0.05f;   ///< of mean(ref), keeps black pixels from ruling the map
 
@@ -95,6 +96,12 @@ void rootMeanSquares(std::vector<double>& squares, double mean, Comparison& c) {
     c.nrmseMost = root(squares.size() - squares.size() / kWorstOneOf);
 }
 
+/// Error of a pixel as Comparison::relmse has it: mean over channels. `d` is test - reference `r`.
+double relativeSquare(glm::dvec3 d, glm::dvec3 r, double meanR) {
+    const glm::dvec3 base = r * r + kRelMseFloor * meanR * meanR;
+    return (ratio(d.x * d.x, base.x) + ratio(d.y * d.y, base.y) + ratio(d.z * d.z, base.z)) / 3;
+}
+
 void numericErrors(const ImageF& test, const ImageF& reference, const std::vector<bool>& valid,
                    Comparison& c) {
     const double meanR = meanOfValid(reference, valid), meanT = meanOfValid(test, valid);
@@ -104,9 +111,7 @@ void numericErrors(const ImageF& test, const ImageF& reference, const std::vecto
             continue;
         const glm::dvec3 r(reference.rgb[i]), d = glm::dvec3(test.rgb[i]) - r;
         squares.push_back(channelMean(d * d));
-        const glm::dvec3 base = r * r + kRelMseFloor * meanR * meanR;
-        relative.push_back(
-            (ratio(d.x * d.x, base.x) + ratio(d.y * d.y, base.y) + ratio(d.z * d.z, base.z)) / 3);
+        relative.push_back(relativeSquare(d, r, meanR));
     }
     if (relative.empty())
         return;
@@ -248,6 +253,26 @@ Image flipHeatmap(const ImageF& test, const ImageF& reference) {
         flipMap(displayed(test, valid, exposure), displayed(reference, valid, exposure));
     for (std::size_t i = 0; i < valid.size(); ++i) {
         const glm::vec3 color = valid[i] ? viridis(flip.values[i]) : glm::vec3(1, 0, 1);
+        for (int k = 0; k < 3; ++k)
+            map.rgba.push_back(std::uint8_t(std::lround(255 * color[k])));
+        map.rgba.push_back(255);
+    }
+    return map;
+}
+
+Image squaredErrorHeatmap(const ImageF& test, const ImageF& reference) {
+    Image map{"relMSE", reference.width, reference.height, {}};
+    map.rgba.reserve(reference.rgb.size() * 4);
+    const std::vector<bool> valid = validPixels(test, reference);
+    const double mean = meanOfValid(reference, valid);
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        glm::vec3 color(1, 0, 1);
+        if (valid[i]) {
+            const glm::dvec3 r(reference.rgb[i]), d = glm::dvec3(test.rgb[i]) - r;
+            const double error = relativeSquare(d, r, mean);
+            const double decades = std::log10(std::max(error, kSmallestSquare) / kSmallestSquare);
+            color = viridis(float(decades / -std::log10(kSmallestSquare)));
+        }
         for (int k = 0; k < 3; ++k)
             map.rgba.push_back(std::uint8_t(std::lround(255 * color[k])));
         map.rgba.push_back(255);

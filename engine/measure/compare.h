@@ -54,6 +54,11 @@ Image errorHeatmap(const ImageF& test, const ImageF& reference);
 /// violet) to 1 (yellow); invalid pixels are magenta. Sizes must be equal.
 Image flipHeatmap(const ImageF& test, const ImageF& reference);
 
+/// The squared error of each pixel as Comparison::relmse has it, in the viridis colours of 10^-4
+/// and less (dark violet) to 1 and more (yellow), logarithmic; invalid pixels are magenta. Sizes
+/// must be equal.
+Image squaredErrorHeatmap(const ImageF& test, const ImageF& reference);
+
 /// Number of pixels with a NaN or Inf.
 std::uint64_t countInvalidPixels(const ImageF& image);
 

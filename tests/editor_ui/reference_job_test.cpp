@@ -147,7 +147,7 @@ TEST_F(ComparisonTest, WithoutAPictureOfItsSizeTheReferenceAloneIsShown) {
 
 TEST_F(ComparisonTest, TheDifferenceToItselfIsOneColour) {
     const auto same = std::make_shared<const ImageF>(meanImage(set->first(), set->second()));
-    for (const Compare shown : {Compare::Difference, Compare::Flip}) {
+    for (const Compare shown : {Compare::Difference, Compare::Flip, Compare::SquaredError}) {
         const ComparedPicture compared = compare({set, same, shown, Tonemap::Aces, 0});
         ASSERT_TRUE(compared.image);
         const auto& rgba = compared.image->rgba;
@@ -168,6 +168,9 @@ TEST_F(ComparisonTest, FlipShowsThePerceivedDifferenceAndNotTheSignedOne) {
     const ComparedPicture difference = compare({set, half, Compare::Difference, Tonemap::Aces, 0});
     ASSERT_TRUE(difference.image);
     EXPECT_NE(flip.image->rgba, difference.image->rgba);
+    const ComparedPicture squared = compare({set, half, Compare::SquaredError, Tonemap::Aces, 0});
+    ASSERT_TRUE(squared.image);
+    EXPECT_EQ(squared.image->rgba, squaredErrorHeatmap(*half, mean).rgba);
 }
 
 TEST(SessionReference, StandsBesideThePictureAndIsTakenAwayAgain) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/compare.h"
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -285,6 +287,31 @@ TEST(Heatmap, ShowsFlipOfEachPixelFromVioletToYellow) {
     EXPECT_GT(wrong[1], 120) << "red for grey is far towards yellow";
     EXPECT_EQ(glm::ivec3(pixel(60, 5)[0], pixel(60, 5)[1], pixel(60, 5)[2]),
               glm::ivec3(255, 0, 255));
+}
+
+TEST(Heatmap, ShowsTheSquaredErrorOfEachPixelInDecades) {
+    const ImageF reference = constantImage(5, 1, glm::vec3(1));
+    ImageF test = reference;
+    // The denominator is 1 + 0.01.
+    for (std::size_t i = 0; i < 4; ++i)
+        test.rgb[i] += glm::vec3(float(std::sqrt(1.01 * std::pow(10., -2 * double(i)))));
+    test.rgb[4].y = std::numeric_limits<float>::infinity();
+    const Image map = squaredErrorHeatmap(test, reference);
+    ASSERT_EQ(map.rgba.size(), 20u);
+    const auto color = [&](std::size_t i) {
+        return glm::ivec3(map.rgba[4 * i], map.rgba[4 * i + 1], map.rgba[4 * i + 2]);
+    };
+    // Ends and middle of viridis.
+    const glm::ivec3 violet(0x44, 0x01, 0x54), green(0x21, 0x91, 0x8c), yellow(0xfd, 0xe7, 0x25);
+    const auto difference = [&](std::size_t i, glm::ivec3 c) {
+        const glm::ivec3 d = glm::abs(color(i) - c);
+        return std::max({d.x, d.y, d.z});
+    };
+    EXPECT_LE(difference(0, yellow), 2) << "an error of 1";
+    EXPECT_LE(difference(1, green), 2) << "an error of 0.01";
+    EXPECT_LE(difference(2, violet), 2) << "an error of 0.0001";
+    EXPECT_LE(difference(3, violet), 2) << "a smaller one";
+    EXPECT_EQ(color(4), glm::ivec3(255, 0, 255)) << "an infinite one";
 }
 
 TEST(Heatmap, IsBlueWhereTooDarkAndOrangeWhereTooBright) {
