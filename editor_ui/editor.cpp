@@ -147,6 +147,7 @@ static void rightPanels(EditorState& state, Rect place) {
     ImGui::End();
     if (!overlay)
         return;
+    followSelection(state);
     beginFixed("overlay", {place.x, place.y + inspector, place.w, place.h - inspector});
     overlayPanel(state);
     ImGui::End();

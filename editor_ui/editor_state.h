@@ -40,6 +40,7 @@ enum class Navigation { None, Orbit, Pan, Fly };
 /// The centre of the window, where the picture is.
 struct ViewState {
     View view = View::Lit;
+    Inspection inspection = Inspection::None;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;      ///< [-kMaxExposureEv, kMaxExposureEv]
     bool autoExposure = false; ///< `exposureEv` follows the picture

@@ -71,6 +71,9 @@ void Session::followOverlay() {
         source = nullptr, scene = nullptr;
     if (source != state.overlay.source)
         setOverlaySource(state.overlay, std::move(source), std::move(scene));
+    const std::shared_ptr<const OverlaySource>& shown = state.overlay.source;
+    const bool fits = shown && m_relit.lit && &shown->technique() == &m_relit.lit->technique();
+    state.overlay.light = fits && !viewportRelights() ? m_relit.lit : nullptr;
 }
 
 bool Session::lightsBake() const {

@@ -34,7 +34,8 @@ struct Options {
     CameraOptions camera;
     OverlayFlags overlay;
     TechniqueOptions technique;
-    std::string bake, output, view = "lit", tonemap = "aces", device = "auto", relight = "auto";
+    std::string bake, output, view = "lit", inspection = "none", tonemap = "aces", device = "auto",
+                              relight = "auto";
     float exposureEv = 0;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
@@ -172,6 +173,20 @@ Result<void> checkOverlay(const Options& options) {
     return checkOverlayFlags(options.overlay);
 }
 
+bool inspects(const Options& options) {
+    return options.inspection != kInspectionNames[0];
+}
+
+Result<void> checkInspection(const Options& options) {
+    if (!inspects(options))
+        return {};
+    if (std::filesystem::path(options.output).extension() != ".png")
+        return fail("--inspect: is drawn on a tone-mapped picture; -o must be a .png");
+    if (options.device == "cpu")
+        return fail("--inspect: needs a Vulkan device");
+    return {};
+}
+
 Result<void> checkRelight(const Options& options) {
     if (options.relight == "gpu" && options.device == "cpu")
         return fail("--relight gpu: needs a Vulkan device that draws; not --device cpu");
@@ -180,8 +195,8 @@ Result<void> checkRelight(const Options& options) {
 
 // "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
 Result<DrawPicture> chooseDrawing(const Options& options) {
-    const bool cpuWillDo =
-        options.device == "auto" && !options.overlay.wanted() && options.relight != "gpu";
+    const bool cpuWillDo = options.device == "auto" && !options.overlay.wanted() &&
+                           !inspects(options) && options.relight != "gpu";
     if (options.device == "cpu")
         return renderOnCpu;
 #ifdef LIMN_HAS_VIEWPORT
@@ -211,6 +226,7 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
                         Baked& baked) {
     RenderRequest request;
     request.view = View(indexOf(kViewNames, options.view));
+    request.inspection = Inspection(indexOf(kInspectionNames, options.inspection));
     request.camera = camera;
     request.width = options.camera.width;
     request.height = options.camera.height;
@@ -334,7 +350,7 @@ Exit runRender(const Options& options) {
     for (const Result<void>& possible :
          {checkOutputFile(options.output, {".exr", ".png"},
                           {options.scene.scene, options.scene.sky, options.bake}),
-          checkOverlay(options), checkRelight(options)})
+          checkOverlay(options), checkInspection(options), checkRelight(options)})
         if (!possible)
             return failed(possible.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);
@@ -378,6 +394,11 @@ void addRenderCommand(CLI::App& app, Run& run) {
     addTechniqueOptions(*command, options->technique);
     command->add_option("--view", options->view, "What to show")
         ->check(CLI::IsMember(strings(kViewNames)));
+    command
+        ->add_option("--inspect", options->inspection,
+                     "Draw over a .png to find faults: the edges of all triangles, or pixels with "
+                     "a NaN or Inf")
+        ->check(CLI::IsMember(strings(kInspectionNames)));
     command->add_option("--exposure", options->exposureEv, "Exposure before tone mapping [EV]")
         ->check(numberWithin(-64.0, 64.0));
     command->add_option("--tonemap", options->tonemap, "Tone-mapping curve of a .png")

@@ -96,6 +96,7 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     options.height = request.height;
     options.tonemap = request.tonemap;
     options.exposureEv = request.exposureEv;
+    options.inspection = request.inspection;
     viewport.render(options);
     result.device = properties.deviceName;
     result.linear = viewport.readLinear();

@@ -29,6 +29,7 @@ struct RenderRequest {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
+    Inspection inspection = Inspection::None;     ///< of RenderedImage::picture
     bool tonemapped = false;                      ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
     /// Computes the light on the CPU. Empty: no indirect light.
@@ -57,7 +58,7 @@ using DrawPicture =
 Result<DrawPicture> drawingOnGpu(const std::string& device);
 
 /// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
-/// `request.relightOn` is ignored.
+/// `request.relightOn` and `request.inspection` are ignored.
 RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
 
 } // namespace limn

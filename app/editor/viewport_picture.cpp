@@ -144,6 +144,7 @@ void ViewportPicture::update(Session& session) {
     const ViewState& view = state.view;
     const glm::uvec2 full = glm::max(glm::uvec2(view.size), glm::uvec2(1));
     Shown shown{view.view,
+                view.inspection,
                 view.tonemap,
                 view.exposureEv,
                 view.autoExposure,
@@ -181,7 +182,8 @@ void ViewportPicture::update(Session& session) {
                  .width = size.x,
                  .height = size.y,
                  .tonemap = view.tonemap,
-                 .exposureEv = view.exposureEv};
+                 .exposureEv = view.exposureEv,
+                 .inspection = view.inspection};
     m_job.draw({shown.scene, shown.layout, shown.field, m_options, shown.linear && !m_reduced,
                 view.autoExposure, m_reduced, shown.overlay, shown.overlaySource,
                 state.overlay.scene, shown.light, session.baked(), shown.relight,

@@ -40,6 +40,7 @@ public:
 private:
     struct Shown {
         View view = View::Lit;
+        Inspection inspection = Inspection::None;
         Tonemap tonemap = Tonemap::Aces;
         float exposureEv = 0;
         bool autoExposure = false;

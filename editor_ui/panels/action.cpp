@@ -207,6 +207,10 @@ void lookFromSide(EditorState& s) {
     aimAtMiddle(s);
     lookFrom(s.view.camera, side);
 }
+template <Inspection which>
+void toggleInspection(EditorState& s) {
+    s.view.inspection = s.view.inspection == which ? Inspection::None : which;
+}
 template <Compare mode>
 void toggleCompare(EditorState& s) {
     s.compare.mode = s.compare.mode == mode ? Compare::Off : mode;
@@ -381,10 +385,13 @@ std::vector<Action> fixedActions() {
     {"view.irradiance", "Irradiance", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Irradiance>, isChosen<&ViewState::view, View::Irradiance>},
     {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Albedo>, isChosen<&ViewState::view, View::Albedo>},
     {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Normals>, isChosen<&ViewState::view, View::Normals>},
+    {"view.wireframe", "Wireframe", Menu::View, kNoKey, kNoKey, true, always, toggleInspection<Inspection::Wireframe>, isChosen<&ViewState::inspection, Inspection::Wireframe>},
+    {"view.invalid", "Invalid pixels (NaN, Inf)", Menu::View, kNoKey, kNoKey, false, always, toggleInspection<Inspection::InvalidPixels>, isChosen<&ViewState::inspection, Inspection::InvalidPixels>},
     {"compare.reference", "Path-traced reference beside it", Menu::View, shift('R'), kNoKey, true, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
     {"compare.technique", "Another technique beside it", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Technique>, compares<Compare::Technique>},
     {"compare.difference", "Difference to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
     {"compare.flip", "Perceived difference (FLIP) to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Flip>, compares<Compare::Flip>},
+    {"compare.relmse", "Squared relative error (relMSE)", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::SquaredError>, compares<Compare::SquaredError>},
     {"compare.save", "Save both pictures\u2026", Menu::View, kNoKey, kNoKey, false, canSavePictures, savePictures},
     {"view.focus", "Focus selection", Menu::View, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
     {"view.camera", "Scene camera", Menu::View, plain(key::kPad0), kNoKey, false, hasCamera, sceneCamera},

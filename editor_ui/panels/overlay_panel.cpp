@@ -3,6 +3,7 @@
 
 #include "editor_ui/panels/bar_combo.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/picture_label.h"
 #include "editor_ui/panels/theme.h"
 #include "editor_ui/view/picking.h"
 #include "engine/techniques/technique_table.h"
@@ -10,6 +11,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace limn {
 
@@ -33,19 +36,102 @@ void setOverlaySource(OverlayState& overlay, std::shared_ptr<const OverlaySource
     pickNumber(overlay, picked);
 }
 
-void pickAt(EditorState& state, glm::vec2 mouse) {
-    OverlayState& overlay = state.overlay;
+/// The surface under the mouse, with its instance as the overlay's scene numbers it. Nothing is hit
+/// without an overlay's source.
+static Hit hitOfOverlay(const EditorState& state, glm::vec2 mouse) {
+    const OverlayState& overlay = state.overlay;
     Hit hit = overlay.source ? hitUnder(state, mouse) : Hit{};
     if (!hit)
-        return;
+        return hit;
     const Instance& seen = state.trace->scene().instances[hit.instance];
     const auto& known = overlay.scene->instances;
     const auto same = std::ranges::find_if(
         known, [&](const Instance& i) { return i.node == seen.node && i.mesh == seen.mesh; });
     // An instance unknown to a bake gets the number past the end: it is lit from the grid.
     hit.instance = std::uint32_t(same - known.begin());
-    if (const auto number = overlay.source->pickAt(*overlay.scene, hit))
-        pickNumber(overlay, *number);
+    return hit;
+}
+
+void pickAt(EditorState& state, glm::vec2 mouse) {
+    OverlayState& overlay = state.overlay;
+    if (const Hit hit = hitOfOverlay(state, mouse))
+        if (const auto number = overlay.source->pickAt(*overlay.scene, hit))
+            pickNumber(overlay, *number);
+}
+
+/// Picks what lights one of the first triangles of the node's mesh.
+static void pickObject(EditorState& state, ObjectId node) {
+    constexpr std::size_t kTriangles = 64;
+    OverlayState& overlay = state.overlay;
+    const Scene& scene = *overlay.scene;
+    const PickedSurface* clicked = pickedSurface(state);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (instance.node != node || (clicked && clicked->mesh != instance.mesh))
+            continue;
+        const Mesh& mesh = scene.meshOf(instance);
+        for (std::size_t t = 0; t < std::min(mesh.triangleCount(), kTriangles); ++t) {
+            const auto [a, b, c] = mesh.triangle(t);
+            const glm::vec3 centre =
+                (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.f;
+            const Hit hit{.instance = i,
+                          .triangle = std::uint32_t(t),
+                          .u = 1 / 3.f,
+                          .v = 1 / 3.f,
+                          .position = instance.toWorld * glm::vec4(centre, 1)};
+            if (const auto number = overlay.source->pickAt(scene, hit)) {
+                pickNumber(overlay, *number);
+                return;
+            }
+        }
+    }
+}
+
+void followSelection(EditorState& state) {
+    OverlayState& overlay = state.overlay;
+    const OverlayKind* kind = overlay.options.kind;
+    if (!kind || !kind->ofObject || !isMadeOf(*kind, overlay.source.get())) {
+        overlay.followed = 0;
+        return;
+    }
+    const ObjectId active = activeId(state);
+    if (active == overlay.followed)
+        return;
+    overlay.followed = active;
+    pickObject(state, active);
+}
+
+static std::string joined(const std::vector<OverlayLine>& lines) {
+    std::string text;
+    for (const OverlayLine& line : lines)
+        if (line.style != OverlayLine::Style::Separator)
+            text += (text.empty() ? "" : "\n") + line.text;
+    return text;
+}
+
+void overlayNumbers(EditorState& state) {
+    OverlayState& overlay = state.overlay;
+    if (!overlay.options.kind || !isMadeOf(*overlay.options.kind, overlay.source.get()))
+        return;
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    const glm::vec2 mouse(at.x, at.y);
+    OverlayHover& hover = overlay.hover;
+    if (hover.mouse != mouse || hover.camera != state.view.camera ||
+        hover.options != overlay.options || hover.source != overlay.source ||
+        hover.light != overlay.light) {
+        const Hit hit = hitOfOverlay(state, mouse);
+        hover = {mouse, state.view.camera, overlay.options, overlay.source, overlay.light, {}};
+        if (hit)
+            hover.lines = overlay.source->describeAt(overlay.options, *overlay.scene, hit,
+                                                     overlay.light.get());
+    }
+    if (hover.lines.empty())
+        return;
+    const glm::vec2 middle = state.view.origin + state.view.size / 2.f;
+    const ImVec2 align(mouse.x > middle.x ? 1.f : 0.f, mouse.y > middle.y ? 1.f : 0.f);
+    const float away = std::round(ImGui::GetFontSize());
+    pictureLabel({at.x + (align.x > 0 ? -away : away), at.y + (align.y > 0 ? -away : away)}, align,
+                 joined(hover.lines), IM_COL32_WHITE, 0, {.margin = {8, 4}});
 }
 
 void overlayCombo(EditorState& state, float width) {

@@ -28,4 +28,12 @@ void pickNumber(OverlayState& overlay, std::uint32_t number);
 /// Picks what lights the surface under the mouse; keeps the old pick if there is none.
 void pickAt(EditorState& state, glm::vec2 mouse);
 
+/// Picks what lights the active object once it has become active while an overlay of whole objects
+/// is shown. Call each frame.
+void followSelection(EditorState& state);
+
+/// Shows what the overlay says in colours as numbers, beside the mouse. Draws into the current
+/// window. Reads the surface again only where mouse, camera, overlay or light has changed.
+void overlayNumbers(EditorState& state);
+
 } // namespace limn

@@ -295,6 +295,13 @@ static void pictureText(const EditorState& state, const char* text, float y, ImU
                  text, ink, wrap, {.margin = {8, 4}, .rounding = 4});
 }
 
+/// What the colours of an inspection mean, where nothing else is said there.
+static void inspectionLabel(const EditorState& state) {
+    if (state.view.inspection == Inspection::InvalidPixels && !state.view.placing)
+        pictureText(state, "Pixels that are NaN or Inf, and those around them, are magenta", 12,
+                    IM_COL32_WHITE);
+}
+
 /// Where a light would stand if one clicked now.
 static void placingHint(const EditorState& state, bool hovered) {
     if (!state.view.placing)
@@ -341,7 +348,11 @@ void viewportPanel(EditorState& state) {
                                                 !state.view.placing);
     compareOverlay(state);
     pictureReadout(state);
-    placingHint(state, hovered && state.view.navigation == Navigation::None);
+    const bool resting = hovered && state.view.navigation == Navigation::None;
+    placingHint(state, resting);
+    inspectionLabel(state);
+    if (resting && !state.view.placing && !state.view.drag && !state.view.pressed)
+        overlayNumbers(state);
     ImGui::PopClipRect();
     if (hovered && !clickTaken)
         press(state);

@@ -134,6 +134,7 @@ static VkResult createLogicalDevice(Device& d, bool presents) {
     VkPhysicalDeviceFeatures available;
     vkGetPhysicalDeviceFeatures(d.physicalDevice, &available);
     d.anisotropy = available.samplerAnisotropy;
+    d.wireframe = available.fillModeNonSolid;
     VkPhysicalDeviceVulkan13Features v13{};
     v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     v13.dynamicRendering = VK_TRUE;

@@ -51,6 +51,7 @@ public:
     VkPhysicalDeviceProperties properties{};
     bool softwareRasteriser = false; ///< the "GPU" is the CPU
     bool anisotropy = false;         ///< samplerAnisotropy is enabled
+    bool wireframe = false;          ///< fillModeNonSolid is enabled
     bool validating = false;
     MemoryBlocks memory;
 

@@ -92,6 +92,7 @@ static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& d
     raster.cullMode = VK_CULL_MODE_NONE;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.depthBiasEnable = desc.depthBias;
+    raster.polygonMode = desc.wireframe ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
     raster.lineWidth = 1;
 
     VkPipelineMultisampleStateCreateInfo samples{};

@@ -27,6 +27,7 @@ struct GraphicsPipelineDesc {
     bool depthWrite = true;
     bool additive = false;  ///< colours are added to what is there
     bool depthBias = false; ///< set with vkCmdSetDepthBias
+    bool wireframe = false; ///< draws the triangles' edges; needs Device::wireframe
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     /// If true, the front face is set with vkCmdSetFrontFace; otherwise counter-clockwise on screen
     /// is the front. No face is culled.

@@ -50,6 +50,14 @@ public:
                                                   std::uint32_t /*pick*/) const {
         return {};
     }
+    /// The numbers that an overlay shows in colours at the surface which was hit. `hit` as for
+    /// pickAt(), `light` as for overlay(). Unless overridden: describes what pickAt() finds.
+    virtual std::vector<OverlayLine> describeAt(const OverlayRequest& /*request*/,
+                                                const Scene& scene, const Hit& hit,
+                                                const LightSnapshot* /*light*/) const {
+        const std::optional<std::uint32_t> number = pickAt(scene, hit);
+        return number ? describePick(scene, *number) : std::vector<OverlayLine>();
+    }
 };
 
 } // namespace limn

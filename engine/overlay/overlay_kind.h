@@ -18,6 +18,7 @@ struct OverlayKind {
     bool showsMaterials = false; ///< changes with the materials of the scene
     bool hasDepth = false;       ///< OverlayRequest::depth applies
     OverlayPick pick = OverlayPick::None;
+    bool ofObject = false;        ///< shows the whole object that what is picked belongs to
     bool describesPick = false;   ///< what is picked is described in words below the legend
     const char* picked = "Cache"; ///< name of the things that are picked
     const char* pickedTooltip =

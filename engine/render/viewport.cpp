@@ -323,11 +323,13 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
     const bool radiance = options.view != View::Albedo && options.view != View::Normals;
-    tonemap.record(cmd, targets.linear.view,
-                   {.exposure = radiance ? std::exp2(options.exposureEv) : 1.f,
-                    .curve = std::uint32_t(radiance ? options.tonemap : Tonemap::None),
-                    .fade = overlay.active() ? kOverlayFade : 0},
-                   slot);
+    tonemap.record(
+        cmd, targets.linear.view,
+        {.exposure = radiance ? std::exp2(options.exposureEv) : 1.f,
+         .curve = std::uint32_t(radiance ? options.tonemap : Tonemap::None),
+         .fade = options.inspection != Inspection::None || overlay.active() ? kOverlayFade : 0,
+         .invalid = options.inspection == Inspection::InvalidPixels ? 1U : 0U},
+        slot);
     vkCmdEndRendering(cmd);
 }
 
@@ -335,7 +337,8 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
 // the picture readable.
 void Viewport::Impl::recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
                                    const ViewportOptions& options, std::uint32_t slot) {
-    if (overlay.active()) {
+    const bool wireframe = options.inspection == Inspection::Wireframe;
+    if (overlay.active() || wireframe) {
         gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
         gpu::imageBarrier(cmd, surfaces.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kFragmentRead,
                           gpu::kDepthWrite);
@@ -346,7 +349,8 @@ void Viewport::Impl::recordOverlay(VkCommandBuffer cmd, const GeometryView& view
                                       VK_ATTACHMENT_LOAD_OP_LOAD);
         beginRendering(cmd, {options.width, options.height}, color, &depth, true);
         overlay.record(cmd, scene, view,
-                       2 * std::tan(options.camera.fovY / 2) / float(options.height), slot);
+                       2 * std::tan(options.camera.fovY / 2) / float(options.height), slot,
+                       wireframe);
         vkCmdEndRendering(cmd);
         gpu::imageBarrier(cmd, surfaces.depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, gpu::kDepthWrite,
                           gpu::kFragmentRead);

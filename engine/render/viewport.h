@@ -30,6 +30,8 @@ struct ViewportOptions {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
+    /// Wireframe needs a device that fills polygons with lines; on others, surfaces are grey.
+    Inspection inspection = Inspection::None;
 
     bool operator==(const ViewportOptions&) const = default;
 };

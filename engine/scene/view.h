@@ -16,10 +16,16 @@ namespace limn {
 /// emission + specular; the background is the sky. In every other view the background is 0.
 enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Normals };
 
+/// What is drawn over a picture, which fades beneath it, to find faults: the edges of all
+/// triangles, or pixels with a NaN or Inf.
+enum class Inspection : std::uint32_t { None, Wireframe, InvalidPixels };
+
 enum class Tonemap : std::uint32_t { None, Aces, Agx, PbrNeutral };
 
 inline constexpr std::array<std::string_view, 6> kViewNames = {"lit",        "direct", "indirect",
                                                                "irradiance", "albedo", "normals"};
+inline constexpr std::array<std::string_view, 3> kInspectionNames = {"none", "wireframe",
+                                                                     "invalid-pixels"};
 inline constexpr std::array<std::string_view, 4> kTonemapNames = {"none", "aces", "agx", "neutral"};
 
 } // namespace limn

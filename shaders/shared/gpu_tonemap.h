@@ -20,10 +20,11 @@ struct GpuTonemap {
     float exposure; // factor
     uint curve;     // TONEMAP_*
     float fade;     // 0: unchanged; towards 1: greyer and darker, beneath an overlay
+    uint invalid;   // 1: pixels with a NaN or Inf are magenta, as are those around them
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuTonemap) == 12);
+static_assert(sizeof(GpuTonemap) == 16);
 } // namespace limn::shared
 #endif
 

@@ -58,6 +58,19 @@ vec3 encodeSrgb(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
 }
 
+// Whether a pixel near this one is NaN or Inf; a single pixel would be hard to see.
+bool nearInvalid(ivec2 at) {
+    const int reach = 2;
+    const ivec2 last = textureSize(linearImage, 0) - 1;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+            const vec3 c = texelFetch(linearImage, clamp(at + ivec2(x, y), ivec2(0), last), 0).rgb;
+            if (any(isnan(c)) || any(isinf(c)))
+                return true;
+        }
+    return false;
+}
+
 void main() {
     vec3 c = texelFetch(linearImage, ivec2(gl_FragCoord.xy), 0).rgb * push.exposure;
     switch (push.curve) {
@@ -74,4 +87,6 @@ void main() {
     c = encodeSrgb(clamp(c, 0.0, 1.0));
     const float grey = dot(c, vec3(0.2126, 0.7152, 0.0722));
     outColor = vec4(mix(c, vec3(grey), push.fade) * (1.0 - 0.5 * push.fade), 1);
+    if (push.invalid != 0u && nearInvalid(ivec2(gl_FragCoord.xy)))
+        outColor = vec4(1, 0, 1, 1);
 }

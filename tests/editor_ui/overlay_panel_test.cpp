@@ -2,6 +2,7 @@
 #include "editor_ui/panels/overlay_panel.h"
 
 #include "editor_ui/panels/action.h"
+#include "editor_ui/view/picking.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/editor_ui/headless.h"
@@ -93,6 +94,52 @@ TEST(OverlayPanel, EveryOverlayIsDrawnWithAndWithoutABakeAndForEveryCache) {
     pickNumber(baked.state.overlay, 1u << 30);
     EXPECT_TRUE(baked.state.overlay.picked.empty());
     ui.frames(baked.state);
+}
+
+TEST(OverlayPanel, DependenciesFollowTheSelection) {
+    HeadlessUi ui;
+    BakedEditor baked;
+    EditorState& state = baked.state;
+    state.overlay.options.kind = kindNamed("dependencies");
+    ui.frames(state);
+    EXPECT_EQ(state.overlay.options.pick, ~0u) << "nothing is selected";
+    std::vector<std::uint32_t> picks;
+    for (const char* name : {"Left", "Right"}) {
+        state.selection = {idNamed(state, name)};
+        ui.frames(state);
+        picks.push_back(state.overlay.options.pick);
+        ASSERT_LT(picks.back(), cachesOf(state.overlay).lightmapCount);
+    }
+    EXPECT_NE(picks[0], picks[1]);
+    pickNumber(state.overlay, 0); // by hand
+    ui.frames(state);
+    EXPECT_EQ(state.overlay.options.pick, 0U) << "the selection is still the same";
+    state.selection = {idNamed(state, "Left")};
+    state.overlay.options.kind = kindNamed("links");
+    ui.frames(state);
+    EXPECT_EQ(state.overlay.options.pick, 0U) << "a link cut is of a cache, not of an object";
+}
+
+TEST(OverlayPanel, NumbersStandBesideTheMouseWhereItIsOnASurface) {
+    HeadlessUi ui;
+    BakedEditor baked;
+    EditorState& state = baked.state;
+    state.view.showLights = false;
+    ui.frames(state);
+    const auto moveTo = [&](glm::vec2 pixel) {
+        ui.mouse(pixel.x, pixel.y);
+        ui.frames(state);
+    };
+    const glm::vec2 surface = *toPixel(state.view.picture(), {0.3f, 0.6f, 0});
+    const glm::vec2 nothing = state.view.origin + glm::vec2(0.02f, 0.5f) * state.view.size;
+    ASSERT_FALSE(hitUnder(state, nothing));
+    for (const OverlayKind& kind : techniques()[0]->overlays) {
+        state.overlay.options.kind = &kind;
+        moveTo(surface);
+        EXPECT_FALSE(state.overlay.hover.lines.empty()) << kind.name;
+        moveTo(nothing);
+        EXPECT_TRUE(state.overlay.hover.lines.empty()) << kind.name << ": nothing is there";
+    }
 }
 
 TEST(OverlayPanel, AClickPicksTheCacheBeneathItAndSelectsAsEver) {

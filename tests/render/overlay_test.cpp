@@ -4,6 +4,8 @@
 #include "engine/overlay/palette.h"
 #include "tests/render/viewport_fixture.h"
 
+#include <limits>
+
 namespace limn {
 
 namespace {
@@ -150,6 +152,66 @@ TEST_F(ViewportOverlays, TexelsColourEachSideOfATwoSidedSurfaceMirroredOrNot) {
         }
 }
 
+TEST_F(ViewportOverlays, AWireframeDrawsTheEdgesOfTrianglesThatAreSeenAndNothingElse) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
+    b.add(simple::quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2})); // hidden behind the first
+    options.width = options.height = 64;
+    options.view = View::Albedo;
+    viewport->setScene(b.build(), nullptr);
+    const auto drawn = [&](Inspection inspection) {
+        options.inspection = inspection;
+        viewport->render(options);
+        return viewport->readTonemapped();
+    };
+    const Image lines = drawn(Inspection::Wireframe);
+    const auto isLine = [&](std::uint32_t x, std::uint32_t y) {
+        const std::uint8_t* c = &lines.rgba[4 * std::size_t(y * 64 + x)];
+        return c[2] == 255 && c[0] == 140;
+    };
+    // The square fills 5 tan(0.35) / 1 = 1.825 half pictures: its edges are 17.5 pixels from the
+    // middle, and one diagonal crosses it.
+    int rows = 0, diagonal = 0;
+    for (std::uint32_t y = 16; y < 48; ++y) {
+        int edges = 0;
+        for (std::uint32_t x = 0; x < 64; ++x) {
+            const bool near = x < 13 || x > 50;
+            EXPECT_FALSE(near && isLine(x, y)) << x << ", " << y << ": outside the square";
+            edges += isLine(x, y) ? 1 : 0;
+        }
+        rows += edges >= 2 && edges <= 5 ? 1 : 0;
+        diagonal += isLine(y, y) || isLine(63 - y, y) || isLine(y, 63 - y) ? 1 : 0;
+    }
+    EXPECT_GE(rows, 30) << "the sides and the diagonal, not the hidden square's edges inside";
+    EXPECT_GE(diagonal, 24);
+    const Image again = drawn(Inspection::None);
+    EXPECT_FALSE(std::equal(again.rgba.begin(), again.rgba.end(), lines.rgba.begin()));
+}
+
+TEST_F(ViewportOverlays, InvalidPixelsAreMagentaWhereAskedForAndValidOnesAreNot) {
+    const auto magenta = [&](glm::vec3 sky, Inspection inspection) {
+        Scene scene;
+        scene.assets = std::make_shared<Assets>();
+        scene.sky.radiance = sky;
+        viewport->setScene(scene, nullptr);
+        options.view = View::Lit;
+        options.inspection = inspection;
+        viewport->render(options);
+        const Image image = viewport->readTonemapped();
+        int count = 0;
+        for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+            count += image.rgba[i] == 255 && image.rgba[i + 1] == 0 && image.rgba[i + 2] == 255;
+        return count;
+    };
+    const int all = int(options.width * options.height);
+    const float inf = std::numeric_limits<float>::infinity(), nan = inf - inf;
+    EXPECT_EQ(magenta(glm::vec3(0.5f), Inspection::InvalidPixels), 0);
+    EXPECT_EQ(magenta({0.5f, nan, 0.5f}, Inspection::InvalidPixels), all);
+    EXPECT_EQ(magenta({inf, 0.5f, 0.5f}, Inspection::InvalidPixels), all);
+    EXPECT_EQ(magenta({0.5f, nan, 0.5f}, Inspection::None), 0);
+}
+
 TEST_F(ViewportOverlays, OffCostsNoMemoryAndChangesNothing) {
     const Scene scene = plane().build();
     const Image before = drawOver(scene, nullptr);
@@ -191,7 +253,7 @@ TEST_F(ViewportOverlays, EachOverlayOfABakeIsDrawnInTurn) {
                 makeOverlay(*baked, scene,
                             {.kind = Overlay(k),
                              .depth = 4,
-                             .cache = k == std::uint32_t(Overlay::Links) ? 0 : ~0u},
+                             .cache = kOverlays[k].pick == OverlayPick::Required ? 0 : ~0u},
                             &lit));
             const Image image = drawOver(scene, data);
             std::size_t colored = 0;

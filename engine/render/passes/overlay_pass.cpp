@@ -6,6 +6,7 @@
 #include "engine/render/passes/tonemap_pass.h"
 #include "shaders/shared/gpu_overlay.h"
 #include "shaders/viewport/overlay_base.frag.h"
+#include "shaders/viewport/overlay_line.frag.h"
 #include "shaders/viewport/overlay_mark.frag.h"
 #include "shaders/viewport/overlay_mark.vert.h"
 #include "shaders/viewport/overlay_surface.frag.h"
@@ -104,17 +105,23 @@ void OverlayPass::makePipelines() {
     m_base = gpu::createGraphicsPipeline(m_device, base);
     m_surface = gpu::createGraphicsPipeline(
         m_device, surfaceDesc(m_surfaceLayout.handle, kOverlaySurfaceFrag));
+    if (m_device.wireframe) {
+        gpu::GraphicsPipelineDesc line = surfaceDesc(m_surfaceLayout.handle, kOverlayLineFrag);
+        line.wireframe = line.depthBias = true;
+        line.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL; // depth falls with distance
+        line.name = "wireframe";
+        m_line = gpu::createGraphicsPipeline(m_device, line);
+    }
     m_mark = gpu::createGraphicsPipeline(m_device, markDesc(m_markLayout.handle));
 }
 
-// Draws all surfaces in grey, or those with a lightmap in the colours of their texels.
 void OverlayPass::drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
-                               const GeometryView& view, bool texels) {
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                      texels ? m_surface.handle : m_base.handle);
+                               const GeometryView& view, const gpu::Pipeline& pipeline,
+                               bool lightmappedOnly) {
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
     for (const GpuInstance& instance : scene.instances) {
         const GpuMesh& mesh = scene.meshes[instance.mesh];
-        if (mesh.indexCount == 0 || (texels && !instance.hasLightmap) ||
+        if (mesh.indexCount == 0 || (lightmappedOnly && !instance.hasLightmap) ||
             !mayBeVisible(instance.bounds, view.toClip))
             continue;
         GpuOverlaySurface draw{};
@@ -145,16 +152,21 @@ void OverlayPass::drawMarks(VkCommandBuffer cmd, const GeometryView& view, float
 }
 
 void OverlayPass::record(VkCommandBuffer cmd, const RenderScene& scene, const GeometryView& view,
-                         float pixelSize, std::uint32_t slot) {
+                         float pixelSize, std::uint32_t slot, bool wireframe) {
     if (!m_mark)
         makePipelines();
-    drawSurfaces(cmd, scene, view, false);
+    drawSurfaces(cmd, scene, view, m_base, false);
     if (m_texels) {
         gpu::writeBuffer(m_device, m_sets[slot], 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                          m_texels.handle);
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_surfaceLayout.handle, 0, 1,
                                 &m_sets[slot], 0, nullptr);
-        drawSurfaces(cmd, scene, view, true);
+        drawSurfaces(cmd, scene, view, m_surface, true);
+    }
+    if (wireframe && m_line) {
+        constexpr float kTowardsViewer = 2; // steps of depth, and of its slope
+        vkCmdSetDepthBias(cmd, kTowardsViewer, 0, kTowardsViewer);
+        drawSurfaces(cmd, scene, view, m_line, false);
     }
     if (m_markCount > 0)
         drawMarks(cmd, view, pixelSize);

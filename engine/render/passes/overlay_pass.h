@@ -10,7 +10,8 @@
 
 namespace limn::render {
 
-/// Draws a bake's marks and texel colours over a finished picture. Creates its buffers when there
+/// Draws an overlay's marks and texel colours, or the triangles' edges, over a finished picture.
+/// Creates its buffers when there
 /// is something to draw and its pipelines when it first draws.
 class OverlayPass {
 public:
@@ -24,14 +25,15 @@ public:
 
     /// Records the overlay into the bound colour attachment (kColorFormat). The bound depth
     /// attachment is that of SurfaceImages for the same view. `pixelSize` is a pixel's height at
-    /// distance 1; `slot` is that of MaterialSet.
+    /// distance 1; `slot` is that of MaterialSet. With `wireframe`, triangles' edges are drawn too,
+    /// even if this is not active().
     void record(VkCommandBuffer cmd, const RenderScene& scene, const GeometryView& view,
-                float pixelSize, std::uint32_t slot);
+                float pixelSize, std::uint32_t slot, bool wireframe);
 
 private:
     void makePipelines();
     void drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene, const GeometryView& view,
-                      bool texels);
+                      const gpu::Pipeline& pipeline, bool lightmappedOnly);
     void drawMarks(VkCommandBuffer cmd, const GeometryView& view, float pixelSize);
 
     gpu::Device& m_device;
@@ -43,7 +45,7 @@ private:
     gpu::DescriptorPool m_pool;
     std::vector<VkDescriptorSet> m_sets; ///< per slot
     gpu::PipelineLayout m_surfaceLayout, m_markLayout;
-    gpu::Pipeline m_base, m_surface, m_mark;
+    gpu::Pipeline m_base, m_surface, m_line, m_mark; ///< m_line: null where the device has none
 };
 
 } // namespace limn::render

@@ -10,6 +10,7 @@
 #include "engine/techniques/illuminance/overlay/cut_text.h"
 #include "engine/techniques/illuminance/overlay/link_cut.h"
 #include "engine/techniques/illuminance/overlay/overlay.h"
+#include "engine/techniques/illuminance/overlay/surface_text.h"
 
 #include <algorithm>
 #include <bit>
@@ -90,13 +91,17 @@ static Overlay kindOf(const OverlayKind* kind) {
     return kind ? Overlay(kind - kOverlays.data()) : Overlay::None;
 }
 
+static OverlayOptions optionsOf(const OverlayRequest& request) {
+    return {.kind = kindOf(request.kind), .depth = request.depth, .cache = request.pick};
+}
+
+static const LitBake* litOf(const LightSnapshot* light) {
+    return light ? &static_cast<const IlluminanceSnapshot*>(light)->lit : nullptr;
+}
+
 OverlayData BakedIlluminance::overlay(const OverlayRequest& request, const Scene& scene,
                                       const LightSnapshot* light) const {
-    const auto* snapshot = static_cast<const IlluminanceSnapshot*>(light);
-    return makeOverlay(
-        *m_bake, scene,
-        {.kind = kindOf(request.kind), .depth = request.depth, .cache = request.pick},
-        snapshot ? &snapshot->lit : nullptr);
+    return makeOverlay(*m_bake, scene, optionsOf(request), litOf(light));
 }
 
 std::uint32_t BakedIlluminance::maxOverlayDepth() const {
@@ -124,6 +129,12 @@ std::optional<std::uint32_t> BakedIlluminance::nearestPick(const OverlaySource& 
 std::vector<OverlayLine> BakedIlluminance::describePick(const Scene& scene,
                                                         std::uint32_t pick) const {
     return describeCut(*m_bake, scene, pick);
+}
+
+std::vector<OverlayLine> BakedIlluminance::describeAt(const OverlayRequest& request,
+                                                      const Scene& scene, const Hit& hit,
+                                                      const LightSnapshot* light) const {
+    return describeSurface(*m_bake, scene, optionsOf(request), hit, litOf(light));
 }
 
 const std::shared_ptr<const Bake>& bakeOf(const Precomputed& data) {

@@ -37,6 +37,8 @@ public:
     std::optional<std::uint32_t> nearestPick(const OverlaySource& other,
                                              std::uint32_t pick) const override;
     std::vector<OverlayLine> describePick(const Scene& scene, std::uint32_t pick) const override;
+    std::vector<OverlayLine> describeAt(const OverlayRequest& request, const Scene& scene,
+                                        const Hit& hit, const LightSnapshot* light) const override;
 
 private:
     std::shared_ptr<const Bake> m_bake;

@@ -6,6 +6,7 @@
 #include "engine/math/sh.h"
 #include "engine/overlay/light_marks.h"
 #include "engine/overlay/palette.h"
+#include "engine/techniques/illuminance/overlay/dependencies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,11 +116,14 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
 
 } // namespace
 
-OverlayData lightOverlay(const Bake& bake, const OverlayOptions& options, const LitBake* lit) {
+OverlayData lightOverlay(const Bake& bake, const Scene& scene, const OverlayOptions& options,
+                         const LitBake* lit) {
     if (!lit || lit->radiosity.size() != bake.tree.size())
         return note(kOverlays[std::size_t(options.kind)].label, "Nothing is lit yet");
     if (options.kind == Overlay::Lobes)
         return lobeOverlay(bake, *lit, options.cache);
+    if (options.kind == Overlay::Dependencies)
+        return dependencyOverlay(bake, scene, options, *lit);
     if (options.kind == Overlay::LitClusters)
         return radiosityOverlay(
             bake, *lit,

@@ -289,8 +289,9 @@ OverlayData makeOverlay(const Bake& bake, const Scene& scene, const OverlayOptio
         return texelOverlay(bake, scene, options.kind);
     case Overlay::LitSurfels:
     case Overlay::LitClusters:
+    case Overlay::Dependencies:
     case Overlay::Lobes:
-        return lightOverlay(bake, options, lit);
+        return lightOverlay(bake, scene, options, lit);
     }
     return {};
 }

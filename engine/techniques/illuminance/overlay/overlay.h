@@ -27,11 +27,12 @@ enum class Overlay : std::uint32_t {
     Overlap,       ///< surfaces, colour: texels used more than once
     LitSurfels,    ///< colour: radiosity
     LitClusters,   ///< surfels, colour: radiosity of the cluster at a depth of the tree
+    Dependencies,  ///< surfels, colour: share of their object in the light of another
     Lobes,         ///< the lit caches' spherical harmonics, colour: the light's own
 };
 
 /// The overlays by their number in Overlay.
-inline constexpr std::array<OverlayKind, 13> kOverlays = {
+inline constexpr std::array<OverlayKind, 14> kOverlays = {
     {{"none", "No overlay", "The picture alone"},
      {.name = "surfels",
       .label = "Surfels",
@@ -61,6 +62,13 @@ inline constexpr std::array<OverlayKind, 13> kOverlays = {
       .tooltip = "What the clusters at a depth of the tree send",
       .showsLight = true,
       .hasDepth = true},
+     {.name = "dependencies",
+      .label = "Dependencies",
+      .tooltip = "Which objects light the selected one, by their share of its bounced light; click "
+                 "an object to select it",
+      .showsLight = true,
+      .pick = OverlayPick::Required,
+      .ofObject = true},
      {.name = "lobes",
       .label = "SH lobes",
       .tooltip = "Light that reaches the caches from each side, as its harmonics have it; "
@@ -71,7 +79,7 @@ inline constexpr std::array<OverlayKind, 13> kOverlays = {
 struct OverlayOptions {
     Overlay kind = Overlay::None;
     std::uint32_t depth = 6;   ///< of Clusters and LitClusters; 0: the root
-    std::uint32_t cache = ~0u; ///< of Links and Lobes; ~0: none picked
+    std::uint32_t cache = ~0u; ///< of Links, Lobes and Dependencies; ~0: none picked
 
     bool operator==(const OverlayOptions&) const = default;
 };

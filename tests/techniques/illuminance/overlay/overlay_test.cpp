@@ -4,9 +4,14 @@
 #include "engine/math/packing.h"
 #include "engine/overlay/palette.h"
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/overlay/dependencies.h"
 #include "engine/techniques/illuminance/overlay/link_cut.h"
+#include "engine/techniques/illuminance/overlay/surface_text.h"
 #include "engine/techniques/illuminance/overlay/texel_overlay.h"
 #include "tests/trace/simple_scene.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <map>
 #include <numeric>
@@ -208,6 +213,120 @@ TEST(Overlays, TheLinkCutShowsWhichSurfelsAreLinkedAndWhichMost) {
     EXPECT_LE(colors.size(), 1u);
     EXPECT_FALSE(
         colors.contains(data.marks[std::size_t(strongest - cut.nodeWeight.begin())].color));
+}
+
+TEST(Dependencies, ARoomOfEqualRadiosityLightsEverythingInItWithThatMuch) {
+    const Bake& bake = room().bake;
+    std::vector<glm::vec4> radiosity(bake.tree.size(), glm::vec4(1, 1, 1, 0));
+    const auto of = [&](std::uint32_t cache) {
+        return dependenciesOf(bake, room().scene, radiosity, cache);
+    };
+    const glm::vec3 air(1.3f, 2, 1.3f);
+    std::uint32_t cell = bake.caches.lightmapCount;
+    for (std::uint32_t c = cell; c < bake.caches.size(); ++c)
+        if (glm::distance(bake.caches.position[c], air) <
+            glm::distance(bake.caches.position[cell], air))
+            cell = c;
+    for (const std::uint32_t cache : {firstCache(true), cell}) {
+        const Dependencies all = of(cache);
+        EXPECT_NEAR(all.total, 1, 0.03) << cache;
+        EXPECT_EQ(all.sky, 0);
+        EXPECT_NEAR(all.sent[0] + all.sent[1], all.total, 1e-9);
+        EXPECT_GT(all.sent[1], 0.01) << "the block lights the room and its grid";
+    }
+    // What is dark sends nothing.
+    for (std::uint32_t i = 0; i < bake.surfels.size(); ++i)
+        if (bake.surfels.instance[i] == 0)
+            radiosity[i] = glm::vec4(0);
+    const Dependencies one = of(firstCache(true));
+    EXPECT_EQ(one.sent[0], 0);
+    EXPECT_GT(one.sent[1], 0);
+    EXPECT_EQ(one.total, one.sent[1]);
+}
+
+TEST(Dependencies, AnInvalidCellIsLitAsTheCellsThatFillIt) {
+    const Bake& bake = room().bake;
+    const Caches& caches = bake.caches;
+    const std::vector<glm::vec4> radiosity(bake.tree.size(), glm::vec4(1, 1, 1, 0));
+    const std::uint32_t invalid = firstCache(false);
+    ASSERT_EQ(caches.kind[invalid], CacheKind::Grid);
+    double mean = 0;
+    for (std::uint32_t k = caches.fillBegin[invalid]; k < caches.fillBegin[invalid + 1]; ++k) {
+        ASSERT_EQ(caches.kind[caches.fillSource[k]], CacheKind::Grid);
+        mean += double(caches.fillWeight[k]) *
+                dependenciesOf(bake, room().scene, radiosity, caches.fillSource[k]).total;
+    }
+    EXPECT_GT(mean, 0.1);
+    EXPECT_NEAR(dependenciesOf(bake, room().scene, radiosity, invalid).total, mean, 1e-6);
+}
+
+TEST(Dependencies, TheTexelsOfAnObjectAllGiveItsOwnAnswer) {
+    const Bake& bake = room().bake;
+    const std::vector<glm::vec4> radiosity(bake.tree.size(), glm::vec4(1, 1, 1, 0));
+    std::map<std::uint32_t, Dependencies> byInstance;
+    for (std::uint32_t c = 0; c < bake.caches.lightmapCount; c += 37) {
+        const Dependencies of = dependenciesOf(bake, room().scene, radiosity, c);
+        const auto [at, first] = byInstance.emplace(of.instance, of);
+        EXPECT_EQ(of.sent, at->second.sent) << c;
+    }
+    EXPECT_TRUE(byInstance.contains(0) && byInstance.contains(1));
+    // The block cannot see itself, and the room is lit by both.
+    EXPECT_EQ(byInstance[1].instance, 1U);
+    EXPECT_LT(byInstance[1].sent[1], 0.02 * byInstance[1].total);
+    EXPECT_GT(byInstance[0].sent[0], byInstance[0].sent[1]);
+}
+
+TEST(Dependencies, TheLegendNamesWhatSendsMostOrSaysThatNothingDoes) {
+    const Bake& bake = room().bake;
+    LitBake lit{std::vector<glm::vec4>(bake.tree.size(), glm::vec4(1, 1, 1, 0)),
+                std::vector<glm::vec3>(bake.caches.size() * 4), 2};
+    const OverlayOptions options{.kind = Overlay::Dependencies, .cache = firstCache(true)};
+    const OverlayData data = makeOverlay(bake, room().scene, options, &lit);
+    EXPECT_EQ(data.marks.size(), bake.surfels.size());
+    EXPECT_EQ(data.legend.entries.size(), 5U);
+    ASSERT_EQ(data.legend.notes.size(), 3U);
+    EXPECT_NE(data.legend.notes[1].find("instance 0 (itself)"), std::string::npos);
+    EXPECT_NE(data.legend.notes[2].find("instance 1"), std::string::npos);
+    lit.radiosity.assign(lit.radiosity.size(), glm::vec4(0));
+    EXPECT_EQ(makeOverlay(bake, room().scene, options, &lit).legend.notes,
+              std::vector<std::string>{"No bounced light reaches it"});
+}
+
+TEST(SurfaceText, TellsTheNumbersOfTheSurfelCacheAndTexelAtAPoint) {
+    const Bake& bake = room().bake;
+    const Scene& scene = room().scene;
+    const TraceScene trace(scene);
+    const Hit hit = trace.closestHit({{1.3f, 2, 0.4f}, {0, -1, 0}});
+    ASSERT_TRUE(hit);
+    const LitBake lit{std::vector<glm::vec4>(bake.tree.size(), glm::vec4(2, 2, 2, 0)),
+                      std::vector<glm::vec3>(bake.caches.size() * 4, glm::vec3(1)), 2};
+    const auto textOf = [&](Overlay kind, const LitBake* light) {
+        std::string text;
+        for (const OverlayLine& line : describeSurface(bake, scene, {.kind = kind}, hit, light))
+            text += line.text + "|";
+        return text;
+    };
+    std::uint32_t nearest = 0;
+    for (std::uint32_t i = 0; i < bake.surfels.size(); ++i)
+        if (glm::distance(bake.surfels.position[i], hit.position) <
+            glm::distance(bake.surfels.position[nearest], hit.position))
+            nearest = i;
+    const std::string surfel = fmt::format("Surfel {}, ", nearest);
+    EXPECT_EQ(textOf(Overlay::Surfels, nullptr).find(surfel), 0U);
+    EXPECT_NE(textOf(Overlay::Surfels, nullptr).find("Albedo 0.80 0.20 0.40"), std::string::npos);
+    EXPECT_NE(textOf(Overlay::SurfelNormals, nullptr).find("+1.00"), std::string::npos);
+    EXPECT_NE(textOf(Overlay::LitSurfels, &lit).find("Sends 2 lux"), std::string::npos);
+    EXPECT_EQ(textOf(Overlay::LitSurfels, nullptr).find("Sends"), std::string::npos);
+    const std::string cache = fmt::format("Cache {}, ", *cacheAt(bake, scene, hit));
+    EXPECT_EQ(textOf(Overlay::Caches, nullptr).find(cache), 0U);
+    EXPECT_NE(textOf(Overlay::Lobes, &lit).find("Receives"), std::string::npos);
+    EXPECT_NE(textOf(Overlay::Density, nullptr).find("texels per metre"), std::string::npos);
+    for (std::uint32_t k = 1; k < kOverlays.size(); ++k)
+        EXPECT_FALSE(textOf(Overlay(k), &lit).empty()) << kOverlays[k].name;
+    Hit unknown = hit;
+    unknown.instance = std::uint32_t(scene.instances.size());
+    for (std::uint32_t k = 1; k < kOverlays.size(); ++k)
+        EXPECT_FALSE(describeSurface(bake, scene, {.kind = Overlay(k)}, unknown, nullptr).empty());
 }
 
 TEST(Overlays, OneWithoutAPickOrWithoutABakeSaysSoAndDrawsNothing) {
