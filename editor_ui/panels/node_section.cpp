@@ -90,7 +90,7 @@ static void lightmapRow(FieldEdit& edit, Node& node) {
                      "number",
                      &Node::texelDensity);
     ImGui::SliderFloat("##texelDensity", &node.texelDensity, kMinTexelDensity, kMaxTexelDensity,
-                       "%.3g times", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+                       "%.2f \u00d7", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     fieldEdited(edit, "Texel density");
 }
 

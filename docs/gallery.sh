@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# docs/gallery.sh: renders the pictures of docs/gallery, those of the README among them, and writes the page docs/gallery.md that
+# shows them. Pictures of the editor's window need Xvfb and xdotool. Takes some minutes.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+.ci/install build test
+.ci/build release limn journeys
+limn=build/release/limn
+out=docs/gallery
+page=docs/gallery.md
+work=build/gallery
+mkdir -p "$out" "$work"
+rm -f "$out"/*.png
+
+say() { printf '%s\n' "$@" >>"$page"; }
+section() { say "" "## $1" "" "$2" ""; }
+# show NAME CAPTION: adds a picture to the page.
+show() {
+    say "![$2]($(basename "$out")/$1.png)" "" "*$2*" ""
+}
+# render NAME CAPTION LIMN_RENDER_ARGUMENT...: draws a picture and adds it to the page.
+render() {
+    "$limn" render "${@:3}" -o "$out/$1.png" >"$work/$1.txt"
+    show "$1" "$2"
+}
+bake() { [ -e "$work/$1.limnbake" ] || "$limn" bake "$1" -o "$work/$1.limnbake" >"$work/$1-bake.txt"; }
+
+cat >"$page" <<'PAGE'
+# Gallery
+
+`docs/gallery.sh` renders every picture of this page and writes the page itself. Nothing here is edited by hand.
+PAGE
+
+wide=(--width 640 --height 360)
+square=(--width 400 --height 400)
+bake cornell
+bake atrium
+cornell=(cornell --bake "$work/cornell.limnbake" "${square[@]}")
+atrium=(atrium --bake "$work/atrium.limnbake" "${wide[@]}")
+
+section "Light" "One bake serves all lights: moving, colouring or adding one needs no new bake."
+render atrium "The sample \"atrium\", lit by one sun" "${atrium[@]}"
+render atrium-indirect "Its bounced light alone" "${atrium[@]}" --view indirect
+render cornell "The sample \"cornell\"" "${cornell[@]}"
+render cornell-blue "A blue lamp in front of the blocks, with the same bake" "${cornell[@]}" \
+    --light 'point pos=-1,4,1 cd=20 color=0.3,0.5,1'
+
+section "Why a spot is lit" "\`limn render --overlay\` and the editor's list of overlays show what a bake is made of."
+render surfels "Surfels, the samples of surfaces that send light, in their albedo" "${cornell[@]}" --overlay surfels
+render clusters "Clusters of surfels, six steps below the root of their tree" "${cornell[@]}" --overlay clusters --overlay-depth 6
+render links "The link cut of one cache on the floor: surfels by the weight of the cluster that it is linked with" \
+    "${cornell[@]}" --overlay links --pick 60,370
+render dependencies "What lights the tall block: surfels by their object's share of its bounced light" \
+    "${cornell[@]}" --overlay dependencies --pick 150,220
+render caches "Caches, where light is gathered: texels of the lightmap and cells of the grid" "${cornell[@]}" --overlay caches
+render density "Texels per metre" "${atrium[@]}" --overlay density
+render charts "Charts of the lightmap" "${atrium[@]}" --overlay charts
+render lit-surfels "What surfels send" "${cornell[@]}" --overlay lit-surfels
+render lobes "Light that reaches the caches from each side, in its own colour" "${cornell[@]}" --overlay lobes
+render wireframe "The edges of all triangles" "${atrium[@]}" --inspect wireframe
+
+section "Measured" "A path tracer that shares nothing with the method is the reference; figures are free of its noise."
+exr=("${square[@]}" --view lit)
+"$limn" render cornell --bake "$work/cornell.limnbake" "${exr[@]}" -o "$work/test.exr" >"$work/test.txt"
+for seed in 1 2; do
+    "$limn" reference cornell "${exr[@]}" --spp 256 --seed "$seed" -o "$work/truth$seed.exr" >"$work/truth$seed.txt"
+done
+"$limn" compare "$work/test.exr" "$work/truth1.exr" --reference2 "$work/truth2.exr" --heatmap "$out/error.png" | tee "$work/compare.txt"
+show error "The signed error of \"cornell\": blue is too dark, orange too bright, saturated at 50 %"
+say '```' "$(cut -d: -f2- "$work/compare.txt" | sed 's/^ *//')" '```'
+
+section "Rivals" "The same scene, lights and shadow maps, lit by other techniques of the literature."
+render lpv "Light propagation volumes" cornell "${square[@]}" --technique lpv
+render lpv-lobes "Their lattice's cells: direction and colour of the light" cornell "${square[@]}" --technique lpv --overlay lpv-lobes
+render probes "Light field probes" cornell "${square[@]}" --technique probes
+render probe-balls "Their probes, as balls in the light that reaches them" cornell "${square[@]}" --technique probes --overlay probes
+render sparse-probes "Sparse radiance probes" cornell "${square[@]}" --technique sparse-probes
+
+section "The editor" "Every part of the window is described in the README."
+build/release/journeys --gtest_filter='Gallery.*'
+cp build/journeys/GalleryOfWindows/*.png "$out/"
+show editor "The workspace Light on the sample \"atrium\""
+show explain "What a spot's light is made of: the table sums to all of it"
+show compare "The path-traced picture beside Limn's, with their error"
