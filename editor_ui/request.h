@@ -16,7 +16,8 @@ struct Request {
         AddFile, ///< a glTF below a group, a shape at `place`, or a texture of `object`
         Save,
         Bake,
-        BakeToError, ///< EditorState::bakeError
+        BakeToError,   ///< EditorState::bakeError
+        BakeSelection, ///< EditorState::selection alone gets all of its texels
         CancelBake,
         Export,
         SavePictures, ///< the viewport's and the reference's

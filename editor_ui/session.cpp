@@ -128,16 +128,20 @@ void Session::handle(const Request& request) {
         answerRecovery(request.kind);
         break;
     case Request::Kind::Bake:
-        m_bakeGoal.reset();
+        m_bakeWish = {};
         m_bakeSoon = true;
         break;
     case Request::Kind::BakeToError:
-        m_bakeGoal = {double(state.bakeError), state.view.camera};
+        m_bakeWish = {.goal = ErrorGoal{double(state.bakeError), state.view.camera}};
+        m_bakeSoon = true;
+        break;
+    case Request::Kind::BakeSelection:
+        m_bakeWish = {.selection = selectionWithChildren(state)};
         m_bakeSoon = true;
         break;
     case Request::Kind::CancelBake:
         m_bakeSoon = false;
-        m_bakeGoal.reset();
+        m_bakeWish = {};
         m_notBaked = m_relit.inputHash;
         m_bakeJob.cancel();
         break;
@@ -214,7 +218,7 @@ void Session::show(OpenedFile file) {
     state.unlit = nothingShines(*m_scene);
     m_relightJob.setScene(m_scene);
     useBake(std::move(file.baked));
-    m_bakeGoal.reset();
+    m_bakeWish = {};
     m_bakeSoon = !hasBake && m_options.bakeOnOpen && lightsBake() && !m_scene->instances.empty();
     m_lightEdited = false;
 }

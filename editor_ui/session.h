@@ -134,10 +134,10 @@ private:
     BakedScene m_baked;
     Relit m_relit;
     bool m_bakeSoon = false;                 ///< start once the trace scene exists
-    std::optional<ErrorGoal> m_bakeGoal;     ///< of that bake; none: the document's settings
+    BakeOrder m_bakeWish;                    ///< goal and selection of that bake
     std::uint64_t m_bakingHash = 0;          ///< input hash of the last bake that was started
     bool m_superseded = false;               ///< it was cancelled because its scene is out of date
-    std::optional<std::uint64_t> m_notBaked; ///< input hash that the user cancelled or that failed
+    std::optional<std::uint64_t> m_notBaked; ///< input hash that no automatic bake is wanted of
     PrecomputedCost m_cost;                  ///< of m_baked, as BakeStatus::measured
     std::shared_ptr<const Scene> m_compared; ///< the scene that state.bake.changes speaks of
     bool m_quit = false;

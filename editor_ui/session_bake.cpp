@@ -48,6 +48,7 @@ void Session::useBake(BakedScene baked) {
     if (m_baked.bake) {
         state.bake.last = m_baked.bake->report();
         state.bake.preview = m_baked.preview;
+        state.bake.selection = m_baked.selection;
         measureCost(previous);
     } else {
         m_cost = {};
@@ -179,15 +180,18 @@ void Session::bakeIfWanted() {
     if (!m_bakeSoon && !(automatic && state.bake.freshness == BakeFreshness::Needed))
         return;
     m_bakeSoon = m_superseded = false;
-    m_notBaked.reset();
     m_bakingHash = m_relit.inputHash;
+    m_notBaked.reset();
+    if (!m_bakeWish.selection.empty())
+        m_notBaked = m_bakingHash; // the rest waits until it is asked for
     state.bake.error.clear();
     // The baker reads the settings of the scene that the rays meet.
     const bool current = m_relit.trace && sameBakeInputs(m_relit.trace->scene(), *m_scene);
-    m_bakeJob.start({.scene = m_scene,
-                     .trace = current ? m_relit.trace : nullptr,
-                     .preview = m_baked.bake == nullptr,
-                     .goal = std::exchange(m_bakeGoal, {})});
+    BakeOrder order = std::exchange(m_bakeWish, {});
+    order.scene = m_scene;
+    order.trace = current ? m_relit.trace : nullptr;
+    order.preview = m_baked.bake == nullptr;
+    m_bakeJob.start(std::move(order));
     m_bakeJob.report(state.bake);
 }
 

@@ -2,6 +2,7 @@
 #include "editor_ui/jobs/bake_job.h"
 
 #include "editor_ui/jobs/background_priority.h"
+#include "editor_ui/jobs/selection_bake.h"
 #include "editor_ui/panels/field.h"
 #include "engine/lighting/fastest_update.h"
 #include "engine/techniques/technique_table.h"
@@ -101,13 +102,24 @@ Result<BakedScene> BakeJob::bakeScene(const BakeOrder& order) {
                 const std::lock_guard lock(m_mutex);
                 m_expected = cost.seconds;
             }
-            put(BakedScene{*rough, scene, order.trace, true});
+            put(BakedScene{.bake = *rough, .scene = scene, .trace = order.trace, .preview = true});
             m_wake();
         }
     const auto baked = bakeWith(precomputation, scene->bake, scene->technique, *order.trace);
     if (!baked)
         return tl::make_unexpected(baked.error());
-    return BakedScene{*baked, scene, order.trace};
+    return BakedScene{.bake = *baked, .scene = scene, .trace = order.trace};
+}
+
+Result<BakedScene> BakeJob::bakeSelection(const BakeOrder& order) {
+    const Scene chosen = selectionScene(*order.scene, order.selection);
+    const TraceScene trace(chosen, *order.trace);
+    const auto baked = bakeWith(*precomputingTechnique(chosen.technique).precomputation,
+                                chosen.bake, chosen.technique, trace);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
+    return BakedScene{
+        .bake = *baked, .scene = order.scene, .trace = order.trace, .selection = true};
 }
 
 static std::string texelsText(const BakeSettings& settings) {
@@ -130,14 +142,18 @@ Result<BakedScene> BakeJob::bakeToGoal(const BakeOrder& order) {
     auto scene = std::make_shared<Scene>(*order.scene);
     scene->bake = made->bake->settings();
     const std::string why = shortfall(*made, order.goal->nrmse);
-    return BakedScene{made->bake, std::move(scene), order.trace, false,
-                      fmt::format("Error {:.3f} with {}{}", made->error.nrmse,
-                                  texelsText(made->bake->settings()),
-                                  why.empty() ? why : "; " + why)};
+    return BakedScene{.bake = made->bake,
+                      .scene = std::move(scene),
+                      .trace = order.trace,
+                      .goal = fmt::format("Error {:.3f} with {}{}", made->error.nrmse,
+                                          texelsText(made->bake->settings()),
+                                          why.empty() ? why : "; " + why)};
 }
 
 void BakeJob::work(const BakeOrder& order) {
-    const Result<BakedScene> baked = order.goal ? bakeToGoal(order) : bakeScene(order);
+    const Result<BakedScene> baked = order.goal                ? bakeToGoal(order)
+                                     : order.selection.empty() ? bakeScene(order)
+                                                               : bakeSelection(order);
     if (baked) {
         const std::lock_guard lock(m_mutex);
         m_expected = baked->bake->report().seconds;

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace limn {
 
@@ -23,7 +24,8 @@ struct BakedScene {
     std::shared_ptr<const Precomputed> bake;
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const TraceScene> trace;
-    bool preview = false; ///< made with few rays; the full bake follows
+    bool preview = false;   ///< made with few rays; the full bake follows
+    bool selection = false; ///< only BakeOrder::selection has all of its texels
     /// Result of a bake to an error, in words; empty if the settings were given.
     std::string goal;
 
@@ -40,6 +42,8 @@ struct BakeOrder {
     /// Bakes become finer until this error holds; they begin with the counts of draft instead of
     /// the scene's. The result's scene has the settings found.
     std::optional<ErrorGoal> goal = {};
+    /// Nodes that alone get all of their texels, as selectionScene() has it; empty: all do.
+    std::vector<ObjectId> selection = {};
 };
 
 /// Bakes in the background, one bake at a time. No call waits for the baker except the destructor,
@@ -75,6 +79,7 @@ private:
     void work(const BakeOrder& order);
     Result<BakedScene> bakeScene(const BakeOrder& order);
     Result<BakedScene> bakeToGoal(const BakeOrder& order);
+    Result<BakedScene> bakeSelection(const BakeOrder& order);
     Result<std::shared_ptr<const Precomputed>> bakeWith(const Precomputation& precomputation,
                                                         const BakeSettings& settings,
                                                         const TechniqueChoice& choice,

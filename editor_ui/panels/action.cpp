@@ -294,6 +294,12 @@ void startBake(EditorState& s) {
 void bakeToErrorAction(EditorState& s) {
     request(s, Request::Kind::BakeToError);
 }
+bool canBakeSelection(const EditorState& s) {
+    return canBake(s) && hasNode(s);
+}
+void bakeSelection(EditorState& s) {
+    request(s, Request::Kind::BakeSelection);
+}
 void cancelBake(EditorState& s) {
     request(s, Request::Kind::CancelBake);
 }
@@ -427,6 +433,7 @@ std::vector<Action> fixedActions() {
     {"gizmo.snap", "Snap without Ctrl", Menu::Gizmo, kNoKey, kNoKey, true, always, toggleGizmo<&GizmoSettings::snap>, isGizmo<&GizmoSettings::snap, true>},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.error", "Bake until the error holds", Menu::Bake, kNoKey, kNoKey, false, canBake, bakeToErrorAction},
+    {"bake.selection", "Bake the selection only", Menu::Bake, kNoKey, kNoKey, false, canBakeSelection, bakeSelection},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
     {"help.keys", "Keys and mouse", Menu::Help, plain(key::kF1), kNoKey, false, always, askHelp},

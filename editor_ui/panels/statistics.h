@@ -37,6 +37,7 @@ struct BakeStatus {
                               ///< nothing where that is not known
     PrecomputedCost expected; ///< of a bake with the settings of the document
     bool preview = false;     ///< it is a preview; the full bake is running
+    bool selection = false;   ///< only a selection has all of its texels
     bool lightEdited = false; ///< since the scene was opened
     double secondsSinceLightEdit =
         0;             ///< spent baking since a light, material or sky was last edited
@@ -47,7 +48,10 @@ struct BakeStatus {
 
 /// What changed since the last bake, in words, if a new one is needed.
 inline std::string bakeReason(const BakeStatus& bake) {
-    return bake.changes.empty() ? "what it was made from changed" : bake.changes;
+    if (!bake.changes.empty())
+        return bake.changes;
+    return bake.selection ? "only a selection has all of its texels"
+                          : "what it was made from changed";
 }
 
 /// State of bounced light and its updates as shown in the panels.

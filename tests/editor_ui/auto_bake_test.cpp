@@ -3,13 +3,17 @@
 
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/jobs/scene_changes.h"
+#include "editor_ui/jobs/selection_bake.h"
 #include "editor_ui/panels/action.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 #include "tests/core/source_path.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
 
+#include <array>
 #include <cstdlib>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -104,6 +108,57 @@ TEST_F(AutoBake, WhatTheUserCancelledIsNotStartedAgainBeforeTheNextEdit) {
     EXPECT_EQ(session->state.bake.error, "cancelled");
     block().transform.translation.x += 0.1;
     EXPECT_TRUE(until([&] { return session->state.bake.running; }));
+}
+
+TEST_F(AutoBake, ABakeOfTheSelectionIsNotFollowedByAWholeOneBeforeTheNextEdit) {
+    EditorState& state = session->state;
+    EXPECT_FALSE(actionById("bake.selection").enabled(state)) << "nothing is selected";
+    state.selection = {idNamed(state, "Short block")};
+    runAction(state, actionById("bake.selection"));
+    const auto before = session->baked().bake;
+    ASSERT_TRUE(until([&] { return session->baked().bake != before && session->idle(); }));
+    EXPECT_TRUE(state.bake.selection);
+    EXPECT_LT(session->baked().bake->settings().lightmapCaches, before->settings().lightmapCaches);
+    EXPECT_EQ(session->scene()->bake, before->settings()) << "the document keeps its settings";
+    for (int i = 0; i < 50; ++i) {
+        session->update();
+        ASSERT_FALSE(state.bake.running);
+    }
+    EXPECT_EQ(state.bake.freshness, BakeFreshness::Needed);
+    EXPECT_EQ(bakeReason(state.bake), "only a selection has all of its texels");
+    block().transform.translation.x += 0.1;
+    ASSERT_TRUE(isBaked());
+    EXPECT_FALSE(state.bake.selection);
+    EXPECT_EQ(session->baked().bake->settings(), before->settings());
+}
+
+TEST(SelectionScene, TheSelectionKeepsItsTexelsAndTheRestHasASixteenth) {
+    const EditorState full = fullEditor();
+    Scene scene = flatten(full.document, full.assets);
+    scene.bake.lightmapCaches = 3200;
+    const ObjectId left = idNamed(full, "Left");
+    const Scene one = selectionScene(scene, std::array{left});
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const bool chosen = scene.instances[i].node == left;
+        kept += chosen ? 1 : 0;
+        EXPECT_EQ(one.instances[i].texelDensity,
+                  scene.instances[i].texelDensity * (chosen ? 1 : kUnselectedDensity));
+    }
+    ASSERT_EQ(kept, 1U);
+    ASSERT_EQ(scene.instances.size(), 2U) << "of the same mesh";
+    const double left2 = worldArea(scene, scene.instances[0]),
+                 right2 = worldArea(scene, scene.instances[1]);
+    const double chosen = scene.instances[0].node == left ? left2 : right2;
+    const double rest = left2 + right2 - chosen;
+    EXPECT_NEAR(one.bake.lightmapCaches, 3200 * (chosen + rest / 16) / (chosen + rest), 1);
+    std::vector<ObjectId> all;
+    for (const Instance& instance : scene.instances)
+        all.push_back(instance.node);
+    EXPECT_EQ(selectionScene(scene, all).bake, scene.bake);
+    scene.bake.lightmapCaches = 0;
+    scene.bake.texelsPerMetre = 4;
+    EXPECT_EQ(selectionScene(scene, std::array{left}).bake, scene.bake);
 }
 
 TEST_F(AutoBake, ItsBarNeverRunsBackwards) {
