@@ -4,6 +4,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/picture_label.h"
 #include "editor_ui/panels/theme.h"
+#include "editor_ui/panels/viewport_corner.h"
 #include "engine/techniques/technique_table.h"
 
 #include <imgui.h>
@@ -44,15 +45,18 @@ bool compareHandle(EditorState& state, bool hovered) {
     return on || compare.held;
 }
 
-/// Names what is drawn on the two sides of the line; a side too narrow for words has no name.
+/// Names what is drawn on the two sides of the line, clear of the axes in the corner where there is
+/// room; a side too narrow for words has no name.
 static void sideLabels(const ViewState& view, float x, const std::string& left,
                        const std::string& right) {
     const float y = view.origin.y + 8, narrowest = 4 * ImGui::GetFontSize();
     const float toLeft = x - view.origin.x - 24, toRight = view.origin.x + view.size.x - x - 24;
     if (toLeft >= narrowest)
         pictureLabel({x - 12, y}, {1, 0}, left, IM_COL32_WHITE, toLeft);
+    const float clear = toRight - axisWidgetWidth();
     if (toRight >= narrowest)
-        pictureLabel({x + 12, y}, {0, 0}, right, IM_COL32_WHITE, toRight);
+        pictureLabel({x + 12, y}, {0, 0}, right, IM_COL32_WHITE,
+                     clear >= narrowest ? clear : toRight);
 }
 
 /// Draws text at the left edge of the picture, its lower end `above` pixels above the picture's.
@@ -92,7 +96,7 @@ static const char* shownText(Compare mode) {
     case Compare::Flip:
         return "FLIP, perceived difference: violet 0, green 0.5, yellow 1";
     case Compare::SquaredError:
-        return "Squared relative error: violet 0.0001, green 0.01, yellow 1";
+        return "Squared relative error: violet 1e-4, green 1e-2, yellow 1";
     }
     return "Path traced";
 }

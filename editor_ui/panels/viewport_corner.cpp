@@ -87,9 +87,13 @@ const char* refining(const EditorState& state) {
 
 } // namespace
 
+float axisWidgetWidth() {
+    return 2 * (kArm + kEnd + 8) * uiScale();
+}
+
 bool axisWidget(EditorState& state, bool hovered) {
     const ViewState& view = state.view;
-    const float reach = (kArm + kEnd + 8) * uiScale();
+    const float reach = axisWidgetWidth() / 2;
     const bool room = view.size.x >= 6 * reach && view.size.y >= 6 * reach;
     if (!room || state.notice) // a notice may reach into the corner
         return false;

@@ -35,6 +35,43 @@ TEST_F(ObjectJourney, AColumnIsMovedAndTheMoveIsUndone) {
     shot("5-undone");
 }
 
+TEST_F(ObjectJourney, OneObjectIsInspectedAndBakedAlone) {
+    startScreen(1280, 720);
+    if (!screen)
+        return;
+    startEditor(draftCornell());
+    waitForLight();
+    select("Tall block");
+    run("Dependencies");
+    EXPECT_TRUE(sees("What lights Tall block", 30));
+    screen->move(picture().origin + glm::vec2(0.5f, 0.3f) * picture().size); // the back wall
+    EXPECT_TRUE(sees("Receives", 30, picture()));
+    settle(20);
+    shot("1-dependencies");
+    run("Texel density");
+    screen->move(picture().origin + glm::vec2(0.7f, 0.8f) * picture().size);
+    EXPECT_TRUE(sees("texels per metre", 30, picture()));
+    run("Bake the selection only");
+    EXPECT_TRUE(sees("only a selection has all of its texels", 60));
+    settle(20);
+    shot("2-selection-baked");
+    run("No overlay");
+    run("Wireframe");
+    rest();
+    settle(20);
+    shot("3-wireframe");
+    run("Invalid pixels (NaN, Inf)");
+    EXPECT_TRUE(sees("are magenta", 30, picture()));
+    settle(20);
+    shot("4-invalid-pixels");
+    run("Invalid pixels (NaN, Inf)");
+    run("Squared relative error (relMSE)");
+    EXPECT_TRUE(sees("Squared relative error", 60, picture()));
+    rest();
+    settle(30);
+    shot("5-squared-error");
+}
+
 TEST_F(ObjectJourney, LightIsExportedAndTheExportIsOpened) {
     startScreen();
     if (!screen)
