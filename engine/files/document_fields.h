@@ -33,8 +33,8 @@ void describeNode(Fields& fields, T& n) {
     fields.unlessEmpty("materials", n.materials);
     fields("visible", n.visible);
     fields("dynamic", n.dynamic);
-    fields("texelDensity", n.texelDensity,
-           FieldRange{double(kMinTexelDensity), double(kMaxTexelDensity)});
+    fields.unless(1.f, "texelDensity", n.texelDensity,
+                  FieldRange{double(kMinTexelDensity), double(kMaxTexelDensity)});
 }
 
 template <class Fields, class T>

@@ -71,6 +71,11 @@ struct FieldWriter {
         if (!value.empty())
             (*this)(name, value);
     }
+    template <class T>
+    void unless(const T& usual, const char* name, const T& value, FieldRange range) {
+        if (value != usual)
+            (*this)(name, value, range);
+    }
     template <class T, class Describe>
     void object(const char* name, const T& value, const Describe& describe) {
         FieldWriter inner{out[name] = Json::object(), origin};
@@ -116,6 +121,10 @@ public:
     template <class T>
     void unlessEmpty(const char* name, std::vector<T>& value) {
         (*this)(name, value);
+    }
+    template <class T>
+    void unless(const T& /*usual*/, const char* name, T& value, FieldRange range) {
+        (*this)(name, value, range);
     }
     template <class T, class Describe>
     void object(const char* name, T& value, const Describe& describe) {
