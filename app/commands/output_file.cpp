@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/output_file.h"
 
+#include "engine/techniques/technique_table.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -23,8 +25,14 @@ struct Kind {
     const char* extension;
     std::string_view magic; ///< its files begin with it
 };
-constexpr Kind kKinds[] = {
-    {".limnbake", "LIMNBAKE"}, {".png", "\x89PNG"}, {".exr", "\x76\x2f\x31\x01"}};
+constexpr Kind kKinds[] = {{".png", "\x89PNG"}, {".exr", "\x76\x2f\x31\x01"}};
+
+/// Whether a file that begins with `bytes` is the bake of any technique.
+bool isBake(std::string_view bytes) {
+    return std::ranges::any_of(techniques(), [&](const Technique* technique) {
+        return technique->precomputation && bytes.starts_with(technique->precomputation->fileMark);
+    });
+}
 
 /// Whether the existing file has the format that its name says.
 bool holdsItsKind(const fs::path& file) {
@@ -32,6 +40,8 @@ bool holdsItsKind(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     in.read(bytes.data(), std::streamsize(bytes.size()));
     bytes.resize(std::size_t(in.gcount()));
+    if (file.extension() == ".limnbake")
+        return bytes.empty() || isBake(bytes);
     const auto kind = std::ranges::find_if(
         kKinds, [&](const Kind& k) { return file.extension() == k.extension; });
     return bytes.empty() || kind == std::end(kKinds) || bytes.starts_with(kind->magic);
