@@ -26,7 +26,8 @@ enum class Stage : std::uint32_t {
     Training,
     SparseProbes,
     RelightRays,
-    SparseTransport
+    SparseTransport,
+    SparseCompression
 };
 
 /// Key of a content; `inputs` is the hash of everything that it is computed from.

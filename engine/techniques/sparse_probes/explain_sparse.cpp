@@ -37,6 +37,10 @@ glm::dvec3 valueOf(const Weights& weights, const Weights& values) {
 void addProbeWeights(const SparseBake& bake, const Weights& receivers, Weights& probes) {
     const std::size_t count = bake.coefficients();
     const Transport& t = bake.transport;
+    if (!bake.compressed.empty()) {
+        addTransposed(bake.compressed, count, receivers, probes);
+        return;
+    }
     for (std::size_t r = 0; r < receivers.size(); ++r) {
         if (receivers[r] == glm::vec3(0))
             continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,8 @@ PrecomputedReport PreparedSparse::report() const {
     const std::vector<float>& unseen = b.transport.unseen;
     const double share = std::accumulate(unseen.begin(), unseen.end(), 0.) /
                          double(std::max<std::size_t>(unseen.size(), 1));
+    std::vector<LightingCounter> bytes = sparseBytes(b.receivers.size(), b.sparse, b.probes.size());
+    bytes.back().value = transportBytes(b);
     return {.counts = {{"triangles", "Triangles", "Of the scene", double(b.triangles)},
                        {"caches", "Receivers", "Lightmap texels", double(b.receivers.size())},
                        {"probes", "Probes", "In the open air", double(b.probes.size())},
@@ -27,7 +30,7 @@ PrecomputedReport PreparedSparse::report() const {
                         "Share of the receivers' views that none of their probes sees", share,
                         CounterUnit::Share},
                        {"rays", "Rays", "Traced by the last bake", double(b.rays)}},
-            .bytes = sparseBytes(b.receivers.size(), b.sparse, b.probes.size()),
+            .bytes = std::move(bytes),
             .seconds = b.seconds,
             .keptStages = b.keptStages,
             .notes = {}};
@@ -36,7 +39,7 @@ PrecomputedReport PreparedSparse::report() const {
 // The power of four that the bytes of the transport reach.
 std::string PreparedSparse::sizeClass() const {
     return fmt::format("transport 4^{}",
-                       std::bit_width(m_bake->transport.coefficients.size() * 2) / 2);
+                       std::bit_width(std::uint64_t(transportBytes(*m_bake))) / 2);
 }
 
 // Charts and updates take time in proportion to the texels, transport to texels and rays.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/techniques/sparse_probes/compressed_transport.h"
 #include "engine/techniques/sparse_probes/receivers.h"
 #include "engine/techniques/sparse_probes/sparse_settings.h"
 #include "engine/techniques/sparse_probes/transport.h"
@@ -25,8 +26,10 @@ struct SparseBake {
     Bounds gridBounds;
     Receivers receivers;
     std::vector<glm::vec3> probes;
-    std::vector<std::uint32_t> hits;       ///< traceRelightRays(): sparse.rays per probe
-    Transport transport;                   ///< to the receivers
+    std::vector<std::uint32_t> hits; ///< traceRelightRays(): sparse.rays per probe
+    Transport transport;             ///< to the receivers
+    /// Takes the place of the transport's probes and coefficients where that saves memory.
+    CompressedTransport compressed;
     std::uint64_t triangles = 0, rays = 0; ///< of the scene; traced when it was made
     StageSeconds seconds;                  ///< per stage; not part of the hash
     std::vector<std::string> keptStages;   ///< found in the store; neither in the hash nor the file
@@ -40,12 +43,15 @@ struct SparseBake {
 /// its bake settings, and the technique's settings.
 std::uint64_t sparseInputHash(const Scene& scene);
 
-/// Parts of the memory that updates read.
+/// Parts of the memory that updates read, at most: before compression.
 std::vector<LightingCounter> sparseBytes(std::size_t receivers, const SparseSettings& settings,
                                          std::size_t probes);
 Prediction predictSparse(const Scene& scene, bool stored);
 
-/// Stages: charts, probes, relight rays, transport. As Precomputation::prepare().
+/// Memory of the transport that updates read [bytes].
+double transportBytes(const SparseBake& bake);
+
+/// Stages: charts, probes, relight rays, transport, compression. As Precomputation::prepare().
 Result<SparseBake> bakeSparse(const TraceScene& trace, const PrepareOptions& options,
                               const Progress& progress);
 

@@ -10,6 +10,7 @@
 #include "engine/stages/stage_archive.h"
 #include "engine/stages/stage_clock.h"
 #include "engine/stages/stage_keys.h"
+#include "engine/techniques/sparse_probes/compressed_fields.h"
 #include "engine/techniques/sparse_probes/probe_places.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
 
@@ -50,7 +51,8 @@ struct SparseRun {
     SparseBake bake;
     StageClock clock{store};
     Atlas atlas{};
-    std::uint64_t probesKey = 0; ///< hash of what probes' places depend on
+    std::uint64_t probesKey = 0;    ///< hash of what probes' places depend on
+    std::uint64_t transportKey = 0; ///< hash of what the transport depends on
 };
 
 Result<void> check(const Scene& scene, bool stored, const MemoryBudget& memory) {
@@ -122,7 +124,8 @@ Result<void> transportStage(SparseRun& run) {
     SparseBake& bake = run.bake;
     const SparseSettings& s = bake.sparse;
     const std::uint32_t rays = run.scene.bake.rays;
-    const std::uint64_t inputs = hashAll(run.probesKey, {s.bands, s.unchecked, rays});
+    const std::uint64_t inputs = run.transportKey =
+        hashAll(run.probesKey, {s.bands, s.unchecked, rays});
     const std::span<const AtlasTexel> texels = run.atlas.texels;
     const TransportOptions options{int(s.bands), rays, s.unchecked > 0};
     for (std::size_t begin = 0; begin < texels.size(); begin += kBlock) {
@@ -155,6 +158,36 @@ Result<void> transportStage(SparseRun& run) {
     return {};
 }
 
+Result<void> compressionStage(SparseRun& run) {
+    SparseBake& bake = run.bake;
+    if (bake.sparse.compression == 0)
+        return {};
+    run.progress.at("compression", 0);
+    bake.compressed = keptOrMade<CompressedTransport>(
+        run.store,
+        stageKey(Stage::SparseCompression, hashAll(run.transportKey, {bake.sparse.compression})),
+        run.progress,
+        [&](auto& a, auto& c) {
+            compressedFields(a, c, bake.receivers.size(), bake.probes.size(), bake.coefficients());
+        },
+        [&] {
+            return compressTransport(bake.transport, bake.coefficients(),
+                                     pointsOf(run.scene, bake.receivers),
+                                     float(bake.sparse.compression) / 100, run.progress);
+        });
+    if (run.progress.cancelled())
+        return cancelled();
+    const Transport& plain = bake.transport;
+    if (bake.compressed.bytes() >= 2 * (plain.probe.size() + plain.coefficients.size())) {
+        bake.compressed = {}; // larger than what it would replace
+    } else {
+        bake.transport.probe = {};
+        bake.transport.coefficients = {};
+    }
+    run.clock.finish("compression");
+    return {};
+}
+
 } // namespace
 
 std::uint64_t SparseBake::hash() const {
@@ -164,6 +197,9 @@ std::uint64_t SparseBake::hash() const {
     h = hashVector(receivers.back, hashVector(receivers.width, h));
     h = hashVector(probes, hashVector(hits, h));
     h = hashVector(transport.probe, hashVector(transport.coefficients, h));
+    h = hashVector(compressed.receiver, hashVector(compressed.probe, h));
+    h = hashVector(compressed.rank, hashVector(compressed.left, h));
+    h = hashVector(compressed.right, hashVector(compressed.receiverBegin, h));
     return hashVector(transport.unseen, h);
 }
 
@@ -171,7 +207,7 @@ std::uint64_t sparseInputHash(const Scene& scene) {
     const SparseSettings s = sparseSettingsOf(scene.technique);
     const glm::uvec3 grid = scene.bake.grid;
     return hashAll(hashReceivers(scene), {s.probes, s.cells, s.rays, s.bands, s.unchecked,
-                                          scene.bake.rays, grid.x, grid.y, grid.z});
+                                          s.compression, scene.bake.rays, grid.x, grid.y, grid.z});
 }
 
 std::vector<LightingCounter> sparseBytes(std::size_t receivers, const SparseSettings& s,
@@ -187,6 +223,12 @@ std::vector<LightingCounter> sparseBytes(std::size_t receivers, const SparseSett
                   4 * double(s.rays) * (p + coefficients)),
             bytes("transport", "Transport", "From probes to texels",
                   kProbesPerReceiver * 2 * (1 + coefficients) * r + 4 * r)};
+}
+
+double transportBytes(const SparseBake& bake) {
+    const Transport& t = bake.transport;
+    return 2 * double(t.probe.size() + t.coefficients.size()) + 4 * double(t.unseen.size()) +
+           double(bake.compressed.bytes());
 }
 
 Prediction predictSparse(const Scene& scene, bool stored) {
@@ -219,7 +261,8 @@ Result<SparseBake> bakeSparse(const TraceScene& trace, const PrepareOptions& opt
                   .bake = {.settings = scene.bake,
                            .sparse = sparseSettingsOf(scene.technique),
                            .sceneHash = sparseInputHash(scene)}};
-    for (const auto stage : {chartsStage, probesStage, relightRaysStage, transportStage})
+    for (const auto stage :
+         {chartsStage, probesStage, relightRaysStage, transportStage, compressionStage})
         if (const Result<void> done = stage(run); !done)
             return tl::make_unexpected(done.error());
     SparseBake& bake = run.bake;

@@ -3,6 +3,7 @@
 #include "engine/scene/bake_settings_archive.h"
 #include "engine/stages/chunk_file.h"
 #include "engine/stages/stage_archive.h"
+#include "engine/techniques/sparse_probes/compressed_fields.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
 #include "engine/techniques/sparse_probes/sparse_bake.h"
 
@@ -12,7 +13,7 @@ namespace limn {
 
 namespace {
 
-constexpr ChunkFormat kFormat = {kSparseMark, 1};
+constexpr ChunkFormat kFormat = {kSparseMark, 2};
 
 template <class A, class B>
 void settingsFields(A& a, B& b) {
@@ -60,7 +61,7 @@ template <class A, class B>
 void transportFields(A& a, B& b) {
     // pi times the largest harmonic of eight bands is below 4; weights of a probe are at most 1.
     constexpr std::uint16_t kLargest = 0x4400; // half of 4
-    const std::uint64_t n = b.receivers.size() * kProbesPerReceiver;
+    const std::uint64_t n = b.compressed.empty() ? b.receivers.size() * kProbesPerReceiver : 0;
     auto& t = b.transport;
     a("probe", t.probe, rule::count(n), rule::belowOr(b.probes.size(), kNoProbe));
     a("coefficients", t.coefficients, rule::count(n * b.coefficients()),
@@ -78,6 +79,9 @@ void forChunks(const Scene* scene, const Visit& visit) {
           [scene](auto& a, auto& b) { layoutFields(a, b.lightmap, b.receivers.size(), scene); });
     visit("RECEIVER", [scene](auto& a, auto& b) { receiverFields(a, b, scene); });
     visit("PROBES  ", [](auto& a, auto& b) { probeFields(a, b); });
+    visit("COMPRESS", [](auto& a, auto& b) {
+        compressedFields(a, b.compressed, b.receivers.size(), b.probes.size(), b.coefficients());
+    });
     visit("TRANSPRT", [](auto& a, auto& b) { transportFields(a, b); });
 }
 

@@ -67,6 +67,10 @@ void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, bool c
     const std::size_t count = bake.coefficients();
     const Transport& t = bake.transport;
     irradiance.resize(bake.receivers.size());
+    if (!bake.compressed.empty()) {
+        gatherCompressed(bake.compressed, count, probes, clampParts, irradiance);
+        return;
+    }
     parallelRanges(irradiance.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::array<float, kMaxCoefficients> row;
         for (std::size_t r = begin; r < end; ++r) {

@@ -11,10 +11,11 @@ namespace limn {
 /// What the precomputation depends on besides the scene and its bake settings, of which it reads
 /// the number of texels, the rays and the grid.
 struct SparseSettings {
-    std::uint32_t probes = 80;   ///< wanted
-    std::uint32_t cells = 32;    ///< of the open air, along the scene's longest side
-    std::uint32_t rays = 800;    ///< Q: relight rays of a probe
-    std::uint32_t bands = 4;     ///< of a probe's harmonics
+    std::uint32_t probes = 80;     ///< wanted
+    std::uint32_t cells = 32;      ///< of the open air, along the scene's longest side
+    std::uint32_t rays = 800;      ///< Q: relight rays of a probe
+    std::uint32_t bands = 4;       ///< of a probe's harmonics
+    std::uint32_t compression = 0; ///< [%] of each cluster's matrix that may be lost; 0: all kept
     std::uint32_t unchecked = 0; ///< 1: what no probe sees is taken from all of a receiver's probes
 
     bool operator==(const SparseSettings&) const = default;
@@ -22,7 +23,7 @@ struct SparseSettings {
 
 /// The technique's settings in documents, in the order of the inspector. The last one alone belongs
 /// to updates.
-inline constexpr std::array<TechniqueSetting, 6> kSparseSettings = {{
+inline constexpr std::array<TechniqueSetting, 7> kSparseSettings = {{
     {.setting = {.key = "sparse-probes.count",
                  .label = "Probes",
                  .tooltip = "About how many probes are kept in the open air. More: finer light, "
@@ -59,6 +60,15 @@ inline constexpr std::array<TechniqueSetting, 6> kSparseSettings = {{
      .range = {0, 1},
      .usual = 0,
      .whole = true},
+    {.setting = {.key = "sparse-probes.compression",
+                 .label = "Compression (%)",
+                 .tooltip = "Share of the matrices of each cluster of texels that may be lost by "
+                            "keeping their strongest components alone [%]. More: less memory, "
+                            "faster updates, larger errors. 0: not compressed. What would get "
+                            "larger stays as it is. Needs a bake"},
+     .range = {0, 50},
+     .usual = 0,
+     .whole = true},
     {.setting = {.key = "sparse-probes.clamp",
                  .label = "Clamp each probe",
                  .tooltip = "Negative irradiance from any single probe counts as 0, as in the "
@@ -85,6 +95,7 @@ void visitSparseSettings(S& s, const Visit& visit) {
     visit(kSparseSettings[2], s.rays);
     visit(kSparseSettings[3], s.cells);
     visit(kSparseSettings[4], s.unchecked);
+    visit(kSparseSettings[5], s.compression);
 }
 
 } // namespace limn

@@ -320,11 +320,75 @@ TEST(SparseProbes, OnlyWhatIsReadChangesTheInputs) {
     for (const auto& [key, value] :
          {std::pair("sparse-probes.count", 30), std::pair("sparse-probes.bands", 2),
           std::pair("sparse-probes.rays", 100), std::pair("sparse-probes.cells", 20),
-          std::pair("sparse-probes.unchecked", 1)}) {
+          std::pair("sparse-probes.unchecked", 1), std::pair("sparse-probes.compression", 5)}) {
         Scene other = scene;
         other.technique.settings[key] = value;
         EXPECT_NE(p.inputHash(other), before) << key;
     }
+}
+
+TEST(SparseProbes, CompressedTheyLightAlikeInLessMemoryAndAreKept) {
+    const std::map<std::string, double> settings = {{"sparse-probes.compression", 10}};
+    LitBySparse plain(room(), {}, 6000), packed(room(), settings, 6000);
+    plain.update();
+    packed.update();
+    EXPECT_TRUE(packed.bake().transport.coefficients.empty());
+    EXPECT_LT(transportBytes(packed.bake()), 0.5 * transportBytes(plain.bake()));
+    EXPECT_EQ(totalOf(packed.prepared.data->report().bytes) -
+                  totalOf(plain.prepared.data->report().bytes),
+              transportBytes(packed.bake()) - transportBytes(plain.bake()));
+    double squares = 0, sum = 0;
+    const std::size_t n = plain.bake().receivers.size();
+    for (std::size_t r = 0; r < n; ++r) {
+        const glm::dvec3 exact(plain.ofReceiver(r)), d = glm::dvec3(packed.ofReceiver(r)) - exact;
+        squares += glm::dot(d, d) / double(n);
+        sum += (exact.x + exact.y + exact.z) / (std::sqrt(3.) * double(n));
+    }
+    EXPECT_LT(std::sqrt(squares) / sum, 0.1) << "more than may be lost";
+    EXPECT_GT(squares, 0) << "something was lost";
+    StageStore store;
+    const Precomputation& p = *kSparseProbesTechnique.precomputation;
+    ASSERT_TRUE(p.prepare(*packed.trace, {.store = &store}, {}));
+    const auto again = p.prepare(*packed.trace, {.store = &store}, {});
+    ASSERT_TRUE(again);
+    EXPECT_EQ((*again)->hash(), packed.prepared.data->hash());
+    EXPECT_EQ((*again)->report().keptStages.back(), "compression");
+    const std::string path = testing::TempDir() + "limn_sparse_compressed_test.limnbake";
+    ASSERT_TRUE(packed.prepared.data->write(path));
+    const auto read = p.read(path, {});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ((*read)->hash(), packed.prepared.data->hash());
+}
+
+// Of a few hundred texels that see many probes, next to nothing can be left out.
+TEST(SparseProbes, ACompressionThatSavesNothingIsNotUsed) {
+    const LitBySparse s(room(), {{"sparse-probes.compression", 1}}, 400);
+    EXPECT_TRUE(s.bake().compressed.empty());
+    EXPECT_FALSE(s.bake().transport.coefficients.empty());
+    EXPECT_EQ(sparseDefect(s.bake(), &s.scene), "");
+}
+
+TEST(SparseProbes, ACompressionThatDoesNotFitIsADefect) {
+    const LitBySparse s(room(), {{"sparse-probes.compression", 20}}, 600);
+    ASSERT_FALSE(s.bake().compressed.empty());
+    const auto broken = [&](const auto& change) {
+        SparseBake bake = s.bake();
+        change(bake);
+        return !sparseDefect(bake, &s.scene).empty();
+    };
+    EXPECT_FALSE(broken([](SparseBake&) {}));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.receiver[0] = b.compressed.receiver[1]; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.receiver.pop_back(); }));
+    EXPECT_TRUE(broken([](SparseBake& b) { ++b.compressed.rank[0]; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.rank.clear(); }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.probe[0] = kNoProbe; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.left[0] = 0x7c00; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.right[0] = 0x7e00; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.receiverBegin[1] = 0; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.probeBegin.back() += 1; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.leftBegin[0] = 1; }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed.rightBegin.pop_back(); }));
+    EXPECT_TRUE(broken([](SparseBake& b) { b.compressed = {}; })) << "nothing else is there";
 }
 
 TEST(SparseProbes, ADamagedFileIsRefused) {
@@ -348,12 +412,14 @@ TEST(SparseProbes, ADamagedFileIsRefused) {
     EXPECT_TRUE(refused(flipped));
 }
 
-TEST(SparseProbes, ExplainWhereTheirLightComesFrom) {
+/// With transport that is compressed by so many per cent.
+void explainsWhereTheirLightComesFrom(double compression) {
     Scene scene = room();
     scene.sky.radiance = glm::vec3(1);
     scene.materials.push_back(simple::lambert(glm::vec3(0.5f), glm::vec3(3)));
     scene.instances[1].material = 1;
-    LitBySparse s(scene, {}, 800);
+    LitBySparse s(scene, {{"sparse-probes.compression", compression}}, 800);
+    ASSERT_EQ(s.bake().compressed.empty(), compression == 0);
     s.scene.relight.tolerance = 0.01f;
     s.update(200);
     const Instance& walls = s.scene.instances[0];
@@ -378,6 +444,14 @@ TEST(SparseProbes, ExplainWhereTheirLightComesFrom) {
     s.scene.materials[1].emission = glm::vec3(0);
     s.update(200);
     EXPECT_NEAR(double(is.x - sampleIrradiance(point).x), emitted, 5e-3 * double(is.x));
+}
+
+TEST(SparseProbes, ExplainWhereTheirLightComesFrom) {
+    explainsWhereTheirLightComesFrom(0);
+}
+
+TEST(SparseProbes, ExplainWhereTheirCompressedLightComesFrom) {
+    explainsWhereTheirLightComesFrom(20);
 }
 
 TEST(SparseProbes, NothingToLightAndStrangeLightsAreHarmless) {
