@@ -154,8 +154,8 @@ struct ClusterView {
                         .subspan(t.receiverBegin[c], t.receiverBegin[c + 1] - t.receiverBegin[c])),
           probes(
               std::span(t.probe).subspan(t.probeBegin[c], t.probeBegin[c + 1] - t.probeBegin[c])),
-          left(&t.left[0] + t.leftBegin[c]), right(&t.right[0] + t.rightBegin[c]), rank(t.rank[c]),
-          coefficients(count) {}
+          left(t.left.data() + t.leftBegin[c]), right(t.right.data() + t.rightBegin[c]),
+          rank(t.rank[c]), coefficients(count) {}
 
     const std::uint16_t* leftRow(std::size_t receiver) const { return left + receiver * rank; }
     /// The part of row `k` of R that belongs to the cluster's probe `p`.
