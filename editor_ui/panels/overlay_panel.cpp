@@ -122,16 +122,16 @@ void overlayNumbers(EditorState& state) {
         const Hit hit = hitOfOverlay(state, mouse);
         hover = {mouse, state.view.camera, overlay.options, overlay.source, overlay.light, {}};
         if (hit)
-            hover.lines = overlay.source->describeAt(overlay.options, *overlay.scene, hit,
-                                                     overlay.light.get());
+            hover.text = joined(overlay.source->describeAt(overlay.options, *overlay.scene, hit,
+                                                           overlay.light.get()));
     }
-    if (hover.lines.empty())
+    if (hover.text.empty())
         return;
     const glm::vec2 middle = state.view.origin + state.view.size / 2.f;
     const ImVec2 align(mouse.x > middle.x ? 1.f : 0.f, mouse.y > middle.y ? 1.f : 0.f);
     const float away = std::round(ImGui::GetFontSize());
     pictureLabel({at.x + (align.x > 0 ? -away : away), at.y + (align.y > 0 ? -away : away)}, align,
-                 joined(hover.lines), IM_COL32_WHITE, 0, {.margin = {8, 4}});
+                 hover.text, IM_COL32_WHITE, 0, {.margin = {8, 4}});
 }
 
 void overlayCombo(EditorState& state, float width) {

@@ -7,6 +7,7 @@
 #include "engine/scene/document.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace limn {
@@ -18,7 +19,7 @@ struct OverlayHover {
     OverlayRequest options;
     std::shared_ptr<const OverlaySource> source;
     std::shared_ptr<const LightSnapshot> light;
-    std::vector<OverlayLine> lines; ///< empty: nothing
+    std::string text; ///< in lines; empty: nothing is said
 };
 
 /// The overlay drawn over the picture, and what it is made of.

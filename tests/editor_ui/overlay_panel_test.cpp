@@ -136,9 +136,9 @@ TEST(OverlayPanel, NumbersStandBesideTheMouseWhereItIsOnASurface) {
     for (const OverlayKind& kind : techniques()[0]->overlays) {
         state.overlay.options.kind = &kind;
         moveTo(surface);
-        EXPECT_FALSE(state.overlay.hover.lines.empty()) << kind.name;
+        EXPECT_FALSE(state.overlay.hover.text.empty()) << kind.name;
         moveTo(nothing);
-        EXPECT_TRUE(state.overlay.hover.lines.empty()) << kind.name << ": nothing is there";
+        EXPECT_TRUE(state.overlay.hover.text.empty()) << kind.name << ": nothing is there";
     }
 }
 
