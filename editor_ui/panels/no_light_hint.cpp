@@ -28,10 +28,13 @@ void noLightHint(EditorState& state) {
                      ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::TextUnformatted(text);
     const bool add = ImGui::Button("Add sun and sky");
-    wrappedTooltip("A sun of 4 lx and an even sky of 0.5 nits, as one edit");
+    wrappedTooltip("A sun of 4 lx and an even sky of 0.5 nits, as one edit. The exposure then "
+                   "follows the picture, so that the inside of a building is seen, too");
     ImGui::End();
-    if (add)
-        runAction(state, actionById("add.sun_and_sky"));
+    if (!add)
+        return;
+    runAction(state, actionById("add.sun_and_sky"));
+    state.view.autoExposure = true;
 }
 
 } // namespace limn

@@ -75,6 +75,26 @@ TEST(FirstLight, SunAndSkyAreOneEditWithAndWithoutASkyToChange) {
     EXPECT_EQ(singleton<Sky>(blue.document), sky) << "the user's own";
 }
 
+TEST(FirstLight, TheOfferInThePictureAlsoMakesTheExposureFollow) {
+    HeadlessUi ui;
+    EditorState state = darkEditor();
+    state.unlit = true;
+    ui.frames(state);
+    // The button is the lower half of the offer, above the lower edge of the picture.
+    const glm::vec2 foot = state.view.origin + glm::vec2(0.5f, 1) * state.view.size;
+    for (float up = 4; up < 80 && state.history.applied == 0; up += 6) {
+        ui.mouse(foot.x, foot.y - up);
+        ui.frames(state);
+        ui.button(true);
+        ui.frames(state);
+        ui.button(false);
+        ui.frames(state);
+    }
+    EXPECT_EQ(state.history.applied, 1U);
+    EXPECT_FALSE(isDark(state));
+    EXPECT_TRUE(state.view.autoExposure);
+}
+
 TEST(FirstLight, TheFirstPictureOfADarkImportOffersThem) {
     const TemporaryFolder folder;
     setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
