@@ -262,12 +262,12 @@ static void paintDensity(const TexelUse& use, OverlayData& out) {
     for (std::size_t k = 0; k < out.texels.size(); ++k)
         if (use.density[k] > 0)
             out.texels[k] = packColor(viridis(std::log2(use.density[k] / range.x) / octaves));
-    out.legend = {"Texel density", {}, {"The checker is texels; 1 % lie outside either end"}};
+    out.legend = {"Texels per metre", {}, {"The checker is texels; 1 % lie outside either end"}};
     for (int k = 4; k >= 0; --k) {
         const float t = float(k) / 4;
         out.legend.entries.push_back(
             {packColor(viridis(t)),
-             fmt::format("{:.3g} texels per metre", range.x * std::exp2(octaves * t))});
+             fmt::format("{:.3g} per metre", range.x * std::exp2(octaves * t))});
     }
 }
 
