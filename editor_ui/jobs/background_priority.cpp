@@ -11,7 +11,7 @@ namespace limn {
 void lowerThreadPriority() {
 #ifdef __linux__
     // On Linux the nice value belongs to the thread. Failing only makes the window less smooth.
-    (void)setpriority(PRIO_PROCESS, id_t(gettid()), 5);
+    (void)setpriority(PRIO_PROCESS, id_t(gettid()), 15);
 #endif
 }
 
