@@ -42,6 +42,7 @@ struct Finisher {
     const CachePoints& points;
     Linker linker;
     std::vector<std::uint32_t> targets; ///< senders to aim at
+    const std::vector<float>& extents;  ///< lampExtents() of the surfels
     bool aimedAlready;
     std::vector<bool> isTarget; ///< per sender; empty without targets
 
@@ -84,7 +85,8 @@ struct Finisher {
         if (open.empty())
             return 0;
         std::uint32_t traced = 0;
-        std::replace_if(sender, sender + rays, met, GatherHits::kAimed);
+        const auto replaced = [&](std::uint32_t s) { return met(s) && isFar(s, open[0]); };
+        std::replace_if(sender, sender + rays, replaced, GatherHits::kAimed);
         if (aimedAlready)
             return 0;
         for (const AimedSample& sample : chooseSamples(cache, open))
@@ -93,14 +95,24 @@ struct Finisher {
     }
 
 private:
-    /// One sample of each target. From more than kMaxAimed emissive ones, systematic sampling
-    /// chooses kMaxAimed with probability in proportion to their unoccluded transport; each sample
-    /// is scaled by the inverse of its probability, so the sum is unbiased.
+    /// Whether a ray at the middle of a sender tells how much of it is in sight from a point.
+    bool isFar(std::uint32_t sender, std::uint32_t point) const {
+        if (linker == Linker::FormFactor || sender >= extents.size())
+            return true;
+        const glm::vec3 way = set.surfels.position[sender] - points.position[point];
+        const float from = kAimedFrom * extents[sender];
+        return glm::dot(way, way) >= from * from;
+    }
+
+    /// One sample of each target that is far. From more than kMaxAimed emissive ones, systematic
+    /// sampling chooses kMaxAimed with probability in proportion to their unoccluded transport;
+    /// each sample is scaled by the inverse of its probability, so the sum is unbiased.
     std::vector<AimedSample> chooseSamples(std::uint32_t cache,
                                            const std::vector<std::uint32_t>& open) const {
         std::vector<AimedSample> all;
         for (std::size_t i = 0; i < targets.size(); ++i)
-            all.push_back({targets[i], open[i % open.size()]});
+            if (isFar(targets[i], open[0]))
+                all.push_back({targets[i], open[i % open.size()]});
         if (linker == Linker::FormFactor || all.size() <= kMaxAimed)
             return all;
         std::vector<double> worth;
@@ -272,15 +284,12 @@ std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker) 
 }
 
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, Linker linker, const Progress& progress,
-                GatherHits& hits, std::uint64_t& aimedRays) {
-    Finisher finisher{trace,
-                      set,
-                      caches,
-                      points,
-                      linker,
-                      aimTargets(trace.scene(), set, linker),
-                      !hits.aimedBegin.empty(),
+                const CachePoints& points, Linker linker, const std::vector<float>& extents,
+                const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays) {
+    Finisher finisher{trace,   set,
+                      caches,  points,
+                      linker,  aimTargets(trace.scene(), set, linker),
+                      extents, !hits.aimedBegin.empty(),
                       {}};
     if (!finisher.targets.empty())
         finisher.isTarget.resize(set.surfels.size() + kSkyCells);

@@ -119,8 +119,10 @@ private:
 /// Linker::Gather: only a handful of rays would meet a small bright lamp, which causes blotches. A
 /// cache that meets the emissive surfels with fewer than an eighth of its rays therefore aims one
 /// ray at each of them or, where there are more than kMaxAimed, at a sample of them in proportion
-/// to what they would bring without occlusion. Which materials emit only guides the sampling; rays
-/// meet all other senders.
+/// to what they would bring without occlusion. A ray at its middle does not tell how much of a
+/// surfel is in sight from nearer than kAimedFrom times its extent (`extents`, lampExtents()): such
+/// a surfel keeps its chance hits. Which materials emit only guides the sampling; rays meet all
+/// other senders.
 ///
 /// Linker::FormFactor: every cache aims a ray at every surfel and sky cell that faces it, and the
 /// rays only tell which of its points are in walls.
@@ -128,8 +130,12 @@ private:
 /// Where hits.aimedBegin is already filled, nothing is traced and hits.aimed stays. Adds the number
 /// of aimed rays to `aimedRays`. Returns false when cancelled.
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, Linker linker, const Progress& progress,
-                GatherHits& hits, std::uint64_t& aimedRays);
+                const CachePoints& points, Linker linker, const std::vector<float>& extents,
+                const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays);
+
+/// Distance from which caches may aim at an emissive surfel, in its extents: there the midpoint
+/// rule is off by about 1 / 16.
+inline constexpr float kAimedFrom = 4;
 
 /// Maximum number of emissive surfels that one cache aims at.
 inline constexpr std::uint32_t kMaxAimed = 512;

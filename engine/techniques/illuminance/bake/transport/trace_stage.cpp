@@ -40,7 +40,7 @@ std::uint64_t documentKey(const TraceInput& in) {
 }
 
 std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
-    std::uint64_t h = hashValue(std::uint32_t(in.linker), trace);
+    std::uint64_t h = hashValue(kAimedFrom, hashValue(std::uint32_t(in.linker), trace));
     for (const Instance& i : in.trace.scene().instances)
         h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
     return stageKey(Stage::AimedHits, h);
@@ -392,7 +392,8 @@ bool Tracing::finish() {
         gridDepths(in.set.surfels, in.caches, in.points, m_hits.sender, in.rays, in.gridReach);
     const bool fresh = m_hits.aimedBegin.empty();
     std::uint64_t aimed = 0;
-    if (!finishHits(in.trace, in.set, in.caches, in.points, in.linker, m_progress, m_hits, aimed))
+    if (!finishHits(in.trace, in.set, in.caches, in.points, in.linker,
+                    lampExtents(in.trace.scene(), in.set, in.owners), m_progress, m_hits, aimed))
         return false;
     m_rays += aimed;
     if (aims && m_store && fresh) {
