@@ -33,6 +33,8 @@ struct Atlas {
     /// Per texel, whether any of its points is open; empty until findTexelSides() has computed it.
     std::vector<std::uint8_t> open;
     float texelsPerMetre = 0; ///< world density used
+    /// First row of each level of the texels that findLampLookups() adds, the coarsest first.
+    std::vector<std::uint32_t> lampRows;
 };
 
 /// Places the charts of every static instance in one atlas. A chart of extent e metres gets round(e

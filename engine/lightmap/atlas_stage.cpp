@@ -7,6 +7,7 @@
 #include "engine/lightmap/density.h"
 #include "engine/lightmap/density_fields.h"
 #include "engine/lightmap/fine_texels.h"
+#include "engine/lightmap/lamp_texels.h"
 #include "engine/lightmap/layout_rules.h"
 #include "engine/lightmap/texel_sides.h"
 #include "engine/scene/mesh/input_hash.h"
@@ -180,10 +181,10 @@ void sideFields(A& a, S& s, const Scene& scene, const Atlas& atlas) {
     });
 }
 
-/// Lists the fields of fine lookups, limited to what can be needed, so that the atlas' size fits in
-/// 31 bits.
+/// Lists the fields of fine lookups of an atlas, limited to what can be needed, so that the atlas'
+/// size fits in 31 bits.
 template <class A, class F>
-void fineFields(A& a, F& f) {
+void fineFields(A& a, F& f, const LightmapLayout& layout) {
     constexpr std::size_t kMaxPlaces = 1 << 24;
     a.each("levels", f.places,
            rule::holds("too many",
@@ -194,9 +195,13 @@ void fineFields(A& a, F& f) {
                            return levels.size() <= std::size_t(kFineLevels) && places <= kMaxPlaces;
                        }),
            [&](auto& places) {
-               a("places", places, rule::holds("out of order", [](const auto& level) {
-                     return std::ranges::is_sorted(level);
-                 }));
+               const auto level = std::size_t(&places - f.places.data());
+               std::uint64_t height = layout.height;
+               for (std::size_t k = 0; k < level; ++k)
+                   height += fineRows(layout, f.places[k].size());
+               a("places", places, rule::below(layout.width * height),
+                 rule::holds("out of order",
+                             [](const auto& all) { return std::ranges::is_sorted(all); }));
            });
 }
 
@@ -238,7 +243,7 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
     const std::uint64_t laid = result.atlas.texels.size();
     result.fine = keptOrMade<FineLookups>(
         store, stageKey(Stage::FineTexels, surfacesKey(trace, meshes, hashValue(result.key, most))),
-        progress, [](auto& a, auto& f) { fineFields(a, f); },
+        progress, [&](auto& a, auto& f) { fineFields(a, f, result.atlas.layout); },
         [&] {
             FineLookups made = findFineLookups(
                 trace, result.atlas, density, std::uint32_t(most - std::min(most, laid)), progress);
@@ -266,6 +271,59 @@ LaidTexels layTexels(const TexelInput& in) {
     return in.lay(share(std::max(base / std::max(all, 1.), kMinBase)), wanted);
 }
 
+/// All triangles of static instances in an atlas without finer texels.
+std::vector<PlacedTriangle> allTriangles(const Scene& scene, const LightmapLayout& layout) {
+    std::vector<PlacedTriangle> result;
+    for (std::uint32_t i = 0; i < layout.instances.size(); ++i) {
+        if (layout.instances[i].uv.empty())
+            continue;
+        const std::uint32_t mesh = scene.instances[i].mesh;
+        const auto count = std::uint32_t(layout.meshes[mesh].chartOfTriangle.size());
+        for (std::uint32_t back = 0; back < (layout.instances[i].backRows > 0 ? 2U : 1U); ++back)
+            for (std::uint32_t t = 0; t < count; ++t)
+                result.push_back(placeTriangle(layout, mesh, i, back, t));
+    }
+    return result;
+}
+
+/// Adds finer texels where light from lamps varies within a texel, at most as many as were asked
+/// for. `placed` says how triangles lie in the finer texels that the atlas has, and gets those that
+/// are added.
+void addLampTexels(const TexelInput& in, LaidTexels& laid, std::vector<PlacedTriangle>& placed) {
+    std::uint64_t key = surfacesKey(in.trace, in.meshes, laid.key);
+    bool any = false;
+    for (const Instance& i : in.scene.instances) {
+        const bool lamp = !i.dynamic && emits(in.scene.materialOf(i));
+        key = hashValue(std::uint32_t(lamp), key);
+        any = any || lamp;
+    }
+    if (!any)
+        return;
+    std::vector<PlacedTriangle> triangles = allTriangles(in.scene, laid.atlas.layout);
+    triangles.insert(triangles.end(), placed.begin(), placed.end());
+    const FineLookups lookups = keptOrMade<FineLookups>(
+        in.store, stageKey(Stage::LampTexels, key), in.progress,
+        [&](auto& a, auto& f) { fineFields(a, f, laid.atlas.layout); },
+        [&] {
+            const std::uint32_t wanted = in.scene.bake.lightmapCaches;
+            FineLookups made =
+                findLampLookups(in.trace, laid.atlas, triangles, wanted, wanted,
+                                kFineLevels - int(laid.fine.places.size()), in.progress);
+            in.rays += made.rays;
+            return made;
+        });
+    std::uint64_t row = laid.atlas.layout.height;
+    for (const std::vector<std::uint32_t>& places : lookups.places) {
+        laid.atlas.lampRows.push_back(std::uint32_t(row));
+        row += fineRows(laid.atlas.layout, places.size());
+    }
+    const std::vector<PlacedTriangle> more =
+        addFineTexels(in.scene, std::move(triangles), lookups, laid.atlas);
+    placed.insert(placed.end(), more.begin(), more.end());
+    for (const std::vector<std::uint32_t>& places : lookups.places)
+        laid.key = hashVector(places, laid.key);
+}
+
 /// Adds `snaps` to those elements that lead to finer texels.
 void addSnaps(std::vector<std::uint32_t> snaps, LightmapLayout& layout) {
     if (snaps.empty())
@@ -277,6 +335,11 @@ void addSnaps(std::vector<std::uint32_t> snaps, LightmapLayout& layout) {
 }
 
 } // namespace
+
+bool refinesNearLamps(const BakeSettings& settings) {
+    constexpr std::uint32_t kFewRays = 128;
+    return settings.rays >= kFewRays && !(settings.texelsPerMetre > 0);
+}
 
 std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
                                       const std::vector<std::uint64_t>& meshes,
@@ -293,11 +356,17 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
         density.texels.clear(), density.varied.clear();
     applyTexelDensity(scene, charts, density.texels);
     evenLamps(scene, density.surfels);
-    LaidTexels laid = layTexels({trace, scene, meshes, charts, density, progress, store, rays});
+    const TexelInput in{trace, scene, meshes, charts, density, progress, store, rays};
+    LaidTexels laid = layTexels(in);
     if (progress.cancelled())
         return {};
     Atlas& atlas = laid.atlas;
-    const std::vector<PlacedTriangle> placed = addFineTexels(scene, density, laid.fine, atlas);
+    std::vector<PlacedTriangle> placed =
+        addFineTexels(scene, variedTriangles(scene, density, atlas.layout), laid.fine, atlas);
+    if (refinesNearLamps(scene.bake))
+        addLampTexels(in, laid, placed);
+    if (progress.cancelled())
+        return {};
     TexelSides sides = keptOrMade<TexelSides>(
         store, stageKey(Stage::TexelSides, surfacesKey(trace, meshes, laid.key)), progress,
         [&](auto& a, auto& s) { sideFields(a, s, scene, atlas); },

@@ -17,10 +17,14 @@ struct PlacedAtlas {
     std::vector<MeshDensity> surfels; ///< per mesh
 };
 
+/// Whether lookups get finer texels where light from emissive surfaces varies
+/// (findLampLookups()): not in quick bakes of few rays, nor where the density is given.
+bool refinesNearLamps(const BakeSettings& settings);
+
 /// Runs the stages charts, density and atlas with the scene's bake settings, reusing results in
 /// `store` (may be null). The texel density follows Instance::texelDensity alone if the settings
-/// prescribe it. `meshes` is
-/// hashMeshes(scene). Adds the rays traced to `rays`. Returns std::nullopt when cancelled.
+/// prescribe it. `meshes` is hashMeshes(scene). Adds the rays traced to `rays`. Returns
+/// std::nullopt when cancelled.
 std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
                                       const std::vector<std::uint64_t>& meshes,
                                       const Progress& progress, StageStore* store,

@@ -2,7 +2,6 @@
 #include "engine/lightmap/fine_texels.h"
 
 #include "engine/core/parallel.h"
-#include "engine/lightmap/texel_cover.h"
 #include "engine/lightmap/texel_points.h"
 #include "engine/math/sampling.h"
 
@@ -17,153 +16,7 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kNone = ~0U, kBlock = kFineCells + 1; ///< texels along a block's side
-constexpr std::uint32_t kBlockTexels = kBlock * kBlock;
 constexpr std::uint32_t kRaysPerTexel = 4;
-
-/// A triangle in the lookups of one place, in texels of a block that may be added there.
-struct BlockTriangle {
-    std::uint32_t place;
-    FlatTriangle flat;
-};
-
-/// Triangles of the charts whose density varies.
-std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensity& density,
-                                            const LightmapLayout& layout) {
-    std::vector<PlacedTriangle> result;
-    for (const VariedChart& v : density.varied) {
-        const std::uint32_t mesh = scene.instances[v.instance].mesh;
-        const std::vector<std::uint32_t>& chartOf = layout.meshes[mesh].chartOfTriangle;
-        const std::uint32_t sides = layout.instances[v.instance].backRows > 0 ? 2 : 1;
-        for (std::uint32_t back = 0; back < sides; ++back)
-            for (std::uint32_t t = 0; t < chartOf.size(); ++t)
-                if (chartOf[t] == v.chart)
-                    result.push_back(placeTriangle(layout, mesh, v.instance, back, t));
-    }
-    return result;
-}
-
-/// Computes how triangles lie in the places selected by wanted(place, triangle), sorted by place.
-template <class Wanted>
-std::vector<BlockTriangle> partTriangles(const std::vector<PlacedTriangle>& triangles,
-                                         std::uint32_t width, const Wanted& wanted) {
-    constexpr float kReach = 0.5f / float(kFineCells);
-    std::vector<BlockTriangle> result;
-    for (const PlacedTriangle& t : triangles) {
-        const auto& p = t.corner;
-        const glm::ivec2 lower = glm::max(
-            glm::ivec2(glm::floor(glm::min(p[0], glm::min(p[1], p[2])) - kReach)), t.lower);
-        const glm::ivec2 upper = glm::min(
-            glm::ivec2(glm::floor(glm::max(p[0], glm::max(p[1], p[2])) + kReach)), t.upper - 1);
-        for (int y = lower.y; y <= upper.y; ++y)
-            for (int x = lower.x; x <= upper.x; ++x) {
-                const std::uint32_t place = std::uint32_t(y) * width + std::uint32_t(x);
-                if (!wanted(place, t))
-                    continue;
-                BlockTriangle part{place, {t.triangle, {}}};
-                for (std::size_t k = 0; k < 3; ++k)
-                    part.flat.corner[k] =
-                        (p[k] - glm::vec2(float(x), float(y))) * float(kFineCells) + 0.5f;
-                result.push_back(part);
-            }
-    }
-    std::ranges::stable_sort(result, {}, &BlockTriangle::place);
-    return result;
-}
-
-/// Calls visit(place, its triangles) for each place.
-template <class Visit>
-void forPlaces(const std::vector<BlockTriangle>& parts, const Visit& visit) {
-    for (std::size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
-        while (end < parts.size() && parts[end].place == parts[begin].place)
-            ++end;
-        visit(parts[begin].place, std::span(parts).subspan(begin, end - begin));
-    }
-}
-
-std::vector<LocalTexel> coverBlock(std::span<const BlockTriangle> parts) {
-    std::vector<FlatTriangle> flat;
-    for (const BlockTriangle& p : parts)
-        flat.push_back(p.flat);
-    return coverTriangles(flat, glm::uvec2(kBlock));
-}
-
-/// Texels of an atlas, indexed by their position.
-struct TexelGrid {
-    const Scene& scene;
-    const Atlas& atlas;
-    std::vector<std::uint32_t> at; ///< per place: into Atlas::texels
-
-    TexelGrid(const Scene& s, const Atlas& a)
-        : scene(s), atlas(a), at(std::size_t(a.layout.width) * a.layout.height, kNone) {
-        for (std::uint32_t i = 0; i < a.texels.size(); ++i)
-            at[a.texels[i].texel] = i;
-    }
-
-    const AtlasTexel& operator[](std::uint32_t place) const { return atlas.texels[at[place]]; }
-
-    /// Whether the lookups at a place belong to the triangle's side and chart.
-    bool holds(std::uint32_t place, const PlacedTriangle& t) const {
-        if (place >= at.size() || at[place] == kNone)
-            return false;
-        const AtlasTexel& texel = (*this)[place];
-        const std::vector<std::uint32_t>& chartOf =
-            atlas.layout.meshes[scene.instances[t.instance].mesh].chartOfTriangle;
-        return texel.instance == t.instance && texel.back == t.back &&
-               chartOf[texel.points[0].triangle] == chartOf[t.triangle];
-    }
-};
-
-/// Adds rows of texels; coordinates are relative to the atlas' height.
-void grow(LightmapLayout& layout, std::uint32_t rows) {
-    const float shrink = float(double(layout.height) / double(layout.height + rows));
-    layout.height += rows;
-    for (InstanceLightmap& i : layout.instances)
-        for (glm::vec2& uv : i.uv)
-            uv.y *= shrink;
-    layout.snaps.resize(std::size_t(layout.width) * layout.height, 0);
-}
-
-/// Adds the finer texels of one level. `places` must be ascending. Returns how triangles lie in
-/// their lookups.
-std::vector<PlacedTriangle> addLevel(const Scene& scene,
-                                     const std::vector<PlacedTriangle>& triangles,
-                                     const std::vector<std::uint32_t>& places, Atlas& atlas) {
-    LightmapLayout& layout = atlas.layout;
-    const std::uint32_t perRow = layout.width / kBlock, top = layout.height;
-    std::vector<PlacedTriangle> result;
-    if (places.empty() || perRow == 0)
-        return result;
-    const TexelGrid grid(scene, atlas);
-    const std::vector<BlockTriangle> parts =
-        partTriangles(triangles, layout.width, [&](std::uint32_t place, const PlacedTriangle& t) {
-            return grid.holds(place, t) && std::ranges::binary_search(places, place);
-        });
-    std::vector<AtlasTexel> more;
-    const auto count = std::uint32_t(places.size());
-    grow(layout, (count + perRow - 1) / perRow * kBlock);
-    forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> of) {
-        const auto block = std::uint32_t(std::ranges::lower_bound(places, place) - places.begin());
-        const glm::uvec2 first(block % perRow * kBlock, top + block / perRow * kBlock);
-        layout.snaps[place] = kFineLookup | (first.y * layout.width + first.x);
-        const AtlasTexel& owner = grid[place];
-        for (const LocalTexel& t : coverBlock(of)) {
-            const glm::uvec2 at = first + t.at;
-            more.push_back({at.y * layout.width + at.x, owner.instance, owner.back,
-                            owner.width / float(kFineCells), t.count, t.points});
-        }
-        for (const BlockTriangle& part : of) {
-            const glm::ivec2 lower(first);
-            result.push_back({owner.instance, owner.back, part.flat.triangle, part.flat.corner,
-                              lower, lower + int(kFineCells)});
-            for (glm::vec2& c : result.back().corner)
-                c += glm::vec2(first) - 0.5f;
-        }
-    });
-    std::ranges::sort(more, {}, &AtlasTexel::texel);
-    atlas.texels.insert(atlas.texels.end(), more.begin(), more.end());
-    return result;
-}
 
 /// Maximum of VariedChart::fours per place, among the finest lookups there.
 std::vector<std::int32_t> metAt(const Scene& scene, const BakeDensity& density,
@@ -224,11 +77,19 @@ private:
 
 } // namespace
 
-std::uint64_t FineLookups::texels() const {
-    std::uint64_t count = 0;
-    for (const std::vector<std::uint32_t>& level : places)
-        count += level.size() * kBlockTexels;
-    return count;
+std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensity& density,
+                                            const LightmapLayout& layout) {
+    std::vector<PlacedTriangle> result;
+    for (const VariedChart& v : density.varied) {
+        const std::uint32_t mesh = scene.instances[v.instance].mesh;
+        const std::vector<std::uint32_t>& chartOf = layout.meshes[mesh].chartOfTriangle;
+        const std::uint32_t sides = layout.instances[v.instance].backRows > 0 ? 2 : 1;
+        for (std::uint32_t back = 0; back < sides; ++back)
+            for (std::uint32_t t = 0; t < chartOf.size(); ++t)
+                if (chartOf[t] == v.chart)
+                    result.push_back(placeTriangle(layout, mesh, v.instance, back, t));
+    }
+    return result;
 }
 
 FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const BakeDensity& density,
@@ -286,20 +147,10 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
         std::ranges::sort(places);
         if (places.empty())
             break;
-        triangles = addLevel(trace.scene(), triangles, places, grown);
+        triangles = addFineLevel(trace.scene(), triangles, places, grown);
         result.places.push_back(std::move(places));
     }
     return result;
-}
-
-std::vector<PlacedTriangle> addFineTexels(const Scene& scene, const BakeDensity& density,
-                                          const FineLookups& lookups, Atlas& atlas) {
-    std::vector<PlacedTriangle> level = variedTriangles(scene, density, atlas.layout), all;
-    for (const std::vector<std::uint32_t>& places : lookups.places) {
-        level = addLevel(scene, level, places, atlas);
-        all.insert(all.end(), level.begin(), level.end());
-    }
-    return all;
 }
 
 } // namespace limn

@@ -47,7 +47,8 @@ void visitBakeSettings(S& s, const Visit& visit) {
            .flag = "--lightmap",
            .label = "Lightmap texels",
            .help = "Target number of lightmap caches",
-           .tooltip = "Target number of texels that gather light",
+           .tooltip = "Target number of texels that gather light. Light from emissive surfaces "
+                      "adds up to as many where it varies most",
            .replaces = "texelsPerMetre",
            .group = kLightmapGroup,
            .applies = s.texelsPerMetre == 0},

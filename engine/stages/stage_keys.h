@@ -27,7 +27,8 @@ enum class Stage : std::uint32_t {
     SparseProbes,
     RelightRays,
     SparseTransport,
-    SparseCompression
+    SparseCompression,
+    LampTexels
 };
 
 /// Key of a content; `inputs` is the hash of everything that it is computed from.

@@ -3,7 +3,8 @@
 
 #include "engine/field/grid_depth.h"
 #include "engine/field/grid_placement.h"
-#include "engine/lightmap/atlas.h"
+#include "engine/lightmap/atlas_stage.h"
+#include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
@@ -202,8 +203,17 @@ static std::uint64_t expectedGrid(const Scene& scene) {
     return std::uint64_t(grid.x) * grid.y * grid.z;
 }
 
+/// Share of the texels asked for that light from lamps is expected to add: none to nearly as many
+/// in the scenes measured.
+static double lampShare(const Scene& scene) {
+    const bool lit = std::ranges::any_of(scene.instances, [&](const Instance& i) {
+        return !i.dynamic && emits(scene.materialOf(i));
+    });
+    return lit && refinesNearLamps(scene.bake) ? 0.25 : 0;
+}
+
 std::uint64_t expectedCaches(const Scene& scene) {
-    double texels = wantedTexels(scene);
+    double texels = wantedTexels(scene) * (1 + lampShare(scene));
     texels += texels / kCachesPerOwn;
     return std::uint64_t(std::min(texels, 1e15)) + expectedGrid(scene);
 }

@@ -39,8 +39,9 @@ std::uint64_t minTexels(const Scene& scene);
 
 /// Estimate of the memory and file size of a bake, made before it starts. Over 16 scenes and
 /// settings, real and generated, one file and one peak were off by more than a quarter, by about a
-/// third. The least certain quantities are how many lamp surfels the caches see and how many caches
-/// a scene of fine parts gets.
+/// third. The least certain quantities are how many texels the light from lamps adds, up to as many
+/// as are asked for, how many lamp surfels the caches see, and how many caches a scene of fine
+/// parts gets.
 struct BakePrediction {
     std::uint64_t caches = 0;     ///< expectedCaches(), but at least minTexels()
     std::uint64_t gridCaches = 0; ///< of those, caches of the grid

@@ -232,6 +232,19 @@ struct FieldOfView {
 
 } // namespace
 
+/// Removes the texels of blocks. Blocks lie directly below the charts, whose reach ends a little
+/// beyond their last row.
+static void removeFineTexels(const LightmapLayout& layout, std::vector<std::uint32_t>& cacheOf) {
+    const std::size_t places = std::min(layout.snaps.size(), cacheOf.size());
+    for (std::size_t i = 0; i < places; ++i) {
+        if (!(layout.snaps[i] & kFineLookup))
+            continue;
+        const std::uint32_t first = layout.snaps[i] & ~kFineLookup;
+        for (std::uint32_t y = 0; y <= kFineCells; ++y)
+            std::fill_n(cacheOf.begin() + first + y * layout.width, kFineCells + 1, ~0U);
+    }
+}
+
 CacheFootprints cacheFootprints(const Scene& scene, const Bake& bake) {
     const LightmapLayout& layout = bake.lightmap;
     const Caches& caches = bake.caches;
@@ -246,6 +259,7 @@ CacheFootprints cacheFootprints(const Scene& scene, const Bake& bake) {
     std::vector<std::uint32_t> cacheOf(std::size_t(layout.width) * layout.height, ~0U);
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
         cacheOf[caches.texel[c]] = c;
+    removeFineTexels(layout, cacheOf);
     CacheFootprints out;
     out.begin.assign(caches.lightmapCount + 1, 0);
     const auto forEach = [&](auto visit) {

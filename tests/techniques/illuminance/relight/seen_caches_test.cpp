@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -112,6 +113,29 @@ TEST(SeenCaches, HaveAllThatAPictureLooksUpAndNotMuchMore) {
         for (std::size_t c = 0; c < seen.size(); ++c)
             EXPECT_GE(seen[c], met[c]) << "cache " << c << " of camera at " << camera.eye.x;
         EXPECT_LT(countOf(seen), seen.size() * 3 / 4);
+    }
+}
+
+// The blocks of finer texels lie directly below the charts of the atlas, which must not claim them.
+TEST(SeenCaches, HaveTheFinerTexelsThatAPictureLooksUp) {
+    for (std::uint32_t texels = 1200; texels <= 2800; texels += 400) {
+        Scene scene = room();
+        scene.materials.push_back(lambert(glm::vec3(0), glm::vec3(1)));
+        const auto lamp = std::uint32_t(scene.materials.size() - 1);
+        scene.instances[1].material = lamp;
+        scene.instances[2].material = lamp;
+        scene.bake.lightmapCaches = texels;
+        scene.bake.rays = 128;
+        const Baked in(std::move(scene));
+        ASSERT_TRUE(std::ranges::any_of(in.bake->lightmap.snaps,
+                                        [](std::uint32_t s) { return (s & kFineLookup) != 0; }));
+        for (const Camera& camera : cameras()) {
+            const CacheFlags seen = in.seen(camera), met = lookedUp(in, camera, 1.5f, 200);
+            std::size_t lost = 0;
+            for (std::size_t c = 0; c < seen.size(); ++c)
+                lost += met[c] && !seen[c] ? 1 : 0;
+            EXPECT_EQ(lost, 0U) << texels << " texels";
+        }
     }
 }
 

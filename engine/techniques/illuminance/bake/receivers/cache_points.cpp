@@ -31,11 +31,22 @@ void addSurfaceCache(const Scene& scene, const AtlasTexel& texel, Caches& caches
     ++caches.lightmapCount;
 }
 
+/// Area of a texel relative to those of the place where it was added near a lamp; 1 for all others.
+static float areaNearLamp(const Atlas& atlas, const AtlasTexel& texel) {
+    const std::uint32_t row = texel.texel / atlas.layout.width;
+    float area = 1;
+    for (const std::uint32_t first : atlas.lampRows)
+        area /= row >= first ? float(kFineCells * kFineCells) : 1;
+    return area;
+}
+
 Caches placeCaches(const Scene& scene, const Atlas& atlas, CachePoints& points) {
     Caches caches;
     points.begin = {0};
-    for (const AtlasTexel& t : atlas.texels)
+    for (const AtlasTexel& t : atlas.texels) {
         addSurfaceCache(scene, t, caches, points);
+        points.weight.push_back(areaNearLamp(atlas, t));
+    }
     return caches;
 }
 

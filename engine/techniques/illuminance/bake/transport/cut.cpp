@@ -325,6 +325,7 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
     std::vector<double> seen(tree.leaves());
     for (std::uint32_t c = 0; c < caches.size(); ++c) {
         const CacheKind kind = caches.kind[c];
+        const auto weight = double(points.weightOf(c));
         const bool sphere = kind != CacheKind::Hemisphere;
         const DirectionSet rays(hits.rays, sphere, 0); // the rotation changes no height
         const std::uint32_t* sender = hits.sender.data() + std::size_t(c) * hits.rays;
@@ -332,11 +333,12 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
             hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
         for (std::uint32_t r = 0; r < hits.rays; ++r)
             if (sender[r] < GatherHits::kFirstMark)
-                seen[sender[r]] += double((sphere ? 4.f : 2.f) / float(kept) *
-                                          irradianceShare(kind, rays.height(r)));
+                seen[sender[r]] += weight * double((sphere ? 4.f : 2.f) / float(kept) *
+                                                   irradianceShare(kind, rays.height(r)));
         for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
             const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
-            seen[hits.aimed[k].sender] += double(v.transport * irradianceShare(kind, v.cosTheta));
+            seen[hits.aimed[k].sender] +=
+                weight * double(v.transport * irradianceShare(kind, v.cosTheta));
         }
     }
     return {seen.begin(), seen.end()};
@@ -420,7 +422,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
         for (std::uint32_t c = 0; c < links.size(); ++c)
             for (std::uint32_t k = 0; k < links[c].irradiance.size(); ++k)
                 (*linked)[linkWeight(caches, c, caches.linkBegin[c] + k).node] +=
-                    double(links[c].irradiance[k]);
+                    double(points.weightOf(c)) * double(links[c].irradiance[k]);
     }
     return true;
 }

@@ -6,8 +6,8 @@
 
 namespace limn {
 
-/// Per leaf, how much of it all caches together see: the sum over the caches of the irradiance that
-/// a radiosity of 1 at the leaf brings.
+/// Per leaf, how much of it all caches together see: the sum over the caches, by their
+/// CachePoints::weight, of the irradiance that a radiosity of 1 at the leaf brings.
 std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
                                 const CachePoints& points, const Caches& caches,
                                 const ClusterTree& tree);

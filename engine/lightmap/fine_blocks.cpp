@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "engine/lightmap/fine_blocks.h"
+
+#include <glm/common.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kNone = ~0U;
+
+/// Adds rows of texels; coordinates are relative to the atlas' height.
+void grow(LightmapLayout& layout, std::uint32_t rows) {
+    const float shrink = float(double(layout.height) / double(layout.height + rows));
+    layout.height += rows;
+    for (InstanceLightmap& i : layout.instances)
+        for (glm::vec2& uv : i.uv)
+            uv.y *= shrink;
+    layout.snaps.resize(std::size_t(layout.width) * layout.height, 0);
+}
+
+} // namespace
+
+std::uint64_t FineLookups::texels() const {
+    std::uint64_t count = 0;
+    for (const std::vector<std::uint32_t>& level : places)
+        count += level.size() * kBlockTexels;
+    return count;
+}
+
+TexelGrid::TexelGrid(const Scene& scene, const Atlas& atlas)
+    : m_scene(scene), m_atlas(atlas),
+      m_at(std::size_t(atlas.layout.width) * atlas.layout.height, kNone) {
+    for (std::uint32_t i = 0; i < atlas.texels.size(); ++i)
+        m_at[atlas.texels[i].texel] = i;
+}
+
+bool TexelGrid::holds(std::uint32_t place, const PlacedTriangle& t) const {
+    if (place >= m_at.size() || m_at[place] == kNone)
+        return false;
+    const AtlasTexel& texel = (*this)[place];
+    const std::vector<std::uint32_t>& chartOf =
+        m_atlas.layout.meshes[m_scene.instances[t.instance].mesh].chartOfTriangle;
+    return texel.instance == t.instance && texel.back == t.back &&
+           chartOf[texel.points[0].triangle] == chartOf[t.triangle];
+}
+
+bool TexelGrid::holdsAll(std::uint32_t place, const PlacedTriangle& t) const {
+    const std::uint32_t width = m_atlas.layout.width;
+    return holds(place, t) && holds(place + 1, t) && holds(place + width, t) &&
+           holds(place + width + 1, t);
+}
+
+std::vector<LocalTexel> coverBlock(std::span<const BlockTriangle> parts) {
+    std::vector<FlatTriangle> flat;
+    for (const BlockTriangle& p : parts)
+        flat.push_back(p.flat);
+    return coverTriangles(flat, glm::uvec2(kBlockSide));
+}
+
+std::uint64_t fineRows(const LightmapLayout& layout, std::uint64_t blocks) {
+    const std::uint64_t perRow = layout.width / kBlockSide;
+    return perRow > 0 ? (blocks + perRow - 1) / perRow * kBlockSide : 0;
+}
+
+std::vector<PlacedTriangle> addFineLevel(const Scene& scene,
+                                         const std::vector<PlacedTriangle>& triangles,
+                                         const std::vector<std::uint32_t>& places, Atlas& atlas) {
+    LightmapLayout& layout = atlas.layout;
+    const std::uint32_t perRow = layout.width / kBlockSide, top = layout.height;
+    std::vector<PlacedTriangle> result;
+    if (places.empty() || perRow == 0)
+        return result;
+    const TexelGrid grid(scene, atlas);
+    const std::vector<BlockTriangle> parts =
+        partTriangles(triangles, layout.width, [&](std::uint32_t place, const PlacedTriangle& t) {
+            return grid.holds(place, t) && std::ranges::binary_search(places, place);
+        });
+    std::vector<AtlasTexel> more;
+    grow(layout, std::uint32_t(fineRows(layout, places.size())));
+    forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> of) {
+        const auto block = std::uint32_t(std::ranges::lower_bound(places, place) - places.begin());
+        const glm::uvec2 first(block % perRow * kBlockSide, top + block / perRow * kBlockSide);
+        layout.snaps[place] = kFineLookup | (first.y * layout.width + first.x);
+        const AtlasTexel& owner = grid[place];
+        for (const LocalTexel& t : coverBlock(of)) {
+            const glm::uvec2 at = first + t.at;
+            more.push_back({at.y * layout.width + at.x, owner.instance, owner.back,
+                            owner.width / float(kFineCells), t.count, t.points});
+        }
+        for (const BlockTriangle& part : of) {
+            const glm::ivec2 lower(first);
+            result.push_back({owner.instance, owner.back, part.flat.triangle, part.flat.corner,
+                              lower, lower + int(kFineCells)});
+            for (glm::vec2& c : result.back().corner)
+                c += glm::vec2(first) - 0.5f;
+        }
+    });
+    std::ranges::sort(more, {}, &AtlasTexel::texel);
+    atlas.texels.insert(atlas.texels.end(), more.begin(), more.end());
+    return result;
+}
+
+std::vector<PlacedTriangle> addFineTexels(const Scene& scene, std::vector<PlacedTriangle> triangles,
+                                          const FineLookups& lookups, Atlas& atlas) {
+    std::vector<PlacedTriangle> all;
+    for (const std::vector<std::uint32_t>& places : lookups.places) {
+        triangles = addFineLevel(scene, triangles, places, atlas);
+        all.insert(all.end(), triangles.begin(), triangles.end());
+    }
+    return all;
+}
+
+} // namespace limn
