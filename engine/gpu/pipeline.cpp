@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/pipeline.h"
 
+#include "engine/gpu/barrier.h"
 #include "engine/gpu/vulkan_error.h"
 
 #include <array>
@@ -188,6 +189,22 @@ Pipeline createComputePipeline(Device& device, Spirv shader, VkPipelineLayout la
     VK_CHECK(vkCreateComputePipelines(device.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::uint64_t(pipeline), name);
     return {device, pipeline};
+}
+
+std::uint32_t dispatch(Device& device, VkCommandBuffer cmd, VkPipeline pipeline,
+                       VkPipelineLayout layout, VkDescriptorSet set,
+                       std::span<const std::byte> pushConstants, std::size_t groups) {
+    if (groups == 0)
+        return 0;
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_ALL, 0, std::uint32_t(pushConstants.size()),
+                       pushConstants.data());
+    const std::size_t widest = device.properties.limits.maxComputeWorkGroupCount[0];
+    const std::size_t rows = (groups + widest - 1) / widest;
+    vkCmdDispatch(cmd, std::uint32_t((groups + rows - 1) / rows), std::uint32_t(rows), 1);
+    memoryBarrier(cmd, kComputeWrite, kComputeWrite);
+    return 1;
 }
 
 } // namespace limn::gpu

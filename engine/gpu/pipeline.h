@@ -3,6 +3,7 @@
 
 #include "engine/gpu/handle.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -42,5 +43,12 @@ Pipeline createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc
 
 Pipeline createComputePipeline(Device& device, Spirv shader, VkPipelineLayout layout,
                                std::span<const std::uint32_t> constants, const char* name);
+
+/// Records a dispatch of `groups` workgroups in rows, as shaders/shared/compute_groups.glsl counts
+/// them, and a barrier that makes what it wrote visible to the next. `set` is set 0. Returns the
+/// number of dispatches: 0 for no groups.
+std::uint32_t dispatch(Device& device, VkCommandBuffer cmd, VkPipeline pipeline,
+                       VkPipelineLayout layout, VkDescriptorSet set,
+                       std::span<const std::byte> pushConstants, std::size_t groups);
 
 } // namespace limn::gpu

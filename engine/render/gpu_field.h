@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/field/indirect_field.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/image.h"
 #include "engine/scene/scene.h"
@@ -31,5 +32,27 @@ struct GpuField {
 /// `written` is added to its usage.
 gpu::Image createFieldLightmap(gpu::Device& device, std::uint32_t width, std::uint32_t height,
                                std::uint32_t layers, VkImageUsageFlags written);
+
+/// What a field that shaders write is made for.
+struct WrittenFieldDesc {
+    std::uint32_t lightmapWidth = 0, lightmapHeight = 0; ///< texels; 0: no lightmap
+    std::uint32_t bands = 3, chroma = 3;
+    glm::uvec3 gridSize{0}; ///< cells; 0: no grid
+    Bounds gridBounds;
+    std::shared_ptr<const gpu::Buffer> gridDepth; ///< as GpuField::gridDepth
+};
+
+/// Creates a black field whose lightmap is a storage image and whose grid is a storage buffer.
+/// Throws VulkanError when out of memory.
+std::shared_ptr<GpuField> createWrittenField(gpu::Device& device, const WrittenFieldDesc& desc);
+
+/// Records what must surround compute shaders that write into a field: frames that were submitted
+/// before have read the old values, and later ones see the new. In between, the lightmap is in
+/// GENERAL.
+void beginFieldWrite(VkCommandBuffer cmd, const GpuField& field);
+void endFieldWrite(VkCommandBuffer cmd, const GpuField& field);
+
+/// Copies a field of createWrittenField() to the CPU, without its depths. Waits for the GPU.
+IndirectField readField(gpu::Device& device, const GpuField& field);
 
 } // namespace limn

@@ -75,7 +75,7 @@ public:
     void setIndirect(std::shared_ptr<const GpuField> field);
 
     /// Returns the lights of the last setLighting() with their shadow maps, after redrawing maps
-    /// that are out of date. GpuRelighter lights surfels with them. The result is valid until the
+    /// that are out of date. PointIrradiance lights points with them. The result is valid until the
     /// next call of a non-const function; the result of the previous call must no longer be in use.
     ShadowedLights shadowedLights();
 

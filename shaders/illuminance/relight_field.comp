@@ -3,6 +3,7 @@
 // samples, one layer per invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/field_value.glsl"
 #include "shaders/shared/relight.glsl"
 #include "shaders/shared/sh_bands.glsl"
 
@@ -19,18 +20,11 @@ const int kColoured = kChromaBands * kChromaBands;
 const int kValues = kCoefficients + 2 * kColoured;
 const int kLayers = (kValues + 3) / 4;
 
-/// Rounds to the nearest normal half float, as packField() does, because the store may truncate bits.
-float roundedToHalf(float value) {
-    const uint bits = floatBitsToUint(value);
-    return uintBitsToFloat((bits + 0xfffu + ((bits >> 13) & 1u)) & ~0x1fffu);
-}
-
 float valueOf(uint cache, int v) {
     if (v >= kValues)
         return 0.0;
     const int i = v < 3 * kColoured ? v / 3 : v - 2 * kColoured;
-    const float value = sh[cache * kCoefficients + i][v < 3 * kColoured ? v % 3 : 0] * range.fieldScale;
-    return isnan(value) ? 0.0 : roundedToHalf(clamp(value, -65504.0, 65504.0));
+    return fieldValue(sh[cache * kCoefficients + i][v < 3 * kColoured ? v % 3 : 0] * range.fieldScale);
 }
 
 void main() {

@@ -62,9 +62,7 @@ struct GpuRelightRange {
     uint begin, end;
     uint lightmapCaches; // field: caches below this are texels, the others cells
     uint gridCells;
-    uint lights; float normalBias, lightBias; // direct: as ShadowedLights
-    uint keptLights, freshLights;             // direct: as KeptLights
-    uint workBegin, workEnd; float fieldScale; // field: scale of its half floats; direct: range of the fresh lights and then those without a place; 0 starts the sums, the end completes them
+    float fieldScale; // field: scale of its half floats
 };
 // clang-format on
 
@@ -73,7 +71,7 @@ static_assert(sizeof(GpuSurfel) == 64);
 static_assert(sizeof(GpuInnerNode) == 16);
 static_assert(sizeof(GpuCache) == 16);
 static_assert(sizeof(GpuFill) == 16);
-static_assert(sizeof(GpuRelightRange) == 48);
+static_assert(sizeof(GpuRelightRange) == 20);
 } // namespace limn::shared
 #endif
 

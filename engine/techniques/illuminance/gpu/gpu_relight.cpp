@@ -3,7 +3,9 @@
 
 #include "engine/field/field_packing.h"
 #include "engine/gpu/barrier.h"
+#include "engine/gpu/storage_maker.h"
 #include "engine/gpu/timestamps.h"
+#include "engine/render/point_irradiance.h"
 #include "engine/techniques/illuminance/gpu/gpu_link_occlusion.h"
 #include "engine/techniques/illuminance/gpu/relight_steps.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
@@ -40,24 +42,27 @@ struct Sent {
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
         : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMaxSteps),
-          keptLights(d, bake->surfels.size()), occlusion(d, *bake, buffers.links) {}
+          surfelIrradiance(d, {.points = buffers.surfels.handle,
+                               .stride = sizeof(shared::GpuSurfel) / sizeof(glm::vec4),
+                               .irradiance = buffers.direct.handle,
+                               .count = std::uint32_t(bake->surfels.size())}),
+          occlusion(d, *bake, buffers.links) {}
 
     gpu::Device& device;
     std::shared_ptr<const Bake> bake;
     RelightBuffers buffers;
     std::optional<RelightSteps> steps; ///< in the field's bands
     gpu::Timestamps times;
-    KeptLights keptLights;
+    PointIrradiance surfelIrradiance;
     GpuLinkOcclusion occlusion;
 
     bool started = false;
     Convergence convergence;
     Sent direct, albedo, emitted;
-    std::vector<glm::vec3> sky;                 ///< as sent
-    bool blackSky = false;                      ///< as assumed by the caches that were sent
-    std::vector<std::uint32_t> linkEnds;        ///< of their links
-    LinkCounts links;                           ///< of this call
-    std::optional<std::uint64_t> lightsVersion; ///< of the lights that E_direct came from
+    std::vector<glm::vec3> sky;          ///< as sent
+    bool blackSky = false;               ///< as assumed by the caches that were sent
+    std::vector<std::uint32_t> linkEnds; ///< of their links
+    LinkCounts links;                    ///< of this call
     std::uint64_t fieldVersion = 0;
     float brightest = 0;   ///< radiosity of surfels at the last bounce [W m^-2]
     float fieldScale = 0;  ///< scale of the values in the field; 0: nothing written yet
@@ -75,6 +80,7 @@ struct GpuRelighter::State {
     bool gridLit = false;     ///< the field has a grid
     bool gridMissing = false; ///< and has had it since this call
 
+    std::uint64_t dispatches() const { return steps->dispatches + surfelIrradiance.dispatches; }
     bool takeInputs(const SurfelInputs& inputs, bool newBands, GpuRelightStats& stats);
     CacheList list(List which, const CacheFlags& flags);
     void lightRest();
@@ -177,7 +183,7 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
     bool changed = sendIfNew(albedo, inputs.albedo);
     if (!inputs.lights) {
         changed |= sendIfNew(direct, inputs.direct);
-        lightsVersion.reset();
+        surfelIrradiance.forget();
     }
     changed |= sendIfNew(emitted, inputs.emitted);
     assert(inputs.sky.size() == bake->tree.skyCells);
@@ -201,18 +207,11 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
 
 /// Returns true if the lights had changed.
 bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats) {
-    if (lightsVersion == lights.version)
+    if (!surfelIrradiance.update(lights))
         return false;
-    lightsVersion = lights.version;
     direct.values.clear(); // the uploaded values are overwritten
-    keptLights.assign(lights);
-    stats.lightsTraced = keptLights.fresh + lights.count - keptLights.kept;
-    device.immediate("light surfels", [&](VkCommandBuffer cmd) {
-        times.begin(cmd);
-        steps->recordDirect(cmd, lights, keptLights);
-        times.mark(cmd);
-    });
-    stats.directMs = times.steps()[0];
+    stats.lightsTraced = surfelIrradiance.lightsComputed;
+    stats.directMs = surfelIrradiance.ms;
     return true;
 }
 
@@ -352,7 +351,7 @@ bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
     const bool changed =
         surfelsChanged || skyChanged || occlusionChanged || gridMissing || settingsChanged;
     if (changed && convergence.restarts()) {
-        clearBuffers(device, {buffers.indirect.handle});
+        gpu::clearBuffers(device, {buffers.indirect.handle});
         unread = false;
     }
     return changed;
@@ -366,7 +365,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     s.links = {};
     const Caches& caches = s.bake->caches;
     const bool newBands = s.setBands(inputs.bands);
-    const std::uint64_t dispatchesBefore = s.steps->dispatches;
+    const std::uint64_t dispatchesBefore = s.dispatches();
     const bool changed = s.takeInputs(inputs, newBands, stats);
     const bool bouncing = bounces > 0 && !s.convergence.reached();
     if (bouncing) {
@@ -402,7 +401,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     stats.cachesUnread = std::uint32_t(std::ranges::count(s.read, 0));
     stats.links = s.links.links;
     stats.linksSkipped = s.links.skipped;
-    stats.dispatches = std::uint32_t(s.steps->dispatches - dispatchesBefore);
+    stats.dispatches = std::uint32_t(s.dispatches() - dispatchesBefore);
     stats.totalMs = msSince(start);
     return stats;
 }
@@ -437,28 +436,18 @@ std::vector<glm::vec3> GpuRelighter::readCacheSh() const {
 
 IndirectField GpuRelighter::readField() const {
     const State& s = *m_state;
-    IndirectField out;
-    out.bands = s.buffers.field->bands;
-    out.lightmapWidth = s.bake->lightmap.width;
-    out.lightmapHeight = s.bake->lightmap.height;
-    out.gridSize = s.gridLit ? s.bake->gridSize : glm::uvec3(0);
-    out.gridBounds = s.bake->gridBounds;
-    out.version = s.fieldVersion;
-    const GpuField& field = *s.buffers.field;
-    out.chromaBands = field.chroma;
-    const std::uint32_t layers = fieldLayers(field.bands, field.chroma);
-    std::vector<glm::u16vec4> packed(std::size_t(out.lightmapWidth) * out.lightmapHeight * layers);
-    if (!packed.empty())
-        gpu::readImage(s.device, field.lightmap, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                       out.lightmapWidth, out.lightmapHeight,
-                       std::as_writable_bytes(std::span(packed)), layers);
-    out.lightmap = unpackField(packed, field.bands, field.chroma, field.scale);
+    IndirectField out = limn::readField(s.device, *s.buffers.field);
+    if (s.bake->lightmap.width == 0) { // the image is there nevertheless
+        out.lightmapWidth = out.lightmapHeight = 0;
+        out.lightmap.clear();
+    }
+    if (!s.gridLit) {
+        out.gridSize = glm::uvec3(0);
+        out.grid.clear();
+    }
     if (s.gridLit && !s.bake->gridDepth.empty())
         out.gridDepth = {s.bake, &s.bake->gridDepth};
-    packed.resize(out.cells() * layers);
-    if (!packed.empty())
-        gpu::readBuffer(s.device, field.grid, std::as_writable_bytes(std::span(packed)));
-    out.grid = unpackField(packed, field.bands, field.chroma, field.scale);
+    out.version = s.fieldVersion;
     return out;
 }
 

@@ -1,76 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/gpu/relight_buffers.h"
 
-#include "engine/field/field_packing.h"
-#include "engine/field/indirect_field.h"
-#include "engine/gpu/barrier.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/storage_maker.h"
 #include "engine/techniques/illuminance/gpu/tree_levels.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
-
-#include <fmt/format.h>
 
 namespace limn {
 
 using shared::GpuCache;
 using shared::GpuFill;
 using shared::GpuSurfel;
-
-namespace {
-
-/// Creates storage buffers, none larger than the device can bind.
-class StorageMaker {
-public:
-    explicit StorageMaker(gpu::Device& device) : m_device(device), m_uploader(device) {}
-
-    template <class T>
-    gpu::Buffer filled(const std::vector<T>& values, const char* name) {
-        const std::vector<T> one(1); // descriptors need a buffer even where there is nothing
-        const auto bytes = std::as_bytes(std::span(values.empty() ? one : values));
-        return fits(bytes.size(), name)
-                   ? m_uploader.buffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name)
-                   : gpu::Buffer();
-    }
-
-    /// Creates a buffer without filling it.
-    gpu::Buffer empty(std::size_t count, std::size_t elementBytes, const char* name,
-                      gpu::MemoryKind memory = gpu::MemoryKind::Gpu) {
-        const VkDeviceSize bytes = std::max<std::size_t>(count, 1) * elementBytes;
-        if (!fits(bytes, name))
-            return {};
-        return {m_device,
-                {.size = bytes,
-                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                 .memory = memory,
-                 .name = name}};
-    }
-
-    std::string error; ///< empty if all fitted
-
-private:
-    bool fits(VkDeviceSize bytes, const char* name) {
-        const VkDeviceSize most = m_device.properties.limits.maxStorageBufferRange;
-        if (bytes > most && error.empty())
-            error = fmt::format("{}: the {} of this bake take {:.1f} MiB, more than the {:.1f} MiB "
-                                "that the device can bind; bake fewer links, caches or bands",
-                                m_device.properties.deviceName, name, double(bytes) / (1 << 20),
-                                double(most) / (1 << 20));
-        return bytes <= most;
-    }
-
-    gpu::Device& m_device;
-    gpu::Uploader m_uploader;
-};
-
-} // namespace
 
 static std::vector<GpuSurfel> packSurfels(const Bake& bake) {
     const Surfels& surfels = bake.surfels;
@@ -102,13 +47,14 @@ static std::vector<std::uint32_t> packHarmonics(const Caches& caches, std::size_
     return out;
 }
 
-static gpu::Buffer uploadLinks(StorageMaker& make, const Caches& caches, std::size_t coefficients) {
+static gpu::Buffer uploadLinks(gpu::StorageMaker& make, const Caches& caches,
+                               std::size_t coefficients) {
     static_assert(sizeof(Link) == RELIGHT_CONE_WORDS * 4);
     return caches.shNode.empty() ? make.filled(caches.links, "links")
                                  : make.filled(packHarmonics(caches, coefficients), "links");
 }
 
-static void uploadFills(StorageMaker& make, const Caches& caches, RelightBuffers& out) {
+static void uploadFills(gpu::StorageMaker& make, const Caches& caches, RelightBuffers& out) {
     std::vector<GpuFill> fills;
     for (std::uint32_t c = 0; c < caches.size(); ++c) {
         if (caches.fillBegin[c] == caches.fillBegin[c + 1])
@@ -122,27 +68,6 @@ static void uploadFills(StorageMaker& make, const Caches& caches, RelightBuffers
     out.fillCount = std::uint32_t(fills.size());
     out.fills = make.filled(fills, "invalid caches");
     out.fillSources = make.filled(sources, "sources of invalid caches");
-}
-
-void clearBuffers(gpu::Device& device, std::initializer_list<VkBuffer> buffers) {
-    const VkCommandBuffer cmd = device.begin("clear light");
-    for (const VkBuffer b : buffers)
-        vkCmdFillBuffer(cmd, b, 0, VK_WHOLE_SIZE, 0);
-    gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kAllReads);
-    device.submit(cmd);
-}
-
-static void clear(gpu::Device& device, const gpu::Image& lightmap) {
-    const VkCommandBuffer cmd = device.begin("clear lightmap");
-    const VkImage image = lightmap.handle;
-    gpu::imageBarrier(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kUndefined, gpu::kTransferWrite);
-    const VkClearColorValue black{};
-    const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
-                                        VK_REMAINING_ARRAY_LAYERS};
-    vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &whole);
-    gpu::imageBarrier(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kTransferWrite,
-                      gpu::kFragmentRead);
-    device.submit(cmd);
 }
 
 std::vector<const gpu::Buffer*> RelightBuffers::inBindingOrder() const {
@@ -159,7 +84,7 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
     RelightBuffers out;
     std::string error;
     {
-        StorageMaker make(device);
+        gpu::StorageMaker make(device, "bake fewer links, caches or bands");
         out.surfels = make.filled(packSurfels(bake), "surfels");
         out.innerNodes = make.filled(levels.nodes, "inner nodes");
         out.levels = make.filled(levels.begin, "tree levels");
@@ -187,31 +112,22 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
     if (!error.empty())
         return fail(error);
     out.levelBegin = levels.begin;
-    clearBuffers(device, {out.indirect.handle, out.radiosity.handle});
+    gpu::clearBuffers(device, {out.indirect.handle, out.radiosity.handle});
     return out;
 }
 
 void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
                     std::uint32_t chroma, RelightBuffers& buffers) {
     assert(bands <= bake.settings.bands && chroma <= bands);
-    const std::uint32_t layers = fieldLayers(bands, chroma);
-    auto field = std::make_shared<GpuField>();
-    field->bands = bands;
-    field->chroma = chroma;
-    field->lightmap =
-        createFieldLightmap(device, bake.lightmap.width, bake.lightmap.height, layers,
-                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    field->gridSize = bake.gridSize;
-    field->gridBounds = bake.gridBounds;
-    // Every cell is a cache, so this buffer is no larger than that of the harmonics, which fits.
-    field->grid = StorageMaker(device).empty(std::size_t(bake.gridSize.x) * bake.gridSize.y *
-                                                 bake.gridSize.z * layers,
-                                             sizeof(glm::u16vec4), "grid cells");
-    field->gridDepth = buffers.gridDepth;
-    buffers.field = std::move(field);
-    clearBuffers(device, {buffers.sh.handle, buffers.field->grid.handle});
-    clear(device, buffers.field->lightmap);
+    // Every cell is a cache, so the grid is no larger than the buffer of harmonics, which fits.
+    buffers.field = createWrittenField(device, {.lightmapWidth = bake.lightmap.width,
+                                                .lightmapHeight = bake.lightmap.height,
+                                                .bands = bands,
+                                                .chroma = chroma,
+                                                .gridSize = bake.gridSize,
+                                                .gridBounds = bake.gridBounds,
+                                                .gridDepth = buffers.gridDepth});
+    gpu::clearBuffers(device, {buffers.sh.handle});
 }
 
 } // namespace limn

@@ -9,7 +9,6 @@
 #include "shaders/shared/gpu_relight.h"
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -43,9 +42,6 @@ std::vector<shared::GpuCache> packCaches(const Caches& caches, LinkEnds ends);
 /// buffer would be larger than the device can bind, naming both sizes.
 Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bake,
                                             std::uint32_t lanes);
-
-/// Fills buffers with 0. Work submitted before must no longer use them.
-void clearBuffers(gpu::Device& device, std::initializer_list<VkBuffer> buffers);
 
 /// Creates a black field of `bands` bands, at most the bake's, of which `chroma` are in colour, and
 /// black harmonics.

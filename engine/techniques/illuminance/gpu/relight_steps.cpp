@@ -2,10 +2,8 @@
 #include "engine/techniques/illuminance/gpu/relight_steps.h"
 
 #include "engine/field/field_packing.h"
-#include "engine/gpu/barrier.h"
 #include "shaders/illuminance/relight_caches.comp.h"
 #include "shaders/illuminance/relight_chroma.comp.h"
-#include "shaders/illuminance/relight_direct.comp.h"
 #include "shaders/illuminance/relight_field.comp.h"
 #include "shaders/illuminance/relight_fill.comp.h"
 #include "shaders/illuminance/relight_indirect.comp.h"
@@ -27,10 +25,7 @@ namespace {
 // on a software rasteriser, instead of 1.5 ms with a dispatch per level.
 constexpr std::uint32_t kPullLanes = 256, kSmallLevel = 1024;
 
-constexpr gpu::Access kStep = gpu::kComputeWrite;
 constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr std::array kLightTypes = {kBuffer, kBuffer, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                    kBuffer, kBuffer};
 
 /// Lanes per cache: as many as the device runs in lockstep, within what its shared memory allows.
 std::uint32_t cacheLanes(const gpu::Device& device) {
@@ -57,7 +52,6 @@ RelightSteps::RelightSteps(gpu::Device& device, const Bake& bake, const RelightB
       m_dropsChroma(final.chroma < bounce.chroma) {
     createSets();
     const std::uint32_t lanes = cacheLanes(device);
-    m_direct = pipeline(kRelightDirectComp, kItemLanes, bounce, "direct light of surfels");
     m_surfels = pipeline(kRelightSurfelsComp, kItemLanes, bounce, "relight surfels");
     m_pull = pipeline(kRelightPullComp, kPullLanes, bounce, "pull radiosity");
     m_bounceCaches = pipeline(kRelightCachesComp, lanes, bounce, "light caches");
@@ -74,15 +68,12 @@ void RelightSteps::createSets() {
     types[RELIGHT_LIGHTMAP] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     m_setLayout = gpu::createSetLayout(m_device, types);
     m_pool = gpu::createDescriptorPool(m_device, 1, types);
-    m_sets[0] = gpu::allocateSet(m_device, m_pool, m_setLayout);
+    m_set = gpu::allocateSet(m_device, m_pool, m_setLayout);
     std::uint32_t binding = 0;
     for (const gpu::Buffer* b : m_buffers.inBindingOrder())
-        gpu::writeBuffer(m_device, m_sets[0], binding++, kBuffer, b->handle);
-    gpu::writeStorageImage(m_device, m_sets[0], RELIGHT_LIGHTMAP, m_buffers.field->lightmap.view);
-    m_lightSetLayout = gpu::createSetLayout(m_device, kLightTypes);
-    m_lightPool = gpu::createDescriptorPool(m_device, 1, kLightTypes);
-    m_sets[1] = gpu::allocateSet(m_device, m_lightPool, m_lightSetLayout);
-    const std::array layouts = {m_setLayout.handle, m_lightSetLayout.handle};
+        gpu::writeBuffer(m_device, m_set, binding++, kBuffer, b->handle);
+    gpu::writeStorageImage(m_device, m_set, RELIGHT_LIGHTMAP, m_buffers.field->lightmap.view);
+    const std::array layouts = {m_setLayout.handle};
     m_layout = gpu::createPipelineLayout(m_device, layouts, sizeof(GpuRelightRange), "relight");
 }
 
@@ -96,45 +87,8 @@ gpu::Pipeline RelightSteps::pipeline(gpu::Spirv shader, std::uint32_t lanes, Lig
 
 void RelightSteps::dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
                             const GpuRelightRange& range, std::size_t groups) {
-    if (groups == 0)
-        return;
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, step.handle);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_layout.handle, 0,
-                            &step == &m_direct ? 2 : 1, m_sets.data(), 0, nullptr);
-    vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof range, &range);
-    const std::size_t widest = m_device.properties.limits.maxComputeWorkGroupCount[0];
-    const std::size_t rows = (groups + widest - 1) / widest;
-    vkCmdDispatch(cmd, std::uint32_t((groups + rows - 1) / rows), std::uint32_t(rows), 1);
-    gpu::memoryBarrier(cmd, kStep, kStep);
-    ++dispatches;
-}
-
-// The shadow maps of all lights may exceed any memory cache, so all surfels read those of a few
-// lights at a time.
-constexpr std::uint32_t kLightsAtOnce = 16;
-
-void RelightSteps::recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights,
-                                const KeptLights& kept) {
-    gpu::writeBuffer(m_device, m_sets[1], 0, kBuffer, lights.lights);
-    gpu::writeBuffer(m_device, m_sets[1], 1, kBuffer, lights.shadowViews);
-    gpu::writeTexture(m_device, m_sets[1], 2, lights.atlas, lights.sampler);
-    gpu::writeBuffer(m_device, m_sets[1], 3, kBuffer, kept.unit.handle);
-    gpu::writeBuffer(m_device, m_sets[1], 4, kBuffer, kept.places.handle);
-    gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kAllReads); // after the shadow maps were drawn
-    const auto count = std::uint32_t(m_bake.surfels.size());
-    const std::uint32_t work = kept.fresh + lights.count - kept.kept;
-    for (std::uint32_t first = 0; first == 0 || first < work; first += kLightsAtOnce)
-        dispatch(cmd, m_direct,
-                 {.begin = 0,
-                  .end = count,
-                  .lights = lights.count,
-                  .normalBias = lights.normalBias,
-                  .lightBias = lights.lightBias,
-                  .keptLights = kept.kept,
-                  .freshLights = kept.fresh,
-                  .workBegin = first,
-                  .workEnd = std::min(first + kLightsAtOnce, work)},
-                 groupsOf(count));
+    dispatches += gpu::dispatch(m_device, cmd, step.handle, m_layout.handle, m_set,
+                                std::as_bytes(std::span(&range, 1)), groups);
 }
 
 void RelightSteps::recordSurfels(VkCommandBuffer cmd) {
@@ -201,15 +155,11 @@ void RelightSteps::writeField(VkCommandBuffer cmd, CacheList list, float scale) 
 }
 
 void RelightSteps::recordField(VkCommandBuffer cmd, CacheList list, bool grid, float scale) {
-    const VkImage lightmap = m_buffers.field->lightmap.handle;
-    gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kFragmentRead, kStep);
-    // Frames that were submitted before may still read the grid.
-    gpu::memoryBarrier(cmd, gpu::kAllReads, kStep);
+    beginFieldWrite(cmd, *m_buffers.field);
     writeField(cmd, list, scale);
     if (grid)
         writeField(cmd, gridList(), scale);
-    gpu::imageBarrier(cmd, lightmap, VK_IMAGE_ASPECT_COLOR_BIT, kStep, gpu::kFragmentRead);
-    gpu::memoryBarrier(cmd, kStep, gpu::kAllReads);
+    endFieldWrite(cmd, *m_buffers.field);
 }
 
 } // namespace limn

@@ -3,13 +3,9 @@
 
 #include "engine/gpu/descriptors.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/render/shadowed_lights.h"
-#include "engine/techniques/illuminance/gpu/kept_lights.h"
 #include "engine/techniques/illuminance/gpu/relight_buffers.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "shaders/shared/gpu_relight.h"
-
-#include <array>
 
 namespace limn {
 
@@ -24,18 +20,14 @@ class RelightSteps {
 public:
     /// Number of invocations of a group where each handles its own item.
     static constexpr std::uint32_t kItemLanes = 64;
-    /// Number of storage buffers bound at once: those of gpu_relight.h, the lights, their shadow
-    /// views and those of KeptLights.
-    static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP + 4;
+    /// Number of storage buffers bound at once: those of gpu_relight.h.
+    static constexpr std::uint32_t kStorageBuffers = RELIGHT_LIGHTMAP;
 
     /// `device`, `bake` and `buffers` must outlive the object. The caches are lit in `bounce` bands
     /// and, in the end, in `final` bands.
     RelightSteps(gpu::Device& device, const Bake& bake, const RelightBuffers& buffers,
                  LightBands bounce, LightBands final);
 
-    /// Computes E_direct from lights with shadow maps, to which `kept` is assigned. No earlier
-    /// recording of this step may still be running.
-    void recordDirect(VkCommandBuffer cmd, const ShadowedLights& lights, const KeptLights& kept);
     /// Computes B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total,
     /// brightest).
     void recordSurfels(VkCommandBuffer cmd);
@@ -69,12 +61,12 @@ private:
     const RelightBuffers& m_buffers;
     std::uint32_t m_coefficients, m_layers;
     bool m_dropsChroma;
-    gpu::DescriptorSetLayout m_setLayout, m_lightSetLayout;
-    gpu::DescriptorPool m_pool, m_lightPool;
-    std::array<VkDescriptorSet, 2> m_sets{}; ///< the buffers; the lights
+    gpu::DescriptorSetLayout m_setLayout;
+    gpu::DescriptorPool m_pool;
+    VkDescriptorSet m_set = VK_NULL_HANDLE;
     gpu::PipelineLayout m_layout;
-    gpu::Pipeline m_direct, m_surfels, m_pull, m_bounceCaches, m_finalCaches, m_fill, m_indirect,
-        m_chroma, m_field;
+    gpu::Pipeline m_surfels, m_pull, m_bounceCaches, m_finalCaches, m_fill, m_indirect, m_chroma,
+        m_field;
 };
 
 } // namespace limn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/gpu/kept_lights.h"
+#include "engine/render/kept_lights.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@ namespace limn {
 
 /// Sets `kept`. Growing the number of places frees all of them.
 void KeptLights::makeRoom(std::uint32_t lights) {
-    const VkDeviceSize perLight = std::max<std::size_t>(m_surfels, 1) * sizeof(float),
+    const VkDeviceSize perLight = std::max<std::size_t>(m_points, 1) * sizeof(float),
                        most = std::min<VkDeviceSize>(
                            kMaxBytes, m_device.properties.limits.maxStorageBufferRange);
     kept = std::uint32_t(std::min<VkDeviceSize>(lights, most / perLight));

@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: MIT
-// Computes the irradiance of every surfel from all lights, with the shadow maps that the viewport draws. The irradiance
+// Computes the irradiance of surface points from all lights, with the shadow maps that the viewport draws. The irradiance
 // per unit of a light's colour and strength is kept if there is a place for it, and computed for fresh lights only.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/compute_groups.glsl"
 #include "shaders/shared/gpu_light.h"
-#include "shaders/shared/relight.glsl"
+#include "shaders/shared/gpu_point_irradiance.h"
 
 const float kPi = 3.14159265358979;
 #include "shaders/shared/rectangle_light.glsl"
 #include "shaders/shared/surface_pack.glsl"
 
-layout(std430, binding = RELIGHT_SURFELS) readonly buffer Surfels { GpuSurfel surfels[]; };
-layout(std430, binding = RELIGHT_DIRECT) buffer Direct { vec4 direct[]; };
-layout(set = 1, binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
-layout(set = 1, binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
-layout(set = 1, binding = 2) uniform sampler2DArray shadowAtlas;
-layout(set = 1, binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * surfels + surfel
-layout(set = 1, binding = 4, std430) readonly buffer Places { uint places[]; }; // then the fresh lights
+layout(constant_id = 1) const uint kStride = 2; // vec4s of a point: its position, its unit normal, others
+
+layout(binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
+layout(binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
+layout(binding = 2) uniform sampler2DArray shadowAtlas;
+layout(binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * points + point
+layout(binding = 4, std430) readonly buffer Places { uint places[]; }; // then the fresh lights
+layout(binding = 5, std430) readonly buffer Points { vec4 points[]; };
+layout(binding = 6, std430) buffer Direct { vec4 direct[]; };
+
+layout(push_constant) uniform Push {
+    GpuPointLighting range;
+};
 
 #include "shaders/shared/shadowed_light.glsl"
 #include "shaders/shared/rectangle_shadow.glsl"
 
-// Irradiance of a rectangle at surfel `i`, whose surface has no normal map.
-float rectangleIrradianceOf(GpuLight light, GpuSurfel s, uint i) {
+struct Point {
+    vec3 position, normal;
+};
+
+// Irradiance of a rectangle at point `i`, whose surface has no normal map.
+float rectangleIrradianceOf(GpuLight light, Point s, uint i) {
     PackedSurface at;
     at.position = s.position;
     at.geometricNormal = at.detailNormal = s.normal;
@@ -33,7 +44,7 @@ float rectangleIrradianceOf(GpuLight light, GpuSurfel s, uint i) {
 }
 
 // Irradiance of a light of strength 1.
-float unitIrradiance(uint k, GpuSurfel s, uint i) {
+float unitIrradiance(uint k, Point s, uint i) {
     GpuLight light = lights[k];
     light.strength = vec3(1);
     if (light.kind == LIGHT_RECTANGLE)
@@ -47,10 +58,10 @@ float unitIrradiance(uint k, GpuSurfel s, uint i) {
 }
 
 void main() {
-    const uint i = itemIndex();
-    if (i >= range.end)
+    const uint i = groupIndex() * kLanes + gl_LocalInvocationIndex;
+    if (i >= range.count)
         return;
-    const GpuSurfel s = surfels[i];
+    const Point s = Point(points[i * kStride].xyz, points[i * kStride + 1].xyz);
     // Lights without a place come first, so that the sum does not depend on when a light changed.
     vec3 E = range.workBegin > 0 ? direct[i].rgb : vec3(0);
     const uint fresh = range.freshLights, work = fresh + range.lights - range.keptLights;
@@ -60,12 +71,12 @@ void main() {
         const uint light = keep ? places[k] : k;
         const float e = unitIrradiance(light, s, i);
         if (keep)
-            unit[places[light] * range.end + i] = e;
+            unit[places[light] * range.count + i] = e;
         else
             E += min(lights[light].strength * e, LIGHT_MOST_IRRADIANCE);
     }
     const uint summed = range.workEnd == work ? range.keptLights : 0;
     for (uint k = 0; k < summed; ++k)
-        E += min(lights[k].strength * unit[places[k] * range.end + i], LIGHT_MOST_IRRADIANCE);
+        E += min(lights[k].strength * unit[places[k] * range.count + i], LIGHT_MOST_IRRADIANCE);
     direct[i] = vec4(E, 0);
 }
