@@ -3,6 +3,8 @@
 
 #include "engine/techniques/illuminance/gpu/device_illuminance.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/sparse_probes/gpu/device_sparse.h"
+#include "engine/techniques/sparse_probes/sparse_probes.h"
 
 #include <array>
 
@@ -17,7 +19,8 @@ struct Row {
     Result<std::unique_ptr<Lighting>> (*light)(gpu::Device&, Viewport&, const Prepared&);
 };
 
-constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice}};
+constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+                              Row{&kSparseProbesTechnique, lightSparseOnDevice}};
 
 } // namespace
 

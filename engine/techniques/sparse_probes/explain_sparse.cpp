@@ -129,7 +129,7 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
     const auto isBlack = [&](std::uint32_t instance) {
         return std::ranges::find(options.black, instance) != options.black.end();
     };
-    if (m_clampParts || m_albedo.empty())
+    if (m_clampParts || m_materials.albedo.empty())
         return {}; // clamped parts are not linear
     ReadingWeights next = weigh(bake, m_field, reading);
     Weights all(bake.receivers.size(), glm::vec3(0)); // on what receivers send, over all bounces
@@ -165,7 +165,8 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
         }
         for (std::size_t r = 0; r < sent.size(); ++r) {
             all[r] += sent[r];
-            next.receivers[r] = isBlack(instanceOf[r]) ? glm::vec3(0) : sent[r] * m_albedo[r] / kPi;
+            next.receivers[r] =
+                isBlack(instanceOf[r]) ? glm::vec3(0) : sent[r] * m_materials.albedo[r] / kPi;
         }
         std::ranges::fill(next.probes, glm::vec3(0));
         result.bounces = bounce + 1;
@@ -181,7 +182,7 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
         glm::dvec3 sum(0);
         for (std::size_t r = 0; r < all.size(); ++r)
             if (share[r] > 0 && !isBlack(instanceOf[r]))
-                sum += glm::dvec3(all[r] * m_albedo[r] / kPi *
+                sum += glm::dvec3(all[r] * m_materials.albedo[r] / kPi *
                                   glm::min(strength * share[r], kMaxIrradiance));
         addRow(result.byOrigin, {.kind = LightRowKind::Light,
                                  .label = light.name,
@@ -190,8 +191,8 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
     }
     std::map<std::uint32_t, glm::dvec3> emitters;
     for (std::size_t r = 0; r < all.size(); ++r)
-        if (m_emission[r] != glm::vec3(0))
-            emitters[instanceOf[r]] += glm::dvec3(all[r] * m_emission[r]);
+        if (m_materials.emission[r] != glm::vec3(0))
+            emitters[instanceOf[r]] += glm::dvec3(all[r] * m_materials.emission[r]);
     for (const auto& [instance, value] : emitters)
         addRow(result.byOrigin, {.kind = LightRowKind::Surface,
                                  .label = objectLabel(scene, instance),

@@ -7,9 +7,7 @@
 #include "engine/techniques/sparse_probes/relight_rays.h"
 
 #include <algorithm>
-#include <functional>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -20,13 +18,8 @@ static constexpr float kPi = std::numbers::pi_v<float>;
 
 SparseLighting::SparseLighting(std::shared_ptr<const SparseBake> bake, const Scene& scene)
     : m_bake(std::move(bake)), m_points(pointsOf(scene, m_bake->receivers)),
-      m_directions(relightDirections(m_bake->sparse.rays)),
+      m_areas(areasOf(m_bake->receivers)), m_directions(relightDirections(m_bake->sparse.rays)),
       m_basis(relightBasis(m_directions, int(m_bake->sparse.bands))) {
-    for (const float width : m_bake->receivers.width)
-        m_share.push_back(width * width);
-    m_area = std::accumulate(m_share.begin(), m_share.end(), 0.);
-    for (float& share : m_share)
-        share = m_area > 0 ? float(double(share) / m_area) : 0;
     const std::size_t n = m_bake->receivers.size();
     m_irradiance.assign(n, glm::vec3(0));
     m_radiance.assign(n, glm::vec3(0));
@@ -36,37 +29,12 @@ SparseLighting::SparseLighting(std::shared_ptr<const SparseBake> bake, const Sce
     m_field.gridBounds = m_bake->gridBounds;
 }
 
-/// Albedo and emission of the receivers, means over their texels.
-void SparseLighting::lightMaterials(const Scene& scene) {
-    const Receivers& r = m_bake->receivers;
-    std::vector<char> stale(scene.materials.size(), 1);
-    if (m_materials.size() == scene.materials.size())
-        std::ranges::transform(scene.materials, m_materials, stale.begin(), std::not_equal_to{});
-    m_albedo.resize(r.size());
-    m_emission.resize(r.size());
-    parallelRanges(r.size(), 512, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Instance& instance = scene.instances[r.instance[i]];
-            if (!stale[instance.material])
-                continue;
-            const SurfaceMaterial m =
-                surfaceMaterialOver(scene, instance, r.triangle[i], r.barycentric[i].x,
-                                    r.barycentric[i].y, r.width[i] * r.width[i]);
-            m_albedo[i] = m.albedo;
-            m_emission[i] = m.emission;
-        }
-    });
-    m_materials = scene.materials;
-}
-
 /// Takes over what changed in the scene.
 void SparseLighting::followScene(const LightingInput& input) {
     const Scene& scene = input.scene;
     const bool directChanged =
         updateDirectIrradiance(m_points.position, m_points.normal, scene, *input.trace, m_direct);
-    const bool materialsChanged = !m_started || m_materials != scene.materials;
-    if (materialsChanged)
-        lightMaterials(scene);
+    const bool materialsChanged = updateReceiverMaterials(m_bake->receivers, scene, m_materials);
     const bool skyChanged = !m_started || m_sky != scene.sky;
     if (skyChanged) {
         m_sky = scene.sky;
@@ -93,7 +61,8 @@ RoundChange SparseLighting::lightReceivers() {
     parallelRanges(n, 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t r = begin; r < end; ++r) {
             const glm::vec3 next =
-                m_albedo[r] / kPi * (m_direct.irradiance[r] + m_irradiance[r]) + m_emission[r];
+                m_materials.albedo[r] / kPi * (m_direct.irradiance[r] + m_irradiance[r]) +
+                m_materials.emission[r];
             const glm::vec3 d = glm::abs(next - m_radiance[r]);
             change[r] = d.x + d.y + d.z;
             m_radiance[r] = next;
@@ -103,10 +72,10 @@ RoundChange SparseLighting::lightReceivers() {
     for (std::size_t r = 0; r < n; ++r) {
         const glm::vec3 sent = m_radiance[r];
         const float sum = sent.x + sent.y + sent.z;
-        const double flux = double(kPi) * double(m_share[r]) * m_area;
+        const double flux = double(kPi) * double(m_areas.share[r]) * m_areas.total;
         round.change += flux * double(change[r]);
         round.total += flux * double(sum);
-        round.relative += double(m_share[r]) * double(relativeChange(change[r], sum));
+        round.relative += double(m_areas.share[r]) * double(relativeChange(change[r], sum));
     }
     return round;
 }
@@ -139,10 +108,11 @@ LightingReport SparseLighting::report(const Times& times, std::uint32_t bounces,
     const auto counter = [](const char* id, const char* label, const char* tooltip, double value) {
         return LightingCounter{id, label, tooltip, value};
     };
-    const double floats = double(m_probes.size() + m_skyAtProbes.size()) +
-                          3 * double(m_irradiance.size() + m_radiance.size() + m_albedo.size() +
-                                     m_emission.size() + m_direct.irradiance.size()) +
-                          double(m_direct.lights.size() * m_irradiance.size());
+    const double floats =
+        double(m_probes.size() + m_skyAtProbes.size()) +
+        3 * double(m_irradiance.size() + m_radiance.size() + m_materials.albedo.size() +
+                   m_materials.emission.size() + m_direct.irradiance.size()) +
+        double(m_direct.lights.size() * m_irradiance.size());
     const double field = double(m_field.lightmap.size() + m_field.grid.size()) * sizeof(glm::vec4);
     report.counters = {
         counter("probes", "Probes", "In the open air", double(m_bake->probes.size())),

@@ -4,6 +4,7 @@
 #include "engine/lighting/convergence.h"
 #include "engine/lighting/direct_irradiance.h"
 #include "engine/lighting/lighting.h"
+#include "engine/techniques/sparse_probes/receiver_light.h"
 #include "engine/techniques/sparse_probes/sparse_gather.h"
 
 #include <memory>
@@ -33,21 +34,18 @@ private:
     };
 
     void followScene(const LightingInput& input);
-    void lightMaterials(const Scene& scene);
     RoundChange lightReceivers();
     void writeField(bool grid);
     LightingReport report(const Times& times, std::uint32_t bounces, bool skipped) const;
 
     std::shared_ptr<const SparseBake> m_bake;
     ReceiverPoints m_points;
-    std::vector<float> m_share; ///< of each receiver in the area of them all
-    double m_area = 0;          ///< of them all [m^2]
+    ReceiverAreas m_areas;
     std::vector<glm::vec3> m_directions;
     std::vector<float> m_basis;
 
     DirectIrradiance m_direct;
-    std::vector<Material> m_materials;           ///< of those below
-    std::vector<glm::vec3> m_albedo, m_emission; ///< per receiver; emission [W m^-2 sr^-1]
+    ReceiverMaterials m_materials;
     Sky m_sky;
     ProbeRadiance m_skyAtProbes, m_probes;
     std::vector<glm::vec3> m_irradiance; ///< bounced, per receiver [W m^-2]

@@ -11,8 +11,8 @@ namespace limn {
 /// eight nearest probes the irradiance of each lightmap texel, by what both see. The lightmap
 /// lights the probes in turn.
 ///
-/// Its precomputed data is a PreparedSparse. Nothing is compressed, and receivers have a fixed
-/// number of probes, where the paper keeps those within a fixed radius.
+/// Its precomputed data is a PreparedSparse. Receivers have a fixed number of probes, where the
+/// paper keeps those within a fixed radius.
 extern const Technique kSparseProbesTechnique;
 
 } // namespace limn

@@ -6,8 +6,7 @@
 #include "engine/field/sample_field.h"
 #include "engine/lightmap/texel_points.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/sparse_probes/prepared_sparse.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/techniques/sparse_probes/lit_by_sparse.h"
 
 #include <gtest/gtest.h>
 
@@ -24,61 +23,6 @@ namespace limn {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-Light pointLight(glm::vec3 at, float candela) {
-    Light light;
-    light.position = at;
-    light.strength = candela;
-    return light;
-}
-
-/// A scene with sparse probes, quickly precomputed.
-struct LitBySparse {
-    Scene scene;
-    std::shared_ptr<const TraceScene> trace;
-    Prepared prepared;
-    std::unique_ptr<Lighting> lighting;
-
-    explicit LitBySparse(Scene s, std::map<std::string, double> settings = {},
-                         std::uint32_t texels = 1500)
-        : scene(std::move(s)) {
-        settings.try_emplace("sparse-probes.count", 27);
-        settings.try_emplace("sparse-probes.cells", 12);
-        scene.technique = {"sparse-probes", std::move(settings)};
-        scene.bake.lightmapCaches = texels;
-        scene.bake.rays = 128;
-        trace = std::make_shared<const TraceScene>(scene);
-        const auto made = kSparseProbesTechnique.precomputation->prepare(*trace, {}, {});
-        if (!made) {
-            ADD_FAILURE() << made.error().message;
-            return;
-        }
-        prepared = {*made, std::make_shared<const Scene>(scene)};
-        lighting = kSparseProbesTechnique.light(prepared);
-    }
-    LightingReport update(std::uint32_t bounces = 64) {
-        return lighting->update({.scene = scene, .trace = trace.get(), .bounces = bounces}, {});
-    }
-    const SparseBake& bake() const {
-        return *static_cast<const PreparedSparse&>(*prepared.data).bake();
-    }
-    const std::vector<glm::vec4>& lightmap() const { return lighting->field()->lightmap; }
-    /// Irradiance of a receiver.
-    glm::vec3 ofReceiver(std::size_t r) const {
-        return glm::vec3(lightmap()[bake().receivers.texel[r]]) * float(std::sqrt(kPi) / 2);
-    }
-    /// Mean irradiance of all receivers, by area.
-    glm::dvec3 mean() const {
-        glm::dvec3 sum(0);
-        double area = 0;
-        for (std::size_t r = 0; r < bake().receivers.size(); ++r) {
-            const double a = std::pow(double(bake().receivers.width[r]), 2);
-            sum += glm::dvec3(ofReceiver(r)) * a;
-            area += a;
-        }
-        return sum / area;
-    }
-};
 
 /// A sphere of radius 2 seen from inside, with a lamp of 1 cd in its middle.
 Scene litSphere(float albedo) {
@@ -168,15 +112,6 @@ TEST(SparseProbes, NoLightLeaksIntoARoomThatIsDark) {
         EXPECT_LT(leak, 1e-3);
         EXPECT_LT(double(worst), 0.01 * lit);
     }
-}
-
-Scene room() {
-    simple::SceneBuilder b;
-    b.addMaterial(simple::lambert({0.7f, 0.5f, 0.3f}));
-    b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true));
-    b.add(simple::box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false));
-    b.scene.lights = {pointLight({2, 2.5f, 2}, 5), pointLight({3, 1, 4}, 2)};
-    return b.build();
 }
 
 TEST(SparseProbes, ScaleDoesNotChangeIrradiance) {
