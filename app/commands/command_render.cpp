@@ -236,6 +236,7 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
     request.layout = baked.layout;
+    request.technique = baked.technique;
     request.prepared = baked.prepared;
     request.lightAll = !baked.view;
     request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));

@@ -14,6 +14,8 @@ namespace limn {
 // Nothing is measured for a single picture, because that would take longer than relighting it on
 // either device.
 static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
+    if (!request.prepared.data) // the editor measures bakes alone
+        return chooseRelight(request.relightOn, true, std::nullopt);
     const VkPhysicalDeviceProperties& p = device.properties;
     return chooseRelight(
         request.relightOn, true,
@@ -43,8 +45,7 @@ Result<void> GpuDrawing::chooseLighting(const RenderRequest& request) {
     chosen = true;
     if (choose(*device, request) == RelightOn::Cpu)
         return {};
-    auto made =
-        lightOnDevice(request.prepared.data->technique(), *device, viewport, request.prepared);
+    auto made = lightOnDevice(*request.technique, *device, viewport, request.prepared);
     if (made)
         lighting = std::move(*made);
     else if (request.relightOn == RelightOn::Gpu)
@@ -59,7 +60,7 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
                                  RenderedImage& result) {
     if (!request.relight)
         return {};
-    if (!chosen && request.prepared.data)
+    if (!chosen && request.technique)
         if (const Result<void> done = chooseLighting(request); !done)
             return done;
     if (!lighting) {

@@ -5,6 +5,7 @@
 #include "engine/lighting/lighting.h"
 #include "engine/lighting/precomputed.h"
 #include "engine/lighting/relight_choice.h"
+#include "engine/lighting/technique.h"
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
@@ -34,9 +35,10 @@ struct RenderRequest {
     std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
     /// Computes the light on the CPU. Empty: no indirect light.
     std::function<CpuLight()> relight;
-    Prepared prepared;                    ///< what a device can light; null: only the CPU can
+    const Technique* technique = nullptr; ///< of the light, on either device; null: there is none
+    Prepared prepared;                    ///< by the technique, where it precomputes
     bool lightAll = false;                ///< on a device, light also what the picture hides
-    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the drawing device lights `prepared` instead
+    RelightOn relightOn = RelightOn::Cpu; ///< Gpu: the drawing device lights it instead
     std::shared_ptr<const OverlayData> overlay; ///< drawn over the picture; null: nothing
 };
 
@@ -53,8 +55,9 @@ using DrawPicture =
     std::function<Result<RenderedImage>(const Scene& scene, const RenderRequest& request)>;
 
 /// Draws with the Vulkan viewport on the device whose name contains `device`; empty selects the
-/// best. Fails if there is none. Drawing fails if the picture is larger than the device allows or
-/// the bake is too large to be lit on it. Only in builds with Vulkan.
+/// best. Fails if there is none. Drawing fails if the picture is larger than the device allows,
+/// and, where RelightOn::Gpu is asked for, if the technique lights on the CPU only or the bake is
+/// too large for the device. Only in builds with Vulkan.
 Result<DrawPicture> drawingOnGpu(const std::string& device);
 
 /// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
