@@ -30,11 +30,15 @@ void KeptLights::makeRoom(std::uint32_t lights) {
                    .name = "places of lights"}};
 }
 
+void KeptLights::forget() {
+    m_places.assign(m_places.size(), {});
+}
+
 void KeptLights::assign(const ShadowedLights& lights) {
     assert(lights.shapes.size() == lights.count);
     makeRoom(lights.count);
     if (lights.casters != m_casters)
-        m_places.assign(m_places.size(), {});
+        forget();
     m_casters = lights.casters;
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     for (std::uint32_t p = 0; p < m_places.size(); ++p) {

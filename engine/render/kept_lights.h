@@ -23,6 +23,9 @@ public:
     /// Finds a place for each of `lights`. No submitted work may be reading the buffers.
     void assign(const ShadowedLights& lights);
 
+    /// Frees all places: what is kept is of points that have moved.
+    void forget();
+
     std::uint32_t kept = 0;  ///< number of lights with a place: the first of the list
     std::uint32_t fresh = 0; ///< number of those that are to be computed
     gpu::Buffer unit;        ///< one float for each place and point

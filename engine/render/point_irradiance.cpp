@@ -35,6 +35,11 @@ PointIrradiance::PointIrradiance(gpu::Device& device, const PointBuffers& buffer
     gpu::writeBuffer(device, m_set, 6, kBuffer, buffers.irradiance);
 }
 
+void PointIrradiance::pointsChanged() {
+    m_version.reset();
+    m_kept.forget();
+}
+
 VkDeviceSize PointIrradiance::bytes() const {
     return m_kept.unit.size + m_kept.places.size;
 }

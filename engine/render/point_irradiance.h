@@ -41,6 +41,9 @@ public:
     /// Whatever wrote into the irradiance in between: the next update() computes it again.
     void forget() { m_version.reset(); }
 
+    /// The points have moved: the next update() computes what every light brings to them.
+    void pointsChanged();
+
     std::uint32_t lightsComputed = 0; ///< by the last update(), those without a place among them
     double ms = 0;                    ///< GPU time of the last update()
     std::uint64_t dispatches = 0;     ///< so far

@@ -8,7 +8,8 @@ TEST_F(CommandLine, RenderLightsProbesOnEitherDevice) {
     const std::string cpu = path("cpu.exr"), gpu = path("gpu.exr");
     const std::string start = "render cornell --light 'point pos=0,1,0.5 cd=1' --width 48 --height "
                               "32 --view irradiance --json --technique ";
-    for (const std::string technique : {"sparse-probes"}) {
+    for (const std::string technique :
+         {"probes --set probes.count=64 --set probes.side=24", "sparse-probes"}) {
         const nlohmann::json onCpu = json(start + technique + " --relight cpu -o " + cpu),
                              onGpu = json(start + technique + " --relight gpu -o " + gpu);
         EXPECT_EQ(onCpu["relight"]["device"], "cpu") << technique;

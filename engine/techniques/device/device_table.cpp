@@ -3,6 +3,8 @@
 
 #include "engine/techniques/illuminance/gpu/device_illuminance.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/probes/gpu/device_probes.h"
+#include "engine/techniques/probes/probes.h"
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
 #include "engine/techniques/sparse_probes/sparse_probes.h"
 
@@ -20,6 +22,7 @@ struct Row {
 };
 
 constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+                              Row{&kProbesTechnique, lightProbesOnDevice},
                               Row{&kSparseProbesTechnique, lightSparseOnDevice}};
 
 } // namespace

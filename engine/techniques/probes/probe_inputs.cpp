@@ -3,11 +3,20 @@
 
 #include "engine/scene/light/unit_light.h"
 
+#include <algorithm>
+
 namespace limn {
 
-ProbeInputs inputsOf(const Scene& scene, const ProbeGrid& grid, std::uint32_t side) {
-    ProbeInputs in{.grid = grid,
-                   .side = side,
+/// Bounds that moving objects do not change, if anything stands still.
+static Bounds boundsOf(const Scene& scene) {
+    const bool anyStatic =
+        std::ranges::any_of(scene.instances, [](const Instance& i) { return !i.dynamic; });
+    return anyStatic ? staticBounds(scene) : scene.bounds;
+}
+
+ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings) {
+    ProbeInputs in{.grid = chooseProbes(boundsOf(scene), settings.count),
+                   .side = settings.side,
                    .assets = scene.assets,
                    .materials = scene.materials,
                    .sky = scene.sky};

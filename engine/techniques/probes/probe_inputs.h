@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 #include "engine/techniques/probes/probe_grid.h"
+#include "engine/techniques/probes/probe_settings.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,7 +38,8 @@ struct ProbeInputs {
     Sky sky;
 };
 
-ProbeInputs inputsOf(const Scene& scene, const ProbeGrid& grid, std::uint32_t side);
+/// The probes stand over what does not move, if anything stands still.
+ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings);
 
 /// Whether probes stand at the same places and look in the same directions.
 bool sameLattice(const ProbeInputs& a, const ProbeInputs& b);

@@ -6,7 +6,6 @@
 #include "engine/math/sampling.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/scene/mesh/triangle_geometry.h"
-#include "engine/trace/direct_light.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,33 +20,6 @@ namespace {
 
 constexpr std::uint32_t kChunk = 256;           ///< texels that are summed before the others
 constexpr std::uint32_t kPointsOnRectangle = 4; ///< shadow rays from a hit
-
-/// A surface point in a probe's map.
-struct MapPoint {
-    LitPoint lit;
-    glm::vec3 albedo{0}, emission{0};
-};
-
-MapPoint mapPoint(const ProbeScene& in, std::uint32_t probe, std::uint32_t texel,
-                  const ProbeHit& hit, glm::vec3 direction) {
-    const Instance& instance = in.scene.instances[hit.instance];
-    const Mesh& mesh = in.scene.meshOf(instance);
-    const glm::vec3 geometric =
-        glm::normalize(instance.normalToWorld * triangleNormal(mesh, hit.triangle));
-    const float side = hit.side == 0 ? 1.f : -1.f;
-    const glm::vec3 position = in.maps.grid.position(probe) + direction * hit.distance;
-    const float cosine = std::max(-side * glm::dot(geometric, direction), 0.1f);
-    const float area =
-        hit.distance * hit.distance * in.solidAngles[texel] / cosine; // that the texel covers
-    const SurfaceMaterial material =
-        surfaceMaterialOver(in.scene, instance, hit.triangle, hit.u, hit.v, area);
-    const glm::vec3 normal =
-        side * shadingNormal(mesh, instance, hit.triangle, {hit.u, hit.v}, geometric);
-    const glm::vec2 shift(unitFloat(mixBits(texel)), unitFloat(mixBits(texel + 0x9e3779b9U)));
-    return {{in.trace.clearOf(position, side * geometric), normal, shift},
-            material.albedo,
-            material.emission};
-}
 
 /// Radiance that a hit sends towards the probe from one origin.
 glm::vec3 radianceOf(const ProbeScene& in, const ProbeLight& light, std::uint32_t origin,
@@ -76,6 +48,28 @@ glm::vec3 radianceOf(const ProbeScene& in, const ProbeLight& light, std::uint32_
 
 } // namespace
 
+MapPoint mapPoint(const ProbeScene& in, std::uint32_t probe, std::uint32_t texel) {
+    const ProbeHit& hit = in.maps.hits[std::size_t(probe) * in.maps.map.texels() + texel];
+    const glm::vec3 direction = in.maps.map.direction(texel);
+    const Instance& instance = in.scene.instances[hit.instance];
+    const Mesh& mesh = in.scene.meshOf(instance);
+    const glm::vec3 geometric =
+        glm::normalize(instance.normalToWorld * triangleNormal(mesh, hit.triangle));
+    const float side = hit.side == 0 ? 1.f : -1.f;
+    const glm::vec3 position = in.maps.grid.position(probe) + direction * hit.distance;
+    const float cosine = std::max(-side * glm::dot(geometric, direction), 0.1f);
+    const float area =
+        hit.distance * hit.distance * in.solidAngles[texel] / cosine; // that the texel covers
+    const SurfaceMaterial material =
+        surfaceMaterialOver(in.scene, instance, hit.triangle, hit.u, hit.v, area);
+    const glm::vec3 normal =
+        side * shadingNormal(mesh, instance, hit.triangle, {hit.u, hit.v}, geometric);
+    const glm::vec2 shift(unitFloat(mixBits(texel)), unitFloat(mixBits(texel + 0x9e3779b9U)));
+    return {{in.trace.clearOf(position, side * geometric), normal, shift},
+            material.albedo,
+            material.emission};
+}
+
 std::uint64_t lightProbe(const ProbeScene& in, std::uint32_t probe,
                          const std::vector<std::uint32_t>& origins, ProbeLight& light) {
     const std::uint32_t texels = in.maps.map.texels();
@@ -92,7 +86,7 @@ std::uint64_t lightProbe(const ProbeScene& in, std::uint32_t probe,
             const auto texel = std::uint32_t(t);
             const glm::vec3 direction = in.maps.map.direction(texel);
             const bool sky = hit.instance == ~0U;
-            const MapPoint at = sky ? MapPoint{} : mapPoint(in, probe, texel, hit, direction);
+            const MapPoint at = sky ? MapPoint{} : mapPoint(in, probe, texel);
             float y[kIrradianceBands * kIrradianceBands];
             shBasis(kIrradianceBands, direction, y);
             for (std::size_t o = 0; o < origins.size(); ++o) {

@@ -4,6 +4,7 @@
 #include "engine/field/indirect_field.h"
 #include "engine/math/sh.h"
 #include "engine/techniques/probes/probe_maps.h"
+#include "engine/trace/direct_light.h"
 
 #include <array>
 #include <cstdint>
@@ -44,6 +45,16 @@ struct ProbeScene {
     const std::vector<float>& solidAngles; ///< of maps.map
     const IndirectField& field;            ///< read by ProbeLight::bounced()
 };
+
+/// A surface point in a probe's map.
+struct MapPoint {
+    LitPoint lit;
+    glm::vec3 albedo{0}, emission{0}; ///< means over the texel; emission [W m^-2 sr^-1]
+};
+
+/// The point that a probe sees in the direction of a texel of its map, which is not the sky.
+/// Reads no field.
+MapPoint mapPoint(const ProbeScene& in, std::uint32_t probe, std::uint32_t texel);
 
 /// Recomputes the listed origins of a probe: lights what its map shows, with a shadow ray from each
 /// hit to each of these lights, and projects the radiance. The share of the hits in solids is

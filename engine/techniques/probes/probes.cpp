@@ -5,6 +5,7 @@
 #include "engine/techniques/probes/probe_inputs.h"
 #include "engine/techniques/probes/probe_light.h"
 #include "engine/techniques/probes/probe_overlay.h"
+#include "engine/techniques/probes/probe_settings.h"
 
 #include <algorithm>
 #include <array>
@@ -18,54 +19,6 @@
 namespace limn {
 
 namespace {
-
-constexpr TechniqueSetting kCount = {
-    .setting = {.key = "probes.count",
-                .label = "Probes",
-                .tooltip = "About this many probes stand in a lattice over the scene. More: light "
-                           "changes over shorter distances, walls hide it better, and updates "
-                           "take longer",
-                .invalidates = Invalidates::Light},
-    .range = {8, 4096},
-    .usual = 256,
-    .whole = true};
-constexpr TechniqueSetting kSide = {
-    .setting = {.key = "probes.side",
-                .label = "Map's side (texels)",
-                .tooltip = "Each probe looks in the square of this many directions. More: small "
-                           "bright things are not missed",
-                .invalidates = Invalidates::Light},
-    .range = {8, 256},
-    .usual = 48,
-    .whole = true};
-constexpr TechniqueSetting kPerUpdate = {
-    .setting = {.key = "probes.perUpdate",
-                .label = "Probes per update",
-                .tooltip = "While light changes, each update lights this many probes anew, in "
-                           "turn. More: light follows sooner, frames take longer",
-                .invalidates = Invalidates::Light},
-    .range = {1, 4096},
-    .usual = 2,
-    .whole = true};
-constexpr TechniqueSetting kSmooth = {
-    .setting = {.key = "probes.smooth",
-                .label = "Smooth weights",
-                .tooltip = "Surfaces blend probes with the smoother weights of Majercik et al. "
-                           "2019. Off: with those of McGuire et al. 2017",
-                .invalidates = Invalidates::Light},
-    .range = {0, 1},
-    .usual = 0,
-    .whole = true};
-constexpr TechniqueSetting kBounces = {
-    .setting = {.key = "probes.bounces",
-                .label = "More bounces",
-                .tooltip = "Probes also see light that has bounced before, by what surfaces read "
-                           "from probes. Off: light is reflected once, as in the paper",
-                .invalidates = Invalidates::Light},
-    .range = {0, 1},
-    .usual = 0,
-    .whole = true};
-constexpr std::array kSettings = {kCount, kSide, kPerUpdate, kSmooth, kBounces};
 
 class ProbeLighting : public Lighting {
 public:
@@ -112,13 +65,6 @@ private:
     IndirectField m_field;
 };
 
-/// Bounds that moving objects do not change, if anything stands still.
-Bounds boundsOf(const Scene& scene) {
-    const bool anyStatic =
-        std::ranges::any_of(scene.instances, [](const Instance& i) { return !i.dynamic; });
-    return anyStatic ? staticBounds(scene) : scene.bounds;
-}
-
 /// Factor of light that was computed for a colour and a strength of 1; 0 if the light is off.
 glm::vec3 weightOf(const Light& light) {
     return shines(light) ? light.color * light.strength : glm::vec3(0);
@@ -126,9 +72,8 @@ glm::vec3 weightOf(const Light& light) {
 
 /// Marks as stale what depends on whatever changed in the scene.
 void ProbeLighting::followScene(const Scene& scene) {
-    ProbeInputs now = inputsOf(
-        scene, chooseProbes(boundsOf(scene), std::uint32_t(settingOf(scene.technique, kCount))),
-        std::uint32_t(settingOf(scene.technique, kSide)));
+    const ProbeSettings settings = probeSettingsOf(scene.technique);
+    ProbeInputs now = inputsOf(scene, settings);
     if (!sameLattice(now, m_inputs)) {
         m_maps = emptyMaps(now.grid, now.side);
         m_solidAngles = m_maps.map.solidAngles();
@@ -155,14 +100,12 @@ void ProbeLighting::followScene(const Scene& scene) {
             ++m_editions[o];
     if (now.sky != m_inputs.sky)
         ++m_editions[m_light.sky()];
-    const bool bouncing = settingOf(scene.technique, kBounces) > 0;
-    if (std::exchange(m_bouncing, bouncing) && !bouncing)
+    if (std::exchange(m_bouncing, settings.bounces) && !settings.bounces)
         for (std::uint32_t p = 0; p < now.grid.count(); ++p) {
             m_light.part(p, m_light.bounced()) = {};
             m_fieldStale = true;
         }
-    const bool smooth = settingOf(scene.technique, kSmooth) > 0;
-    m_fieldStale |= std::exchange(m_smooth, smooth) != smooth;
+    m_fieldStale |= std::exchange(m_smooth, settings.smooth) != settings.smooth;
     std::vector<glm::vec3> colors;
     for (const Light& light : scene.lights)
         colors.push_back(weightOf(light));
@@ -310,8 +253,7 @@ LightingReport ProbeLighting::update(const LightingInput& input, const Progress&
         return nothing;
     }
     // A view gets its light a few probes at a time; anything else wants all of it.
-    const std::uint32_t most =
-        input.view ? std::uint32_t(settingOf(input.scene.technique, kPerUpdate)) : ~0U;
+    const std::uint32_t most = input.view ? probeSettingsOf(input.scene.technique).perUpdate : ~0U;
     Times times;
     std::uint32_t bounces = 0;
     bool written = false;
@@ -391,7 +333,7 @@ constinit const Technique kProbesTechnique = {
                "when light changes. Needs no bake",
     .source = "McGuire, Mara, Nowrouzezahrai, Luebke. Real-Time Global Illumination using "
               "Precomputed Light Field Probes. 2017",
-    .settings = kSettings,
+    .settings = kProbeSettings,
     .overlays = kProbeOverlays,
     .precomputation = nullptr,
     .light = [](const Prepared&) {
