@@ -111,4 +111,16 @@ std::vector<PlacedTriangle> addFineTexels(const Scene& scene, std::vector<Placed
     return all;
 }
 
+std::vector<std::uint32_t> fineBlocks(const LightmapLayout& layout) {
+    std::vector<std::uint32_t> finer;
+    bool any = false;
+    const std::size_t count = std::size_t(layout.width) * layout.height;
+    for (std::size_t place = 0; place < count && place < layout.snaps.size(); ++place) {
+        const bool fine = (layout.snaps[place] & kFineLookup) != 0;
+        finer.push_back(fine ? layout.snaps[place] & ~kFineLookup : ~0U);
+        any = any || fine;
+    }
+    return any ? finer : std::vector<std::uint32_t>();
+}
+
 } // namespace limn

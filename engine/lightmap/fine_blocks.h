@@ -110,4 +110,8 @@ std::vector<PlacedTriangle> addFineLevel(const Scene& scene,
 std::vector<PlacedTriangle> addFineTexels(const Scene& scene, std::vector<PlacedTriangle> triangles,
                                           const FineLookups& lookups, Atlas& atlas);
 
+/// Per texel of a layout: the first texel of the block that its lookups read instead; ~0: none.
+/// Empty: the layout has no finer texels.
+std::vector<std::uint32_t> fineBlocks(const LightmapLayout& layout);
+
 } // namespace limn

@@ -64,4 +64,24 @@ PrecomputedCost PreparedSparse::expectedCost(const Scene& scene, const BakeSetti
     return cost;
 }
 
+OverlayData PreparedSparse::overlay(const OverlayRequest& request, const Scene& scene,
+                                    const LightSnapshot* light) const {
+    const auto* snapshot = static_cast<const SparseSnapshot*>(light);
+    const bool fits =
+        snapshot && snapshot->probes().size() == m_bake->probes.size() * 3 * m_bake->coefficients();
+    return sparseOverlay(*m_bake, request, scene, fits ? &snapshot->probes() : nullptr);
+}
+
+std::optional<std::uint32_t> PreparedSparse::pickAt(const Scene& scene, const Hit& hit) const {
+    if (hit.instance >= std::min(scene.instances.size(), m_bake->lightmap.instances.size()))
+        return {};
+    const std::uint32_t receiver = ReceiverAt(m_bake->lightmap, m_bake->receivers)(scene, hit);
+    return receiver == ReceiverAt::kNone ? std::nullopt : std::optional(receiver);
+}
+
+std::optional<std::uint32_t> PreparedSparse::nearestPick(const OverlaySource& other,
+                                                         std::uint32_t pick) const {
+    return nearestReceiver(*m_bake, *static_cast<const PreparedSparse&>(other).m_bake, pick);
+}
+
 } // namespace limn

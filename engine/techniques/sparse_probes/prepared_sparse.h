@@ -3,6 +3,7 @@
 
 #include "engine/lighting/precomputed.h"
 #include "engine/techniques/sparse_probes/sparse_bake.h"
+#include "engine/techniques/sparse_probes/sparse_overlay.h"
 
 #include <memory>
 #include <utility>
@@ -30,6 +31,16 @@ public:
     std::string defect(const Scene& scene) const override { return sparseDefect(*m_bake, &scene); }
     Result<void> write(const std::string& path) const override {
         return writeSparse(path, *m_bake);
+    }
+
+    OverlayData overlay(const OverlayRequest& request, const Scene& scene,
+                        const LightSnapshot* light) const override;
+    std::uint32_t pickCount() const override { return std::uint32_t(m_bake->receivers.size()); }
+    std::optional<std::uint32_t> pickAt(const Scene& scene, const Hit& hit) const override;
+    std::optional<std::uint32_t> nearestPick(const OverlaySource& other,
+                                             std::uint32_t pick) const override;
+    std::vector<OverlayLine> describePick(const Scene& scene, std::uint32_t pick) const override {
+        return describeReceiver(*m_bake, scene, pick);
     }
 
 private:

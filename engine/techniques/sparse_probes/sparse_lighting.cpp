@@ -5,6 +5,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/field/grid_placement.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
+#include "engine/techniques/sparse_probes/sparse_overlay.h"
 
 #include <algorithm>
 #include <numbers>
@@ -94,6 +95,10 @@ void SparseLighting::writeField(bool grid) {
         m_field.lightmap[m_bake->receivers.texel[r]] =
             glm::vec4(m_irradiance[r] * kRadiancePerIrradiance, 0);
     ++m_field.version;
+}
+
+std::shared_ptr<const LightSnapshot> SparseLighting::snapshot() const {
+    return std::make_shared<const SparseSnapshot>(m_probes);
 }
 
 LightingReport SparseLighting::report(const Times& times, std::uint32_t bounces,

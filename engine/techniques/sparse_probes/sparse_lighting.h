@@ -24,6 +24,7 @@ public:
     /// input.trace is not null.
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return &m_field; }
+    std::shared_ptr<const LightSnapshot> snapshot() const override;
     Explanation explain(const Scene& scene, const FieldReading& reading,
                         const ExplainOptions& options) const override;
 

@@ -3,6 +3,7 @@
 
 #include "engine/techniques/sparse_probes/prepared_sparse.h"
 #include "engine/techniques/sparse_probes/sparse_lighting.h"
+#include "engine/techniques/sparse_probes/sparse_overlay.h"
 
 #include <algorithm>
 #include <cassert>
@@ -53,7 +54,7 @@ constinit const Technique kSparseProbesTechnique = {
     .source = "Silvennoinen, Lehtinen. Real-time Global Illumination by Precomputed Local "
               "Reconstruction from Sparse Radiance Probes. 2017",
     .settings = kSparseSettings,
-    .overlays = {},
+    .overlays = kSparseOverlays,
     .precomputation = &kPrecomputation,
     .light = light};
 

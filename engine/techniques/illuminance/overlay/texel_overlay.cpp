@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/overlay/texel_overlay.h"
 
+#include "engine/lightmap/fine_blocks.h"
 #include "engine/overlay/palette.h"
 
 #include <algorithm>
@@ -201,18 +202,6 @@ static void addFineTexels(const LightmapLayout& layout, TexelUse& use) {
         }
 }
 
-static std::vector<std::uint32_t> finerTexels(const LightmapLayout& layout) {
-    std::vector<std::uint32_t> finer;
-    bool any = false;
-    const std::size_t count = std::size_t(layout.width) * layout.height;
-    for (std::size_t place = 0; place < count && place < layout.snaps.size(); ++place) {
-        const bool fine = (layout.snaps[place] & kFineLookup) != 0;
-        finer.push_back(fine ? layout.snaps[place] & ~kFineLookup : ~0U);
-        any = any || fine;
-    }
-    return any ? finer : std::vector<std::uint32_t>();
-}
-
 TexelUse texelUse(const LightmapLayout& layout, const Scene& scene) {
     const std::size_t count = std::size_t(layout.width) * layout.height;
     Raster raster{layout, {}, std::vector<std::uint16_t>(count), std::vector<float>(count)};
@@ -304,7 +293,7 @@ OverlayData texelOverlay(const Bake& bake, const Scene& scene, Overlay kind) {
     out.width = bake.lightmap.width;
     out.height = bake.lightmap.height;
     out.texels.resize(use.kind.size());
-    out.finer = finerTexels(bake.lightmap);
+    out.finer = fineBlocks(bake.lightmap);
     if (kind == Overlay::Charts)
         paintCharts(use, out);
     else if (kind == Overlay::Density)

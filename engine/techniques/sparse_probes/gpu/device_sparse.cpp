@@ -8,6 +8,7 @@
 #include "engine/gpu/storage_maker.h"
 #include "engine/techniques/sparse_probes/prepared_sparse.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
+#include "engine/techniques/sparse_probes/sparse_overlay.h"
 
 #include <algorithm>
 #include <numbers>
@@ -245,6 +246,13 @@ std::vector<glm::vec3> DeviceSparse::readIrradiance() const {
     if (!colors.empty())
         gpu::readBuffer(m_device, m_buffers.irradiance, std::as_writable_bytes(std::span(colors)));
     return {colors.begin(), colors.end()};
+}
+
+std::shared_ptr<const LightSnapshot> DeviceSparse::snapshot() const {
+    std::vector<glm::vec4> rows(m_bake->probes.size() * probeRow(m_bake->coefficients()));
+    if (!rows.empty())
+        gpu::readBuffer(m_device, m_buffers.probes, std::as_writable_bytes(std::span(rows)));
+    return std::make_shared<const SparseSnapshot>(unpackProbes(rows, m_bake->coefficients()));
 }
 
 IndirectField DeviceSparse::readField() const {

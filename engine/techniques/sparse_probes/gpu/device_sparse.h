@@ -33,6 +33,8 @@ public:
     /// Precondition: the viewport shows the lights and objects of input.scene. Waits for the GPU.
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return nullptr; }
+    /// Waits for the GPU.
+    std::shared_ptr<const LightSnapshot> snapshot() const override;
 
     // Read-back for tests. Each waits.
     std::vector<glm::vec3> readIrradiance() const; ///< bounced, per receiver [W m^-2]

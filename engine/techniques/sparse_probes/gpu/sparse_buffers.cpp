@@ -172,6 +172,16 @@ std::vector<glm::vec4> packProbes(const ProbeRadiance& probes, std::size_t coeff
     return out;
 }
 
+ProbeRadiance unpackProbes(const std::vector<glm::vec4>& rows, std::size_t coefficients) {
+    const std::size_t row = probeRow(coefficients), count = rows.size() / row;
+    ProbeRadiance out(count * 3 * coefficients);
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t i = 0; i < coefficients; ++i)
+            for (int c = 0; c < 3; ++c)
+                out[(3 * p + std::size_t(c)) * coefficients + i] = rows[p * row + i][c];
+    return out;
+}
+
 Result<SparseBuffers> createSparseBuffers(gpu::Device& device, const SparseBake& bake,
                                           const ReceiverPoints& points,
                                           const std::vector<float>& shares,

@@ -47,5 +47,7 @@ Result<SparseBuffers> createSparseBuffers(gpu::Device& device, const SparseBake&
 
 /// Rows of harmonics as the device reads them: RGB and 0, probeRow() values per probe.
 std::vector<glm::vec4> packProbes(const ProbeRadiance& probes, std::size_t coefficients);
+/// The inverse of packProbes().
+ProbeRadiance unpackProbes(const std::vector<glm::vec4>& rows, std::size_t coefficients);
 
 } // namespace limn

@@ -2,9 +2,11 @@
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
 
 #include "engine/field/field_packing.h"
+#include "engine/techniques/sparse_probes/sparse_overlay.h"
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/sparse_probes/lit_by_sparse.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <utility>
@@ -344,6 +346,21 @@ TEST_F(DeviceSparseTest, TheViewportShowsItsFieldAndTheGridLightsObjects) {
     for (std::size_t i = 0; i < shown.rgb.size(); ++i) // packed by another scale
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(shown.rgb[i][c], copied.rgb[i][c], 4 * kHalf * brightest) << i;
+}
+
+TEST_F(DeviceSparseTest, ItsOverlayShowsTheLightOfTheDevice) {
+    for (const double bands : {3, 4}) {
+        prepare(litCorner(false), {{"sparse-probes.bands", bands}}, 400);
+        lit->update();
+        update();
+        const auto gpu = light->snapshot(), cpu = lit->lighting->snapshot();
+        const ProbeRadiance &mine = static_cast<const SparseSnapshot&>(*gpu).probes(),
+                            &expected = static_cast<const SparseSnapshot&>(*cpu).probes();
+        ASSERT_EQ(mine.size(), expected.size());
+        const float brightest = std::ranges::max(expected);
+        for (std::size_t k = 0; k < mine.size(); ++k)
+            ASSERT_NEAR(mine[k], expected[k], float(kRounding) * brightest) << k;
+    }
 }
 
 } // namespace
