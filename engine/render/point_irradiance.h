@@ -27,9 +27,6 @@ struct PointBuffers {
 /// these reads no shadow map. Not thread-safe.
 class PointIrradiance {
 public:
-    /// Number of storage buffers bound at once.
-    static constexpr std::uint32_t kStorageBuffers = 6;
-
     /// The device and the buffers must outlive the object.
     PointIrradiance(gpu::Device& device, const PointBuffers& buffers);
 

@@ -225,6 +225,34 @@ TEST_F(DeviceProbesTest, FollowWhatChangesAndComputeNothingElse) {
     EXPECT_LT(difference().largest, kRounding);
 }
 
+TEST_F(DeviceProbesTest, ScaleDoesNotChangeIrradianceAndTwiceTheLightIsTwiceTheIrradiance) {
+    const auto mean = [&] {
+        double sum = 0;
+        const std::vector<glm::vec3> E = irradiance();
+        for (const glm::vec3 e : E)
+            sum += double(e.x) / double(E.size());
+        return sum;
+    };
+    std::vector<double> found;
+    for (const float scale : {1e-3f, 1.f, 1e3f}) {
+        simple::SceneBuilder b;
+        b.addMaterial(simple::lambert(glm::vec3(0.6f)));
+        const glm::mat4 toWorld = glm::scale(glm::mat4(1), glm::vec3(scale));
+        b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true), toWorld);
+        b.add(simple::box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false), toWorld);
+        b.scene.lights = {pointLight(scale * glm::vec3(2, 2.5f, 2), 5 * scale * scale)};
+        prepare(b.build());
+        update();
+        found.push_back(mean());
+    }
+    EXPECT_GT(found[1], 0.1);
+    EXPECT_NEAR(found[0], found[1], 0.01 * found[1]);
+    EXPECT_NEAR(found[2], found[1], 0.01 * found[1]);
+    lit->scene.lights[0].strength *= 2;
+    update();
+    EXPECT_NEAR(mean(), 2 * found[2], 1e-5 * found[2]);
+}
+
 TEST_F(DeviceProbesTest, DoNothingWhileNothingChanges) {
     prepare(litCorner(true));
     EXPECT_TRUE(update().converged);

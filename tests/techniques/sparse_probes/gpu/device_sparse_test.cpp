@@ -212,6 +212,52 @@ TEST_F(DeviceSparseTest, FollowsWhatChangesAndRecomputesNothingElse) {
     EXPECT_LT(difference().largest, kRounding);
 }
 
+TEST_F(DeviceSparseTest, ScaleDoesNotChangeIrradianceAndTwiceTheLightIsTwiceTheIrradiance) {
+    const auto mean = [&] {
+        double sum = 0;
+        const std::vector<glm::vec3> E = light->readIrradiance();
+        for (const glm::vec3 e : E)
+            sum += double(e.x) / double(E.size());
+        return sum;
+    };
+    std::vector<double> found;
+    for (const float scale : {1e-3f, 1.f, 1e3f}) {
+        simple::SceneBuilder b;
+        b.addMaterial(simple::lambert(glm::vec3(0.6f)));
+        const glm::mat4 toWorld = glm::scale(glm::mat4(1), glm::vec3(scale));
+        b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true), toWorld);
+        b.add(simple::box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false), toWorld);
+        b.scene.lights = {pointLight(scale * glm::vec3(2, 2.5f, 2), 5 * scale * scale)};
+        prepare(b.build(), {}, 800);
+        update(200);
+        found.push_back(mean());
+    }
+    EXPECT_GT(found[1], 0.1);
+    EXPECT_NEAR(found[0], found[1], 0.01 * found[1]);
+    EXPECT_NEAR(found[2], found[1], 0.01 * found[1]);
+    lit->scene.lights[0].strength *= 2;
+    lit->scene.relight.tolerance = 0.01f;
+    update(200);
+    EXPECT_NEAR(mean(), 2 * found[2], 2e-3 * found[2]);
+}
+
+TEST_F(DeviceSparseTest, NoLightLeaksIntoARoomThatIsDark) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.7f)));
+    b.add(simple::box({-4.1f, 0, 0}, {-0.1f, 2, 4}, true));
+    b.add(simple::box({0.1f, 0, 0}, {4.1f, 2, 4}, true));
+    b.scene.lights = {pointLight({-2, 1.5f, 2}, 10)};
+    prepare(b.build(), {{"sparse-probes.count", 54}});
+    update();
+    double sum[2] = {0, 0};
+    const std::vector<glm::vec3> E = light->readIrradiance();
+    for (std::size_t r = 0; r < E.size(); ++r)
+        sum[lit->bake().receivers.instance[r]] += double(E[r].x);
+    std::printf("leak %.6f of the lit room\n", sum[1] / sum[0]);
+    EXPECT_GT(sum[0], 0.1);
+    EXPECT_LT(sum[1], 1e-3 * sum[0]);
+}
+
 TEST_F(DeviceSparseTest, DoesNothingWhileNothingChanges) {
     prepare(litCorner(true, true));
     EXPECT_FALSE(update(1).converged);
