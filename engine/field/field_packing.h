@@ -14,8 +14,8 @@ namespace limn {
 // chroma^2 coefficients store red, green and blue one after the other; the remaining ones are grey
 // and store one value each. Every value is multiplied by a power of two that the whole field
 // shares, so that neither lights of 1e10 nor of 1e-6 leave the range of halfs. A texel takes 56
-// bytes for 3 bands and 96 for 4. shaders/viewport/indirect.frag and
-// shaders/illuminance/relight_field.comp use the same layout.
+// bytes for 3 bands and 96 for 4. shaders/viewport/indirect.frag and the compute shaders that write
+// fields, such as shaders/illuminance/relight_field.comp, use the same layout.
 
 /// Number of layers of four values; chroma in [1, bands].
 constexpr std::uint32_t fieldLayers(std::uint32_t bands, std::uint32_t chroma) {

@@ -187,7 +187,8 @@ Result<SparseBuffers> createSparseBuffers(gpu::Device& device, const SparseBake&
                                           const std::vector<float>& shares,
                                           const std::vector<float>& basis, std::uint32_t lanes) {
     const std::size_t receivers = bake.receivers.size(), color = sizeof(glm::vec4),
-                      rows = bake.probes.size() * probeRow(bake.coefficients());
+                      // Receivers without a probe read the first one.
+        rows = std::max<std::size_t>(bake.probes.size(), 1) * probeRow(bake.coefficients());
     SparseBuffers out;
     std::string error;
     {
