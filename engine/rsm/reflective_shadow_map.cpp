@@ -20,21 +20,6 @@ namespace {
 constexpr float kWidestSpotView = 1.0471976f; ///< 60 degrees
 constexpr float kMinCosine = 0.05f;           ///< of footprints of texels seen at a grazing angle
 
-/// A square of texels: through each runs a ray, parallel to the others or from a point.
-struct RsmView {
-    glm::vec3 origin{0};       ///< of the rays, or the middle of their origins
-    glm::vec3 forward{0};      ///< unit
-    glm::vec3 right{0}, up{0}; ///< from the middle to the edges; at distance 1
-    bool parallel = false;
-    std::uint32_t size = 1; ///< texels along a side
-    float power = 1;        ///< factor of the incident flux
-
-    /// Area of a texel, at distance 1 where rays part.
-    float texelArea() const {
-        return 4 * glm::length(right) * glm::length(up) / (float(size) * float(size));
-    }
-};
-
 void addCube(std::vector<RsmView>& views, glm::vec3 origin, const glm::mat3& axes,
              std::uint32_t size, float power) {
     for (int face = 0; face < 6; ++face) {
@@ -46,51 +31,6 @@ void addCube(std::vector<RsmView>& views, glm::vec3 origin, const glm::mat3& axe
                          .size = size,
                          .power = power});
     }
-}
-
-std::vector<RsmView> viewsOf(const TraceScene& trace, const Light& light, const Bounds& bounds,
-                             std::uint32_t size) {
-    std::vector<RsmView> views;
-    const glm::mat3 axes = basisAround(light.direction);
-    switch (light.kind) {
-    case LightKind::Directional: {
-        const glm::vec3 half = bounds.size() * 0.5f;
-        const float radius = glm::length(half);
-        const auto extent = [&](glm::vec3 axis) {
-            return glm::dot(glm::abs(axis), half) + 1e-4f * radius;
-        };
-        if (radius > 0)
-            views.push_back({.origin = bounds.centre() - light.direction * (1.01f * radius),
-                             .forward = light.direction,
-                             .right = axes[0] * extent(axes[0]),
-                             .up = axes[1] * extent(axes[1]),
-                             .parallel = true,
-                             .size = size});
-        break;
-    }
-    case LightKind::Point:
-        addCube(views, light.position, glm::mat3(1), size, 1);
-        break;
-    case LightKind::Spot:
-        if (light.outerAngle <= kWidestSpotView)
-            views.push_back({.origin = light.position,
-                             .forward = light.direction,
-                             .right = axes[0] * std::tan(light.outerAngle),
-                             .up = axes[1] * std::tan(light.outerAngle),
-                             .size = size});
-        else
-            addCube(views, light.position, axes, size, 1);
-        break;
-    case LightKind::Rectangle: {
-        const LightRectangle rectangle = lightRectangle(light);
-        for (const glm::vec2 uv :
-             {glm::vec2(0.25f), glm::vec2(0.75f, 0.25f), glm::vec2(0.25f, 0.75f), glm::vec2(0.75f)})
-            addCube(views, trace.clearOf(rectangle.at(uv), rectangle.normal), axes,
-                    std::max(size / 2, 1U), rectangle.area / 4);
-        break;
-    }
-    }
-    return views;
 }
 
 /// Share of the light that leaves in a direction.
@@ -149,6 +89,52 @@ std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, c
 
 } // namespace
 
+std::vector<RsmView>
+rsmViews(const Light& light, const Bounds& bounds, std::uint32_t size,
+         const std::function<glm::vec3(glm::vec3 p, glm::vec3 normal)>& clearOf) {
+    std::vector<RsmView> views;
+    const glm::mat3 axes = basisAround(light.direction);
+    switch (light.kind) {
+    case LightKind::Directional: {
+        const glm::vec3 half = bounds.size() * 0.5f;
+        const float radius = glm::length(half);
+        const auto extent = [&](glm::vec3 axis) {
+            return glm::dot(glm::abs(axis), half) + 1e-4f * radius;
+        };
+        if (radius > 0)
+            views.push_back({.origin = bounds.centre() - light.direction * (1.01f * radius),
+                             .forward = light.direction,
+                             .right = axes[0] * extent(axes[0]),
+                             .up = axes[1] * extent(axes[1]),
+                             .parallel = true,
+                             .size = size});
+        break;
+    }
+    case LightKind::Point:
+        addCube(views, light.position, glm::mat3(1), size, 1);
+        break;
+    case LightKind::Spot:
+        if (light.outerAngle <= kWidestSpotView)
+            views.push_back({.origin = light.position,
+                             .forward = light.direction,
+                             .right = axes[0] * std::tan(light.outerAngle),
+                             .up = axes[1] * std::tan(light.outerAngle),
+                             .size = size});
+        else
+            addCube(views, light.position, axes, size, 1);
+        break;
+    case LightKind::Rectangle: {
+        const LightRectangle rectangle = lightRectangle(light);
+        for (const glm::vec2 uv :
+             {glm::vec2(0.25f), glm::vec2(0.75f, 0.25f), glm::vec2(0.25f, 0.75f), glm::vec2(0.75f)})
+            addCube(views, clearOf(rectangle.at(uv), rectangle.normal), axes,
+                    std::max(size / 2, 1U), rectangle.area / 4);
+        break;
+    }
+    }
+    return views;
+}
+
 ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& of,
                             std::uint32_t size, const Progress& progress) {
     const Light light = unitLight(of);
@@ -156,7 +142,9 @@ ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const L
         std::vector<RsmTexel> texels;
         std::uint32_t rays = 0;
     };
-    const std::vector<RsmView> views = viewsOf(trace, light, scene.bounds, size);
+    const std::vector<RsmView> views =
+        rsmViews(light, scene.bounds, size,
+                 [&](glm::vec3 p, glm::vec3 normal) { return trace.clearOf(p, normal); });
     const std::size_t rowsOfView = views.empty() ? 0 : views[0].size; // all have the same size
     std::vector<Row> rows(views.size() * rowsOfView);
     parallelRanges(rows.size(), 4, progress, "shadow map", [&](std::size_t begin, std::size_t end) {

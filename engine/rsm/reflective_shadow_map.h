@@ -5,8 +5,10 @@
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace limn {
@@ -28,6 +30,28 @@ struct ReflectiveShadowMap {
     std::vector<RsmTexel> texels; ///< that reflect anything, in the order of the raster
     std::uint64_t rays = 0;       ///< traced for it
 };
+
+/// A square of texels: through each runs a ray, parallel to the others or from a point. Texel (x,
+/// y) has its ray through at.x right + at.y up, with at = 2 (x + 0.5, y + 0.5) / size - 1.
+struct RsmView {
+    glm::vec3 origin{0};       ///< of the rays, or the middle of their origins
+    glm::vec3 forward{0};      ///< unit
+    glm::vec3 right{0}, up{0}; ///< from the middle to the edges; at distance 1
+    bool parallel = false;
+    std::uint32_t size = 1; ///< texels along a side
+    float power = 1;        ///< factor of the incident flux
+
+    /// Area of all texels, at distance 1 where rays part.
+    float area() const { return 4 * glm::length(right) * glm::length(up); }
+    /// Area of one of them.
+    float texelArea() const { return area() / (float(size) * float(size)); }
+};
+
+/// The views of a light over a scene with these bounds, all of the same size. `clearOf` moves a
+/// point of a rectangle off it along the normal. Empty for a sun over a scene without extent.
+std::vector<RsmView>
+rsmViews(const Light& light, const Bounds& bounds, std::uint32_t size,
+         const std::function<glm::vec3(glm::vec3 p, glm::vec3 normal)>& clearOf);
 
 /// Casts the map of a light as unitLight() makes it: lights that this makes equal have equal maps.
 /// `size`: texels along the side of a view, >= 1. A sun has one view, over the scene's bounds. A
