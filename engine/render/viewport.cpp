@@ -6,6 +6,7 @@
 #include "engine/gpu/timestamps.h"
 #include "engine/gpu/vulkan_error.h"
 #include "engine/render/indirect_light.h"
+#include "engine/render/passes/camera_view.h"
 #include "engine/render/passes/direct_pass.h"
 #include "engine/render/passes/geometry_passes.h"
 #include "engine/render/passes/indirect_pass.h"
@@ -16,6 +17,7 @@
 #include "engine/render/shadows/parted_lights.h"
 #include "engine/render/shadows/shadow_maps.h"
 #include "engine/render/surfaces/surface_images.h"
+#include "engine/render/surfaces/surface_maps.h"
 
 #include <algorithm>
 #include <array>
@@ -82,30 +84,10 @@ struct FrameSlot {
     bool timed = false; ///< its timestamps were read
 };
 
-/// Result of nearestInSight() for the last frame that needed it.
-struct NearestSeen {
-    glm::mat4 toClip{0};
-    std::uint64_t scene = 0; ///< RenderScene::version
-    float distance = 0;      ///< [m]
-};
-
 struct Targets {
     gpu::Image linear, color;
     gpu::Image metering; ///< made when first needed
 };
-
-struct DepthRange {
-    float zNear = 0, zFar = 0; ///< [m]
-};
-
-// Depth range around the scene as the camera sees it. Depth runs from 1 to 0 in floating point, so
-// a near plane this close costs no precision.
-DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
-    const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
-                                     glm::abs(bounds.upper - options.camera.eye));
-    const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f);
-    return {zFar * 1e-5f, zFar};
-}
 
 } // namespace
 
@@ -135,6 +117,7 @@ struct Viewport::Impl {
     gpu::Image reflectionTable;
     GeometryPasses geometry;
     SurfaceImages surfaces;
+    SurfaceMaps surfaceMaps;
     IndirectPass indirectPass;
     SkyPass sky;
     DirectPass direct;
@@ -171,8 +154,8 @@ Viewport::Impl::Impl(gpu::Device& d)
                                              .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       reflectionTable(uploadReflectionTable(d)),
       geometry(d, frameLayout.handle, materials.layout()), surfaces(d),
-      indirectPass(d, frameLayout.handle), sky(d, frameLayout.handle),
-      direct(d, frameLayout.handle),
+      surfaceMaps(d, frameLayout, kFrameTypes), indirectPass(d, frameLayout.handle),
+      sky(d, frameLayout.handle), direct(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
       tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})), relightTimes(d, 1) {
@@ -421,32 +404,6 @@ void Viewport::setOverlay(std::shared_ptr<const OverlayData> overlay) {
     m_impl->pendingUploadMs += msSince(start);
 }
 
-static GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
-    const DepthRange range = depthRange(options, bounds);
-    const float aspect = float(options.width) / float(options.height);
-    GeometryView view;
-    view.view = options.view;
-    view.toClip = projectionMatrix(options.camera, aspect, range.zFar, range.zNear) *
-                  viewMatrix(options.camera);
-    view.eye = options.camera.eye;
-    view.grid = grid;
-    return view;
-}
-
-static ShadowCamera shadowCamera(const ViewportOptions& options, const GeometryView& view,
-                                 const RenderScene& scene, NearestSeen& seen) {
-    if (seen.toClip != view.toClip || seen.scene != scene.version)
-        seen = {view.toClip, scene.version, nearestInSight(scene, view.toClip, view.eye)};
-    const float aspect = float(options.width) / float(options.height);
-    const glm::vec3 forward = rayDirection(options.camera, aspect, 0, 0);
-    const glm::vec3 corner = rayDirection(options.camera, aspect, 1, 1);
-    return {.eye = view.eye,
-            .forward = forward,
-            .tanCorner = glm::length(corner - forward),
-            .nearest = seen.distance,
-            .pixel = 2 * std::tan(options.camera.fovY / 2) / float(options.height)};
-}
-
 void Viewport::render(const ViewportOptions& options) {
     assert(options.width > 0 && options.height > 0);
     Impl& v = *m_impl;
@@ -530,6 +487,16 @@ ShadowedLights Viewport::shadowedLights() {
             .shapes = v.relightTable.shapes,
             .casters = v.relightScene,
             .version = v.relightVersion};
+}
+
+void Viewport::drawSurfaceMaps(std::span<const SurfaceMapView> views, std::uint32_t size,
+                               const ReadSurfaceMap& read) {
+    Impl& v = *m_impl;
+    const auto slotIndex = std::uint32_t(v.frames % kFrameSlots); // the next frame's
+    v.device.wait(v.slots[slotIndex].submission);
+    v.materials.writeFactors(slotIndex);
+    v.surfaceMaps.draw(v.geometry, v.scene, v.materials, *v.indirect.field, slotIndex, views, size,
+                       read);
 }
 
 VkImageView Viewport::colorView() const {

@@ -6,12 +6,14 @@
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/render/gpu_field.h"
 #include "engine/render/shadowed_lights.h"
+#include "engine/render/surface_map.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,6 +80,12 @@ public:
     /// that are out of date. PointIrradiance lights points with them. The result is valid until the
     /// next call of a non-const function; the result of the previous call must no longer be in use.
     ShadowedLights shadowedLights();
+
+    /// Draws the scene of the last setScene() as each of `views` sees it, one after the other into
+    /// the same images of `size` x `size` texels, and lets `read` record compute shaders that read
+    /// them, with the number of the view. Waits for the GPU.
+    void drawSurfaceMaps(std::span<const SurfaceMapView> views, std::uint32_t size,
+                         const ReadSurfaceMap& read);
 
     /// Sets whether shadow maps drawn from now on have half as many texels across, as suits moving
     /// scenes. Turning it off causes coarse maps to be redrawn. Initially false.

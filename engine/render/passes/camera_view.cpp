@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/passes/camera_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limn::render {
+
+// Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
+DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
+    const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
+                                     glm::abs(bounds.upper - options.camera.eye));
+    const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f);
+    return {zFar * 1e-5f, zFar};
+}
+
+GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
+    const DepthRange range = depthRange(options, bounds);
+    const float aspect = float(options.width) / float(options.height);
+    GeometryView view;
+    view.view = options.view;
+    view.toClip = projectionMatrix(options.camera, aspect, range.zFar, range.zNear) *
+                  viewMatrix(options.camera);
+    view.eye = options.camera.eye;
+    view.grid = grid;
+    return view;
+}
+
+ShadowCamera shadowCamera(const ViewportOptions& options, const GeometryView& view,
+                          const RenderScene& scene, NearestSeen& seen) {
+    if (seen.toClip != view.toClip || seen.scene != scene.version)
+        seen = {view.toClip, scene.version, nearestInSight(scene, view.toClip, view.eye)};
+    const float aspect = float(options.width) / float(options.height);
+    const glm::vec3 forward = rayDirection(options.camera, aspect, 0, 0);
+    const glm::vec3 corner = rayDirection(options.camera, aspect, 1, 1);
+    return {.eye = view.eye,
+            .forward = forward,
+            .tanCorner = glm::length(corner - forward),
+            .nearest = seen.distance,
+            .pixel = 2 * std::tan(options.camera.fovY / 2) / float(options.height)};
+}
+
+} // namespace limn::render

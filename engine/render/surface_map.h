@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include <glm/mat4x4.hpp>
+#include <vulkan/vulkan.h>
+
+namespace limn {
+
+/// A view of which a map of surfaces is drawn.
+struct SurfaceMapView {
+    /// World to clip; y points up, and depth runs from 1 near to 0 far. Its axes form a
+    /// right-handed system with the eye looking along -z.
+    glm::mat4 toClip{1};
+};
+
+/// The surfaces that such a view sees, for compute shaders: square images in
+/// SHADER_READ_ONLY_OPTIMAL. The handles belong to whoever returned this struct.
+struct SurfaceMap {
+    VkImageView albedo = VK_NULL_HANDLE;  ///< rgb: diffuse; 0 on the back of a one-sided surface
+    VkImageView surface = VK_NULL_HANDLE; ///< as packSurface() of surface_pack.glsl
+    VkImageView depth = VK_NULL_HANDLE;   ///< 0 where there is no surface
+    VkSampler sampler = VK_NULL_HANDLE;   ///< nearest
+    std::uint64_t bytes = 0;              ///< of the images, which are kept
+};
+
+/// Records work that reads the map of the view with that number.
+using ReadSurfaceMap =
+    std::function<void(VkCommandBuffer cmd, const SurfaceMap& map, std::size_t view)>;
+
+} // namespace limn
