@@ -3,6 +3,8 @@
 
 #include "engine/techniques/illuminance/gpu/device_illuminance.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/lpv/gpu/device_lpv.h"
+#include "engine/techniques/lpv/lpv.h"
 #include "engine/techniques/probes/gpu/device_probes.h"
 #include "engine/techniques/probes/probes.h"
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
@@ -22,6 +24,7 @@ struct Row {
 };
 
 constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+                              Row{&kLpvTechnique, lightLpvOnDevice},
                               Row{&kProbesTechnique, lightProbesOnDevice},
                               Row{&kSparseProbesTechnique, lightSparseOnDevice}};
 
