@@ -45,11 +45,11 @@ public:
 
     /// Last successful bake and the scene it was made from; members are null if there is none.
     const BakedScene& baked() const { return m_baked; }
-    /// True if whoever draws the viewport must light baked() on its device and fill state.relight.
-    bool viewportRelights() const {
-        return m_baked.bake && m_baked.bake->technique().name == m_scene->technique.technique &&
-               state.relightPlace.used() == RelightOn::Gpu;
-    }
+    /// The scene's technique; null if it needs a bake and baked() is none of it.
+    const Technique* lightingTechnique() const;
+    /// True if whoever draws the viewport must light by it on its device and fill state.relight.
+    /// Where it needs no bake, overlays of its light are the CPU's, and so is the light then.
+    bool viewportRelights() const;
 
     /// Light for an overlay of it; null: there is no such overlay, or the viewport relights.
     const std::shared_ptr<const LightSnapshot>& lit() const { return m_relit.lit; }

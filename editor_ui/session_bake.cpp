@@ -77,6 +77,19 @@ void Session::followOverlay() {
     state.overlay.light = fits && !viewportRelights() ? m_relit.lit : nullptr;
 }
 
+const Technique* Session::lightingTechnique() const {
+    const Technique* technique = findTechnique(m_scene->technique.technique);
+    const bool needsOther = technique && technique->precomputation &&
+                            !(m_baked.bake && &m_baked.bake->technique() == technique);
+    return needsOther ? nullptr : technique;
+}
+
+bool Session::viewportRelights() const {
+    const OverlayKind* kind = state.overlay.options.kind;
+    const bool liveOverlay = kind && !techniqueOf(*kind).precomputation;
+    return lightingTechnique() && !liveOverlay && state.relightPlace.used() == RelightOn::Gpu;
+}
+
 bool Session::lightsBake() const {
     const Technique* technique = findTechnique(m_scene->technique.technique);
     return technique && technique->precomputation;

@@ -14,14 +14,13 @@ namespace limn {
 // Nothing is measured for a single picture, because that would take longer than relighting it on
 // either device.
 static RelightOn choose(const gpu::Device& device, const RenderRequest& request) {
-    if (!request.prepared.data) // the editor measures bakes alone
-        return chooseRelight(request.relightOn, true, std::nullopt);
     const VkPhysicalDeviceProperties& p = device.properties;
     return chooseRelight(
         request.relightOn, true,
         rememberedRelightTimes(
             defaultRelightTimesFile(),
-            relightTimesKey(p.deviceName, p.driverVersion, request.prepared.data->sizeClass())));
+            relightTimesKey(p.deviceName, p.driverVersion,
+                            sizeClassOf(*request.technique, request.prepared.data.get()))));
 }
 
 namespace {

@@ -25,7 +25,7 @@ void RenderJob::draw(PictureRequest request) {
     {
         const std::lock_guard lock(m_mutex);
         const bool newLight =
-            request.relight && (request.scene != m_lastScene || request.lit.bake != m_result.lit);
+            request.relight && (request.scene != m_lastScene || request.litBy() != m_result.lit);
         if (newLight) {
             m_result.relight.running = true;
             m_result.relight.converged = false;
@@ -56,7 +56,7 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
     m_result.stats = worker.viewport.stats();
     m_result.running = m_next.has_value() || worker.bouncing();
-    m_result.lit = worker.shown.lit.bake;
+    m_result.lit = worker.shown.litBy();
     m_result.relight = worker.relight;
     m_result.refusal = worker.refusal;
     m_result.times = worker.times;

@@ -18,11 +18,18 @@ namespace limn {
 class RenderWorker;
 struct DrawnImages;
 
+/// What lights a picture.
+struct LitBy {
+    const Technique* technique = nullptr;    ///< null: nothing
+    std::shared_ptr<const Precomputed> bake; ///< null where the technique precomputes nothing
+    bool operator==(const LitBy&) const = default;
+};
+
 /// What a picture is to show. Equal pointers imply equal contents.
 struct PictureRequest {
     std::shared_ptr<const Scene> scene;           ///< not null
     std::shared_ptr<const LightmapLayout> layout; ///< null: no bake
-    std::shared_ptr<const IndirectField> field;   ///< null: no bake, or `relight`
+    std::shared_ptr<const IndirectField> field;   ///< null: no light, or `relight`
     ViewportOptions options;
     bool linear = false; ///< DrawnPicture::linear is wanted too
     bool meter = false;  ///< DrawnPicture::metered is wanted too
@@ -31,11 +38,14 @@ struct PictureRequest {
     std::shared_ptr<const OverlaySource> overlaySource; ///< null: no overlay
     std::shared_ptr<const Scene> overlayScene;          ///< scene that overlaySource was made from
     std::shared_ptr<const LightSnapshot> light;         ///< for overlays of light, unless `relight`
-    BakedScene lit;       ///< whose bounced light is shown; null members: no bake
+    const Technique* technique = nullptr; ///< whose bounced light is shown; null: there is none
+    BakedScene lit;       ///< by the technique; null members where it precomputes nothing
     bool relight = false; ///< it is computed here, on the viewport's device, instead of `field`
     /// Trace scene of `scene`. If set, the time of relighting is first measured on either device;
     /// `lit` then belongs to `scene`, too.
     std::shared_ptr<const TraceScene> measure;
+
+    LitBy litBy() const { return {technique, lit.bake}; }
 };
 
 struct DrawnPicture {
@@ -45,12 +55,12 @@ struct DrawnPicture {
     std::optional<float> metered; ///< meteredExposure() of it; empty: not asked for, or black
     OverlayLegend legend;         ///< of its overlay
     ViewportStats stats;
-    bool running = false;                   ///< another one is being drawn
-    std::shared_ptr<const Precomputed> lit; ///< bake that the following members are about
-    LightingStatus relight;                 ///< by this device
-    std::string refusal;                    ///< why the device cannot light it; empty: it can
-    std::optional<RelightTimes> times;      ///< of bakes like it, measured now or before
-    std::string error;                      ///< why there will be no more pictures
+    bool running = false;              ///< another one is being drawn
+    LitBy lit;                         ///< what the following members are about
+    LightingStatus relight;            ///< by this device
+    std::string refusal;               ///< why the device cannot light it; empty: it can
+    std::optional<RelightTimes> times; ///< of what is like it, measured now or before
+    std::string error;                 ///< why there will be no more pictures
 };
 
 /// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload

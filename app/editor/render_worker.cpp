@@ -27,18 +27,19 @@ static std::unique_ptr<gpu::Device> openDevice(bool validate) {
 
 RenderWorker::RenderWorker(bool validate) : device(openDevice(validate)), viewport(*device) {}
 
-void RenderWorker::takeBake(const PictureRequest& request) {
-    if (request.lit.bake == shown.lit.bake)
+void RenderWorker::takeLitBy(const PictureRequest& request) {
+    if (request.litBy() == shown.litBy())
         return;
     dropLighting();
     m_litOf = nullptr;
     relight = {};
     refusal.clear();
     times.reset();
-    if (!request.lit.bake)
+    if (!request.technique)
         return;
     const VkPhysicalDeviceProperties& p = device->properties;
-    m_timesKey = relightTimesKey(p.deviceName, p.driverVersion, request.lit.bake->sizeClass());
+    m_timesKey = relightTimesKey(p.deviceName, p.driverVersion,
+                                 sizeClassOf(*request.technique, request.lit.bake.get()));
     times = rememberedRelightTimes(defaultRelightTimesFile(), m_timesKey);
 }
 
@@ -58,8 +59,7 @@ void RenderWorker::dropLighting() {
 void RenderWorker::makeLighting(const PictureRequest& request) {
     if (m_driver.lighting() || !refusal.empty())
         return;
-    auto made =
-        lightOnDevice(request.lit.bake->technique(), *device, viewport, request.lit.prepared());
+    auto made = lightOnDevice(*request.technique, *device, viewport, request.lit.prepared());
     if (!made) {
         refusal = made.error().message;
         return;
@@ -68,12 +68,12 @@ void RenderWorker::makeLighting(const PictureRequest& request) {
 }
 
 void RenderWorker::measure(const PictureRequest& request) {
-    if (!request.measure || !request.lit.bake || times)
+    if (!request.measure || !request.technique || times)
         return;
     makeLighting(request);
     if (!m_driver.lighting())
         return;
-    const auto onCpu = request.lit.bake->technique().light(request.lit.prepared());
+    const auto onCpu = request.technique->light(request.lit.prepared());
     times =
         measureRelight(viewport, *m_driver.lighting(), *onCpu, *request.scene, *request.measure);
     // Where there is no folder to keep it in, it is measured again next time.
@@ -91,7 +91,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
     if (m_litOf != request.scene || finer) {
         m_litOf = request.scene;
         m_litScene =
-            sameStaticGeometry(*request.lit.scene, *request.scene)
+            !request.lit.bake || sameStaticGeometry(*request.lit.scene, *request.scene)
                 ? request.scene
                 : std::make_shared<const Scene>(relitScene(*request.lit.scene, *request.scene));
         m_driver.lightChanged();
@@ -117,7 +117,7 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
 void RenderWorker::takeField(const PictureRequest& request) {
     dropLighting();
     // The relighter's field stays until its replacement exists.
-    const bool gone = !request.lit.bake && (m_ownField || shown.field);
+    const bool gone = !request.technique && !request.field && (m_ownField || shown.field);
     if (!gone && !(request.field && (m_ownField || request.field != shown.field)))
         return;
     viewport.setIndirect(request.field ? *request.field : IndirectField{});
@@ -143,12 +143,12 @@ void RenderWorker::makeOverlay(const PictureRequest& request) {
 }
 
 DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry) {
-    takeBake(request);
+    takeLitBy(request);
     takeScene(request);
     measure(request);
     request.measure = nullptr;
     viewport.setCoarseShadows(request.moving);
-    const bool here = request.relight && request.lit.bake;
+    const bool here = request.relight && request.technique;
     if (here)
         makeLighting(request);
     if (here && m_driver.lighting())

@@ -33,11 +33,11 @@ public:
     PictureRequest shown;
     std::shared_ptr<const OverlayData> overlay; ///< of `shown`; null: none
     LightingStatus relight;                     ///< by the device
-    std::string refusal;                        ///< why it cannot light shown.lit; empty: it can
-    std::optional<RelightTimes> times;          ///< of bakes like shown.lit
+    std::string refusal;               ///< why it cannot light by shown.litBy(); empty: it can
+    std::optional<RelightTimes> times; ///< of what is like shown.litBy()
 
 private:
-    void takeBake(const PictureRequest& request);
+    void takeLitBy(const PictureRequest& request);
     void takeScene(const PictureRequest& request);
     void dropLighting();
     void makeLighting(const PictureRequest& request);
@@ -46,12 +46,12 @@ private:
     void bounce(const PictureRequest& request, const std::atomic<bool>& hurry);
     void makeOverlay(const PictureRequest& request);
 
-    LightingDriver m_driver;                 ///< of shown.lit, while it is needed
+    LightingDriver m_driver;                 ///< of shown.litBy(), while it is needed
     bool m_litMoving = false;                ///< lit by shadow maps that may be coarse
     bool m_ownField = false;                 ///< the viewport shows the relighter's field
     std::shared_ptr<const Scene> m_litOf;    ///< scene from which `m_litScene` was made
-    std::shared_ptr<const Scene> m_litScene; ///< scene with which the bake can be lit
-    std::string m_timesKey;                  ///< of shown.lit
+    std::shared_ptr<const Scene> m_litScene; ///< scene with which the bake, if any, can be lit
+    std::string m_timesKey;                  ///< of shown.litBy()
     double m_pictureMs = 0;                  ///< what the last picture took, without bounces
 };
 

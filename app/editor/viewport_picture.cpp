@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/editor/viewport_picture.h"
 
+#include "engine/techniques/device/device_table.h"
+#include "engine/techniques/technique_table.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -21,6 +24,16 @@ constexpr float kMinScale = 0.25f;    // of the window's pixels, per axis
 constexpr float kExposureStep = 0.1f;
 constexpr float kScaleStep = 1.f / 16; // so that the size does not change with every picture
 
+/// The bake of the technique that lights the scene; null members where it precomputes nothing.
+BakedScene litBake(const Session& session) {
+    const Technique* technique = session.lightingTechnique();
+    return technique && technique->precomputation ? session.baked() : BakedScene{};
+}
+
+LitBy litBy(const Session& session) {
+    return {session.lightingTechnique(), litBake(session).bake};
+}
+
 } // namespace
 
 float ViewportPicture::chooseScale(glm::uvec2 full) const {
@@ -37,15 +50,17 @@ float ViewportPicture::chooseScale(glm::uvec2 full) const {
 void ViewportPicture::takeRelit(Session& session) {
     EditorState& state = session.state;
     RelightPlace& place = state.relightPlace;
-    if (m_drawn.lit == session.baked().bake) {
+    const Technique* technique = findTechnique(session.scene()->technique.technique);
+    if (m_drawn.lit == litBy(session)) {
         if (place.refusal != m_drawn.refusal && !m_drawn.refusal.empty())
             state.log.push_back(
                 {LogLine::Level::Warning, "Bounced light stays on the CPU: " + m_drawn.refusal});
         place.refusal = m_drawn.refusal;
-        if (m_drawn.lit)
+        if (m_drawn.lit.technique)
             place.times = m_drawn.times;
     }
-    place.gpuCan = m_drawn.error.empty() && place.refusal.empty();
+    place.gpuCan =
+        m_drawn.error.empty() && place.refusal.empty() && technique && lightsOnDevice(*technique);
     if (session.viewportRelights())
         state.relight = m_drawn.relight;
 }
@@ -84,17 +99,20 @@ void ViewportPicture::takeDrawn(Session& session) {
     state.overlay.legend = m_drawn.legend;
 }
 
-/// Measures once per bake, when nothing else runs that it would delay or that would distort it.
+/// Measures once per bake, or per technique that needs none, when nothing else runs that it would
+/// delay or that would distort it.
 bool ViewportPicture::measureNow(const Session& session) {
     const EditorState& state = session.state;
     const RelightPlace& place = state.relightPlace;
+    const LitBy lit = litBy(session);
     const bool due = place.wanted == RelightOn::Auto && place.gpuCan && !place.times &&
-                     session.baked().bake && !session.baked().preview && state.trace &&
-                     m_drawn.lit == session.baked().bake && m_measured != session.baked().bake;
+                     lit.technique && !litBake(session).preview && state.trace &&
+                     m_drawn.lit == lit && m_measured != lit;
+    const BakeFreshness freshness = state.bake.freshness;
     if (!due || m_drawn.running || m_reduced || !session.idle() ||
-        state.bake.freshness != BakeFreshness::UpToDate)
+        (freshness != BakeFreshness::UpToDate && freshness != BakeFreshness::NotUsed))
         return false;
-    m_measured = session.baked().bake;
+    m_measured = lit;
     return true;
 }
 
@@ -156,7 +174,7 @@ void ViewportPicture::update(Session& session) {
                 {},
                 nullptr,
                 session.lit(),
-                session.baked().bake,
+                litBy(session),
                 session.viewportRelights(),
                 needsReference(state.compare.mode)};
     if (state.overlay.options.kind) {
@@ -186,8 +204,8 @@ void ViewportPicture::update(Session& session) {
                  .inspection = view.inspection};
     m_job.draw({shown.scene, shown.layout, shown.field, m_options, shown.linear && !m_reduced,
                 view.autoExposure, m_reduced, shown.overlay, shown.overlaySource,
-                state.overlay.scene, shown.light, session.baked(), shown.relight,
-                measure ? state.trace : nullptr});
+                state.overlay.scene, shown.light, shown.lit.technique, litBake(session),
+                shown.relight, measure ? state.trace : nullptr});
     m_drawn = m_job.result();
     if (shown.relight)
         state.relight = m_drawn.relight;

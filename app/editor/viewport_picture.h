@@ -52,9 +52,9 @@ private:
         OverlayRequest overlay;
         std::shared_ptr<const OverlaySource> overlaySource; ///< null: there is none
         std::shared_ptr<const LightSnapshot> light;
-        std::shared_ptr<const Precomputed> lit; ///< whose light is shown
-        bool relight = false;                   ///< by the viewport's device
-        bool linear = false;                    ///< it is compared with the reference
+        LitBy lit;
+        bool relight = false; ///< by the viewport's device
+        bool linear = false;  ///< it is compared with the reference
 
         bool operator==(const Shown&) const = default;
     };
@@ -91,8 +91,8 @@ private:
     std::chrono::steady_clock::time_point m_changed;
     /// Times of the last picture: of its shadow maps, which do not depend on its size, and of the
     /// rest.
-    double m_shadowMs = 0, m_msPerPixel = 0;       ///< 0: none yet
-    std::shared_ptr<const Precomputed> m_measured; ///< bake for which relighting was measured last
+    double m_shadowMs = 0, m_msPerPixel = 0; ///< 0: none yet
+    LitBy m_measured;                        ///< for which relighting was measured last
     bool m_reduced = false; ///< the picture asked for has fewer pixels than the window has for it
 };
 

@@ -26,7 +26,7 @@ struct RelightTimes {
 RelightOn chooseRelight(RelightOn wanted, bool gpuCan, const std::optional<RelightTimes>& times);
 
 /// Key under which times are stored: the Vulkan device, its driver, this machine's threads and
-/// Precomputed::sizeClass(), since times do not carry over to other sizes.
+/// sizeClassOf() of what is lit, since times do not carry over to other sizes.
 std::string relightTimesKey(const std::string& device, std::uint32_t driverVersion,
                             std::string_view sizeClass);
 

@@ -11,4 +11,8 @@ double settingOf(const TechniqueChoice& choice, const TechniqueSetting& setting)
     return std::clamp(value, setting.range.lower, setting.range.upper);
 }
 
+std::string sizeClassOf(const Technique& technique, const Precomputed* data) {
+    return data ? data->sizeClass() : technique.name;
+}
+
 } // namespace limn

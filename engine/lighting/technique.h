@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 namespace limn {
 
@@ -69,5 +70,9 @@ struct Technique {
 
 /// Value of a setting in a document, clamped to its range.
 double settingOf(const TechniqueChoice& choice, const TechniqueSetting& setting);
+
+/// What relightTimesKey() tells sizes apart by: Precomputed::sizeClass() of what is lit, or, where
+/// that is null because nothing is precomputed, the technique's name.
+std::string sizeClassOf(const Technique& technique, const Precomputed* data);
 
 } // namespace limn

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr int kWidth = 1024, kHeight = 768;
 
 /// Cornell with a point light, baked in a second or two.
-Document testDocument(ObjectId& light) {
+Document testDocument(ObjectId& light, const TechniqueChoice& technique) {
     Document document = loadProject(sourcePath("projects/cornell/cornell.limn"))->document;
     for (auto& [id, object] : document.objects)
         if (auto* settings = std::get_if<BakeSettings>(&object)) {
@@ -37,7 +37,7 @@ Document testDocument(ObjectId& light) {
             settings->rays = 64;
             settings->links = 32;
         }
-    addObject(document, TechniqueChoice{}); // which the editor would add, as this:
+    addObject(document, technique); // which the editor would add, as this:
     addObject(document, RelightSettings{});
     light = addObject(document, Light{.name = "Lamp", .position = {0, 1, 0.3f}, .strength = 0.5f});
     return document;
@@ -68,7 +68,7 @@ struct EditorWindowTest : testing::Test {
         if (!started)
             GTEST_SKIP() << "needs Xvfb and xdotool";
         screen.emplace(std::move(*started));
-        document = testDocument(light);
+        document = testDocument(light, technique());
         ASSERT_TRUE(saveProject(project, document));
         startEditor();
         document = loadProject(project)->document;
@@ -83,6 +83,7 @@ struct EditorWindowTest : testing::Test {
     }
 
     virtual std::string relightOn() const { return "auto"; }
+    virtual TechniqueChoice technique() const { return {}; }
 
     void TearDown() override {
         editor.reset();
@@ -273,6 +274,40 @@ TEST_F(EditorOnGpuTest, AMovedLightIsFollowedUntilItConvergesAndThenNothingIsDra
     EXPECT_EQ(last["validation_messages"], nlohmann::json::array());
     EXPECT_EQ(last["bake_seconds_since_light_edit"], 0);
     EXPECT_EQ(last["relight_calls"], before["relight_calls"]);
+}
+
+struct EditorLpvOnGpuTest : EditorOnGpuTest {
+    TechniqueChoice technique() const override { return {"lpv", {}}; }
+};
+
+TEST_F(EditorLpvOnGpuTest, AMovedLightIsFollowedWithoutABake) {
+    ASSERT_TRUE(waitFor([](const auto& s) {
+        return s["relight_on"] == "gpu" && s["relight_converged"] && s["relight_calls"] > 0;
+    }));
+    const std::uint64_t calls = readStats()["relight_calls"];
+    const Picture picture = pictureOf(project);
+    const glm::vec3 origin = std::get<Light>(document.objects.at(light)).position;
+    const float length = arrowLength(picture, origin);
+    screen->focusWindow();
+    screen->click(*toPixel(picture, origin));
+    ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
+    screen->drag(*toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length)),
+                 *toPixel(picture, arrowTip(Handle::X, {origin}, 1.6f * length)));
+    ASSERT_TRUE(waitFor([&](const auto& s) {
+        return s["edits"] == 1 && s["relight_converged"] && s["relight_calls"] > calls;
+    }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const auto before = readStats();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    EXPECT_EQ(readStats(), before) << "it sleeps";
+    EXPECT_EQ(before["bake_seconds"], 0);
+    EXPECT_GT(screen->colorsIn(picture.origin, picture.size), 200u);
+    EXPECT_EQ(before["validation_messages"], nlohmann::json::array());
+    screen->focusWindow();
+    screen->key("ctrl+s");
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
+    screen->key("ctrl+q");
+    EXPECT_EQ(editor->wait(), 0);
 }
 
 } // namespace

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Pictures that light their bake themselves, one request after the other, without the thread.
+// Pictures that light their scene themselves, one request after the other, without the thread.
 #include "app/editor/render_worker.h"
 
+#include "engine/lightmap/atlas.h"
 #include "engine/scene/exposure.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace fs = std::filesystem;
 
 namespace limn {
 namespace {
@@ -36,6 +45,7 @@ struct RenderWorkerTest : testing::Test {
         request.options.camera.eye = {2, 1.5f, 2.5f};
         request.options.camera.target = {2, 1.5f, 2.5f + z};
         request.options.width = request.options.height = 64;
+        request.technique = &made->technique();
         request.lit = {made, first, trace};
         request.relight = true;
         return request;
@@ -115,6 +125,67 @@ TEST_F(RenderWorkerTest, AtRestEveryViewHasTheNewestLight) {
     EXPECT_FALSE(turned.bouncing());
     drawn(still, looking(-1, first));
     EXPECT_EQ(a.rgba, drawn(still, looking(-1, moved)).rgba);
+}
+
+// Light propagation volumes need no bake.
+TEST_F(RenderWorkerTest, ATechniqueWithoutABakeLightsWhatIsShown) {
+    const Technique& lpv = *findTechnique("lpv");
+    const auto onDevice = [&](std::shared_ptr<const Scene> scene) {
+        PictureRequest request = looking(1, std::move(scene));
+        request.layout = std::make_shared<LightmapLayout>(layoutWithoutLightmap(*request.scene));
+        request.technique = &lpv;
+        request.lit = {};
+        return request;
+    };
+    const auto onCpu = [&](std::shared_ptr<const Scene> scene) {
+        const auto lighting = lpv.light({});
+        lighting->update({.scene = *scene, .trace = trace.get()}, {});
+        PictureRequest request = onDevice(std::move(scene));
+        request.field = std::make_shared<const IndirectField>(*lighting->field());
+        request.relight = false;
+        return request;
+    };
+    const std::atomic<bool> hurry = false;
+    RenderWorker worker(true), other(true);
+    const Image before = drawn(worker, onDevice(first));
+    EXPECT_EQ(worker.refusal, "");
+    EXPECT_EQ(worker.relight.calls, 1U);
+    worker.draw(onDevice(first), hurry);
+    EXPECT_EQ(worker.relight.calls, 1U) << "nothing changed";
+    const Image after = drawn(worker, onDevice(moved));
+    EXPECT_EQ(worker.relight.calls, 2U);
+    EXPECT_NE(after.rgba, before.rgba);
+    const Image expected = drawn(other, onCpu(moved));
+    int most = 0;
+    for (std::size_t k = 0; k < expected.rgba.size(); ++k)
+        most = std::max(most, std::abs(int(after.rgba[k]) - int(expected.rgba[k])));
+    EXPECT_LE(most, 3) << "of 255";
+    EXPECT_EQ(drawn(worker, onCpu(moved)).rgba, expected.rgba) << "the CPU takes over";
+    EXPECT_EQ(drawn(worker, onDevice(moved)).rgba, after.rgba) << "and hands back";
+    EXPECT_NE(drawn(worker, looking(1, moved)).rgba, after.rgba) << "a bake";
+    const fs::path cache = fs::temp_directory_path() / ("limn_times" + std::to_string(getpid()));
+    setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+    PictureRequest measured = onDevice(first);
+    measured.measure = trace;
+    drawn(worker, measured);
+    ASSERT_TRUE(worker.times);
+    EXPECT_GT(worker.times->gpuMs, 0);
+    fs::remove_all(cache);
+    EXPECT_EQ(drawn(worker, onDevice(first)).rgba, before.rgba) << "no trace of moved lights";
+    for (const RenderWorker* each : {&worker, &other})
+        EXPECT_TRUE(each->device->validationMessages().empty());
+}
+
+TEST_F(RenderWorkerTest, SaysWhichTechniqueTheDeviceCannotLight) {
+    RenderWorker worker(false);
+    PictureRequest request = looking(1, first);
+    request.technique = findTechnique("ambient");
+    request.lit = {};
+    drawn(worker, request);
+    EXPECT_NE(worker.refusal.find("ambient"), std::string::npos);
+    request.technique = findTechnique("lpv");
+    drawn(worker, request);
+    EXPECT_EQ(worker.refusal, "");
 }
 
 /// The room with a dynamic block at `x`.

@@ -10,6 +10,7 @@
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
 #include "engine/techniques/sparse_probes/sparse_probes.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -29,6 +30,10 @@ constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevi
                               Row{&kSparseProbesTechnique, lightSparseOnDevice}};
 
 } // namespace
+
+bool lightsOnDevice(const Technique& technique) {
+    return std::ranges::find(kRows, &technique, &Row::technique) != kRows.end();
+}
 
 Result<std::unique_ptr<Lighting>> lightOnDevice(const Technique& technique, gpu::Device& device,
                                                 Viewport& viewport, const Prepared& prepared) {

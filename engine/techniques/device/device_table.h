@@ -8,6 +8,9 @@
 
 namespace limn {
 
+/// Whether there is a row for the technique.
+bool lightsOnDevice(const Technique& technique);
+
 /// Creates light on the device of a viewport, which shows it where it was written, so that it never
 /// passes through the CPU. Before each update the viewport must show the lights and objects of the
 /// scene; it must outlive the light. Fails if the technique lights on the CPU only, or the prepared
