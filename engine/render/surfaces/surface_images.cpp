@@ -7,6 +7,10 @@
 
 namespace limn::render {
 
+/// A software rasteriser spends most of its time on shading, but that of pictures up to this wide
+/// on triangles, which a pass ahead draws twice [px].
+constexpr std::uint32_t kSmall = 256;
+
 void SurfaceImages::ensure(Extent size) {
     if (depth && size.width <= depth.width && size.height <= depth.height)
         return;
@@ -42,7 +46,7 @@ bool SurfaceImages::record(VkCommandBuffer cmd, GeometryPasses& geometry, const 
     gpu::imageBarrier(cmd, depth.handle, VK_IMAGE_ASPECT_DEPTH_BIT, before, gpu::kDepthWrite);
     auto depths = attachment(depth.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                              VK_ATTACHMENT_LOAD_OP_CLEAR);
-    if (m_device.softwareRasteriser) { // it spends most of its time on shading
+    if (m_device.softwareRasteriser && size.width > kSmall) {
         beginRendering(cmd, size, {}, &depths, true);
         geometry.drawDepthAhead(cmd, scene, materials, view);
         vkCmdEndRendering(cmd);

@@ -186,6 +186,10 @@ MappedLight GpuLightMaps::cast(const Light& light, const Bounds& bounds, std::ui
     std::vector<RsmView> views = rsmViews(light, bounds, size, [&](glm::vec3 p, glm::vec3 normal) {
         return clearOf(p, normal, bounds);
     });
+    if (light.kind == LightKind::Rectangle) // sends nothing behind itself
+        std::erase_if(views, [&](const RsmView& view) {
+            return glm::dot(view.forward, light.direction) < -0.99f;
+        });
     MappedLight mapped{.views = std::uint32_t(views.size())};
     const float scale = views.empty() ? 0 : integersPerUnit(views);
     if (!(scale > 0) || !std::isfinite(scale))
