@@ -18,22 +18,22 @@
 namespace limn {
 namespace {
 
-/// A room with a block, a lamp, and a material that may glow.
-Scene room(LightKind kind = LightKind::Point) {
+/// A room with a block, a lamp, and a material that may glow; `scale` times as large, lit alike.
+Scene room(LightKind kind = LightKind::Point, float scale = 1) {
     simple::SceneBuilder b;
     b.addMaterial(simple::lambert({0.7f, 0.5f, 0.3f}));
     b.addMaterial(simple::lambert({0.2f, 0.4f, 0.8f}));
-    b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), kind != LightKind::Directional));
-    b.add(simple::box(glm::vec3(1, 0, 1), glm::vec3(1.8f, 1.2f, 1.6f), false), glm::mat4(1), false)
+    b.add(simple::box(glm::vec3(0), scale * glm::vec3(4, 3, 5), kind != LightKind::Directional));
+    b.add(simple::box(scale * glm::vec3(1, 0, 1), scale * glm::vec3(1.8f, 1.2f, 1.6f), false))
         .material = 1;
     Light light;
     light.name = "Lamp";
     light.kind = kind;
-    light.position = {2.8137f, 2.4821f, 3.0219f};
+    light.position = scale * glm::vec3(2.8137f, 2.4821f, 3.0219f);
     light.direction = glm::normalize(glm::vec3(-0.3f, -1, -0.2f));
     light.color = {1, 0.6f, 0.2f};
-    light.strength = 6;
-    light.size = {0.7f, 0.4f};
+    light.strength = kind == LightKind::Point || kind == LightKind::Spot ? 6 * scale * scale : 6;
+    light.size = scale * glm::vec2(0.7f, 0.4f);
     b.scene.lights = {light};
     b.scene.technique.settings = {{"lpv.resolution", 16}, {"lpv.map_size", 32}};
     return b.build();
@@ -41,7 +41,7 @@ Scene room(LightKind kind = LightKind::Point) {
 
 /// Points on the planes of the room and in the air, with six normals each.
 std::vector<glm::vec3> irradiances(const IndirectField& field, const Scene& scene,
-                                   const LightmapLayout& layout) {
+                                   const LightmapLayout& layout, float scale = 1) {
     std::vector<glm::vec3> all;
     for (float x = 0; x <= 4; x += 0.5f)
         for (float y = 0; y <= 3; y += 0.5f)
@@ -56,7 +56,7 @@ std::vector<glm::vec3> irradiances(const IndirectField& field, const Scene& scen
                                                     .triangle = 0,
                                                     .u = 0,
                                                     .v = 0,
-                                                    .position = {x, y, z},
+                                                    .position = scale * glm::vec3(x, y, z),
                                                     .normal = n}));
                 }
     return all;
@@ -134,6 +134,34 @@ TEST_F(DeviceLpvTest, LightsAsTheCpuDoesByEachKindOfLight) {
         EXPECT_LT(most / largest, 4 * double(kHalf)) << name;
         EXPECT_LT(rms / largest, 0.25 * double(kHalf)) << name;
     }
+}
+
+TEST_F(DeviceLpvTest, IsTheSameAtEveryScale) {
+    for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Rectangle}) {
+        light(room(kind));
+        update();
+        const std::vector<glm::vec3> one = irradiances(lighting->gpu().readField(), scene, *layout);
+        const glm::vec3 largest =
+            *std::ranges::max_element(one, {}, [](glm::vec3 e) { return e.x; });
+        for (const float scale : {1e-3f, 0.1f, 10.f, 1e3f}) {
+            light(room(kind, scale));
+            update();
+            const std::vector<glm::vec3> scaled =
+                irradiances(lighting->gpu().readField(), scene, *layout, scale);
+            for (std::size_t i = 0; i < one.size(); ++i)
+                ASSERT_NEAR(scaled[i].x, one[i].x, 0.01f * largest.x) << scale << ", place " << i;
+        }
+    }
+}
+
+TEST_F(DeviceLpvTest, DoublesWithItsLight) {
+    update();
+    const std::vector<glm::vec4> once = grid();
+    scene.lights[0].strength *= 2;
+    update();
+    const std::vector<glm::vec4> twice = grid();
+    for (std::size_t i = 0; i < once.size(); ++i)
+        ASSERT_EQ(twice[i], 2.f * once[i]);
 }
 
 TEST_F(DeviceLpvTest, HasTheSameBitsEachTime) {
