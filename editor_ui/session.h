@@ -47,8 +47,8 @@ public:
     const BakedScene& baked() const { return m_baked; }
     /// The scene's technique; null if it needs a bake and baked() is none of it.
     const Technique* lightingTechnique() const;
-    /// True if whoever draws the viewport must light by it on its device and fill state.relight.
-    /// Where it needs no bake, overlays of its light are the CPU's, and so is the light then.
+    /// True if whoever draws the viewport must light by it on its device and fill state.relight,
+    /// and, for an overlay that is made of light alone, state.overlay's source, scene and light.
     bool viewportRelights() const;
 
     /// Light for an overlay of it; null: there is no such overlay, or the viewport relights.

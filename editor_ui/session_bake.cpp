@@ -64,6 +64,9 @@ void Session::useBake(BakedScene baked) {
 void Session::followOverlay() {
     const OverlayKind* kind = state.overlay.options.kind;
     const bool live = kind && !techniqueOf(*kind).precomputation;
+    if (live && viewportRelights() && &techniqueOf(*kind) == lightingTechnique() &&
+        isMadeOf(*kind, state.overlay.source.get()))
+        return; // it is the viewport's
     std::shared_ptr<const OverlaySource> source = m_baked.bake;
     std::shared_ptr<const Scene> scene = m_baked.scene;
     if (live)
@@ -85,9 +88,7 @@ const Technique* Session::lightingTechnique() const {
 }
 
 bool Session::viewportRelights() const {
-    const OverlayKind* kind = state.overlay.options.kind;
-    const bool liveOverlay = kind && !techniqueOf(*kind).precomputation;
-    return lightingTechnique() && !liveOverlay && state.relightPlace.used() == RelightOn::Gpu;
+    return lightingTechnique() && state.relightPlace.used() == RelightOn::Gpu;
 }
 
 bool Session::lightsBake() const {

@@ -58,6 +58,8 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     m_result.running = m_next.has_value() || worker.bouncing();
     m_result.lit = worker.shown.litBy();
     m_result.relight = worker.relight;
+    m_result.snapshot = worker.snapshot;
+    m_result.snapshotScene = worker.snapshotScene;
     m_result.refusal = worker.refusal;
     m_result.times = worker.times;
     m_messages = worker.device->validationMessages();

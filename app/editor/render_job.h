@@ -55,9 +55,11 @@ struct DrawnPicture {
     std::optional<float> metered; ///< meteredExposure() of it; empty: not asked for, or black
     OverlayLegend legend;         ///< of its overlay
     ViewportStats stats;
-    bool running = false;              ///< another one is being drawn
-    LitBy lit;                         ///< what the following members are about
-    LightingStatus relight;            ///< by this device
+    bool running = false;                          ///< another one is being drawn
+    LitBy lit;                                     ///< what the following members are about
+    LightingStatus relight;                        ///< by this device
+    std::shared_ptr<const LightSnapshot> snapshot; ///< as RenderWorker::snapshot
+    std::shared_ptr<const Scene> snapshotScene;
     std::string refusal;               ///< why the device cannot light it; empty: it can
     std::optional<RelightTimes> times; ///< of what is like it, measured now or before
     std::string error;                 ///< why there will be no more pictures

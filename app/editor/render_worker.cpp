@@ -5,6 +5,7 @@
 #include "editor_ui/jobs/scene_changes.h"
 #include "engine/scene/exposure.h"
 #include "engine/techniques/device/device_table.h"
+#include "engine/techniques/technique_table.h"
 
 #include <chrono>
 #include <stdexcept>
@@ -124,11 +125,25 @@ void RenderWorker::takeField(const PictureRequest& request) {
     m_ownField = false;
 }
 
+// Overlays of a technique without a bake are made of its light alone.
+void RenderWorker::takeSnapshot(const PictureRequest& request) {
+    const OverlayKind* kind = request.overlay.kind;
+    if (!kind || !m_driver.lighting() || request.technique->precomputation ||
+        &techniqueOf(*kind) != request.technique) {
+        snapshot = nullptr;
+        snapshotScene = nullptr;
+    } else if (!snapshot || m_snapshotCalls != relight.calls) {
+        snapshot = m_driver.lighting()->snapshot();
+        snapshotScene = m_litScene;
+        m_snapshotCalls = relight.calls;
+    }
+}
+
 void RenderWorker::makeOverlay(const PictureRequest& request) {
     const OverlayKind* kind = request.overlay.kind;
     const bool newMaterials = kind && kind->showsMaterials && request.scene != shown.scene &&
                               (!shown.scene || shown.scene->materials != request.scene->materials);
-    const bool light = kind && kind->showsLight, here = m_driver.lighting() != nullptr;
+    const bool light = kind && kind->showsLight, here = m_driver.lighting() && !snapshot;
     const bool newLight = light && (request.light != shown.light || here);
     if (request.overlaySource == shown.overlaySource && request.overlay == shown.overlay &&
         !newMaterials && !newLight)
@@ -156,6 +171,7 @@ DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& 
     else
         takeField(request);
     const auto start = Clock::now();
+    takeSnapshot(request);
     makeOverlay(request);
     viewport.render(request.options);
     shown = std::move(request);

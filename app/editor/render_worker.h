@@ -33,6 +33,10 @@ public:
     PictureRequest shown;
     std::shared_ptr<const OverlayData> overlay; ///< of `shown`; null: none
     LightingStatus relight;                     ///< by the device
+    /// The device's light, for an overlay that is made of it, and the scene that it lights; null:
+    /// there is no such overlay.
+    std::shared_ptr<const LightSnapshot> snapshot;
+    std::shared_ptr<const Scene> snapshotScene;
     std::string refusal;               ///< why it cannot light by shown.litBy(); empty: it can
     std::optional<RelightTimes> times; ///< of what is like shown.litBy()
 
@@ -44,6 +48,7 @@ private:
     void measure(const PictureRequest& request);
     void takeField(const PictureRequest& request);
     void bounce(const PictureRequest& request, const std::atomic<bool>& hurry);
+    void takeSnapshot(const PictureRequest& request);
     void makeOverlay(const PictureRequest& request);
 
     LightingDriver m_driver;                 ///< of shown.litBy(), while it is needed
@@ -51,6 +56,7 @@ private:
     bool m_ownField = false;                 ///< the viewport shows the relighter's field
     std::shared_ptr<const Scene> m_litOf;    ///< scene from which `m_litScene` was made
     std::shared_ptr<const Scene> m_litScene; ///< scene with which the bake, if any, can be lit
+    std::uint64_t m_snapshotCalls = 0;       ///< `relight.calls` at the last snapshot
     std::string m_timesKey;                  ///< of shown.litBy()
     double m_pictureMs = 0;                  ///< what the last picture took, without bounces
 };

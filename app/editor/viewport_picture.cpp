@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/editor/viewport_picture.h"
 
+#include "editor_ui/panels/overlay_panel.h"
 #include "engine/techniques/device/device_table.h"
 #include "engine/techniques/technique_table.h"
 
@@ -61,8 +62,15 @@ void ViewportPicture::takeRelit(Session& session) {
     }
     place.gpuCan =
         m_drawn.error.empty() && place.refusal.empty() && technique && lightsOnDevice(*technique);
-    if (session.viewportRelights())
-        state.relight = m_drawn.relight;
+    if (!session.viewportRelights())
+        return;
+    state.relight = m_drawn.relight;
+    const OverlayKind* kind = state.overlay.options.kind;
+    if (!kind || !m_drawn.snapshot || !isMadeOf(*kind, m_drawn.snapshot.get()))
+        return;
+    if (m_drawn.snapshot != state.overlay.source)
+        setOverlaySource(state.overlay, m_drawn.snapshot, m_drawn.snapshotScene);
+    state.overlay.light = m_drawn.snapshot;
 }
 
 void ViewportPicture::takeDrawn(Session& session) {

@@ -176,6 +176,30 @@ TEST_F(RenderWorkerTest, ATechniqueWithoutABakeLightsWhatIsShown) {
         EXPECT_TRUE(each->device->validationMessages().empty());
 }
 
+TEST_F(RenderWorkerTest, OverlaysOfATechniqueWithoutABakeShowTheDevicesLight) {
+    const std::atomic<bool> hurry = false;
+    RenderWorker worker(false);
+    PictureRequest request = looking(1, first);
+    request.layout = std::make_shared<LightmapLayout>(layoutWithoutLightmap(*first));
+    request.technique = findTechnique("lpv");
+    request.lit = {};
+    const Image plain = drawn(worker, request);
+    EXPECT_FALSE(worker.snapshot) << "nobody asks";
+    request.overlay.kind = &request.technique->overlays[0];
+    worker.draw(request, hurry);
+    ASSERT_TRUE(worker.snapshot && worker.snapshotScene == first);
+    request.overlaySource = worker.snapshot;
+    request.overlayScene = worker.snapshotScene;
+    const Image lobes = *worker.draw(request, hurry).shown;
+    ASSERT_TRUE(worker.overlay);
+    EXPECT_FALSE(worker.overlay->marks.empty());
+    EXPECT_NE(lobes.rgba, plain.rgba);
+    EXPECT_EQ(worker.snapshot, request.overlaySource) << "the light has not changed";
+    request.scene = moved;
+    worker.draw(request, hurry);
+    EXPECT_NE(worker.snapshot, request.overlaySource);
+}
+
 TEST_F(RenderWorkerTest, SaysWhichTechniqueTheDeviceCannotLight) {
     RenderWorker worker(false);
     PictureRequest request = looking(1, first);
