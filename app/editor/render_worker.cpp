@@ -78,7 +78,8 @@ void RenderWorker::measure(const PictureRequest& request) {
     times =
         measureRelight(viewport, *m_driver.lighting(), *onCpu, *request.scene, *request.measure);
     // Where there is no folder to keep it in, it is measured again next time.
-    (void)rememberRelightTimes(defaultRelightTimesFile(), m_timesKey, *times);
+    if (times)
+        (void)rememberRelightTimes(defaultRelightTimesFile(), m_timesKey, *times);
     viewport.setLighting(*request.scene);
     m_ownField = true;
     m_litOf = nullptr;

@@ -107,15 +107,16 @@ void ViewportPicture::takeDrawn(Session& session) {
     state.overlay.legend = m_drawn.legend;
 }
 
-/// Measures once per bake, or per technique that needs none, when nothing else runs that it would
-/// delay or that would distort it.
+/// Measures once per bake, or per technique that needs none and may light by lamps alone, when
+/// nothing else runs that it would delay or that would distort it.
 bool ViewportPicture::measureNow(const Session& session) {
     const EditorState& state = session.state;
     const RelightPlace& place = state.relightPlace;
     const LitBy lit = litBy(session);
     const bool due = place.wanted == RelightOn::Auto && place.gpuCan && !place.times &&
                      lit.technique && !litBake(session).preview && state.trace &&
-                     m_drawn.lit == lit && m_measured != lit;
+                     m_drawn.lit == lit && m_measured != lit &&
+                     (lit.bake || !session.scene()->lights.empty());
     const BakeFreshness freshness = state.bake.freshness;
     if (!due || m_drawn.running || m_reduced || !session.idle() ||
         (freshness != BakeFreshness::UpToDate && freshness != BakeFreshness::NotUsed))

@@ -52,6 +52,30 @@ struct RenderWorkerTest : testing::Test {
     }
 };
 
+/// A folder in which times are kept until the end.
+class CacheFolder {
+public:
+    CacheFolder() {
+        if (const char* before = std::getenv(kName))
+            m_before = before;
+        setenv(kName, path.c_str(), 1);
+    }
+    ~CacheFolder() {
+        if (m_before.empty())
+            unsetenv(kName);
+        else
+            setenv(kName, m_before.c_str(), 1);
+        std::error_code error;
+        fs::remove_all(path, error);
+    }
+
+    const fs::path path = fs::temp_directory_path() / ("limn_times" + std::to_string(getpid()));
+
+private:
+    static constexpr const char* kName = "XDG_CACHE_HOME";
+    std::string m_before;
+};
+
 /// Draws until the light rests.
 Image drawn(RenderWorker& worker, const PictureRequest& request) {
     const std::atomic<bool> hurry = false;
@@ -146,7 +170,7 @@ TEST_F(RenderWorkerTest, ATechniqueWithoutABakeLightsWhatIsShown) {
         return request;
     };
     const std::atomic<bool> hurry = false;
-    RenderWorker worker(true), other(true);
+    RenderWorker worker(true), other(true), dark(true); // drivers keep caches where times are kept
     const Image before = drawn(worker, onDevice(first));
     EXPECT_EQ(worker.refusal, "");
     EXPECT_EQ(worker.relight.calls, 1U);
@@ -163,16 +187,23 @@ TEST_F(RenderWorkerTest, ATechniqueWithoutABakeLightsWhatIsShown) {
     EXPECT_EQ(drawn(worker, onCpu(moved)).rgba, expected.rgba) << "the CPU takes over";
     EXPECT_EQ(drawn(worker, onDevice(moved)).rgba, after.rgba) << "and hands back";
     EXPECT_NE(drawn(worker, looking(1, moved)).rgba, after.rgba) << "a bake";
-    const fs::path cache = fs::temp_directory_path() / ("limn_times" + std::to_string(getpid()));
-    setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+    const CacheFolder cache;
     PictureRequest measured = onDevice(first);
     measured.measure = trace;
     drawn(worker, measured);
     ASSERT_TRUE(worker.times);
     EXPECT_GT(worker.times->gpuMs, 0);
-    fs::remove_all(cache);
+    const fs::path remembered = cache.path / "limn/relight.json";
+    EXPECT_TRUE(fs::remove(remembered));
+    Scene unlit = *first;
+    unlit.lights.clear();
+    measured = onDevice(std::make_shared<const Scene>(unlit));
+    measured.measure = trace;
+    drawn(dark, measured);
+    EXPECT_FALSE(dark.times) << "an update that does nothing says nothing";
+    EXPECT_FALSE(fs::exists(remembered));
     EXPECT_EQ(drawn(worker, onDevice(first)).rgba, before.rgba) << "no trace of moved lights";
-    for (const RenderWorker* each : {&worker, &other})
+    for (const RenderWorker* each : {&worker, &other, &dark})
         EXPECT_TRUE(each->device->validationMessages().empty());
 }
 
