@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lightmap/fine_blocks.h"
 
+#include <utility>
+
 #include <glm/common.hpp>
 
 namespace limn {
@@ -98,6 +100,17 @@ std::vector<PlacedTriangle> addFineLevel(const Scene& scene,
     });
     std::ranges::sort(more, {}, &AtlasTexel::texel);
     atlas.texels.insert(atlas.texels.end(), more.begin(), more.end());
+    return result;
+}
+
+std::vector<PlacedTriangle> addChosenLevel(const Scene& scene,
+                                           const std::vector<PlacedTriangle>& triangles,
+                                           std::vector<std::uint32_t> places, Atlas& atlas,
+                                           FineLookups& lookups) {
+    std::ranges::sort(places);
+    std::vector<PlacedTriangle> result = addFineLevel(scene, triangles, places, atlas);
+    if (!places.empty())
+        lookups.places.push_back(std::move(places));
     return result;
 }
 

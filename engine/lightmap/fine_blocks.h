@@ -105,6 +105,13 @@ std::vector<PlacedTriangle> addFineLevel(const Scene& scene,
                                          const std::vector<PlacedTriangle>& triangles,
                                          const std::vector<std::uint32_t>& places, Atlas& atlas);
 
+/// Adds a level to `lookups` and to the atlas. Returns how triangles lie in its blocks; nothing
+/// where there are no places.
+std::vector<PlacedTriangle> addChosenLevel(const Scene& scene,
+                                           const std::vector<PlacedTriangle>& triangles,
+                                           std::vector<std::uint32_t> places, Atlas& atlas,
+                                           FineLookups& lookups);
+
 /// Adds all levels, of which the first lies on `triangles`, and returns how triangles lie in the
 /// blocks of all of them.
 std::vector<PlacedTriangle> addFineTexels(const Scene& scene, std::vector<PlacedTriangle> triangles,

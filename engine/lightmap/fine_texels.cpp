@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -144,11 +145,7 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
         std::vector<std::uint32_t> places;
         for (const Candidate& c : all)
             places.push_back(c.place);
-        std::ranges::sort(places);
-        if (places.empty())
-            break;
-        triangles = addFineLevel(trace.scene(), triangles, places, grown);
-        result.places.push_back(std::move(places));
+        triangles = addChosenLevel(trace.scene(), triangles, std::move(places), grown, result);
     }
     return result;
 }

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace limn {
 
@@ -276,7 +277,7 @@ FineLookups findLampLookups(const TraceScene& trace, const Atlas& atlas,
     Atlas grown = atlas;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     std::size_t looked = 0;
-    for (int level = 0; level < levels && most >= kBlockTexels; ++level) {
+    for (int level = 0; level < levels && most >= kBlockTexels && !triangles.empty(); ++level) {
         lamps.look(grown, looked, quiet);
         looked = grown.texels.size();
         const TexelGrid grid(trace.scene(), grown);
@@ -293,11 +294,7 @@ FineLookups findLampLookups(const TraceScene& trace, const Atlas& atlas,
         std::vector<std::uint32_t> places;
         for (const Candidate& c : chosen)
             places.push_back(c.place);
-        std::ranges::sort(places);
-        if (places.empty())
-            break;
-        triangles = addFineLevel(trace.scene(), triangles, places, grown);
-        result.places.push_back(std::move(places));
+        triangles = addChosenLevel(trace.scene(), triangles, std::move(places), grown, result);
     }
     result.rays = lamps.rays();
     return result;

@@ -240,38 +240,54 @@ TEST_F(EditorWindowTest, AFocusedTextFieldDrawsNothing) {
 
 struct EditorOnGpuTest : EditorWindowTest {
     std::string relightOn() const override { return "gpu"; }
+
+    /// Selects the light, drags it along X and waits until its light has converged.
+    void dragTheLight() {
+        const std::uint64_t calls = readStats()["relight_calls"];
+        const Picture picture = pictureOf(project);
+        const glm::vec3 origin = std::get<Light>(document.objects.at(light)).position;
+        const float length = arrowLength(picture, origin);
+        screen->focusWindow();
+        screen->click(*toPixel(picture, origin));
+        ASSERT_TRUE(
+            waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
+        EXPECT_EQ(readStats()["relight_calls"], calls) << "nothing that gives light has changed";
+        screen->drag(*toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length)),
+                     *toPixel(picture, arrowTip(Handle::X, {origin}, 1.6f * length)));
+        ASSERT_TRUE(waitFor([&](const auto& s) {
+            return s["edits"] == 1 && s["relight_converged"] && s["relight_calls"] > calls;
+        }));
+        EXPECT_GT(screen->colorsIn(picture.origin, picture.size), 200u);
+    }
+
+    /// Expects that nothing is done any more.
+    nlohmann::json statsOfASleeper() {
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        const auto before = readStats();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        EXPECT_EQ(readStats(), before) << "it sleeps";
+        return before;
+    }
+
+    void saveAndQuit() {
+        screen->focusWindow();
+        screen->key("ctrl+s");
+        ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
+        screen->key("ctrl+q");
+        EXPECT_EQ(editor->wait(), 0);
+        EXPECT_EQ(readStats()["validation_messages"], nlohmann::json::array());
+    }
 };
 
 TEST_F(EditorOnGpuTest, AMovedLightIsFollowedUntilItConvergesAndThenNothingIsDrawn) {
     ASSERT_TRUE(
         waitFor([](const auto& s) { return s["bake_up_to_date"] && s["relight_converged"]; }));
     EXPECT_EQ(readStats()["relight_on"], "gpu");
-    const std::uint64_t calls = readStats()["relight_calls"];
-    EXPECT_GT(calls, 1U) << "a few bounces at a time";
-    const Picture picture = pictureOf(project);
-    const glm::vec3 origin = std::get<Light>(document.objects.at(light)).position;
-    const float length = arrowLength(picture, origin);
-    screen->focusWindow();
-    screen->click(*toPixel(picture, origin));
-    ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
-    EXPECT_EQ(readStats()["relight_calls"], calls) << "nothing that gives light has changed";
-    screen->drag(*toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length)),
-                 *toPixel(picture, arrowTip(Handle::X, {origin}, 1.6f * length)));
-    ASSERT_TRUE(waitFor([&](const auto& s) {
-        return s["edits"] == 1 && s["relight_converged"] && s["relight_calls"] > calls;
-    }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    const auto before = readStats();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-    EXPECT_EQ(readStats(), before) << "it sleeps";
-    EXPECT_GT(screen->colorsIn(picture.origin, picture.size), 200u);
-    screen->focusWindow();
-    screen->key("ctrl+s");
-    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
-    screen->key("ctrl+q");
-    EXPECT_EQ(editor->wait(), 0);
+    EXPECT_GT(readStats()["relight_calls"], 1U) << "a few bounces at a time";
+    ASSERT_NO_FATAL_FAILURE(dragTheLight());
+    const nlohmann::json before = statsOfASleeper();
+    ASSERT_NO_FATAL_FAILURE(saveAndQuit());
     const auto last = readStats();
-    EXPECT_EQ(last["validation_messages"], nlohmann::json::array());
     EXPECT_EQ(last["bake_seconds_since_light_edit"], 0);
     EXPECT_EQ(last["relight_calls"], before["relight_calls"]);
 }
@@ -280,34 +296,26 @@ struct EditorLpvOnGpuTest : EditorOnGpuTest {
     TechniqueChoice technique() const override { return {"lpv", {}}; }
 };
 
-TEST_F(EditorLpvOnGpuTest, AMovedLightIsFollowedWithoutABake) {
-    ASSERT_TRUE(waitFor([](const auto& s) {
+struct EditorProbesOnGpuTest : EditorOnGpuTest {
+    TechniqueChoice technique() const override { return {"probes", {}}; }
+};
+
+/// Drags the light in an editor whose technique needs no bake.
+void expectLightWithoutABake(EditorOnGpuTest& test) {
+    ASSERT_TRUE(test.waitFor([](const auto& s) {
         return s["relight_on"] == "gpu" && s["relight_converged"] && s["relight_calls"] > 0;
     }));
-    const std::uint64_t calls = readStats()["relight_calls"];
-    const Picture picture = pictureOf(project);
-    const glm::vec3 origin = std::get<Light>(document.objects.at(light)).position;
-    const float length = arrowLength(picture, origin);
-    screen->focusWindow();
-    screen->click(*toPixel(picture, origin));
-    ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
-    screen->drag(*toPixel(picture, arrowTip(Handle::X, {origin}, 0.8f * length)),
-                 *toPixel(picture, arrowTip(Handle::X, {origin}, 1.6f * length)));
-    ASSERT_TRUE(waitFor([&](const auto& s) {
-        return s["edits"] == 1 && s["relight_converged"] && s["relight_calls"] > calls;
-    }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    const auto before = readStats();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-    EXPECT_EQ(readStats(), before) << "it sleeps";
-    EXPECT_EQ(before["bake_seconds"], 0);
-    EXPECT_GT(screen->colorsIn(picture.origin, picture.size), 200u);
-    EXPECT_EQ(before["validation_messages"], nlohmann::json::array());
-    screen->focusWindow();
-    screen->key("ctrl+s");
-    ASSERT_TRUE(waitFor([](const auto& s) { return s["unsaved"] == false; }));
-    screen->key("ctrl+q");
-    EXPECT_EQ(editor->wait(), 0);
+    ASSERT_NO_FATAL_FAILURE(test.dragTheLight());
+    EXPECT_EQ(test.statsOfASleeper()["bake_seconds"], 0);
+    ASSERT_NO_FATAL_FAILURE(test.saveAndQuit());
+}
+
+TEST_F(EditorLpvOnGpuTest, AMovedLightIsFollowedWithoutABake) {
+    expectLightWithoutABake(*this);
+}
+
+TEST_F(EditorProbesOnGpuTest, AMovedLightIsFollowedWithoutABake) {
+    expectLightWithoutABake(*this);
 }
 
 } // namespace

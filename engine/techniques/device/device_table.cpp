@@ -24,10 +24,9 @@ struct Row {
     Result<std::unique_ptr<Lighting>> (*light)(gpu::Device&, Viewport&, const Prepared&);
 };
 
-constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
-                              Row{&kLpvTechnique, lightLpvOnDevice},
-                              Row{&kProbesTechnique, lightProbesOnDevice},
-                              Row{&kSparseProbesTechnique, lightSparseOnDevice}};
+constexpr std::array kRows = {
+    Row{&kIlluminanceTechnique, lightIlluminanceOnDevice}, Row{&kLpvTechnique, lightLpvOnDevice},
+    Row{&kProbesTechnique, lightProbesOnDevice}, Row{&kSparseProbesTechnique, lightSparseOnDevice}};
 
 } // namespace
 

@@ -3,6 +3,7 @@
 
 #include "engine/techniques/probes/probe_overlay.h"
 #include "tests/render/viewport_fixture.h"
+#include "tests/techniques/lights_of_each_kind.h"
 #include "tests/techniques/probes/lit_by_probes.h"
 
 #include <atomic>
@@ -96,22 +97,6 @@ protected:
 // 32-bit sums of some hundred terms in another order, and albedo in 16 bits.
 constexpr double kRounding = 1e-4;
 
-Light lightOf(LightKind kind) {
-    Light l;
-    l.kind = kind;
-    l.position = {3.2f, 2.6f, 4.2f};
-    l.direction = glm::normalize(glm::vec3(-0.6f, -0.7f, -0.5f));
-    l.color = {1, 0.5f, 0.25f};
-    l.strength = 8;
-    l.innerAngle = 0.3f;
-    l.outerAngle = 0.9f;
-    l.size = {1.2f, 0.8f};
-    return l;
-}
-
-constexpr LightKind kKinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot,
-                                LightKind::Rectangle};
-
 /// A corner of floor and two walls under a sky, one of which glows, and a block in it, if it has
 /// one. The lights shine into it from outside. Its sides end before they meet: where they did, the
 /// texels of a shadow map would show both of them.
@@ -129,14 +114,11 @@ Scene corner(bool block) {
 }
 
 Scene litCorner(bool block) {
-    Scene scene = corner(block);
-    for (const LightKind kind : kKinds)
-        scene.lights.push_back(lightOf(kind));
-    return scene;
+    return withLightsOfEachKind(corner(block));
 }
 
 TEST_F(DeviceProbesTest, LightAsTheCpuDoesWhereNothingCastsAShadow) {
-    for (const LightKind kind : kKinds) {
+    for (const LightKind kind : kLightKinds) {
         Scene scene = corner(false);
         scene.lights = {lightOf(kind)};
         prepare(scene);
@@ -152,7 +134,7 @@ TEST_F(DeviceProbesTest, LightAsTheCpuDoesWhereNothingCastsAShadow) {
 }
 
 TEST_F(DeviceProbesTest, DifferFromTheCpuByTheEdgesOfShadowsAlone) {
-    for (const LightKind kind : kKinds) {
+    for (const LightKind kind : kLightKinds) {
         Scene scene = corner(true);
         scene.lights = {lightOf(kind)};
         prepare(scene);

@@ -4,6 +4,7 @@
 #include "engine/field/field_packing.h"
 #include "engine/techniques/sparse_probes/sparse_overlay.h"
 #include "tests/render/viewport_fixture.h"
+#include "tests/techniques/lights_of_each_kind.h"
 #include "tests/techniques/sparse_probes/lit_by_sparse.h"
 
 #include <algorithm>
@@ -72,22 +73,6 @@ protected:
 // of the rim of its cone, which lies at the edge of the map.
 constexpr double kRounding = 3e-4;
 
-Light lightOf(LightKind kind) {
-    Light l;
-    l.kind = kind;
-    l.position = {3.2f, 2.6f, 4.2f};
-    l.direction = glm::normalize(glm::vec3(-0.6f, -0.7f, -0.5f));
-    l.color = {1, 0.5f, 0.25f};
-    l.strength = 8;
-    l.innerAngle = 0.3f;
-    l.outerAngle = 0.9f;
-    l.size = {1.2f, 0.8f};
-    return l;
-}
-
-constexpr LightKind kKinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot,
-                                LightKind::Rectangle};
-
 /// A corner of floor and two walls under a sky, and a block in it, if it has one. The lights shine
 /// into it from outside.
 Scene corner(bool block, bool ball = false) {
@@ -107,14 +92,11 @@ Scene corner(bool block, bool ball = false) {
 }
 
 Scene litCorner(bool block, bool ball = false) {
-    Scene scene = corner(block, ball);
-    for (const LightKind kind : kKinds)
-        scene.lights.push_back(lightOf(kind));
-    return scene;
+    return withLightsOfEachKind(corner(block, ball));
 }
 
 TEST_F(DeviceSparseTest, LightsAsTheCpuDoesWhereNothingCastsAShadow) {
-    for (const LightKind kind : kKinds) {
+    for (const LightKind kind : kLightKinds) {
         Scene scene = corner(false);
         scene.lights = {lightOf(kind)};
         prepare(scene);
@@ -130,7 +112,7 @@ TEST_F(DeviceSparseTest, LightsAsTheCpuDoesWhereNothingCastsAShadow) {
 }
 
 TEST_F(DeviceSparseTest, DiffersFromTheCpuByTheEdgesOfShadowsAlone) {
-    for (const LightKind kind : kKinds) {
+    for (const LightKind kind : kLightKinds) {
         Scene scene = corner(true);
         scene.lights = {lightOf(kind)};
         prepare(scene);
