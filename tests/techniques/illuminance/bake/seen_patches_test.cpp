@@ -101,6 +101,21 @@ TEST(SeenPatches, APatchHalfBehindAPlateStandsWhereTheRoomSeesIt) {
     EXPECT_LT(behind, asked / 40) << behind << " of " << asked;
 }
 
+// Texels that were added near a lamp see one side of it. Those that came last are made to be such.
+TEST(SeenPatches, TexelsThatWereAddedNearLampsDrawNoSurfelThere) {
+    Prepared p(roomWithShelf(3000));
+    const std::uint32_t count = p.caches.lightmapCount, kept = count / 2;
+    p.points.weight.assign(count, 1);
+    std::fill(p.points.weight.begin() + kept, p.points.weight.end(), 1 / 16.f);
+    const auto places = [&] {
+        return findSeenPatches(p.trace, p.set, p.owners, p.atlas, p.caches, p.points, 32, {}).place;
+    };
+    const std::vector<MeshPoint> weighted = places();
+    EXPECT_NE(weighted, p.seen.place);
+    p.caches.lightmapCount = kept; // the others are gone
+    EXPECT_EQ(weighted, places());
+}
+
 TEST(SeenPatches, TheirPlacesLieOnTheSameSideOfATwoSidedSurface) {
     Scene scene = roomWithShelf(3000);
     scene.materials[0].doubleSided = true;

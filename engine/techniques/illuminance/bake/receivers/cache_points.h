@@ -17,9 +17,9 @@ struct CachePoints {
     /// Per cache, rotates its ray directions. It depends only on the place in the mesh or the grid,
     /// so that a cache keeps its rays when objects are added, removed or moved.
     std::vector<std::uint32_t> seed;
-    /// How much a cache counts among those that see a cluster, for the first caches; 1 for all
-    /// others. A texel that was added near a lamp counts by its area, since there are many of them
-    /// where it is bright, and the mean of a cluster must serve all that see it.
+    /// How much a cache counts beside the others where senders are fitted to what caches see, for
+    /// the first caches; 1 for all others. A texel that was added near a lamp counts by its area,
+    /// since there are many of them where it is bright.
     std::vector<float> weight;
 
     float weightOf(std::size_t cache) const { return cache < weight.size() ? weight[cache] : 1; }

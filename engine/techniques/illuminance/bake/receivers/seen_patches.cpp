@@ -75,6 +75,7 @@ bool Sight::look(const Progress& progress) {
         caches.lightmapCount, 64, progress, "caches", [&](std::size_t first, std::size_t last) {
             for (std::size_t c = first; c < last; ++c) {
                 const CacheRays directions = gatherer.directions(std::uint32_t(c));
+                const bool counts = points.weightOf(c) >= 1;
                 float open = 0;
                 for (std::uint32_t r = 0; r < rays; ++r) {
                     const Ray ray = gatherer.ray(directions, std::uint32_t(c), r);
@@ -82,7 +83,7 @@ bool Sight::look(const Progress& progress) {
                     const RawHit met = gatherer.credit(hit, ray.direction);
                     if (!hit)
                         open += directions.local.height(r);
-                    else if (!(met & kBack))
+                    else if (counts && !(met & kBack))
                         sightings[c * rays + r] = {met,
                                                    {hit.triangle, {hit.u, hit.v}},
                                                    hit.t * hit.t < set.surfels.area[met]};

@@ -286,13 +286,15 @@ float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// Fills `worth` per cache with CacheLinker::weigh() and finds the bound on the worth that gives
+/// Fills `worth` per cache with CacheLinker::weigh(), times the root of the cache's weight, since
+/// worth is an error that is not squared, and finds the bound on the worth that gives
 /// all caches together as many links as n_L each would. Returns std::nullopt when cancelled. What a
 /// cache saw is not stored: it would take 24 bytes a leaf, more than anything else in a bake, and
 /// looking again is as fast as reading it back.
 std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
-                                 const Caches& caches, const CutSettings& settings,
-                                 const Progress& progress, std::vector<std::vector<float>>& worth) {
+                                 const Caches& caches, const CachePoints& points,
+                                 const CutSettings& settings, const Progress& progress,
+                                 std::vector<std::vector<float>>& worth) {
     constexpr std::size_t kSteps = 1 << 15;
     tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
     std::atomic<std::uint64_t> budget = 0;
@@ -305,8 +307,11 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
                     continue;
                 budget += std::min(linker.leaves(), settings.links) - 1;
                 worth[c] = linker.weigh();
-                for (const float w : worth[c])
+                const float weight = std::sqrt(points.weightOf(c));
+                for (float& w : worth[c]) {
+                    w *= weight;
                     ++histogram[stepOf(w)];
+                }
             }
         });
     if (!done)
@@ -394,7 +399,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
     float bound = -1;
     std::uint32_t maxLinks = settings.links;
     if (shared) {
-        const auto found = sharedBound(linkers, caches, settings, progress, worth);
+        const auto found = sharedBound(linkers, caches, points, settings, progress, worth);
         if (!found)
             return false;
         bound = *found;
