@@ -71,8 +71,8 @@ struct Technique {
 /// Value of a setting in a document, clamped to its range.
 double settingOf(const TechniqueChoice& choice, const TechniqueSetting& setting);
 
-/// What relightTimesKey() tells sizes apart by: Precomputed::sizeClass() of what is lit, or, where
-/// that is null because nothing is precomputed, the technique's name.
+/// Name of what is lit, for relightTimesKey(): Precomputed::sizeClass() of the data, or the
+/// technique's name where `data` is null because nothing is precomputed.
 std::string sizeClassOf(const Technique& technique, const Precomputed* data);
 
 } // namespace limn

@@ -36,6 +36,18 @@ bool updateReceiverMaterials(const Receivers& receivers, const Scene& scene,
     return true;
 }
 
+bool noteChanges(bool gathering, bool light, const RelightSettings& settings,
+                 Convergence& convergence) {
+    const bool limitsChanged = convergence.applySettings(settings);
+    if (gathering)
+        convergence.skyChanged();
+    else if (light)
+        convergence.lightChanged();
+    else if (!limitsChanged)
+        return false;
+    return convergence.restarts();
+}
+
 ReceiverAreas areasOf(const Receivers& receivers) {
     ReceiverAreas areas;
     for (const float width : receivers.width)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/lighting/convergence.h"
 #include "engine/techniques/sparse_probes/receivers.h"
 
 #include <vector>
@@ -19,6 +20,12 @@ struct ReceiverMaterials {
 /// nothing. Returns whether any material changed; true at the first call.
 bool updateReceiverMaterials(const Receivers& receivers, const Scene& scene,
                              ReceiverMaterials& state);
+
+/// Tells `convergence` what changed since the last update: how the probes gather (`gathering`, the
+/// sky among it), or what receivers get and send without bounces (`light`). Returns whether bounced
+/// light must start again from zero.
+bool noteChanges(bool gathering, bool light, const RelightSettings& settings,
+                 Convergence& convergence);
 
 /// Areas of the receivers' texels.
 struct ReceiverAreas {

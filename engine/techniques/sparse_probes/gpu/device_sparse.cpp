@@ -124,15 +124,9 @@ void DeviceSparse::followScene(const Scene& scene, Work& work) {
     const bool materialsChanged = uploadInputs(scene, work);
     const bool clamp = clampsParts(scene.technique),
                clampChanged = std::exchange(m_clampParts, clamp) != clamp;
-    const bool limitsChanged = m_convergence.applySettings(scene.relight);
     m_started = true;
-    if (skyChanged || clampChanged)
-        m_convergence.skyChanged();
-    else if (directChanged || materialsChanged)
-        m_convergence.lightChanged();
-    else if (!limitsChanged)
-        return;
-    if (m_convergence.restarts())
+    if (noteChanges(skyChanged || clampChanged, directChanged || materialsChanged, scene.relight,
+                    m_convergence))
         gpu::clearBuffers(m_device, {m_buffers.irradiance.handle});
 }
 

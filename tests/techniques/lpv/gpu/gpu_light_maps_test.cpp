@@ -25,8 +25,8 @@ Image fence() {
     return image;
 }
 
-/// Within a room, or, for a sun, in the open: a block, its mirror image, a metal, a sheet that both
-/// sides reflect, one of which only the front does, and a fence with holes.
+/// A block, its mirror image, a metal, a sheet that reflects on both sides, one that reflects on
+/// its front only, and a fence with holes, in a room or, for a sun, in the open.
 Scene clutter(bool open) {
     simple::SceneBuilder b;
     b.assets->images.push_back(fence());

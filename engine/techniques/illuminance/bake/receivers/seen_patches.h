@@ -38,8 +38,8 @@ struct SeenPatches {
 /// Finds where surfels are seen by shooting `rays` rays from every lightmap cache; with 0 rays
 /// nothing changes. Rays from closer than a patch is wide count only where no others meet the
 /// patch, because caches in a gap between surfaces see only a piece of it. Rays of texels that were
-/// added near lamps do not count: many of them see the same side of a lamp, and would draw all of
-/// its surfels there.
+/// added near lamps do not count: many of them see the same side of a lamp, and would move all of
+/// its surfels to that side.
 ///
 /// A surfel stays where it is unless most of these caches do not see that place, or one of the
 /// points where their rays meet its patch lies closer to the others in distance and orientation. It
