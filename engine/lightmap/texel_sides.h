@@ -46,8 +46,9 @@ PlacedTriangle placeTriangle(const LightmapLayout& layout, std::uint32_t mesh,
 /// surface above, hits nothing but their own chart. Of the sides that have open points a texel
 /// keeps the most open one, and a bilinear lookup snaps to the texels whose points are on the same
 /// side as the lookup itself, because interpolation across the wall would light each room by the
-/// other. Texels of several charts keep all their open points. A texel without any open point keeps
-/// all its points; lookups avoid it where possible.
+/// other. Where the lookup lies in a pocket narrower than half a texel, beside a place in the open,
+/// it snaps to the texels of that place. Texels of several charts keep all their open points. A
+/// texel without any open point keeps all its points; lookups avoid it where possible.
 ///
 /// `placed` states how triangles lie in the lookups of addFineTexels(). The result must not be used
 /// when cancelled.

@@ -5,16 +5,22 @@
 
 namespace limn {
 
+/// A scene with the material of walls, and that of sheets, which shows both sides.
+inline simple::SceneBuilder wallsAndSheets() {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.7f)));
+    Material sheet = simple::lambert(glm::vec3(0.7f));
+    sheet.doubleSided = true;
+    b.addMaterial(sheet);
+    return b;
+}
+
 /// A hall of 8 x 3 x 4 m and a wall across it at x = 3.7 m that leaves nothing open: a sheet that
 /// shows both sides, or a solid. The hall's floor, ceiling and long walls are one surface each on
 /// both sides of it. One lamp hangs in the larger part.
 inline Scene partedHall(float wall, std::uint32_t texels) {
     using namespace simple;
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.7f)));
-    Material sheet = lambert(glm::vec3(0.7f));
-    sheet.doubleSided = true;
-    b.addMaterial(sheet);
+    SceneBuilder b = wallsAndSheets();
     b.add(box(glm::vec3(0), glm::vec3(8, 3, 4), true));
     if (wall > 0)
         b.add(box({3.7f, -0.1f, -0.1f}, {3.7f + wall, 3.1f, 4.1f}, false));
