@@ -20,6 +20,7 @@ static Json describe(const runtime::TransportView& view, std::uint64_t fileBytes
     json["kind"] = "transport";
     json["version"] = fmt::format("{}.{}", runtime::kMajor, view.minor);
     json["surfels"] = d.surfels;
+    json["light_points"] = d.lightPoints;
     json["sky_cells"] = d.skyCells;
     json["caches"] = d.caches;
     json["lightmap_caches"] = d.lightmapCaches;

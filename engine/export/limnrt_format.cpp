@@ -69,7 +69,8 @@ ExportForecast forecastTransport(const ExportScene& scene, const ExportSettings&
     if (!bake)
         return f;
     f.bytes += bake->caches.linkCount() * sizeof(Link) + bake->caches.size() * 40 +
-               bake->surfels.size() * 90 + bake->tree.size() * 12 + bake->counts.triangles * 64;
+               bake->surfels.size() * 90 + bake->surfels.lightPoints.size() * sizeof(glm::vec3) +
+               bake->tree.size() * 12 + bake->counts.triangles * 64;
     return f;
 }
 

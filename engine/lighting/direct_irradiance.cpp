@@ -44,12 +44,13 @@ std::vector<LightRectangle> rectanglesOf(const Light& light, const Scene& scene)
 // Neighbours shift the points on the rectangle differently, so that the remaining pattern averages
 // out over an area.
 float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>& rectangles,
-                     glm::vec3 p, glm::vec3 n, std::uint32_t point, std::uint64_t& rays) {
+                     glm::vec3 p, glm::vec3 n, std::uint32_t point, std::uint32_t samples,
+                     std::uint64_t& rays) {
     const std::uint32_t bits = mixBits(point);
     const glm::vec2 shift(unitFloat(bits), unitFloat(mixBits(bits)));
     float sum = 0;
     for (const LightRectangle& r : rectangles)
-        sum += shadowedIrradiance(trace, r, p, n, DirectIrradiance::kRectanglePoints, shift, rays);
+        sum += shadowedIrradiance(trace, r, p, n, samples, shift, rays);
     return sum;
 }
 
@@ -68,15 +69,24 @@ float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::
 std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                          const TraceScene& trace, DirectIrradiance::PerLight& out) {
     const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
-    out.share.resize(positions.size());
+    out.share.resize(normals.size());
+    if (normals.empty())
+        return 0;
+    const auto each = std::uint32_t(positions.size() / normals.size());
+    const std::uint32_t samples = std::max(DirectIrradiance::kRectanglePoints / each, 1U);
     std::atomic<std::uint64_t> rays = 0;
-    parallelRanges(positions.size(), 256, [&](std::size_t begin, std::size_t end) {
+    parallelRanges(normals.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::uint64_t mine = 0;
         for (std::size_t s = begin; s < end; ++s) {
-            const glm::vec3 p = positions[s], n = normals[s];
-            out.share[s] = rectangles.empty()
-                               ? pointShare(trace, out.light, p, n, mine)
-                               : rectangleShare(trace, rectangles, p, n, std::uint32_t(s), mine);
+            float sum = 0;
+            for (std::uint32_t k = 0; k < each; ++k) {
+                const std::uint32_t at = std::uint32_t(s) * each + k;
+                const glm::vec3 p = positions[at], n = normals[s];
+                sum += rectangles.empty()
+                           ? pointShare(trace, out.light, p, n, mine)
+                           : rectangleShare(trace, rectangles, p, n, at, samples, mine);
+            }
+            out.share[s] = sum / float(each);
         }
         rays += mine;
     });
@@ -102,7 +112,7 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
                             const TraceScene& trace, DirectIrradiance& state) {
     state.lightsTraced = 0;
     state.raysTraced = 0;
-    if (state.irradiance.size() != positions.size())
+    if (state.irradiance.size() != normals.size())
         state.bounds = boundsOf(positions);
     std::vector<Light>& lights = state.wanted;
     lights.clear();
@@ -113,7 +123,7 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
     if (occluders != state.occluders)
         for (DirectIrradiance::PerLight& light : state.lights)
             light.light.enabled = false; // matches no light that shines
-    else if (lights == state.summed && state.irradiance.size() == positions.size())
+    else if (lights == state.summed && state.irradiance.size() == normals.size())
         return false;
     state.occluders = occluders;
 
@@ -141,7 +151,7 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
     }
     std::swap(state.summed, lights);
     std::swap(state.before, state.irradiance);
-    sumLights(positions.size(), state);
+    sumLights(normals.size(), state);
     return state.before != state.irradiance;
 }
 

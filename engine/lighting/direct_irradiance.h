@@ -16,7 +16,7 @@ namespace limn {
 /// Direct light at surface points, stored per light as the irradiance from a white light of unit
 /// strength at the same place. Changing a colour or a strength traces no ray.
 struct DirectIrradiance {
-    /// Number of shadow rays from a point to a rectangle.
+    /// Number of shadow rays to a rectangle, from all positions of a point together.
     static constexpr std::uint32_t kRectanglePoints = 16;
 
     struct PerLight {
@@ -40,9 +40,10 @@ struct DirectIrradiance {
 };
 
 /// Brings `state` up to date with the scene's lights at points with unit normals, on the side that
-/// is lit. Lights that are off, black, of no strength, out of reach of every point, or unchanged
-/// cost nothing. Returns true if any irradiance changed. The points are the same at every call with
-/// that state.
+/// is lit. A point may have several positions, the same number for all, one point after the other:
+/// its light is their mean. Lights that are off, black, of no strength, out of reach of every
+/// point, or unchanged cost nothing. Returns true if any irradiance changed. The points are the
+/// same at every call with that state.
 bool updateDirectIrradiance(std::span<const glm::vec3> positions,
                             std::span<const glm::vec3> normals, const Scene& scene,
                             const TraceScene& trace, DirectIrradiance& state);

@@ -28,7 +28,7 @@ PointIrradiance::PointIrradiance(gpu::Device& device, const PointBuffers& buffer
     const std::array layouts = {m_setLayout.handle};
     m_layout = gpu::createPipelineLayout(device, layouts, sizeof(shared::GpuPointLighting),
                                          "irradiance of points");
-    const std::array constants = {kLanes, buffers.stride};
+    const std::array constants = {kLanes, buffers.stride, buffers.together};
     m_pipeline = gpu::createComputePipeline(device, kPointIrradianceComp, m_layout.handle,
                                             constants, "irradiance of points");
     gpu::writeBuffer(device, m_set, 5, kBuffer, buffers.points);

@@ -18,8 +18,9 @@ struct PointBuffers {
     /// the side that is lit; their fourth components are not read.
     VkBuffer points = VK_NULL_HANDLE;
     std::uint32_t stride = 2;
-    VkBuffer irradiance = VK_NULL_HANDLE; ///< a vec4 per point, RGB and 0 [W m^-2]
-    std::uint32_t count = 0;
+    std::uint32_t together = 1; ///< so many points that follow each other have one irradiance
+    VkBuffer irradiance = VK_NULL_HANDLE; ///< a vec4 each, the points' mean, RGB and 0 [W m^-2]
+    std::uint32_t count = 0;              ///< of irradiances
 };
 
 /// Computes the irradiance of surface points from lights with their shadow maps, on the device that

@@ -184,6 +184,8 @@ Defect senderDefect(const TransportView& v) {
     const std::uint64_t n = v.dims.surfels, inner = v.dims.innerNodes, sky = v.dims.skyCells;
     if (!placed(v.surfelPosition, n))
         return {"SPOS", "out of range"};
+    if (!placed(v.lightPoint, n * v.lightPointsEach))
+        return {"SLPT", "out of range"};
     if (!unit(v.surfelNormal, n))
         return {"SNRM", "not of unit length"};
     if (!within(v.surfelAlbedo, 3 * n, 0, kMaxAlbedo))

@@ -53,8 +53,8 @@ PointSample sampleLight(const limnrt_light& light, F4 p) {
     return s;
 }
 
-float pointShare(const TransportView& v, const limnrt_light& light, std::size_t surfel) {
-    const float *position = v.surfelPosition + 3 * surfel, *normal = v.surfelNormal + 3 * surfel;
+float pointShare(const TransportView& v, const limnrt_light& light, const float* position,
+                 const float* normal) {
     const F4 p = load3(position), n = load3(normal);
     const PointSample s = sampleLight(light, p);
     const F4 product = n * s.toLight;
@@ -95,25 +95,26 @@ bool blocked(const TransportView& v, F4 from, F4 to) {
     return distance > 0 && occluded(v, from, way / splat(distance), distance);
 }
 
-/// The exact irradiance times the visible share of kRectanglePoints points, which are Hammersley's,
-/// uniform in solid angle and weighted by their cosines. Neighbours shift them differently.
+/// The exact irradiance times the visible share of `samples` points of the rectangle, which are
+/// Hammersley's, uniform in solid angle and weighted by their cosines. `number` shifts them, so
+/// that neighbours have different ones.
 float rectangleShare(const TransportView& v, const limnrt_light& light, const Rectangle& r,
-                     std::size_t surfel) {
-    const float *position = v.surfelPosition + 3 * surfel, *normal = v.surfelNormal + 3 * surfel;
+                     const float* position, const float* normal, std::uint32_t number,
+                     std::uint32_t samples) {
     const Vec3 p = vec3(position), n = vec3(normal);
     const double whole = rectangleIrradiance(r, p, n);
     if (!(whole > 0) || (light.flags & LIMNRT_NO_SHADOWS) != 0)
         return float(whole);
     const F4 origin = load3(position) + load3(normal) * splat(rayOffset(v, position));
-    const std::uint32_t bits = mixBits(std::uint32_t(surfel));
+    const std::uint32_t bits = mixBits(number);
     const double shiftU = unitFloat(bits), shiftV = unitFloat(mixBits(bits));
     const SphericalRectangle sphere(r, p);
     double sum = 0, seen = 0;
-    for (std::uint32_t i = 0; i < kRectanglePoints; ++i) {
+    for (std::uint32_t i = 0; i < samples; ++i) {
         constexpr double kInset = 1e-3; // walls that bound the light would hide its edge
         const auto inset = [](double x) { return kInset + (1 - 2 * kInset) * (x - std::floor(x)); };
-        const Vec3 onLight = sphere.at(inset((i + 0.5) / kRectanglePoints + shiftU),
-                                       inset(radicalInverse(i) + shiftV));
+        const Vec3 onLight =
+            sphere.at(inset((i + 0.5) / samples + shiftU), inset(radicalInverse(i) + shiftV));
         const Vec3 way = onLight - p;
         const double share = dot(way, n) / length(way);
         if (!(share > 0))
@@ -125,6 +126,19 @@ float rectangleShare(const TransportView& v, const limnrt_light& light, const Re
             seen += share;
     }
     return sum > 0 ? float(whole * (seen / sum)) : 0;
+}
+
+/// Writes for each surfel the mean of share(position, normal, number of the point) over its light
+/// points.
+template <class Share>
+void meanShares(const TransportView& v, const Share& share, float* mean) {
+    const std::uint32_t each = v.lightPointsEach;
+    for (std::size_t k = 0; k < v.dims.surfels; ++k) {
+        float sum = 0;
+        for (std::size_t point = k * each; point < (k + 1) * each; ++point)
+            sum += share(v.lightPoint + 3 * point, v.surfelNormal + 3 * k, std::uint32_t(point));
+        mean[k] = sum / float(each);
+    }
 }
 
 } // namespace
@@ -142,12 +156,21 @@ bool sameShape(const limnrt_light& a, const limnrt_light& b) {
 void lightShares(const TransportView& view, const limnrt_light& light, float* share) {
     if (light.kind == LIMNRT_RECTANGLE) {
         const Rectangle rectangle(light);
-        for (std::size_t k = 0; k < view.dims.surfels; ++k)
-            share[k] = rectangleShare(view, light, rectangle, k);
+        const std::uint32_t samples = std::max(kRectanglePoints / view.lightPointsEach, 1U);
+        meanShares(
+            view,
+            [&](const float* position, const float* normal, std::uint32_t number) {
+                return rectangleShare(view, light, rectangle, position, normal, number, samples);
+            },
+            share);
         return;
     }
-    for (std::size_t k = 0; k < view.dims.surfels; ++k)
-        share[k] = pointShare(view, light, k);
+    meanShares(
+        view,
+        [&](const float* position, const float* normal, std::uint32_t) {
+            return pointShare(view, light, position, normal);
+        },
+        share);
 }
 
 static bool shines(const limnrt_light& l) {

@@ -71,11 +71,13 @@ void limnrt_close(limnrt_scene*); /* 0 is allowed */
 /* What the file holds. Pointers lead into its bytes. */
 void limnrt_get_counts(const limnrt_scene*, limnrt_counts* counts);
 const char* limnrt_meta(const limnrt_scene*, size_t* size); /* JSON, not terminated by 0 */
-const char* limnrt_material_name(const limnrt_scene*,
-                                 uint32_t index);          /* UTF-8; 0 beyond the last; O(names) */
+/* UTF-8; 0 beyond the last; O(names) */
+const char* limnrt_material_name(const limnrt_scene*, uint32_t index);
 const float* limnrt_surfel_positions(const limnrt_scene*); /* 3 each */
 const float* limnrt_surfel_normals(const limnrt_scene*);   /* 3 each, unit */
-const float* limnrt_surfel_areas(const limnrt_scene*);     /* [m^2] */
+/* Points [m], 3 each, whose mean direct light is the surfel's; sets *each to its number of them. */
+const float* limnrt_light_points(const limnrt_scene*, uint32_t* each);
+const float* limnrt_surfel_areas(const limnrt_scene*); /* [m^2] */
 const uint32_t* limnrt_surfel_materials(const limnrt_scene*);
 const uint32_t* limnrt_surfel_instances(const limnrt_scene*);
 /* 3 each, lightmap caches, then the grid's cells, which have no normals; normals are unit. */
@@ -91,12 +93,10 @@ int limnrt_set_lights(limnrt_scene*, const limnrt_light* lights, uint32_t count)
 /* The caller's own direct irradiance per surfel [W m^-2], 3 each, instead of lights, until the next
    limnrt_set_lights(). */
 int limnrt_set_direct(limnrt_scene*, const float* rgb);
-/* Direct irradiance per surfel that the lights bring, shadows included: 4 floats each, of which the
- * last is 0. */
+/* Direct irradiance per surfel that the lights bring, shadows included: red, green, blue, 0. */
 const float* limnrt_direct(const limnrt_scene*);
 
-/* Surfels [first, first + count): albedo in [0, 0.99] and emitted radiance [nits] in [0, 1e10], 3
- * each. */
+/* Surfels [first, first + count), 3 each: albedo in [0, 0.99], radiance in [0, 1e10] nits. */
 int limnrt_set_albedo(limnrt_scene*, uint32_t first, uint32_t count, const float* rgb);
 int limnrt_set_emission(limnrt_scene*, uint32_t first, uint32_t count, const float* rgb);
 /* All surfels of a material: one albedo or emission for each, or the file's values times a factor

@@ -128,6 +128,10 @@ const float* limnrt_surfel_positions(const limnrt_scene* s) {
 const float* limnrt_surfel_normals(const limnrt_scene* s) {
     return s->view.surfelNormal;
 }
+const float* limnrt_light_points(const limnrt_scene* s, uint32_t* each) {
+    *each = s->view.lightPointsEach;
+    return s->view.lightPoint;
+}
 const float* limnrt_surfel_areas(const limnrt_scene* s) {
     return s->view.surfelArea;
 }

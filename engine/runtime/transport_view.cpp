@@ -3,6 +3,7 @@
 
 #include "engine/runtime/xxhash64.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstring>
@@ -147,6 +148,8 @@ const char* dimsDefect(const Dims& d) {
     }
     if (cells != d.cells())
         return "the grid has not as many cells as caches";
+    if (d.lightPoints > kMaxLightPoints)
+        return "too many light points per surfel";
     if ((d.boxes == 0) != (d.triangles == 0))
         return "triangles without boxes, or boxes without triangles";
     return nullptr;
@@ -167,6 +170,21 @@ bool takeSenders(const Table& t, TransportView& v) {
            t.take("TWGT", 4, d.innerNodes, v.leftWeight) &&
            t.take("SKYD", 12, d.skyCells, v.skyDirection) &&
            t.take("SKYL", 12, d.skyCells, v.skyRadiance);
+}
+
+/// Files of minor version 0 have no light points, and no section for them.
+bool takeLightPoints(const Table& t, TransportView& v) {
+    const Dims& d = v.dims;
+    v.lightPoint = v.surfelPosition;
+    v.lightPointsEach = std::max(d.lightPoints, 1U);
+    if (d.lightPoints == 0 && !t.find("SLPT"))
+        return true;
+    const float* points = nullptr;
+    if (!t.take("SLPT", 12, d.surfels * std::uint64_t(d.lightPoints), points))
+        return false;
+    if (d.lightPoints > 0)
+        v.lightPoint = points;
+    return true;
 }
 
 bool takeReceivers(const Table& t, TransportView& v) {
@@ -201,7 +219,7 @@ bool viewTransport(const void* bytes, std::size_t size, bool skipHashes, Transpo
     view.sectionCount = table.count;
     view.minor = static_cast<const Header*>(bytes)->minor;
     view.dims = *dims;
-    return takeSenders(table, view) && takeReceivers(table, view) &&
+    return takeSenders(table, view) && takeLightPoints(table, view) && takeReceivers(table, view) &&
            table.take("SPAC", sizeof(Space), 1, view.space) &&
            table.take("OBOX", sizeof(Box), dims->boxes, view.boxes) &&
            table.take("OTRI", 36, dims->triangles, view.triangles) &&

@@ -8,14 +8,15 @@
 
 namespace limn::runtime {
 
-inline constexpr std::uint32_t kMajor = 2, kMaxBands = 8, kDepthTexels = 256, kMaxBoxDepth = 60;
+inline constexpr std::uint32_t kMajor = 2, kMaxBands = 8, kDepthTexels = 256, kMaxBoxDepth = 60,
+                               kMaxLightPoints = 16;
 inline constexpr float kMaxLight = 1e10f, kMaxAlbedo = 0.99f;
 
 /// The section DIMS.
 struct Dims {
     std::uint32_t surfels, skyCells, innerNodes, caches, lightmapCaches, links, fills, bands,
         chromaBands, materials, lights, lightmapWidth, lightmapHeight, lightmapParts, grid[3],
-        triangles, boxes, cutouts, masks, reserved[3];
+        triangles, boxes, cutouts, masks, lightPoints, reserved[2];
 
     std::uint64_t leaves() const { return std::uint64_t(surfels) + skyCells; }
     std::uint64_t nodes() const { return leaves() + innerNodes; }
@@ -84,6 +85,10 @@ struct TransportView {
     Dims dims;
     const Space* space;
     const float *surfelPosition, *surfelNormal, *surfelAlbedo, *surfelEmission, *surfelArea;
+    /// Points on the surface whose mean direct light is the surfel's [m], lightPointsEach per
+    /// surfel. Those of a file without light points are the surfels' positions.
+    const float* lightPoint;
+    std::uint32_t lightPointsEach;
     const std::uint32_t *surfelMaterial, *surfelInstance, *surfelCache;
     const float* surfelCacheWeight;
     const std::uint32_t* child; ///< left and right of each inner node

@@ -28,7 +28,8 @@ enum class Stage : std::uint32_t {
     RelightRays,
     SparseTransport,
     SparseCompression,
-    LampTexels
+    LampTexels,
+    LightPoints
 };
 
 /// Key of a content; `inputs` is the hash of everything that it is computed from.

@@ -12,7 +12,7 @@ using uint = std::uint32_t;
 // clang-format off
 /// Push constants of point_irradiance.comp.
 struct GpuPointLighting {
-    uint count;                               // points
+    uint count;                               // irradiances
     uint lights; float normalBias, lightBias; // as ShadowedLights
     uint keptLights, freshLights;             // as KeptLights
     uint workBegin, workEnd;                  // range of the fresh lights and then those without a place; 0 starts the sums, the end completes them

@@ -12,11 +12,12 @@ const float kPi = 3.14159265358979;
 #include "shaders/shared/surface_pack.glsl"
 
 layout(constant_id = 1) const uint kStride = 2; // vec4s of a point: its position, its unit normal, others
+layout(constant_id = 2) const uint kTogether = 1; // points whose mean is one irradiance
 
 layout(binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
 layout(binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
 layout(binding = 2) uniform sampler2DArray shadowAtlas;
-layout(binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * points + point
+layout(binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * irradiances + irradiance
 layout(binding = 4, std430) readonly buffer Places { uint places[]; }; // then the fresh lights
 layout(binding = 5, std430) readonly buffer Points { vec4 points[]; };
 layout(binding = 6, std430) buffer Direct { vec4 direct[]; };
@@ -43,8 +44,8 @@ float rectangleIrradianceOf(GpuLight light, Point s, uint i) {
     return E > 0.0 ? E * rectangleVisibility(light, r, at, noise, true) : 0.0;
 }
 
-// Irradiance of a light of strength 1.
-float unitIrradiance(uint k, Point s, uint i) {
+// Irradiance of a light of strength 1 at a point.
+float unitIrradianceAt(uint k, Point s, uint i) {
     GpuLight light = lights[k];
     light.strength = vec3(1);
     if (light.kind == LIGHT_RECTANGLE)
@@ -57,11 +58,18 @@ float unitIrradiance(uint k, Point s, uint i) {
     return lit ? irradiance * NoL * visibility(light, s.position, s.normal, toLight, bias, lit) : 0.0;
 }
 
+// Mean over the points of irradiance i.
+float unitIrradiance(uint k, uint i) {
+    float sum = 0.0;
+    for (uint j = i * kTogether; j < (i + 1) * kTogether; ++j)
+        sum += unitIrradianceAt(k, Point(points[j * kStride].xyz, points[j * kStride + 1].xyz), j);
+    return sum / float(kTogether);
+}
+
 void main() {
     const uint i = groupIndex() * kLanes + gl_LocalInvocationIndex;
     if (i >= range.count)
         return;
-    const Point s = Point(points[i * kStride].xyz, points[i * kStride + 1].xyz);
     // Lights without a place come first, so that the sum does not depend on when a light changed.
     vec3 E = range.workBegin > 0 ? direct[i].rgb : vec3(0);
     const uint fresh = range.freshLights, work = fresh + range.lights - range.keptLights;
@@ -69,7 +77,7 @@ void main() {
         const bool keep = n < fresh;
         const uint k = range.keptLights + n - (keep ? 0 : fresh);
         const uint light = keep ? places[k] : k;
-        const float e = unitIrradiance(light, s, i);
+        const float e = unitIrradiance(light, i);
         if (keep)
             unit[places[light] * range.count + i] = e;
         else

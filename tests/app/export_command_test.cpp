@@ -77,12 +77,14 @@ TEST_F(CommandLine, InfoSaysWhatATransportFileHoldsAndWhatIsWrongWithIt) {
     json("export cornell --format limnrt --detail 1 --json -o " + file + kCoarse);
     const nlohmann::json info = json("info --json " + file);
     EXPECT_EQ(info["kind"], "transport");
-    EXPECT_EQ(info["version"], "2.0");
+    EXPECT_EQ(info["version"], "2.1");
     EXPECT_NEAR(info["surfels"].get<double>(), 500, 10);
     EXPECT_EQ(info["triangles"], 38);
     EXPECT_EQ(info["bytes"]["total"], fs::file_size(file));
     EXPECT_EQ(info["bytes"]["LINK"], 12 * info["links"].get<std::uint64_t>());
     EXPECT_EQ(info["bytes"]["SPOS"], 12 * info["surfels"].get<std::uint64_t>());
+    EXPECT_EQ(info["light_points"], 4);
+    EXPECT_EQ(info["bytes"]["SLPT"], 48 * info["surfels"].get<std::uint64_t>());
     EXPECT_NE(limn("info " + file).out.find("LINK"), std::string::npos);
 
     const std::string whole = contents(file), broken = path("broken.limnrt");

@@ -297,7 +297,7 @@ void writeTransports(const TemporaryFolder&, const auto& write) {
     write("header", "LIMNRT\r\n" + std::string(120, '\1'));
     for (const std::uint32_t value : {0U, 0x7fc00000U, 0xffffffffU}) {
         std::string all;
-        for (int section = 0; section < 36; ++section) {
+        for (int section = 0; section < 37; ++section) {
             const std::string one = {char(section), 3, char(section), 0};
             all += one + std::string(reinterpret_cast<const char*>(&value), sizeof value);
             write("section" + std::to_string(section) + "_" + std::to_string(value >> 24),

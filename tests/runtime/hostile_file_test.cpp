@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Damaged and hostile transport files: refused with a message, or lit without reading out of
 // bounds.
+#include "engine/techniques/illuminance/transport/transport_sections.h"
 #include "tests/runtime/open_file.h"
 #include "tests/runtime/transport_bytes.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
@@ -130,9 +131,36 @@ TEST(HostileFile, HugeCountsAreRefused) {
             std::uint32_t own;
             const SectionPlace dims = sectionOf(roomFile(), "DIMS");
             std::memcpy(&own, &roomFile()[dims.begin + 4 * k], sizeof own);
-            const bool fine = k > 20 || own == count || (k == 8 && count == 1); // one in colour
+            const bool fine = k > 21 || own == count || (k == 8 && count == 1); // one in colour
             EXPECT_TRUE(fine || !refusal("DIMS", put(4 * k, count)).empty()) << k << " " << count;
         }
+}
+
+/// The room's file with `each` light points per surfel, all at one place.
+std::string withLightPoints(std::uint32_t each) {
+    TransportSections out;
+    const std::vector<SectionPlace> sections = sectionsOf(roomFile());
+    for (const SectionPlace& section : sections) {
+        std::uint32_t elementSize;
+        std::memcpy(&elementSize, &roomFile()[section.entry + 4], sizeof elementSize);
+        std::string bytes = roomFile().substr(section.begin, section.end - section.begin);
+        if (section.tag == "DIMS")
+            put(std::size_t(4) * 21, each)(bytes);
+        if (section.tag == "SLPT")
+            bytes.assign(bytes.size() / kLightPoints * each, '\0');
+        out.addBytes(section.tag.c_str(), elementSize, bytes);
+    }
+    return out.file();
+}
+
+TEST(HostileFile, ASurfelHasUpTo16LightPoints) {
+    for (const std::uint32_t each : {0U, 1U, 5U, 16U}) {
+        const OpenFile file(withLightPoints(each));
+        ASSERT_TRUE(file) << file.message;
+        light(file);
+    }
+    EXPECT_NE(OpenFile(withLightPoints(17)).message.find("too many light points"),
+              std::string::npos);
 }
 
 TEST(HostileFile, IndicesAndOrdersAreChecked) {
@@ -165,7 +193,7 @@ TEST(HostileFile, NumbersAreFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
     for (const char* tag : {"SPOS", "SNRM", "SALB", "SEMI", "SARE", "SCWT", "TWGT", "SKYL", "CPOS",
-                            "CNRM", "SPAC", "OTRI", "OBOX", "CTRI"})
+                            "CNRM", "SPAC", "SLPT", "OTRI", "OBOX", "CTRI"})
         for (const float value : {nan, infinity, -infinity})
             EXPECT_NE(refusal(tag, put(0, value)).find(tag), std::string::npos) << tag;
     EXPECT_NE(refusal("CMSK", put(28, nan)), "");

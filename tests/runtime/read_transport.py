@@ -61,7 +61,9 @@ class Transport:
         words = lambda tag, kind="I": array.array(kind, s[tag])
         threes = lambda tag: list(struct.iter_unpack("<3f", s[tag]))
         self.dims = words("DIMS")
-        self.position, self.normal, self.albedo = threes("SPOS"), threes("SNRM"), threes("SALB")
+        self.normal, self.albedo = threes("SNRM"), threes("SALB")
+        each, points = max(self.dims[21], 1), threes("SLPT" if self.dims[21] else "SPOS")
+        self.points = [points[k * each:(k + 1) * each] for k in range(self.dims[0])]
         self.emission, self.sky = threes("SEMI"), threes("SKYL")
         self.reads = [[(c, w) for c, w in zip(v[:4], v[4:]) if w > 0] for v in
                       (c + w for c, w in zip(struct.iter_unpack("<4I", s["SCAC"]), struct.iter_unpack("<4f", s["SCWT"])))]
@@ -159,7 +161,7 @@ class Transport:
         n, direct = self.dims[0], [[0, 0, 0] for _ in range(self.dims[0])]
         for light in self.lights:
             for k in range(n):
-                e = self.irradiance(light, self.position[k], self.normal[k])
+                e = sum(self.irradiance(light, p, self.normal[k]) for p in self.points[k]) / len(self.points[k])
                 direct[k] = [direct[k][i] + light[8 + i] * e for i in range(3)]
         factor = [math.pi] + [2 * math.pi / 3] * 3 + [math.pi / 4] * 5
         basis = [[a * y for a, y in zip(factor, harmonics(*m))] for m in self.normal]

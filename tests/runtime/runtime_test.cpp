@@ -211,6 +211,62 @@ TEST(Runtime, TheCallersOwnDirectLightReplacesLights) {
     EXPECT_EQ(file.lightmapSh(), lit);
 }
 
+TEST(Runtime, LightPointsAreTheBakesOrTheMiddles) {
+    const Surfels& surfels = room().baked->surfels;
+    std::uint32_t each = 0;
+    const OpenFile file(room().bytes);
+    const float* points = limnrt_light_points(file, &each);
+    ASSERT_EQ(each, kLightPoints);
+    EXPECT_EQ(std::memcmp(points, surfels.lightPoints.data(),
+                          surfels.lightPoints.size() * sizeof(glm::vec3)),
+              0);
+    const OpenFile middles(fileOf(*bakeOfMiddles(room().trace), *room().scene));
+    EXPECT_EQ(limnrt_light_points(middles, &each), limnrt_surfel_positions(middles));
+    EXPECT_EQ(each, 1U);
+}
+
+// A line that passes a disc's middle within .15 of its radius has about half of the disc, and
+// at least one light point, on either side. Lit at its middle alone, a surfel would be all bright
+// or all dark.
+TEST(Runtime, AnEdgeOfShadowLightsAboutHalfOfTheSurfelsBelowIt) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}));
+    // Its edge passes above the floor's middle, aslant to the rows of surfels.
+    b.add(simple::quad({-0.4f, 1, -1.2f}, {4.8f, 0, 6.4f}, {4.8f, 0, -3.6f}));
+    b.scene.lights.resize(1);
+    b.scene.lights[0].kind = LightKind::Directional;
+    b.scene.lights[0].direction = {0, -1, 0};
+    b.scene.lights[0].color = glm::vec3(1);
+    b.scene.lights[0].strength = 1;
+    b.scene.bake.surfels = 20000;
+    b.scene.bake.lightmapCaches = 100;
+    b.scene.bake.rays = 16;
+    const Scene scene = b.build();
+    const OpenFile file(fileOf(*bakeOf(TraceScene(scene)), scene));
+    ASSERT_TRUE(file) << file.message;
+    double light = 0;
+    int below = 0;
+    for (std::size_t k = 0; k < file.counts().surfels; ++k) {
+        const float* p = limnrt_surfel_positions(file) + 3 * k;
+        const float intoShadow = 0.8f * (p[0] - 2) - 0.6f * (p[2] - 2),
+                    radius = std::sqrt(limnrt_surfel_areas(file)[k] / std::numbers::pi_v<float>),
+                    irradiance = limnrt_direct(file)[4 * k];
+        if (limnrt_surfel_instances(file)[k] != 0)
+            continue;
+        if (std::abs(intoShadow) > 1.01f * radius) {
+            EXPECT_NEAR(irradiance, intoShadow < 0 ? 1 : 0, 1e-6f);
+        } else if (std::abs(intoShadow) < 0.15f * radius) {
+            EXPECT_GE(irradiance, 0.25f);
+            EXPECT_LE(irradiance, 0.75f);
+            light += double(irradiance);
+            ++below;
+        }
+    }
+    ASSERT_GT(below, 8);
+    EXPECT_NEAR(light / below, 0.5, 0.1);
+}
+
 TEST(Runtime, SkyLightsWhatSeesIt) {
     Scene scene = hall(LinkStorage::Rtp, 3, true);
     scene.bake.lightmapCaches = 400;

@@ -67,10 +67,10 @@ Result<void> write(const std::string& folder) {
         if (k == 3)
             addSheet(scene);
         const TraceScene trace(scene);
-        Result<Bake> made = bake(trace);
+        const Result<Bake> made = bake(trace);
         if (!made)
             return tl::make_unexpected(made.error());
-        const auto baked = std::make_shared<const Bake>(std::move(*made));
+        const auto baked = std::make_shared<const Bake>(*made);
         Relighter relighter(baked, LitBands::All);
         relighter.relight(scene, trace, 1000);
         const std::vector<glm::vec4>& lightmap = relighter.field().lightmap;

@@ -6,6 +6,7 @@
 #include "engine/core/result.h"
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/scene.h"
+#include "engine/techniques/illuminance/bake/surfel_arrays.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
@@ -13,31 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace limn {
 
 class StageStore;
-
-/// Sample points of the static surfaces that stand for all bounced light. Structure of arrays,
-/// world space.
-struct Surfels {
-    std::vector<glm::vec3> position;
-    std::vector<glm::vec3> normal;       ///< unit, on the side it stands for: the triangle's while
-                                         ///< baking, then the interpolated vertex normal
-    std::vector<float> area;             ///< [m^2], > 0; they sum to the area of the lit sides
-    std::vector<std::uint32_t> instance; ///< index into Scene::instances
-    std::vector<std::uint32_t> triangle; ///< index into the triangles of the instance's mesh
-    std::vector<glm::vec2> barycentric;  ///< (u, v), weights (1-u-v, u, v)
-    /// Caches from which the surfel reads bounced light: four with bilinear weights; ~0: none.
-    std::vector<glm::uvec4> cache;
-    std::vector<glm::vec4> cacheWeight;
-
-    std::size_t size() const { return position.size(); }
-    bool operator==(const Surfels&) const = default;
-};
 
 /// The senders as one binary tree. Nodes [0, surfels) are the surfels, then [surfels, surfels +
 /// sky) the sky cells, then inner nodes, every parent after its children; the last node is the

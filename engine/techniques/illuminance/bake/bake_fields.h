@@ -35,6 +35,7 @@ void surfelFields(A& a, B& b, const Scene* scene) {
     a("barycentric", s.barycentric, rule::count(n), rule::within(-1e-4, 1 + 1e-4));
     a("cache", s.cache, rule::count(n), rule::belowOr(b.caches.lightmapCount, ~0U));
     a("cacheWeight", s.cacheWeight, rule::count(n), rule::within(0, 1 + 1e-4));
+    a("lightPoints", s.lightPoints, rule::noneOr(n * kLightPoints), rule::inReach());
 }
 
 template <class A, class B>

@@ -18,6 +18,7 @@
 #include "engine/techniques/illuminance/bake/receivers/fill_invalid.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/bake/senders/light_points.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 #include "engine/techniques/illuminance/bake/transport/cut.h"
@@ -69,13 +70,16 @@ tl::unexpected<Error> cancelled() {
     return fail("cancelled");
 }
 
+/// Hash of the surfaces that rays can hit, and of the surfels on them with their owners.
+std::uint64_t hashSenders(const BakeRun& run) {
+    return hashRecord(describeTrace(run.trace, run.set, *run.owners, {}, {{0}}, 1, run.meshes));
+}
+
 /// Finds the cells of patches that walls separate from their surfels.
 PatchSides patchSidesStage(BakeRun& run) {
     const SurfelSet& set = run.set;
     const OwnerTables& owners = *run.owners;
-    const std::uint64_t key =
-        stageKey(Stage::PatchSides,
-                 hashRecord(describeTrace(run.trace, set, owners, {}, {{0}}, 1, run.meshes)));
+    const std::uint64_t key = stageKey(Stage::PatchSides, hashSenders(run));
     return keptOrMade<PatchSides>(
         run.store, key, run.progress,
         [&](auto& a, auto& s) {
@@ -131,6 +135,24 @@ SeenPatches seenPatchesStage(BakeRun& run) {
             run.rays += made.rays;
             return made;
         });
+}
+
+/// Finds where direct light falls on the surfels.
+std::vector<glm::vec3> lightPointsStage(BakeRun& run) {
+    const Surfels& surfels = run.set.surfels;
+    const std::uint64_t key =
+        hashVector(surfels.position, hashVector(surfels.area, hashSenders(run)));
+    return keptOrMade<LightPoints>(
+               run.store, stageKey(Stage::LightPoints, key), run.progress,
+               [&surfels](auto& a, auto& l) {
+                   a("at", l.at, rule::count(surfels.size() * kLightPoints), rule::inReach());
+               },
+               [&] {
+                   LightPoints made = findLightPoints(run.trace, surfels, run.progress);
+                   run.rays += made.rays;
+                   return made;
+               })
+        .at;
 }
 
 /// Traces the training lights' shadow rays, again only near what moved.
@@ -227,6 +249,9 @@ Result<void> placeReceivers(BakeRun& run) {
     if (run.progress.cancelled())
         return cancelled();
     placeSeen(scene, seen, run.set);
+    run.set.surfels.lightPoints = lightPointsStage(run);
+    if (run.progress.cancelled())
+        return cancelled();
     addOwnCaches(scene, layout, seen, run.set.surfels, bake.caches, run.points);
     addGridCaches(bake.gridSize, bake.gridBounds, bake.caches, run.points);
     run.clock.finish("caches");

@@ -42,8 +42,8 @@ struct Sent {
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
         : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMaxSteps),
-          surfelIrradiance(d, {.points = buffers.surfels.handle,
-                               .stride = sizeof(shared::GpuSurfel) / sizeof(glm::vec4),
+          surfelIrradiance(d, {.points = buffers.lightPoints.handle,
+                               .together = bake->surfels.litAtEach(),
                                .irradiance = buffers.direct.handle,
                                .count = std::uint32_t(bake->surfels.size())}),
           occlusion(d, *bake, buffers.links) {}

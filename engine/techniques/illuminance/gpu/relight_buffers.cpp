@@ -27,6 +27,16 @@ static std::vector<GpuSurfel> packSurfels(const Bake& bake) {
     return out;
 }
 
+static std::vector<glm::vec4> packLightPoints(const Surfels& surfels) {
+    const std::vector<glm::vec3>& at = surfels.litAt();
+    std::vector<glm::vec4> out;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        out.emplace_back(at[k], 0);
+        out.emplace_back(surfels.normal[k / surfels.litAtEach()], 0);
+    }
+    return out;
+}
+
 std::vector<GpuCache> packCaches(const Caches& caches, LinkEnds ends) {
     std::vector<GpuCache> out(caches.size());
     for (std::size_t c = 0; c < out.size(); ++c)
@@ -86,6 +96,7 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
     {
         gpu::StorageMaker make(device, "bake fewer links, caches or bands");
         out.surfels = make.filled(packSurfels(bake), "surfels");
+        out.lightPoints = make.filled(packLightPoints(bake.surfels), "light points");
         out.innerNodes = make.filled(levels.nodes, "inner nodes");
         out.levels = make.filled(levels.begin, "tree levels");
         out.caches = make.filled(packCaches(bake.caches, allLinks(bake.caches)), "caches");

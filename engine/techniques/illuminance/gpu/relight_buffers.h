@@ -18,7 +18,8 @@ namespace limn {
 /// contents.
 struct RelightBuffers {
     gpu::Buffer surfels, innerNodes, levels, caches, links, fills, fillSources; ///< of the bake
-    gpu::Buffer direct, albedo, emitted;                                        ///< inputs
+    gpu::Buffer lightPoints;             ///< a position and a normal for each of Surfels::litAt()
+    gpu::Buffer direct, albedo, emitted; ///< inputs
     gpu::Buffer indirect, radiosity, sh; ///< results of the steps; 0 at first
     gpu::Buffer change;                  ///< mapped
     gpu::Buffer order; ///< the grid's caches, then room for kCacheLists lists of the lightmap's

@@ -80,7 +80,7 @@ FirstLight firstLight(const LitScene& s) {
     DirectIrradiance direct;
     std::vector<glm::vec3> albedo;
     surfelMaterials(s.bake->surfels, s.scene, albedo, out.radiosity);
-    updateDirectIrradiance(s.bake->surfels.position, s.bake->surfels.normal, s.scene, *s.trace,
+    updateDirectIrradiance(s.bake->surfels.litAt(), s.bake->surfels.normal, s.scene, *s.trace,
                            direct);
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         out.radiosity[i] += albedo[i] * direct.irradiance[i];

@@ -172,6 +172,7 @@ void addSenders(const TransportInput& in, TransportSections& out) {
             if (s.cache[k][j] == kNoCache)
                 weight[k][j] = 0;
     out.add("SPOS", s.position);
+    out.add("SLPT", s.lightPoints);
     out.add("SNRM", s.normal);
     out.add("SALB", albedo);
     out.add("SEMI", emission);
@@ -253,7 +254,7 @@ Result<std::string> transportFile(const TransportInput& in) {
                                              count(occluders.boxes),
                                              count(occluders.cutouts.triangles),
                                              count(occluders.cutouts.masks),
-                                             0,
+                                             b.surfels.lightPoints.empty() ? 0 : kLightPoints,
                                              0,
                                              0};
     const Bounds& g = b.gridBounds;

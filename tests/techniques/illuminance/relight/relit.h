@@ -17,6 +17,13 @@ inline std::shared_ptr<const Bake> bakeOf(const TraceScene& trace) {
     return std::make_shared<const Bake>(std::move(*made));
 }
 
+/// A bake whose surfels are lit at their middles alone, as those of older transport files are.
+inline std::shared_ptr<const Bake> bakeOfMiddles(const TraceScene& trace) {
+    Bake made = *bakeOf(trace);
+    made.surfels.lightPoints.clear();
+    return std::make_shared<const Bake>(std::move(made));
+}
+
 /// A scene with a bake of its own, lit until bounces change nothing, in 3 bands.
 struct Relit {
     explicit Relit(const Scene& scene) : trace(scene) { relighter.relight(scene, trace, 64); }

@@ -9,14 +9,14 @@
 namespace limn {
 namespace {
 
-// Every kind of light at once, as strong as may be, with lamps less than a micrometre above a
-// surfel.
+// Every kind of light at once, as strong as may be, with lamps less than a micrometre above a point
+// of a surfel.
 TEST(StrongLight, StaysWithinFloat) {
     Scene scene = *litRoom(300, 300);
     const TraceScene trace{scene};
     const auto made = std::make_shared<const Bake>(*bake(trace));
     Light strong{.color = glm::vec3(kMaxLight), .strength = kMaxLight};
-    strong.position = made->surfels.position[0] + 8e-7f * made->surfels.normal[0];
+    strong.position = made->surfels.lightPoints[0] + 8e-7f * made->surfels.normal[0];
     scene.lights.assign(50, strong);
     for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Rectangle}) {
         scene.lights.push_back(strong);

@@ -105,6 +105,30 @@ TEST(TransportFile, RelightsThroughAWindowInEveryNumberOfBands) {
         }
 }
 
+/// A file as minor version 0 wrote it: without the section of light points.
+std::string withoutLightPoints(std::string file) {
+    file[12] = 0; // the minor version
+    changeSection(file, "DIMS", [](std::string& dims) { dims.replace(4 * 21, 4, 4, '\0'); });
+    file.replace(sectionOf(file, "SLPT").entry, 4, "NONE"); // a tag that readers skip
+    rehash(file);
+    return file;
+}
+
+TEST(TransportFile, OlderFilesLightSurfelsAtTheirMiddles) {
+    Scene scene = *litRoom(900, 800);
+    const TraceScene trace(scene);
+    const auto baked = bakeOf(trace), middles = bakeOfMiddles(trace);
+    const OpenFile older(withoutLightPoints(fileOf(*baked, scene))), none(fileOf(*middles, scene));
+    ASSERT_TRUE(older) << older.message;
+    ASSERT_TRUE(none) << none.message;
+    for (const LightKind kind : {LightKind::Point, LightKind::Rectangle}) {
+        scene.lights = {lightOf(kind)};
+        expectSame(errorsOf(older, scene, trace, middles));
+        expectSame(errorsOf(none, scene, trace, middles));
+        EXPECT_GT(errorsOf(older, scene, trace, baked).radiosity, 0.005) << "the points matter";
+    }
+}
+
 Image noise(std::uint32_t width, std::uint32_t height) {
     Image image{"noise", width, height, {}};
     std::uint32_t bits = 7;
