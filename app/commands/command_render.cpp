@@ -37,6 +37,7 @@ struct Options {
     std::string bake, output, view = "lit", inspection = "none", tonemap = "aces", device = "auto",
                               relight = "auto";
     float exposureEv = 0;
+    std::uint32_t samplesPerPixel = 16;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
     GivenSettings relighting; ///< instead of the document's
@@ -232,6 +233,7 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     request.height = options.camera.height;
     request.tonemap = Tonemap(indexOf(kTonemapNames, options.tonemap));
     request.exposureEv = options.exposureEv;
+    request.samplesPerPixel = options.samplesPerPixel;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
         request.relight = [&] { return relight(scene, baked); };
@@ -269,6 +271,7 @@ nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& i
     json["view"] = options.view;
     json["width"] = image.linear.width;
     json["height"] = image.linear.height;
+    json["samples_per_pixel"] = options.samplesPerPixel;
     json["invalid_pixels"] = countInvalidPixels(image.linear);
     if (!image.relightDevice.empty())
         json["relight"] = lightingJson(image.relightDevice, image.relight);
@@ -384,6 +387,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command->add_option("--fps", options->framesPerSecond, "Pictures per second of --frames [1/s]")
         ->check(numberWithin(0.001, 10000.0));
     addCameraOptions(*command, options->camera);
+    command->add_option("--spp", options->samplesPerPixel, "Samples per pixel")
+        ->check(CLI::Range(1, 65536));
     addOverlayFlags(*command, options->overlay);
     command->add_option(
         "--bake", options->bake,

@@ -13,6 +13,7 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
     options.camera = request.camera;
     options.width = request.width;
     options.height = request.height;
+    options.samplesPerPixel = request.samplesPerPixel;
     static const IndirectField noField;
     static const LightmapLayout noLayout;
     RenderedImage result;

@@ -98,6 +98,8 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     options.exposureEv = request.exposureEv;
     options.inspection = request.inspection;
     viewport.render(options);
+    for (std::uint32_t n = 1; n < request.samplesPerPixel; ++n)
+        viewport.refine();
     result.device = properties.deviceName;
     result.linear = viewport.readLinear();
     if (request.tonemapped)

@@ -10,6 +10,7 @@
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,6 +31,7 @@ struct RenderRequest {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
+    std::uint32_t samplesPerPixel = 16;           ///< box filter; at least 1
     Inspection inspection = Inspection::None;     ///< of RenderedImage::picture
     bool tonemapped = false;                      ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
@@ -60,7 +62,7 @@ using DrawPicture =
 /// too large for the device. Only in builds with Vulkan.
 Result<DrawPicture> drawingOnGpu(const std::string& device);
 
-/// The same picture without Vulkan: ray-traced, hard shadows, 16 samples per pixel, no specular.
+/// The same picture without Vulkan: ray-traced.
 /// `request.relightOn` and `request.inspection` are ignored.
 RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request);
 

@@ -65,19 +65,34 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     m_messages = worker.device->validationMessages();
 }
 
+// What the picture was metered and timed by stays that of its first sample: times of a refined one
+// would be for triangles that nothing made necessary.
+void RenderJob::publishRefined(DrawnImages images) {
+    const std::lock_guard lock(m_mutex);
+    m_result.image = std::move(images.shown);
+    m_result.linear = std::move(images.linear);
+    ++m_result.number;
+}
+
 void RenderJob::run(bool validate) {
     lowerThreadPriority(); // a software rasteriser's threads inherit it
     try {
         RenderWorker worker(validate);
         for (;;) {
             std::unique_lock lock(m_mutex);
-            m_changed.wait(lock, [&] { return m_stop || m_next || worker.bouncing(); });
+            m_changed.wait(
+                lock, [&] { return m_stop || m_next || worker.bouncing() || worker.refining(); });
             if (m_stop)
                 return;
-            PictureRequest request = m_next ? std::move(*std::exchange(m_next, {})) : worker.shown;
+            std::optional<PictureRequest> request = std::exchange(m_next, {});
             m_hurry = false;
             lock.unlock();
-            publish(worker, worker.draw(std::move(request), m_hurry));
+            if (request || worker.bouncing())
+                publish(worker, worker.draw(request ? std::move(*request) : worker.shown, m_hurry));
+            else if (std::optional<DrawnImages> images = worker.refine(m_hurry))
+                publishRefined(std::move(*images));
+            else
+                continue;
             m_wake();
         }
     } catch (

@@ -68,7 +68,7 @@ struct DrawnPicture {
 /// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload
 /// nor a slow picture holds up the window: on a software rasteriser everything on one queue would
 /// wait for it. The picture comes back through the CPU. If it relights, it redraws after every few
-/// bounces until they have converged; then it sleeps.
+/// bounces until they have converged. Then it refines a picture that stands still, and sleeps.
 class RenderJob {
 public:
     /// `wake` is called from the thread when there is a new result().
@@ -86,6 +86,7 @@ public:
 private:
     void run(bool validate);
     void publish(RenderWorker& worker, DrawnImages images);
+    void publishRefined(DrawnImages images);
 
     std::function<void()> m_wake;
     std::atomic<bool> m_hurry{false}; ///< another picture is requested, or the job is stopping

@@ -7,6 +7,8 @@
 #include "engine/techniques/device/device_table.h"
 #include "engine/techniques/technique_table.h"
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +16,9 @@
 namespace limn {
 
 using Clock = std::chrono::steady_clock;
+
+/// Samples of each pixel of a picture that stands still, as many as `limn render` takes.
+constexpr std::uint32_t kStillSamples = 16;
 
 static double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -158,6 +163,30 @@ void RenderWorker::makeOverlay(const PictureRequest& request) {
     viewport.setOverlay(overlay);
 }
 
+DrawnImages RenderWorker::readImages() {
+    DrawnImages images;
+    images.shown = std::make_shared<const Image>(viewport.readTonemapped());
+    if (shown.linear)
+        images.linear = std::make_shared<const LinearPicture>(
+            LinearPicture{viewport.readLinear(), shown.options.camera, shown.options.view});
+    return images;
+}
+
+bool RenderWorker::refining() const {
+    const bool drawnOver = shown.overlay.kind || shown.options.inspection != Inspection::None;
+    return m_samples > 0 && m_samples < kStillSamples && !shown.moving && !drawnOver && !bouncing();
+}
+
+std::optional<DrawnImages> RenderWorker::refine(const std::atomic<bool>& hurry) {
+    const std::uint32_t wanted = std::min(2 * std::bit_floor(m_samples), kStillSamples);
+    while (m_samples < wanted) {
+        if (hurry)
+            return {};
+        m_samples = viewport.refine();
+    }
+    return readImages();
+}
+
 DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& hurry) {
     takeLitBy(request);
     takeScene(request);
@@ -176,14 +205,11 @@ DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& 
     makeOverlay(request);
     viewport.render(request.options);
     shown = std::move(request);
-    DrawnImages images;
-    images.shown = std::make_shared<const Image>(viewport.readTonemapped());
+    m_samples = 1;
+    DrawnImages images = readImages();
     m_pictureMs = msSince(start);
-    const ViewportOptions& o = shown.options;
-    if (shown.linear)
-        images.linear = std::make_shared<const LinearPicture>(
-            LinearPicture{viewport.readLinear(), o.camera, o.view});
-    if (shown.meter && o.view != View::Albedo && o.view != View::Normals)
+    const View view = shown.options.view;
+    if (shown.meter && view != View::Albedo && view != View::Normals)
         images.metered = meteredExposure(viewport.readMetering());
     relight.running = bouncing();
     return images;

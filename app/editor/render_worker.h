@@ -28,6 +28,15 @@ public:
     /// must be redrawn.
     bool bouncing() const { return shown.relight && m_driver.lighting() && !m_driver.done(); }
 
+    /// True if the picture shown stands still and is not yet the mean of as many samples of each
+    /// pixel as it will be. Pictures with an overlay or an inspection are not refined, because what
+    /// is drawn over them would tremble.
+    bool refining() const;
+
+    /// Doubles the samples of the picture shown. Empty if `hurry` was set before that was done.
+    /// Precondition: refining().
+    std::optional<DrawnImages> refine(const std::atomic<bool>& hurry);
+
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
     PictureRequest shown;
@@ -50,6 +59,7 @@ private:
     void bounce(const PictureRequest& request, const std::atomic<bool>& hurry);
     void takeSnapshot(const PictureRequest& request);
     void makeOverlay(const PictureRequest& request);
+    DrawnImages readImages();
 
     LightingDriver m_driver;                 ///< of shown.litBy(), while it is needed
     bool m_litMoving = false;                ///< lit by shadow maps that may be coarse
@@ -58,6 +68,7 @@ private:
     std::shared_ptr<const Scene> m_litScene; ///< scene with which the bake, if any, can be lit
     std::uint64_t m_snapshotCalls = 0;       ///< `relight.calls` at the last snapshot
     std::string m_timesKey;                  ///< of shown.litBy()
+    std::uint32_t m_samples = 0;             ///< of each pixel of the picture shown
     double m_pictureMs = 0;                  ///< what the last picture took, without bounces
 };
 

@@ -109,10 +109,13 @@ static VkPipeline createWithStages(Device& device, const GraphicsPipelineDesc& d
     VkPipelineColorBlendAttachmentState attachment{};
     attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                 VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    if (desc.additive) {
+    if (desc.blend != Blend::Replace) {
+        const bool mix = desc.blend == Blend::Mix;
         attachment.blendEnable = VK_TRUE;
-        attachment.srcColorBlendFactor = attachment.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-        attachment.srcAlphaBlendFactor = attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        attachment.srcColorBlendFactor = attachment.srcAlphaBlendFactor =
+            mix ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+        attachment.dstColorBlendFactor = attachment.dstAlphaBlendFactor =
+            mix ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
     }
     const std::vector attachments(desc.colorFormats.size(), attachment);
     VkPipelineColorBlendStateCreateInfo blend{};

@@ -16,6 +16,13 @@ PipelineLayout createPipelineLayout(Device& device,
                                     std::span<const VkDescriptorSetLayout> setLayouts,
                                     std::uint32_t pushConstantBytes, const char* name);
 
+/// What becomes of the colour that is there.
+enum class Blend {
+    Replace,
+    Add, ///< the new one is added
+    Mix, ///< the two are mixed by the alpha of the new one
+};
+
 struct GraphicsPipelineDesc {
     Spirv vertex;
     Spirv fragment; ///< empty: depth only
@@ -26,7 +33,7 @@ struct GraphicsPipelineDesc {
     VkFormat depthFormat = VK_FORMAT_UNDEFINED; ///< UNDEFINED: no depth test
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
     bool depthWrite = true;
-    bool additive = false;  ///< colours are added to what is there
+    Blend blend = Blend::Replace;
     bool depthBias = false; ///< set with vkCmdSetDepthBias
     bool wireframe = false; ///< draws the triangles' edges; needs Device::wireframe
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;

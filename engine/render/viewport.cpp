@@ -10,6 +10,7 @@
 #include "engine/render/passes/direct_pass.h"
 #include "engine/render/passes/geometry_passes.h"
 #include "engine/render/passes/indirect_pass.h"
+#include "engine/render/passes/mean_pass.h"
 #include "engine/render/passes/overlay_pass.h"
 #include "engine/render/passes/sky_pass.h"
 #include "engine/render/passes/tonemap_pass.h"
@@ -86,6 +87,7 @@ struct FrameSlot {
 
 struct Targets {
     gpu::Image linear, color;
+    gpu::Image mean;     ///< of several linear images; made when first needed
     gpu::Image metering; ///< made when first needed
 };
 
@@ -97,7 +99,7 @@ struct Viewport::Impl {
     void ensureTargets(std::uint32_t width, std::uint32_t height);
     std::vector<ShadowSlot> assignShadows(const ShadowCamera* camera);
     void writeFrame(FrameSlot& slot, const ViewportOptions& options,
-                    const std::vector<ShadowSlot>& shadows);
+                    const std::vector<ShadowSlot>& shadows, glm::vec2 point);
     void writeFrameSet(const FrameSlot& slot);
     void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
     void beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options);
@@ -108,6 +110,9 @@ struct Viewport::Impl {
     void recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
                        const ViewportOptions& options, std::uint32_t slot);
     void readTimes(FrameSlot& slot);
+    void draw(const ViewportOptions& options);
+    /// What is shown of the samples drawn so far.
+    const gpu::Image& shown() const { return samples > 1 ? targets.mean : targets.linear; }
 
     gpu::Device& device;
     MaterialSet materials;
@@ -122,6 +127,7 @@ struct Viewport::Impl {
     SkyPass sky;
     DirectPass direct;
     gpu::Sampler texelSampler;
+    MeanPass mean;
     TonemapPass tonemap;
     OverlayPass overlay;
     ShadowMaps shadows;
@@ -141,7 +147,8 @@ struct Viewport::Impl {
     Targets targets;
     std::array<FrameSlot, kFrameSlots> slots;
     std::uint64_t frames = 0;
-    std::uint32_t width = 0, height = 0; ///< of the last frame
+    ViewportOptions last;      ///< those of the last frame
+    std::uint32_t samples = 0; ///< frames drawn since the last render(), which it counts
     double pendingUploadMs = 0;
     ViewportStats stats;
 };
@@ -158,7 +165,8 @@ Viewport::Impl::Impl(gpu::Device& d)
       sky(d, frameLayout.handle), direct(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
-      tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})), relightTimes(d, 1) {
+      mean(d), tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})),
+      relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -200,7 +208,7 @@ std::vector<ShadowSlot> Viewport::Impl::assignShadows(const ShadowCamera* camera
 }
 
 void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
-                                const std::vector<ShadowSlot>& shadowSlots) {
+                                const std::vector<ShadowSlot>& shadowSlots, glm::vec2 point) {
     writeLightTable(device, slot.lights, lights, shadowSlots, shadows.views());
     GpuFrame frame{};
     frame.eye = options.camera.eye;
@@ -212,6 +220,8 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
     frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
     frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
     frame.rayUp = rayDirection(options.camera, aspect, 0, 1) - frame.rayCentre;
+    const glm::vec2 shift = 2.f * point / glm::vec2(options.width, options.height);
+    frame.rayCentre += shift.x * frame.rayRight - shift.y * frame.rayUp;
     frame.lookupSize = scene.lookupSize;
     frame.pixelSize = 1.f / glm::vec2(options.width, options.height);
     // Depth is (a + b / distance) with a, b of the projection's third row.
@@ -307,7 +317,7 @@ void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& o
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
     const bool radiance = options.view != View::Albedo && options.view != View::Normals;
     tonemap.record(
-        cmd, targets.linear.view,
+        cmd, shown().view,
         {.exposure = radiance ? std::exp2(options.exposureEv) : 1.f,
          .curve = std::uint32_t(radiance ? options.tonemap : Tonemap::None),
          .fade = options.inspection != Inspection::None || overlay.active() ? kOverlayFade : 0,
@@ -404,51 +414,76 @@ void Viewport::setOverlay(std::shared_ptr<const OverlayData> overlay) {
     m_impl->pendingUploadMs += msSince(start);
 }
 
-void Viewport::render(const ViewportOptions& options) {
-    assert(options.width > 0 && options.height > 0);
-    Impl& v = *m_impl;
-    const auto slotIndex = std::uint32_t(v.frames++ % kFrameSlots);
-    FrameSlot& slot = v.slots[slotIndex];
-    v.device.wait(slot.submission); // two frames ago
-    v.readTimes(slot);
+// Draws the next sample of the picture and shows the mean of all samples.
+void Viewport::Impl::draw(const ViewportOptions& options) {
+    const auto slotIndex = std::uint32_t(frames++ % kFrameSlots);
+    FrameSlot& slot = slots[slotIndex];
+    device.wait(slot.submission); // two frames ago
+    readTimes(slot);
     const auto start = Clock::now();
-    v.width = options.width;
-    v.height = options.height;
-    v.ensureTargets(options.width, options.height);
-    const bool direct = showsDirectLight(options.view);
-    GeometryView view = geometryView(options, v.scene.bounds, v.indirect.field->hasGrid());
-    view.bands = v.indirect.field->bands;
-    std::vector<ShadowSlot> shadows(v.lights.size());
-    if (direct) {
-        const ShadowCamera camera = shadowCamera(options, view, v.scene, v.nearestSeen);
-        shadows = v.assignShadows(&camera);
+    ensureTargets(options.width, options.height);
+    const glm::vec2 point = samplePoint(samples);
+    const bool lit = showsDirectLight(options.view);
+    GeometryView view = geometryView(options, scene.bounds, indirect.field->hasGrid());
+    view.bands = indirect.field->bands;
+    std::vector<ShadowSlot> shadowSlots(lights.size());
+    if (lit) {
+        const ShadowCamera camera = shadowCamera(options, view, scene, nearestSeen);
+        shadowSlots = assignShadows(&camera);
     }
-    v.writeFrame(slot, options, shadows);
-    v.writeFrameSet(slot);
-    v.materials.writeFactors(slotIndex);
-    slot.uploadMs = v.pendingUploadMs + msSince(start);
-    v.pendingUploadMs = 0;
+    if (samples > 0)
+        view = throughPoint(view, point, options.width, options.height);
+    writeFrame(slot, options, shadowSlots, point);
+    writeFrameSet(slot);
+    materials.writeFactors(slotIndex);
+    slot.uploadMs = pendingUploadMs + msSince(start);
+    pendingUploadMs = 0;
 
-    const VkCommandBuffer cmd = v.device.begin("viewport");
+    const VkCommandBuffer cmd = device.begin("viewport");
     const auto mark = [&](Timestamp t) { gpu::writeTimestamp(cmd, slot.queries.handle, t); };
     vkCmdResetQueryPool(cmd, slot.queries.handle, 0, kTimestamps);
     mark(kBegin);
-    v.recordShadows(cmd, slot, slotIndex, direct);
+    recordShadows(cmd, slot, slotIndex, lit);
     mark(kShadowsDone);
-    v.stats.geometryDrawn +=
-        v.surfaces.record(cmd, v.geometry, v.scene, v.materials, view,
-                          {options.width, options.height}, slotIndex, slot.set);
+    stats.geometryDrawn += surfaces.record(cmd, geometry, scene, materials, view,
+                                           {options.width, options.height}, slotIndex, slot.set);
     mark(kGeometryDone);
-    v.recordIndirect(cmd, slot, options, slotIndex);
+    recordIndirect(cmd, slot, options, slotIndex);
     mark(kIndirectDone);
-    v.recordDirect(cmd, slot, options);
+    recordDirect(cmd, slot, options);
     mark(kShadeDone);
-    v.recordTonemap(cmd, options, slotIndex);
-    v.recordOverlay(cmd, view, options, slotIndex);
+    if (samples > 0)
+        mean.record(cmd, targets.linear, targets.mean, samples, {options.width, options.height},
+                    slotIndex);
+    ++samples;
+    recordTonemap(cmd, options, slotIndex);
+    recordOverlay(cmd, view, options, slotIndex);
     mark(kEnd);
-    slot.submission = v.device.submit(cmd);
+    slot.submission = device.submit(cmd);
     slot.timed = false;
-    v.stats.shadowMapsDrawn = slot.shadowMapsDrawn;
+    stats.shadowMapsDrawn = slot.shadowMapsDrawn;
+}
+
+void Viewport::render(const ViewportOptions& options) {
+    assert(options.width > 0 && options.height > 0);
+    m_impl->samples = 0;
+    m_impl->last = options;
+    m_impl->draw(options);
+}
+
+std::uint32_t Viewport::refine() {
+    Impl& v = *m_impl;
+    assert(v.samples > 0);
+    if (v.samples == 1) { // what render() drew becomes the mean, as a whole
+        gpu::Image& mean = v.targets.mean;
+        const gpu::Image& linear = v.targets.linear;
+        if (mean.width != linear.width || mean.height != linear.height)
+            mean = gpu::Image(v.device, gpu::ImageDesc::renderTarget(linear.width, linear.height,
+                                                                     kLinearFormat, "mean colour"));
+        std::swap(v.targets.linear, mean);
+    }
+    v.draw(v.last);
+    return v.samples;
 }
 
 ShadowedLights Viewport::shadowedLights() {
@@ -518,7 +553,7 @@ static ImageF readRgb(gpu::Device& device, const gpu::Image& image, std::uint32_
 ImageF Viewport::readLinear() {
     Impl& v = *m_impl;
     assert(v.frames > 0);
-    return readRgb(v.device, v.targets.linear, v.width, v.height);
+    return readRgb(v.device, v.shown(), v.last.width, v.last.height);
 }
 
 ImageF Viewport::readMetering() {
@@ -532,7 +567,7 @@ ImageF Viewport::readMetering() {
         desc.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         v.targets.metering = gpu::Image(v.device, desc);
     }
-    gpu::sampleImage(v.device, v.targets.linear, v.width, v.height, v.targets.metering, kLayout);
+    gpu::sampleImage(v.device, v.shown(), v.last.width, v.last.height, v.targets.metering, kLayout);
     return readRgb(v.device, v.targets.metering, kWidth, kHeight);
 }
 
@@ -540,11 +575,11 @@ Image Viewport::readTonemapped() {
     Impl& v = *m_impl;
     assert(v.frames > 0);
     Image image;
-    image.width = v.width;
-    image.height = v.height;
-    image.rgba.resize(std::size_t(v.width) * v.height * 4);
-    gpu::readImage(v.device, v.targets.color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, v.width,
-                   v.height, std::as_writable_bytes(std::span(image.rgba)));
+    image.width = v.last.width;
+    image.height = v.last.height;
+    image.rgba.resize(std::size_t(image.width) * image.height * 4);
+    gpu::readImage(v.device, v.targets.color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, image.width,
+                   image.height, std::as_writable_bytes(std::span(image.rgba)));
     return image;
 }
 

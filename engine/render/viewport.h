@@ -99,6 +99,12 @@ public:
     /// sRGB-encoded.
     void render(const ViewportOptions& options);
 
+    /// Draws the picture of the last render() once more, through other points of its pixels, and
+    /// shows the mean of all that were drawn since; returns their number. The mean tends to the
+    /// picture under a box filter of a pixel's width. Nothing that the viewport shows may have
+    /// changed since. Surface images are drawn anew each time.
+    std::uint32_t refine();
+
     /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL,
     /// for ImGui::Image.
     VkImageView colorView() const;
@@ -110,8 +116,8 @@ public:
     /// font.
     VkImage colorImage() const;
 
-    /// The linear, scene-referred result of the last render(), without the overlay. Waits for the
-    /// GPU.
+    /// The linear, scene-referred result of the last render() and the calls of refine() after it,
+    /// without the overlay. Waits for the GPU.
     ImageF readLinear();
     /// 64 x 36 pixels of readLinear(), spread evenly over the picture: for meteredExposure().
     ImageF readMetering();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `limn render --relight`: where bounced light of techniques other than the paper's is worked out.
+// `limn render`: where bounced light of techniques other than the paper's is computed, and how many
+// samples a pixel has.
 #include "tests/app/command_line.h"
 
 namespace {
@@ -20,6 +21,18 @@ TEST_F(CommandLine, RenderLightsAnyTechniqueOnEitherDevice) {
     }
     EXPECT_EQ(json(start + "lpv --relight auto -o " + gpu)["relight"]["device"], "cpu");
     expectRefusal(start + "ambient --relight gpu -o " + gpu, "on the CPU only");
+}
+
+TEST_F(CommandLine, RenderTakesSeveralSamplesOfAPixelOnEitherDevice) {
+    const std::string start = "render cornell --view albedo --width 64 --height 64 --json ";
+    const std::string truth = path("truth.exr"), one = path("one.exr"), many = path("many.exr");
+    EXPECT_EQ(json(start + "--device cpu --spp 256 -o " + truth)["samples_per_pixel"], 256);
+    EXPECT_EQ(json(start + "--spp 1 -o " + one)["samples_per_pixel"], 1);
+    EXPECT_EQ(json(start + "-o " + many)["samples_per_pixel"], 16);
+    const auto error = [&](const std::string& image) {
+        return json("compare " + image + " " + truth + " --json")["nrmse"].get<double>();
+    };
+    EXPECT_LT(error(many), 0.3 * error(one));
 }
 
 } // namespace

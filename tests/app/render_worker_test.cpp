@@ -103,6 +103,44 @@ TEST_F(RenderWorkerTest, MetersThePictureWhereAskedTo) {
     EXPECT_FALSE(worker.draw(request, hurry).metered) << "no light";
 }
 
+TEST_F(RenderWorkerTest, RefinesAPictureThatStandsStill) {
+    const std::atomic<bool> calm = false, hurry = true;
+    RenderWorker worker(false);
+    EXPECT_FALSE(worker.refining());
+    PictureRequest request = looking(1, first);
+    request.linear = true;
+    const Image before = drawn(worker, request);
+    ASSERT_TRUE(worker.refining());
+    EXPECT_FALSE(worker.refine(hurry));
+    int pictures = 0;
+    DrawnImages images;
+    for (; worker.refining(); ++pictures)
+        images = *worker.refine(calm);
+    EXPECT_EQ(pictures, 4) << "of 2, 4, 8 and 16 samples";
+    EXPECT_NE(images.shown->rgba, before.rgba);
+
+    Viewport& viewport = worker.viewport;
+    const ImageF mean = viewport.readLinear();
+    EXPECT_EQ(images.linear->image.rgb, mean.rgb);
+    viewport.render(request.options);
+    for (std::uint32_t n = 1; n < 16; ++n)
+        viewport.refine();
+    EXPECT_EQ(viewport.readLinear().rgb, mean.rgb);
+
+    worker.draw(looking(1, moved), hurry);
+    EXPECT_FALSE(worker.refining()) << "while light bounces";
+    request.moving = true;
+    drawn(worker, request);
+    EXPECT_FALSE(worker.refining());
+    request.moving = false;
+    request.options.inspection = Inspection::InvalidPixels;
+    drawn(worker, request);
+    EXPECT_FALSE(worker.refining());
+    request.options.inspection = Inspection::None;
+    drawn(worker, request);
+    EXPECT_TRUE(worker.refining());
+}
+
 TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {
     const std::atomic<bool> hurry = true; // a few bounces a picture
     RenderWorker turned(false), still(false);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/ext/matrix_transform.hpp>
+
 namespace limn::render {
 
 // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
@@ -23,6 +25,25 @@ GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, 
                   viewMatrix(options.camera);
     view.eye = options.camera.eye;
     view.grid = grid;
+    return view;
+}
+
+glm::vec2 samplePoint(std::uint32_t number) {
+    constexpr std::uint32_t kHighest = 0x80000000U;
+    std::uint32_t x = kHighest, y = kHighest, bit = kHighest, row = kHighest;
+    for (std::uint32_t rest = number; rest != 0; rest >>= 1, bit >>= 1, row ^= row >> 1)
+        if (rest & 1) {
+            x ^= bit;
+            y ^= row;
+        }
+    return glm::vec2(x >> 8, y >> 8) * 0x1p-24f - 0.5f;
+}
+
+GeometryView throughPoint(GeometryView view, glm::vec2 point, std::uint32_t width,
+                          std::uint32_t height) {
+    // Clip space points upwards.
+    const glm::vec2 shift = glm::vec2(-2, 2) * point / glm::vec2(width, height);
+    view.toClip = glm::translate(glm::mat4(1), glm::vec3(shift, 0)) * view.toClip;
     return view;
 }
 

@@ -19,6 +19,18 @@ DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds);
 /// The view of a picture. `grid`: instances without lightmap read the grid.
 GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid);
 
+/// Where sample `number` of every pixel lies, from the pixel's middle to the right and downwards,
+/// each in [-0.5, 0.5) of a pixel. Sample 0 is the middle. The first 2^k samples lie in different
+/// ones of 2^k equal columns, and of as many rows: they are the first two dimensions of Sobol's
+/// sequence with their highest bits flipped (Sobol, "On the distribution of points in a cube and
+/// the approximate evaluation of integrals", 1967).
+glm::vec2 samplePoint(std::uint32_t number);
+
+/// `view` with the points at `point` of all pixels in their middles; the picture has `width` x
+/// `height` pixels.
+GeometryView throughPoint(GeometryView view, glm::vec2 point, std::uint32_t width,
+                          std::uint32_t height);
+
 /// Result of nearestInSight() for the last frame that needed it.
 struct NearestSeen {
     glm::mat4 toClip{0};

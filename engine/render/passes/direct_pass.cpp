@@ -18,7 +18,7 @@ void DirectPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view
     gpu::Pipeline& pipeline = m_pipelines[view];
     if (!pipeline) {
         auto desc = fullscreenDesc(kDirectFrag, m_layout.handle, kLinearFormat, "direct light");
-        desc.additive = true;
+        desc.blend = gpu::Blend::Add;
         desc.constants = {std::uint32_t(view)};
         pipeline = gpu::createGraphicsPipeline(m_device, desc);
     }

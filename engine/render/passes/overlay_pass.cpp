@@ -101,7 +101,7 @@ void OverlayPass::makePipelines() {
     m_markLayout =
         gpu::createPipelineLayout(m_device, {}, sizeof(GpuOverlayMarks), "overlay marks");
     gpu::GraphicsPipelineDesc base = surfaceDesc(m_surfaceLayout.handle, kOverlayBaseFrag);
-    base.additive = true;
+    base.blend = gpu::Blend::Add;
     m_base = gpu::createGraphicsPipeline(m_device, base);
     m_surface = gpu::createGraphicsPipeline(
         m_device, surfaceDesc(m_surfaceLayout.handle, kOverlaySurfaceFrag));
