@@ -132,7 +132,7 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
         request.height = m.view.height;
         request.layout = {prepared.data, &layout};
         request.prepared = prepared;
-        request.relight = [&] { return CpuLight{field, lit}; };
+        request.relight = [&](bool) { return CpuLight{field, lit}; };
         const Result<RenderedImage> picture = (*draw)(m.scene, request);
         if (!picture)
             return tl::make_unexpected(picture.error());

@@ -135,7 +135,8 @@ Exit runExplain(const Options& options) {
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
         return failed(camera.error().message);
-    const Result<ConvergedLight> lit = lightOnCpu(options.scene, options.bake, std::move(scene));
+    const Result<ConvergedLight> lit =
+        lightOnCpu(options.scene, options.bake, std::move(scene), LitFor::Pictures);
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     const Result<Muted> muted = mutedOf(options.mute, *lit->scene);

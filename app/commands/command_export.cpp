@@ -175,7 +175,7 @@ Exit runExport(const Options& options) {
     applyBakeOptions(options.bake, scene.bake);
     applyRelightOptions(options.relight, scene.relight);
     const Result<ConvergedLight> lit =
-        lightOnCpu(options.scene, options.bakeFile, std::move(scene));
+        lightOnCpu(options.scene, options.bakeFile, std::move(scene), LitFor::Export);
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     if (const std::string useless = uselessSetting(options, settings, !lit->field().grid.empty());

@@ -94,13 +94,14 @@ Result<std::shared_ptr<const Precomputed>> obtainBake(const Options& options,
                       options.scene.import.memory);
 }
 
-CpuLight relight(const Scene& scene, Baked& baked) {
+CpuLight relight(const Scene& scene, Baked& baked, bool marched) {
     if (!baked.lighting) // an overlay of light has made it already
         baked.lighting = baked.technique->light(baked.prepared);
     LightingReport report = baked.lighting->update({.scene = scene,
                                                     .trace = baked.trace.get(),
                                                     .bounces = scene.relight.maxBounces,
-                                                    .view = baked.view ? &*baked.view : nullptr},
+                                                    .view = baked.view ? &*baked.view : nullptr,
+                                                    .marched = marched},
                                                    progressOnStderr());
     endProgressLine();
     return {*baked.lighting->field(), std::move(report)};
@@ -110,7 +111,7 @@ Result<void> addOverlay(const Options& options, const Scene& scene, const Camera
                         Baked& baked) {
     std::shared_ptr<const LightSnapshot> lit;
     if (overlayKindOf(options.overlay)->showsLight) {
-        relight(scene, baked);
+        relight(scene, baked, false);
         lit = baked.lighting->snapshot();
     }
     const OverlaySource* source = baked.prepared.data.get();
@@ -236,7 +237,7 @@ RenderRequest requestOf(const Options& options, const Scene& scene, const Camera
     request.samplesPerPixel = options.samplesPerPixel;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
-        request.relight = [&] { return relight(scene, baked); };
+        request.relight = [&](bool marched) { return relight(scene, baked, marched); };
     request.layout = baked.layout;
     request.technique = baked.technique;
     request.prepared = baked.prepared;
@@ -275,6 +276,10 @@ nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& i
     json["invalid_pixels"] = countInvalidPixels(image.linear);
     if (!image.relightDevice.empty())
         json["relight"] = lightingJson(image.relightDevice, image.relight);
+    if (image.marchedRays > 0) {
+        json["marched_rays"] = image.marchedRays;
+        json["unknown_rays"] = image.unknownRays;
+    }
     if (overlay)
         json["overlay"] = legendJson(overlay->legend);
     return json;
@@ -286,6 +291,9 @@ void printReport(const std::string& path, const Options& options, const Rendered
     if (!image.relightDevice.empty())
         relit =
             fmt::format("relit on {} in {:.1f} ms, ", image.relightDevice, image.relight.totalMs);
+    if (image.marchedRays > 0)
+        relit += fmt::format("{} of {} marched reflections unknown, ", image.unknownRays,
+                             image.marchedRays);
     fmt::print("{}: {}, {} x {} on {}, {}{} invalid pixels, {:.1f} s\n", path, options.view,
                image.linear.width, image.linear.height, image.device, relit,
                countInvalidPixels(image.linear), seconds);
@@ -330,6 +338,8 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
             return tl::make_unexpected(image.error());
         if (image->relight.diverges)
             logWarning("bounced light grew with every bounce and was stopped: bake again");
+        if (image->relight.lacks && request.view == View::Lit)
+            logWarning(image->relight.lacks);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const std::string path = framePath(options, frame);
         if (const Result<void> written = writePicture(path, *image); !written)

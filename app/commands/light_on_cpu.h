@@ -14,6 +14,6 @@ namespace limn {
 /// memory if the technique needs one. `options` are those that the scene was opened with. Shows
 /// progress on stderr.
 Result<ConvergedLight> lightOnCpu(const SceneOptions& options, const std::string& bakeFile,
-                                  Scene scene);
+                                  Scene scene, LitFor reader);
 
 } // namespace limn

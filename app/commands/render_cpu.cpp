@@ -20,15 +20,19 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
     result.device = "cpu";
     const IndirectField* field = &noField;
     if (request.relight) {
-        const CpuLight light = request.relight();
+        const CpuLight light = request.relight(request.view == View::Lit);
         field = &light.field;
         result.relightDevice = "cpu";
         result.relight = light.report;
     }
+    MarchedCounts marched;
+    options.marched = &marched;
     result.linear =
         renderField(TraceScene(scene), *field, request.layout ? *request.layout : noLayout, options,
                     progressOnStderr());
     endProgressLine();
+    result.marchedRays = marched.rays;
+    result.unknownRays = marched.unknown;
     if (!request.tonemapped)
         return result;
     const bool data = request.view == View::Albedo || request.view == View::Normals;

@@ -63,7 +63,7 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
         if (const Result<void> done = chooseLighting(request); !done)
             return done;
     if (!lighting) {
-        const CpuLight light = request.relight();
+        const CpuLight light = request.relight(request.view == View::Lit);
         viewport.setIndirect(light.field);
         result.relightDevice = "cpu";
         result.relight = light.report;

@@ -35,8 +35,9 @@ struct RenderRequest {
     Inspection inspection = Inspection::None;     ///< of RenderedImage::picture
     bool tonemapped = false;                      ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
-    /// Computes the light on the CPU. Empty: no indirect light.
-    std::function<CpuLight()> relight;
+    /// Computes the light on the CPU; `marched` as LightingInput::marched. Empty: no indirect
+    /// light.
+    std::function<CpuLight(bool marched)> relight;
     const Technique* technique = nullptr; ///< of the light, on either device; null: there is none
     Prepared prepared;                    ///< by the technique, where it precomputes
     bool lightAll = false;                ///< on a device, light also what the picture hides
@@ -50,6 +51,8 @@ struct RenderedImage {
     std::string device;
     std::string relightDevice; ///< empty: there is no indirect light
     LightingReport relight;
+    std::uint64_t marchedRays = 0; ///< reflections that the CPU marched
+    std::uint64_t unknownRays = 0; ///< of them, those that no probe knows
 };
 
 /// Draws pictures one after the other and keeps what the next one can use.

@@ -46,7 +46,7 @@ ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
         Progress progress;
         progress.cancel = &m_cancel;
         auto lit = convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene),
-                                 *technique, order.prepared, progress);
+                                 *technique, order.prepared, LitFor::Pictures, progress);
         if (!lit)
             return tl::make_unexpected(lit.error());
         m_lit = std::move(*lit);

@@ -44,7 +44,7 @@ static Result<std::vector<ExportedFile>> exportedFiles(const ExportOrder& order,
     progress.at("light", 0);
     const Result<ConvergedLight> lit =
         convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene), *technique,
-                      order.prepared, progress);
+                      order.prepared, LitFor::Export, progress);
     if (!lit)
         return tl::make_unexpected(lit.error());
     const ExportScene in{order.document, *lit->scene,  *lit->trace,

@@ -29,7 +29,8 @@ struct PixelReader {
     const ConvergedLight& lit;
     const PixelQuestion& question;
     const ExplainOptions& options;
-    std::vector<int> bands; ///< that each material reflects
+    std::vector<int> bands;    ///< that each material reflects
+    std::vector<bool> marches; ///< whether its reflections are marched
     PixelParts parts;
 
     float share() const { return 1 / float(question.samples); }
@@ -86,8 +87,13 @@ struct PixelReader {
         const Scene& scene = lit.trace->scene();
         const FieldPoint at = pointOf(hit, p);
         addIrradiance(at, p.albedo * (share() / glm::pi<float>()), parts.reading);
-        const FieldLobe lobe =
-            fieldLobe(at, g, bands[scene.instances[hit.instance].material], true);
+        const std::uint32_t material = scene.instances[hit.instance].material;
+        if (lit.field().marched && marches[material]) {
+            const MarchedReflection found = marchReflection(*lit.field().marched, *lit.trace, g);
+            parts.reading.marched.push_back({found.at, found.weight * share()});
+            return;
+        }
+        const FieldLobe lobe = fieldLobe(at, g, bands[material], true);
         addLobe(at, lobe.axis, lobe.bands, lobe.factors, lobe.weight * share(), parts.reading);
     }
 };
@@ -121,7 +127,8 @@ std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) 
 PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
                               const ExplainOptions& options) {
     const Scene& scene = lit.trace->scene();
-    PixelReader reader{lit, question, options, reflectedBands(scene, lit.field()), {}};
+    PixelReader reader{
+        lit, question, options, reflectedBands(scene, lit.field()), marchedReflections(scene), {}};
     reader.parts.byLight.assign(scene.lights.size(), glm::vec3(0));
     const PixelRays rays(question.camera, question.width, question.height);
     for (std::uint32_t s = 0; s < question.samples; ++s)

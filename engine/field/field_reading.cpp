@@ -48,6 +48,8 @@ glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
         for (std::size_t i = 0; i < field.coefficients(); ++i)
             value += glm::dvec3(entry.weight[i] * glm::vec3(values[i * stride + entry.index]));
     }
+    for (const FieldReading::Marched& m : reading.marched)
+        value += glm::dvec3(m.weight * marchedRadiance(*field.marched, m.at));
     return glm::vec3(value);
 }
 

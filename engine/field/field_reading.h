@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
+#include "engine/field/march_ray.h"
 #include "engine/field/sample_field.h"
 #include "engine/math/sh.h"
 
@@ -11,8 +12,9 @@
 
 namespace limn {
 
-/// A value that is linear in a field's coefficients, such as the bounced light of a pixel: for each
-/// colour the sum, over entries and coefficients, of weight times coefficient.
+/// A value that is linear in a field's light, such as the bounced light of a pixel: for each colour
+/// the sum, over entries and coefficients, of weight times coefficient, and that of marched
+/// radiance.
 struct FieldReading {
     struct Entry {
         bool grid = false;       ///< a cell of the grid, else a texel of the lightmap
@@ -21,6 +23,13 @@ struct FieldReading {
         std::array<glm::vec3, kMaxCoefficients> weight{};
     };
     std::vector<Entry> entries; ///< each cell and texel at most once
+
+    /// Weight of the radiance that a marched reflection looks up.
+    struct Marched {
+        MarchedLookup at;
+        glm::vec3 weight{0};
+    };
+    std::vector<Marched> marched;
 };
 
 /// Adds weight * sampleIrradiance(at) to the reading. Where a colour of that is clamped to 0, it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/sample_field.h"
 
+#include "engine/field/grid_cells.h"
 #include "engine/field/grid_depth.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/lobe.h"
@@ -39,23 +40,19 @@ float cellWeight(const IndirectField& field, std::uint32_t cell, glm::vec3 centr
 /// The eight cells around `p`, with weights of sum 1: trilinear, times cellWeight(). None where all
 /// these are 0.
 FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
-    const glm::vec3 cells(field.gridSize), cellSize = field.gridBounds.size() / cells;
-    const glm::vec3 x =
-        glm::clamp((p - field.gridBounds.lower) / field.gridBounds.size() * cells - 0.5f,
-                   glm::vec3(0), cells - 1.f);
-    const glm::uvec3 base = glm::min(glm::uvec3(x), glm::max(field.gridSize, glm::uvec3(2)) - 2U);
-    const glm::vec3 f = x - glm::vec3(base);
+    const glm::vec3 cellSize = field.gridBounds.size() / glm::vec3(field.gridSize);
+    const CellsAbout about = cellsAbout(field.gridBounds, field.gridSize, p);
     const float bias = float(GRID_DEPTH_BIAS) * std::min({cellSize.x, cellSize.y, cellSize.z});
     const GridPoint point{p, n, p + n * bias, gridReach(field.gridBounds, field.gridSize)};
     FieldLookup lookup{.grid = true, .count = 8};
     float sum = 0;
     for (std::size_t corner = 0; corner < 8; ++corner) {
         const glm::uvec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
-        const glm::uvec3 at = glm::min(base + step, field.gridSize - 1U);
-        const glm::vec3 w = glm::mix(1.f - f, f, glm::vec3(step));
-        const std::uint32_t cell = (at.z * field.gridSize.y + at.y) * field.gridSize.x + at.x;
+        const glm::vec3 w = glm::mix(1.f - about.f, about.f, glm::vec3(step));
+        const std::uint32_t cell = about.index[corner];
         lookup.index[corner] = cell;
-        const glm::vec3 centre = field.gridBounds.lower + (glm::vec3(at) + 0.5f) * cellSize;
+        const glm::vec3 centre =
+            field.gridBounds.lower + (glm::vec3(about.at[corner]) + 0.5f) * cellSize;
         lookup.weight[corner] = w.x * w.y * w.z * cellWeight(field, cell, centre, point);
         sum += lookup.weight[corner];
     }
@@ -84,7 +81,7 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
 bool IndirectField::operator==(const IndirectField& o) const {
     const bool sameDepth =
         gridDepth && o.gridDepth ? *gridDepth == *o.gridDepth : gridDepth == o.gridDepth;
-    return sameDepth && gridMoments == o.gridMoments && bands == o.bands &&
+    return sameDepth && gridMoments == o.gridMoments && marched == o.marched && bands == o.bands &&
            chroma() == o.chroma() && lightmapWidth == o.lightmapWidth &&
            lightmapHeight == o.lightmapHeight && lightmap == o.lightmap && gridSize == o.gridSize &&
            gridBounds == o.gridBounds && grid == o.grid && version == o.version;

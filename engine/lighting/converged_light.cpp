@@ -9,7 +9,7 @@ namespace limn {
 
 Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
                                      std::shared_ptr<const TraceScene> trace,
-                                     const Technique& technique, Prepared prepared,
+                                     const Technique& technique, Prepared prepared, LitFor reader,
                                      const Progress& progress) {
     ConvergedLight lit{.scene = std::move(scene),
                        .trace = std::move(trace),
@@ -24,7 +24,8 @@ Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
     lit.report = lit.lighting->update({.scene = *lit.scene,
                                        .trace = lit.trace.get(),
                                        .bounces = lit.scene->relight.maxBounces,
-                                       .unread = true},
+                                       .unread = true,
+                                       .marched = reader == LitFor::Pictures},
                                       progress);
     if (progress.cancelled())
         return fail("cancelled");

@@ -5,6 +5,7 @@
 #include "engine/core/result.h"
 #include "engine/lighting/technique.h"
 
+#include <cstdint>
 #include <memory>
 
 namespace limn {
@@ -21,12 +22,18 @@ struct ConvergedLight {
     const IndirectField& field() const { return *lighting->field(); }
 };
 
+/// Who reads converged light.
+enum class LitFor : std::uint8_t {
+    Pictures, ///< what renderField() draws: with marched reflections
+    Export    ///< a field of harmonics
+};
+
 /// Lights `scene` until bounces change next to nothing, at most its maxBounces, and the grid too
-/// where nothing in the scene reads it. `prepared` holds what `technique` precomputed for it, and
-/// nothing where it precomputes nothing. Fails when cancelled.
+/// where nothing in the scene reads it. `prepared` holds what `technique`
+/// precomputed for it, and nothing where it precomputes nothing. Fails when cancelled.
 Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
                                      std::shared_ptr<const TraceScene> trace,
-                                     const Technique& technique, Prepared prepared,
+                                     const Technique& technique, Prepared prepared, LitFor reader,
                                      const Progress& progress);
 
 } // namespace limn

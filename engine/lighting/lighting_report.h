@@ -32,8 +32,9 @@ struct LightingReport {
     std::uint32_t bounces = 0;             ///< number of bounces that the update added
     bool converged = false;                ///< another bounce would change next to nothing
     bool skipped = false;                  ///< nothing was out of date, so no work was done
-    bool diverges = false; ///< bounces were stopped because they kept adding more light
-    bool whole = true;     ///< all light is up to date, not only what the view shows
+    bool diverges = false;       ///< bounces were stopped because they kept adding more light
+    const char* lacks = nullptr; ///< what the light lacks, a clause for people; null: nothing
+    bool whole = true;           ///< all light is up to date, not only what the view shows
 };
 
 /// Value of the counter with that id; 0 if there is none.

@@ -5,6 +5,8 @@
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/scene/surface/reflection_lobe.h"
 
+#include <cmath>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -16,11 +18,18 @@ FieldPoint fieldPoint(const IndirectField& field, const LightmapLayout& layout, 
             hit.u, hit.v,  p.position, p.normal,     !hit.frontFace};
 }
 
+static ReflectionLobe lobeOf(const GlossyPoint& g) {
+    return reflectionLobe(g.gloss.roughness,
+                          glm::clamp(glm::dot(g.surface.normal, g.toEye), 0.f, 1.f));
+}
+
+static glm::vec3 axisOf(const ReflectionLobe& lobe, const GlossyPoint& g) {
+    return lobeAxis(lobe, g.surface.normal, glm::reflect(-g.toEye, g.surface.normal));
+}
+
 FieldLobe fieldLobe(const FieldPoint& at, const GlossyPoint& g, int bands, bool windowed) {
-    const glm::vec3 n = g.surface.normal;
-    const ReflectionLobe lobe =
-        reflectionLobe(g.gloss.roughness, glm::clamp(glm::dot(n, g.toEye), 0.f, 1.f));
-    FieldLobe found{.axis = lobeAxis(lobe, n, glm::reflect(-g.toEye, n)),
+    const ReflectionLobe lobe = lobeOf(g);
+    FieldLobe found{.axis = axisOf(lobe, g),
                     .bands = bands,
                     .factors = windowed ? windowedFactors(lobe.factors, bands) : lobe.factors,
                     .weight = g.gloss.F0 * lobe.share.x + lobe.share.y};
@@ -30,6 +39,25 @@ FieldLobe fieldLobe(const FieldPoint& at, const GlossyPoint& g, int bands, bool 
         found.weight /=
             hemisphereSeen(found.factors, bands, glm::dot(found.axis, g.surface.geometricNormal));
     return found;
+}
+
+std::vector<bool> marchedReflections(const Scene& scene) {
+    std::vector<bool> marched;
+    for (const Material& m : scene.materials)
+        marched.push_back(receiverBands(*scene.assets, m, kMaxBands) > kIrradianceBands);
+    return marched;
+}
+
+MarchedReflection marchReflection(const MarchedMaps& maps, const TraceScene& trace,
+                                  const GlossyPoint& g) {
+    const ReflectionLobe lobe = lobeOf(g);
+    const glm::vec3 axis = axisOf(lobe, g), origin = rayOrigin(trace, g.surface);
+    const MarchedRay ray = marchRay(maps, origin, axis);
+    // Half of the microfacets seen along the normal are tilted by less than atan(alpha).
+    const float alpha = g.gloss.roughness * g.gloss.roughness;
+    return {.end = ray.end,
+            .at = lookUp(maps, ray, origin, axis, 2 * std::atan(alpha)),
+            .weight = g.gloss.F0 * lobe.share.x + lobe.share.y};
 }
 
 std::vector<int> reflectedBands(const Scene& scene, const IndirectField& field) {

@@ -23,7 +23,9 @@ struct FieldContext {
     const LightmapLayout& layout;
     View view;
     bool windowedLobes;
-    std::vector<int> bands; ///< that each material reflects
+    std::vector<int> bands;    ///< that each material reflects
+    std::vector<bool> marches; ///< whether its reflections are marched
+    MarchedCounts* counts;
 
     bool hasField() const { return field.lightmapWidth > 0 || field.gridSize.x > 0; }
 };
@@ -39,9 +41,17 @@ glm::vec3 fieldReflection(const FieldContext& c, const Hit& hit, const GlossyPoi
     if (!c.hasField())
         return glm::vec3(0);
     const Scene& scene = c.trace.scene();
+    const std::uint32_t material = scene.instances[hit.instance].material;
+    if (c.field.marched && c.marches[material]) {
+        const MarchedReflection found = marchReflection(*c.field.marched, c.trace, g);
+        if (c.counts) {
+            ++c.counts->rays;
+            c.counts->unknown += found.end == MarchEnd::Unknown ? 1 : 0;
+        }
+        return found.weight * marchedRadiance(*c.field.marched, found.at);
+    }
     const FieldPoint at = fieldPoint(c.field, c.layout, scene, hit, g.surface);
-    const FieldLobe lobe =
-        fieldLobe(at, g, c.bands[scene.instances[hit.instance].material], c.windowedLobes);
+    const FieldLobe lobe = fieldLobe(at, g, c.bands[material], c.windowedLobes);
     return lobe.weight * sampleLobe(at, lobe.axis, lobe.bands, lobe.factors);
 }
 
@@ -86,10 +96,13 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
     constexpr std::size_t kTile = 256; // pixels
-    FieldContext context{trace, field, layout, options.view, options.windowedLobes, {}};
+    FieldContext context{trace, field, layout,         options.view, options.windowedLobes,
+                         {},    {},    options.marched};
     context.bands = options.allBands
                         ? std::vector<int>(trace.scene().materials.size(), int(field.bands))
                         : reflectedBands(trace.scene(), field);
+    if (field.marched)
+        context.marches = marchedReflections(trace.scene());
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     ImageF image{options.width, options.height, std::vector<glm::vec3>(pixels)};

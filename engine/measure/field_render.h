@@ -7,9 +7,15 @@
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
 
+#include <atomic>
 #include <cstdint>
 
 namespace limn {
+
+/// Number of reflections that were marched, and of those that no probe knows.
+struct MarchedCounts {
+    std::atomic<std::uint64_t> rays = 0, unknown = 0;
+};
 
 struct FieldRenderOptions {
     View view = View::Lit;
@@ -17,6 +23,7 @@ struct FieldRenderOptions {
     std::uint32_t width = 1280, height = 720;
     std::uint32_t samplesPerPixel = 16; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
+    MarchedCounts* marched = nullptr; ///< adds to it; null: nothing is counted
     // For comparisons:
     bool windowedLobes = true; ///< else lobes are cut off after the field's bands, and ring
     bool allBands = false;     ///< reflections use all of the field's bands, needed or not
@@ -25,7 +32,8 @@ struct FieldRenderOptions {
 /// Renders on the CPU what real-time lighting shows: direct light with ray-traced shadows, and
 /// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
 /// the two differ by the field's error only. View::Normals is n / 2 + 1/2. Without a field (no
-/// lightmap, no grid) there is no indirect light. `layout` belongs to the field. The result is
+/// lightmap, no grid) there is no indirect light. Glossy receivers show marched reflections where
+/// the field has maps for that. `layout` belongs to the field. The result is
 /// identical for any number of threads; empty when cancelled.
 ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const LightmapLayout& layout, const FieldRenderOptions& options,

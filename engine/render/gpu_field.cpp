@@ -53,6 +53,7 @@ std::shared_ptr<GpuField> createWrittenField(gpu::Device& device, const WrittenF
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                     .name = "grid cells"}};
     field->gridDepth = desc.gridDepth;
+    field->marched = desc.marched;
     gpu::clearBuffers(device, {field->grid.handle});
     clear(device, field->lightmap);
     return field;

@@ -3,6 +3,7 @@
 
 #include "engine/field/indirect_field.h"
 #include "engine/render/gpu_field.h"
+#include "engine/render/passes/geometry_passes.h"
 #include "shaders/shared/gpu_frame.h"
 
 #include <memory>
@@ -24,7 +25,14 @@ IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& fiel
 /// Uploads limn::reflectionTable() as a sampled RGBA32F array image.
 gpu::Image uploadReflectionTable(gpu::Device& device);
 
+/// Writes planes, nearest surfaces and radiance of the field's marched maps into three storage
+/// buffers of `set` from `binding` on; without maps, a buffer to bind that no shader reads.
+void bindMarchedMaps(gpu::Device& device, VkDescriptorSet set, std::uint32_t binding,
+                     const GpuField& field);
+
 /// Fills in the members of `frame` that describe the grid, and the field's unit.
 void describeField(const GpuField& field, shared::GpuFrame& frame);
+/// Fills in how surfaces read the field, besides its grid.
+void describeField(const GpuField& field, GeometryView& view);
 
 } // namespace limn::render

@@ -49,7 +49,8 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -251,6 +252,7 @@ void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
     gpu::writeTexture(device, slot.set, 11, reflectionTable.view, lightmapSampler.handle);
     gpu::writeBuffer(device, slot.set, 12, kFrameTypes[12],
                      scene.lookupSnaps ? scene.lookupSnaps.handle : indirect.field->grid.handle);
+    bindMarchedMaps(device, slot.set, 13, *indirect.field);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
@@ -425,7 +427,7 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     const glm::vec2 point = samplePoint(samples);
     const bool lit = showsDirectLight(options.view);
     GeometryView view = geometryView(options, scene.bounds, indirect.field->hasGrid());
-    view.bands = indirect.field->bands;
+    describeField(*indirect.field, view);
     std::vector<ShadowSlot> shadowSlots(lights.size());
     if (lit) {
         const ShadowCamera camera = shadowCamera(options, view, scene, nearestSeen);

@@ -23,6 +23,8 @@ layout(std430, binding = PROBE_LIGHT) writeonly buffer Light { vec4 light[]; };
 layout(std430, binding = PROBE_MEANS) writeonly buffer Means { vec4 means[]; };
 layout(std430, binding = PROBE_MOMENTS) readonly buffer Moments { uint gridDepth[]; };
 
+layout(std430, binding = PROBE_RADIANCE) writeonly buffer Radiance { float radiance[]; };
+
 layout(push_constant) uniform Push {
     GpuProbeRange range;
 };
@@ -84,6 +86,9 @@ void main() {
         mine[i] = vec3(0);
     for (uint texel = lane; texel < kTexels; texel += kLanes) {
         const vec3 L = seen(texel, groupIndex() * kTexels + texel);
+        if (range.marched != 0u)
+            for (uint c = 0; c < 3u; ++c)
+                radiance[3u * (probe * kTexels + texel) + c] = L[c];
         for (uint i = 0; i < PROBE_COEFFICIENTS; ++i)
             mine[i] += L * basis[texel * PROBE_COEFFICIENTS + i];
     }

@@ -20,9 +20,10 @@ using uint = std::uint32_t;
 #define PROBE_BEFORE 4u // radiance at probes, of the bounce before [W m^-2 sr^-1]
 #define PROBE_LIGHT 5u  // radiance at probes
 #define PROBE_MEANS 6u  // vec4 per probe: the constant harmonic
-#define PROBE_MOMENTS 7u // as GpuField::gridDepth
-#define PROBE_GRID 8u    // as GpuField::grid
-#define PROBE_BINDINGS 9u
+#define PROBE_MOMENTS 7u  // as GpuField::gridDepth
+#define PROBE_GRID 8u     // as GpuField::grid
+#define PROBE_RADIANCE 9u // as GpuMarchedMaps::radiance, of all probes
+#define PROBE_BINDINGS 10u
 
 #define PROBE_COEFFICIENTS 9u // three bands
 
@@ -39,18 +40,18 @@ struct GpuProbeHit {
     vec3 emission; uint kind;           // W m^-2 sr^-1; PROBE_SEES_*
 };
 
-/// Push constants of both steps.
+/// Push constants of all steps.
 struct GpuProbeRange {
     vec3 gridLower; uint begin;   // m; first probe
     vec3 cellSize; uint end;      // m
     uvec3 gridSize; uint weights; // cells; of the grid's moments, of grid_lookup.h; GRID_PLAIN: light bounces once
-    float fieldScale;
+    float fieldScale; uint marched; // 1: radiance is written; in probe_levels.comp, the level
 };
 // clang-format on
 
 #ifdef __cplusplus
 static_assert(sizeof(GpuProbeHit) == 48);
-static_assert(sizeof(GpuProbeRange) == 52);
+static_assert(sizeof(GpuProbeRange) == 56);
 } // namespace limn::shared
 #endif
 

@@ -12,7 +12,7 @@
 #include "shaders/shared/surface_pack.glsl"
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
-layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID: what any surface reads
+layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID, FEATURE_MARCHED: what any surface reads
 layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
 layout(constant_id = 3) const bool kFirst = true; // first of the passes: it also writes pixels of other bands and the background
 
@@ -22,12 +22,16 @@ layout(set = 0, binding = 5, std430) readonly buffer Grid { uvec2 grid[]; };
 layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
 layout(set = 0, binding = 9) uniform sampler2D emittedImage;
 layout(set = 0, binding = 11) uniform sampler2DArray reflectionTable;
+layout(set = 0, binding = 13, std430) readonly buffer MarchedPlanes { vec4 marchedPlanes[]; };
+layout(set = 0, binding = 14, std430) readonly buffer MarchedNearest { float marchedNearest[]; };
+layout(set = 0, binding = 15, std430) readonly buffer MarchedRadiance { float marchedRadiance[]; };
 
 layout(location = 0) out vec4 outColor;
 
 #include "shaders/shared/grid_depth.glsl"
 #include "shaders/shared/grid_moments.glsl"
 #include "shaders/shared/seen_surface.glsl"
+#include "shaders/shared/march_ray.glsl"
 
 /// Two sums over the harmonics of the bounced light that reaches the surface. They are unrolled, because on a software
 /// rasteriser a loop over 64 lookups takes half as long again.
@@ -109,7 +113,7 @@ FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid)
     return FieldSums(max(sums.irradiance, 0.0) * frame.fieldUnit, max(sums.lobe, 0.0) * frame.fieldUnit);
 }
 
-vec3 bouncedLight(PackedSurface s, bool fromGrid) {
+vec3 bouncedLight(PackedSurface s, bool fromGrid, bool marches) {
     const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
     ReflectionLobe reflection = reflectionLobe(reflectionTable, s.roughness, NoV, kBands);
     windowFactors(reflection.factors);
@@ -123,17 +127,26 @@ vec3 bouncedLight(PackedSurface s, bool fromGrid) {
         return diffuse;
     const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
     const float seen = fromGrid ? 1.0 : hemisphereSeen(reflection.factors, dot(axis, s.geometricNormal));
-    return diffuse + (F0 * reflection.share.x + reflection.share.y) * field.lobe / seen;
+    vec3 lobe = field.lobe / seen;
+    const bool marched = (kFeatures & FEATURE_MARCHED) != 0 && marches;
+    for (int once = 0; once < int(marched); ++once) {
+        // Half of the microfacets seen along the normal are tilted by less than atan(roughness^2).
+        const vec3 size = vec3(frame.gridSize) / frame.gridScale;
+        lobe = marchedReflection(s.position + s.geometricNormal * (MARCH_OFFSET * norm1(size)), axis,
+                                 2.0 * atan(s.roughness * s.roughness));
+    }
+    return diffuse + (F0 * reflection.share.x + reflection.share.y) * lobe;
 }
 
 void main() {
     const vec4 emitted = texelFetch(emittedImage, ivec2(gl_FragCoord.xy), 0);
-    const bool own = abs(emitted.a) == float(kBands);
+    const float read = abs(emitted.a); // as surface.frag says
+    const bool own = floor(read) == float(kBands);
     if (!kFirst && !own)
         discard;
     const float depth = texelFetch(depthImage, ivec2(gl_FragCoord.xy), 0).r;
     vec3 radiance = depth > 0.0 ? emitted.rgb : frame.background;
     for (int once = 0; once < int(own); ++once)
-        radiance += bouncedLight(seenSurface(depth), emitted.a < 0.0);
+        radiance += bouncedLight(seenSurface(depth), emitted.a < 0.0, fract(read) > 0.0);
     outColor = vec4(radiance, 1);
 }

@@ -63,8 +63,9 @@ void main() {
         outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal);
         return;
     }
-    // Bands from the lightmap are positive, from the grid negative.
-    const float bands = has(FEATURE_LIGHTMAP) ? float(kBands) : has(FEATURE_GRID) ? -float(kBands) : 0.0;
+    // Bands from the lightmap are positive, from the grid negative. A half more: reflections are marched.
+    const float read = float(kBands) + (has(FEATURE_MARCHED) ? 0.5 : 0.0);
+    const float bands = has(FEATURE_LIGHTMAP) ? read : has(FEATURE_GRID) ? -read : 0.0;
     outEmitted = vec4(unlit(s), bands);
     outSurface = packSurface(s.baseColor, s.detailNormal, s.geometricNormal);
 }

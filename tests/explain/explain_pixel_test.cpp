@@ -32,7 +32,7 @@ ConvergedLight light(const Scene& of, const Precomputed* known = nullptr) {
         prepared = {std::shared_ptr<const Precomputed>(std::shared_ptr<void>(), known), scene};
     else if (technique.precomputation)
         prepared = {*technique.precomputation->prepare(*trace, {}, {}), scene};
-    return std::move(*convergeLight(scene, trace, technique, prepared, {}));
+    return std::move(*convergeLight(scene, trace, technique, prepared, LitFor::Pictures, {}));
 }
 
 FieldRenderOptions pictureOf(const Camera& camera, View view) {
@@ -368,6 +368,18 @@ TEST(ExplainPixel, AmbientLightIsOneRow) {
     const LightRow* sky = rowOf(e.tables.bySender, LightRowKind::Sky, LightRow::kNone, "Indirect");
     ASSERT_TRUE(sky);
     EXPECT_GT(sky->value.y, 0);
+}
+
+TEST(ExplainPixel, SumsToThePictureOfMarchedReflections) {
+    Scene scene = sample("cornell");
+    addLights(scene);
+    scene.materials[scene.instances[0].material].metallic = 1;
+    scene.materials[scene.instances[0].material].roughness = 0.2f;
+    scene.technique = {"probes",
+                       {{"probes.count", 64}, {"probes.side", 24}, {"probes.bounces", 1}}};
+    const ConvergedLight lit = light(scene);
+    ASSERT_TRUE(lit.field().marched);
+    expectPicture(lit, chooseCamera(scene, {}));
 }
 
 TEST(ExplainPixel, WhereNothingIsSeenTheSkyBehindIsAll) {

@@ -194,8 +194,9 @@ void GeometryPasses::drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scen
 
 // Keeps only the features that the view shows, so that there are fewer variants and none reads a
 // texture for nothing.
-static std::uint32_t variantFeatures(std::uint32_t material, const GpuMesh& mesh,
-                                     const GpuInstance& instance, const GeometryView& view) {
+static std::uint32_t variantFeatures(std::uint32_t material, std::uint32_t bands,
+                                     const GpuMesh& mesh, const GpuInstance& instance,
+                                     const GeometryView& view) {
     const bool lit = view.view == View::Lit;
     const bool albedo = lit || view.view == View::Direct || view.view == View::Indirect ||
                         view.view == View::Albedo;
@@ -211,6 +212,8 @@ static std::uint32_t variantFeatures(std::uint32_t material, const GpuMesh& mesh
         f &= ~FEATURE_NORMAL_TEXTURE;
     if (indirect)
         f |= instance.hasLightmap ? FEATURE_LIGHTMAP : view.grid ? FEATURE_GRID : 0u;
+    if (lit && view.marched && bands > std::uint32_t(kIrradianceBands))
+        f |= FEATURE_MARCHED;
     return f;
 }
 
@@ -233,11 +236,12 @@ SurfacesDrawn GeometryPasses::drawSurfaces(VkCommandBuffer cmd, const RenderScen
         const GpuInstance& instance = scene.instances[index];
         const GpuMesh& mesh = scene.meshes[instance.mesh];
         const std::uint32_t features =
-            variantFeatures(materials.features[instance.material], mesh, instance, view);
+            variantFeatures(materials.features[instance.material],
+                            materials.bands[instance.material], mesh, instance, view);
         const Variant variant{view.view, features,
                               bandsRead(materials.bands[instance.material], features, view)};
-        if (const std::uint32_t field = features & (FEATURE_LIGHTMAP | FEATURE_GRID)) {
-            drawn.features |= field;
+        if (features & (FEATURE_LIGHTMAP | FEATURE_GRID)) {
+            drawn.features |= features & (FEATURE_LIGHTMAP | FEATURE_GRID | FEATURE_MARCHED);
             drawn.bands[variant.bands] = true;
         }
         gpu::Pipeline& pipeline = m_surface[variant];

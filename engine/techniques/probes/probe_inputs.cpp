@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/probes/probe_inputs.h"
 
+#include "engine/math/sh.h"
 #include "engine/scene/light/unit_light.h"
+#include "engine/scene/surface/receiver_bands.h"
 
 #include <algorithm>
 
@@ -14,7 +16,7 @@ static Bounds boundsOf(const Scene& scene) {
     return anyStatic ? staticBounds(scene) : scene.bounds;
 }
 
-ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings) {
+ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings, const ProbeInputs& before) {
     ProbeInputs in{.grid = chooseProbes(boundsOf(scene), settings.count),
                    .side = settings.side,
                    .assets = scene.assets,
@@ -36,6 +38,9 @@ ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings) {
         in.shining.push_back(shines(light) ? 1 : 0);
         in.lights.push_back(unitLight(light));
     }
+    const bool same = in.assets == before.assets && in.materials == before.materials &&
+                      in.materialOf == before.materialOf;
+    in.glossy = same ? before.glossy : receiverBands(scene, kMaxBands) > kIrradianceBands;
     return in;
 }
 

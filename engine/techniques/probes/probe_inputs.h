@@ -36,10 +36,12 @@ struct ProbeInputs {
     std::vector<Light> lights;         ///< unitLight()
     std::vector<std::uint8_t> shining; ///< per light
     Sky sky;
+    bool glossy = false; ///< a surface is a glossy receiver (scene/surface/receiver_bands.h)
 };
 
-/// The probes stand over what does not move, if anything stands still.
-ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings);
+/// The probes stand over what does not move, if anything stands still. `before`: those of an
+/// earlier scene, to reuse what materials decide.
+ProbeInputs inputsOf(const Scene& scene, const ProbeSettings& settings, const ProbeInputs& before);
 
 /// Whether probes stand at the same places and look in the same directions.
 bool sameLattice(const ProbeInputs& a, const ProbeInputs& b);

@@ -76,11 +76,18 @@ std::uint64_t lightProbe(const ProbeScene& in, std::uint32_t probe,
     const ProbeHit* hits = in.maps.hits.data() + std::size_t(probe) * texels;
     const std::size_t chunks = (texels + kChunk - 1) / kChunk;
     std::vector<ProbeHarmonics> sums(chunks * origins.size());
+    for (const std::uint32_t o : origins)
+        if (light.keepsTexels)
+            light.texels[o].resize(in.maps.hits.size(), glm::vec3(0));
+    const std::size_t first = std::size_t(probe) * texels;
     std::atomic<std::uint64_t> rays = 0;
     parallelRanges(chunks, 1, [&](std::size_t begin, std::size_t end) {
         std::uint64_t traced = 0;
         for (std::size_t t = begin * kChunk; t < std::min<std::size_t>(end * kChunk, texels); ++t) {
             const ProbeHit& hit = hits[t];
+            if (light.keepsTexels)
+                for (const std::uint32_t o : origins)
+                    light.texels[o][first + t] = glm::vec3(0);
             if (hit.side == kInSolid)
                 continue;
             const auto texel = std::uint32_t(t);
@@ -95,6 +102,8 @@ std::uint64_t lightProbe(const ProbeScene& in, std::uint32_t probe,
                     radiance = radianceOf(in, light, origins[o], hit, at, traced);
                 else if (origins[o] == light.sky())
                     radiance = skyRadiance(in.scene.sky, direction);
+                if (light.keepsTexels)
+                    light.texels[origins[o]][first + t] = radiance;
                 radiance *= in.solidAngles[texel];
                 ProbeHarmonics& sum = sums[t / kChunk * origins.size() + o];
                 for (std::size_t i = 0; i < sum.size(); ++i)

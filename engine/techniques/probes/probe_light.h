@@ -24,6 +24,10 @@ struct ProbeLight {
     /// Per probe and origin. Those of a light are for a colour and a strength of 1, so that editing
     /// them needs no ray.
     std::vector<ProbeHarmonics> parts;
+    /// Per origin, of the same lights: radiance of every texel of every probe's map
+    /// [W m^-2 sr^-1]. Origins that were not computed are empty; all are if !keepsTexels.
+    std::vector<std::vector<glm::vec3>> texels;
+    bool keepsTexels = false;
 
     std::uint32_t emitters() const { return lights; }    ///< emissive surfaces, seen straight
     std::uint32_t sky() const { return lights + 1; }     ///< seen straight
@@ -57,8 +61,8 @@ struct MapPoint {
 MapPoint mapPoint(const ProbeScene& in, std::uint32_t probe, std::uint32_t texel);
 
 /// Recomputes the listed origins of a probe: lights what its map shows, with a shadow ray from each
-/// hit to each of these lights, and projects the radiance. The share of the hits in solids is
-/// black. Returns the number of rays.
+/// hit to each of these lights, projects the radiance, and keeps it if light.keepsTexels. The share
+/// of the hits in solids is black. Returns the number of rays.
 std::uint64_t lightProbe(const ProbeScene& in, std::uint32_t probe,
                          const std::vector<std::uint32_t>& origins, ProbeLight& light);
 

@@ -8,7 +8,8 @@ ProbeSettings probeSettingsOf(const TechniqueChoice& choice) {
             .side = std::uint32_t(settingOf(choice, kProbeSide)),
             .perUpdate = std::uint32_t(settingOf(choice, kProbesPerUpdate)),
             .smooth = settingOf(choice, kSmoothProbes) > 0,
-            .bounces = settingOf(choice, kProbeBounces) > 0};
+            .bounces = settingOf(choice, kProbeBounces) > 0,
+            .reflections = settingOf(choice, kProbeReflections) > 0};
 }
 
 } // namespace limn

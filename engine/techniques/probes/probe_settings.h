@@ -55,8 +55,28 @@ inline constexpr TechniqueSetting kProbeBounces = {
     .range = {0, 1},
     .usual = 0,
     .whole = true};
-inline constexpr std::array kProbeSettings = {kProbeCount, kProbeSide, kProbesPerUpdate,
-                                              kSmoothProbes, kProbeBounces};
+inline constexpr TechniqueSetting kProbeReflections = {
+    .setting = {.key = "probes.reflections",
+                .label = "Marched reflections",
+                .tooltip = "Glossy surfaces reflect what rays meet that are marched through the "
+                           "probes' maps: as sharp as the maps. Off, and in the editor where the "
+                           "CPU computes the light: they reflect the probes' harmonics, a wide "
+                           "blur",
+                .invalidates = Invalidates::Light},
+    .range = {0, 1},
+    .usual = 1,
+    .whole = true};
+inline constexpr std::array kProbeSettings = {kProbeCount,   kProbeSide,    kProbesPerUpdate,
+                                              kSmoothProbes, kProbeBounces, kProbeReflections};
+
+/// LightingReport::lacks of light without the reflections that the document asks for.
+inline constexpr const char* kLacksReflections =
+    "glossy surfaces reflect the probes' harmonics; reflections are marched by limn render, and "
+    "where the device computes the light";
+/// The same of light on a device whose buffers may not be as large as the maps.
+inline constexpr const char* kLacksLargeMaps =
+    "glossy surfaces reflect the probes' harmonics, because the maps that reflections are marched "
+    "through are larger than this device can bind; lower probes.side or probes.count";
 
 /// Their values in a document.
 struct ProbeSettings {
@@ -65,6 +85,7 @@ struct ProbeSettings {
     std::uint32_t perUpdate = 2; ///< probes that an update refreshes while somebody looks
     bool smooth = false;         ///< GridMoments::smooth
     bool bounces = false;        ///< light bounces more than once
+    bool reflections = true;     ///< IndirectField::marched, where there is a glossy receiver
 };
 ProbeSettings probeSettingsOf(const TechniqueChoice& choice);
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/probes/probes.h"
 
+#include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/techniques/probes/probe_inputs.h"
 #include "engine/techniques/probes/probe_light.h"
 #include "engine/techniques/probes/probe_overlay.h"
+#include "engine/techniques/probes/probe_planes.h"
 #include "engine/techniques/probes/probe_settings.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -25,16 +28,18 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return &m_field; }
     std::shared_ptr<const LightSnapshot> snapshot() const override;
+    glm::vec3 marchedFrom(std::uint32_t origin, const FieldReading& reading) const;
     Explanation explain(const Scene& scene, const FieldReading& reading,
                         const ExplainOptions& options) const override;
 
 private:
     /// Durations of an update's steps [ms].
     struct Times {
-        double maps = 0, light = 0, field = 0;
+        double maps = 0, light = 0, field = 0, reflections = 0;
     };
 
-    void followScene(const Scene& scene);
+    void followScene(const Scene& scene, bool marched);
+    void keepTexels(bool keep);
     bool isStale(std::uint32_t probe, std::uint32_t origin) const;
     bool isStale(std::uint32_t probe) const; ///< any of its origins
     std::uint32_t countStale() const;
@@ -42,6 +47,7 @@ private:
                  Times& times);
     bool bounceIsDue(const Scene& scene);
     void writeField();
+    void writeReflections(const Scene& scene);
     LightingReport report(const Times& times, std::uint32_t bounces) const;
 
     ProbeInputs m_inputs; ///< that the editions stand for
@@ -51,6 +57,7 @@ private:
     /// Editions of the maps and the origins that are wanted, and those that each probe has.
     std::uint32_t m_mapEdition = 0;
     std::vector<std::uint32_t> m_editions, m_probeMaps, m_probeEditions;
+    std::vector<std::uint32_t> m_probePlanes; ///< per probe: edition of the map of its planes
     std::vector<glm::vec3> m_colors;          ///< per light, in the field: colour times strength
     std::uint32_t m_next = 0;                 ///< probe to be looked at first
     std::uint64_t m_rays = 0;                 ///< of the last update
@@ -62,6 +69,7 @@ private:
     bool m_smooth = false;                    ///< weights, GridMoments::smooth
     bool m_momentsChanged = false;            ///< since the field was written
     bool m_fieldStale = false;                ///< a sum of the same parts would be another
+    bool m_lacksReflections = false;          ///< which the document asks for
     IndirectField m_field;
 };
 
@@ -71,15 +79,17 @@ glm::vec3 weightOf(const Light& light) {
 }
 
 /// Marks as stale what depends on whatever changed in the scene.
-void ProbeLighting::followScene(const Scene& scene) {
+void ProbeLighting::followScene(const Scene& scene, bool marched) {
     const ProbeSettings settings = probeSettingsOf(scene.technique);
-    ProbeInputs now = inputsOf(scene, settings);
+    ProbeInputs now = inputsOf(scene, settings, m_inputs);
     if (!sameLattice(now, m_inputs)) {
         m_maps = emptyMaps(now.grid, now.side);
         m_solidAngles = m_maps.map.solidAngles();
         m_probeMaps.assign(now.grid.count(), 0);
         m_refreshedBy.assign(now.grid.count(), 0);
+        m_probePlanes.assign(now.grid.count(), 0);
         m_field.grid.clear();
+        m_field.marched = nullptr;
         m_fieldStale = true;
         m_light.parts.clear();
         m_next = 0;
@@ -87,9 +97,12 @@ void ProbeLighting::followScene(const Scene& scene) {
     if (m_light.parts.empty() || now.lights.size() != m_inputs.lights.size()) {
         m_light.lights = std::uint32_t(now.lights.size());
         m_light.parts.assign(std::size_t(now.grid.count()) * m_light.origins(), {});
+        m_light.texels.assign(m_light.origins(), {});
         m_editions.assign(m_light.origins(), 1);
         m_probeEditions.assign(m_light.parts.size(), 0);
     }
+    keepTexels(marched && settings.reflections && now.glossy);
+    m_lacksReflections = !marched && settings.reflections && now.glossy;
     if (!sameSurfaces(now, m_inputs))
         ++m_mapEdition;
     for (std::uint32_t l = 0; l < std::min(now.lights.size(), m_inputs.lights.size()); ++l)
@@ -103,6 +116,7 @@ void ProbeLighting::followScene(const Scene& scene) {
     if (std::exchange(m_bouncing, settings.bounces) && !settings.bounces)
         for (std::uint32_t p = 0; p < now.grid.count(); ++p) {
             m_light.part(p, m_light.bounced()) = {};
+            m_light.texels[m_light.bounced()].clear();
             m_fieldStale = true;
         }
     m_fieldStale |= std::exchange(m_smooth, settings.smooth) != settings.smooth;
@@ -112,6 +126,20 @@ void ProbeLighting::followScene(const Scene& scene) {
     m_fieldStale |= colors != m_colors;
     m_colors = std::move(colors);
     m_inputs = std::move(now);
+}
+
+/// Begins to keep the radiance of texels, for which all light is recomputed, or ends it.
+void ProbeLighting::keepTexels(bool keep) {
+    if (std::exchange(m_light.keepsTexels, keep) == keep)
+        return;
+    if (keep) {
+        std::ranges::fill(m_probeEditions, 0U);
+        return;
+    }
+    for (std::vector<glm::vec3>& texels : m_light.texels)
+        texels = {};
+    m_field.marched = nullptr;
+    m_fieldStale = true;
 }
 
 /// Whether an origin of a probe must be recomputed. Light that nothing sends is left for later.
@@ -217,6 +245,33 @@ void ProbeLighting::writeField() {
     ++m_field.version;
 }
 
+/// Sums the origins in the texels of the maps, and follows surfaces that moved.
+void ProbeLighting::writeReflections(const Scene& scene) {
+    const std::size_t texels = m_maps.map.texels();
+    auto maps = std::make_shared<MarchedMaps>(
+        m_field.marched ? *m_field.marched
+                        : emptyMarchedMaps(m_maps.grid.size, m_maps.grid.bounds, m_maps.map.side));
+    parallelRanges(m_maps.grid.count(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            if (m_probeMaps[p] == m_mapEdition && m_probePlanes[p] != m_mapEdition) {
+                writePlanes(scene, m_maps, std::uint32_t(p), *maps);
+                m_probePlanes[p] = m_mapEdition;
+            }
+            glm::vec3* sums = maps->radiance[0].data() + p * texels;
+            std::fill_n(sums, texels, glm::vec3(0));
+            for (std::uint32_t o = 0; o < m_light.origins(); ++o) {
+                if (m_light.texels[o].empty())
+                    continue;
+                const glm::vec3 weight = o < m_light.lights ? m_colors[o] : glm::vec3(1);
+                for (std::size_t t = 0; t < texels; ++t)
+                    sums[t] += weight * m_light.texels[o][p * texels + t];
+            }
+            updateLevels(*maps, p);
+        }
+    });
+    m_field.marched = std::move(maps);
+}
+
 LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) const {
     const std::uint32_t stale = countStale();
     LightingReport report;
@@ -225,6 +280,11 @@ LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) 
                      "Shadow rays from what probes see, and projection onto harmonics",
                      times.light},
                     {"probe_field", "Field", "Sum of all lights at the probes", times.field}};
+    if (m_light.keepsTexels)
+        report.steps.push_back({"probe_reflections", "Reflections",
+                                "Planes and radiance of the maps that reflections are marched "
+                                "through",
+                                times.reflections});
     const auto solid =
         std::accumulate(m_maps.inSolid.begin(), m_maps.inSolid.end(), std::uint32_t(0));
     const double bytes = double(m_maps.hits.size() * sizeof(ProbeHit) +
@@ -238,7 +298,17 @@ LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) 
         {"rays", "Rays", "Traced by this update", double(m_rays)},
         {"probe_bytes", "Memory", "Maps, moments and light of the probes", bytes,
          CounterUnit::Bytes}};
-    report.totalMs = times.maps + times.light + times.field;
+    if (m_light.keepsTexels) {
+        std::size_t reflections = m_field.marched ? m_field.marched->bytes() : 0;
+        for (const std::vector<glm::vec3>& texels : m_light.texels)
+            reflections += texels.size() * sizeof(glm::vec3);
+        report.counters.push_back({"reflection_bytes", "Memory of reflections",
+                                   "Radiance of the maps' texels, by light and in sum, and planes",
+                                   double(reflections), CounterUnit::Bytes});
+    }
+    if (m_lacksReflections)
+        report.lacks = kLacksReflections;
+    report.totalMs = times.maps + times.light + times.field + times.reflections;
     report.bounces = bounces;
     report.whole = report.converged = stale == 0;
     return report;
@@ -246,7 +316,7 @@ LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) 
 
 LightingReport ProbeLighting::update(const LightingInput& input, const Progress& progress) {
     m_rays = m_refreshed = 0;
-    followScene(input.scene);
+    followScene(input.scene, input.marched);
     if (m_maps.grid.count() == 0) {
         LightingReport nothing;
         nothing.converged = nothing.skipped = true;
@@ -269,6 +339,11 @@ LightingReport ProbeLighting::update(const LightingInput& input, const Progress&
             break;
         ++bounces;
     } while (bounceIsDue(input.scene) && bounces < std::max(input.bounces, 1U) && !input.view);
+    if (written && m_light.keepsTexels) {
+        Stopwatch watch;
+        writeReflections(input.scene);
+        times.reflections = watch.lap();
+    }
     LightingReport result = report(times, bounces);
     result.skipped = !written;
     return result;
@@ -289,6 +364,28 @@ std::shared_ptr<const LightSnapshot> ProbeLighting::snapshot() const {
     return std::make_shared<const ProbeSnapshot>(std::move(lit));
 }
 
+/// The share of an origin in what a reading looks up in the maps.
+glm::vec3 ProbeLighting::marchedFrom(std::uint32_t origin, const FieldReading& reading) const {
+    glm::vec3 sum(0);
+    if (m_light.texels[origin].empty())
+        return sum;
+    std::map<std::uint32_t, MarchedMaps> probes; // of one probe each, of this origin's radiance
+    const std::size_t texels = m_maps.map.texels();
+    for (const FieldReading::Marched& m : reading.marched) {
+        if (m.at.probe == MarchedRay::kNoProbe)
+            continue;
+        const auto [known, isNew] = probes.try_emplace(m.at.probe);
+        if (isNew) {
+            known->second = emptyMarchedMaps(glm::uvec3(1), m_maps.grid.bounds, m_maps.map.side);
+            std::copy_n(m_light.texels[origin].data() + m.at.probe * texels, texels,
+                        known->second.radiance[0].data());
+            updateLevels(known->second, 0);
+        }
+        sum += m.weight * marchedRadiance(known->second, {0, m.at.direction, m.at.spread});
+    }
+    return sum;
+}
+
 Explanation ProbeLighting::explain(const Scene& scene, const FieldReading& reading,
                                    const ExplainOptions& options) const {
     if (!options.black.empty() || m_colors.size() != scene.lights.size())
@@ -298,7 +395,7 @@ Explanation ProbeLighting::explain(const Scene& scene, const FieldReading& readi
         for (const FieldReading::Entry& entry : reading.entries)
             for (std::size_t i = 0; i < m_field.coefficients(); ++i)
                 sum += entry.weight[i] * m_light.part(entry.index, origin)[i];
-        return sum;
+        return sum + marchedFrom(origin, reading);
     };
     Explanation result;
     LightRow sky{.kind = LightRowKind::Sky, .label = "Sky", .value = valueOf(m_light.sky())};

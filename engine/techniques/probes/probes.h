@@ -13,8 +13,8 @@ namespace limn {
 /// Two things differ from the paper. Maps are traced, and hits are kept and lit again, where the
 /// paper draws six pictures of each probe. Irradiance is kept as three bands of spherical harmonics
 /// instead of a filtered octahedral map: its error for clamped cosines is below 1 %, except below
-/// small bright sources. Glossy rays are not marched through the maps; surfaces reflect the
-/// harmonics.
+/// small bright sources. On the CPU, glossy reflections are marched through the maps for pictures
+/// that ask for it (LightingInput::marched); else surfaces reflect the harmonics.
 extern const Technique kProbesTechnique;
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/field/field_packing.h"
 #include "engine/techniques/probes/probe_overlay.h"
+#include "engine/techniques/probes/probe_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ Result<std::unique_ptr<DeviceProbes>> DeviceProbes::create(gpu::Device& device,
 
 /// Takes over what changed in the scene. Returns whether there is any probe.
 bool DeviceProbes::followScene(const Scene& scene, const ProbeSettings& settings) {
-    ProbeInputs now = inputsOf(scene, settings);
+    ProbeInputs now = inputsOf(scene, settings, m_inputs);
     const bool fresh = !sameLattice(now, m_inputs);
     if (fresh) {
         m_maps = emptyMaps(now.grid, now.side);
@@ -39,6 +40,7 @@ bool DeviceProbes::followScene(const Scene& scene, const ProbeSettings& settings
         m_probeMaps.assign(now.grid.count(), 0);
         m_refreshedBy.assign(now.grid.count(), 0);
         m_next = 0;
+        m_planes = {};
         m_gpu = now.grid.count() > 0 ? std::make_unique<GpuProbes>(m_device, now.grid, m_maps.map)
                                      : nullptr;
         m_lightStale = true;
@@ -60,7 +62,21 @@ bool DeviceProbes::followScene(const Scene& scene, const ProbeSettings& settings
     }
     m_lightStale |= std::exchange(m_bouncing, settings.bounces) != settings.bounces;
     m_inputs = std::move(now);
+    followReflections(settings.reflections && m_inputs.glossy);
     return m_gpu != nullptr;
+}
+
+/// Begins to keep maps for marched reflections, or ends it.
+void DeviceProbes::followReflections(bool wanted) {
+    const bool marched = m_gpu && m_gpu->setMarched(wanted);
+    m_lacksReflections = m_gpu && wanted && !marched;
+    if (marched == (m_planes.side > 0))
+        return;
+    m_planes = marched ? emptyMarchedMaps(m_maps.grid.size, m_maps.grid.bounds, m_maps.map.side)
+                       : MarchedMaps{};
+    m_planes.radiance = {}; // the device has it
+    m_planesStale = marched;
+    m_lightStale = true;
 }
 
 std::uint32_t DeviceProbes::countStale() const {
@@ -127,6 +143,15 @@ void DeviceProbes::sendHits(const Scene& scene, const std::vector<std::uint32_t>
     m_lightStale = true;
 }
 
+/// Sends the planes of what some probes see, whose maps are current.
+void DeviceProbes::sendPlanes(const Scene& scene, std::span<const std::uint32_t> probes) {
+    parallelRanges(probes.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            writePlanes(scene, m_maps, probes[k], m_planes);
+    });
+    m_gpu->setPlanes(m_planes, probes);
+}
+
 /// Lights all probes once. Returns whether the light changed by more than the document tolerates,
 /// so that another bounce is due.
 bool DeviceProbes::bounce(const Scene& scene, Work& work) {
@@ -167,6 +192,12 @@ LightingReport DeviceProbes::report(const Work& work, double totalMs) const {
          double(work.dispatches)},
         {"probe_bytes", "Memory", "Maps, moments and light of the probes, on the GPU",
          double(m_gpu->bytes()), CounterUnit::Bytes}};
+    if (m_planes.side > 0)
+        report.counters.push_back({"reflection_bytes", "Memory of reflections",
+                                   "Planes and radiance of the maps' texels, on the GPU",
+                                   double(m_gpu->marchedBytes()), CounterUnit::Bytes});
+    if (m_lacksReflections)
+        report.lacks = kLacksLargeMaps;
     report.totalMs = totalMs;
     report.bounces = work.bounces;
     report.whole = stale == 0;
@@ -192,12 +223,16 @@ LightingReport DeviceProbes::update(const LightingInput& input, const Progress& 
     sendHits(input.scene, traced, true);
     if (!traced.empty())
         m_gpu->setMoments(m_maps.moments);
-    if (std::exchange(m_materialsStale, false)) {
-        std::vector<std::uint32_t> current;
-        for (std::uint32_t p = 0; p < m_probeMaps.size(); ++p)
-            if (m_probeMaps[p] == m_mapEdition && !std::ranges::count(traced, p))
-                current.push_back(p);
+    std::vector<std::uint32_t> current; // besides those
+    for (std::uint32_t p = 0; p < m_probeMaps.size() && (m_materialsStale || m_planesStale); ++p)
+        if (m_probeMaps[p] == m_mapEdition && !std::ranges::count(traced, p))
+            current.push_back(p);
+    if (std::exchange(m_materialsStale, false))
         sendHits(input.scene, current, false);
+    if (m_planes.side > 0) {
+        sendPlanes(input.scene, traced);
+        if (std::exchange(m_planesStale, false))
+            sendPlanes(input.scene, current);
     }
     m_lightStale |= m_gpu->updateDirect(m_viewport.shadowedLights());
     work.light = watch.lap();

@@ -15,7 +15,8 @@ namespace limn {
 /// Light field probes on the device of a viewport, which shows the light where it was written. The
 /// maps are traced on the CPU; what they show is lit by the viewport's shadow maps. Each update
 /// lights all probes, and while somebody looks it traces the maps of a few of them, in turn, if
-/// surfaces moved. The same device gives the same bits for the same inputs.
+/// surfaces moved. Where the document asks for it, the field has maps for marched reflections. The
+/// same device gives the same bits for the same inputs.
 class DeviceProbes : public Lighting {
 public:
     /// Fails if the device has too few bindings. Device and viewport must outlive the object.
@@ -48,6 +49,8 @@ private:
     std::vector<std::uint32_t> traceMaps(const Scene& scene, std::uint32_t most,
                                          const Progress& progress, Work& work);
     void sendHits(const Scene& scene, const std::vector<std::uint32_t>& probes, bool moved);
+    void followReflections(bool wanted);
+    void sendPlanes(const Scene& scene, std::span<const std::uint32_t> probes);
     bool bounce(const Scene& scene, Work& work);
     std::uint32_t countStale() const;
     LightingReport report(const Work& work, double totalMs) const;
@@ -62,14 +65,17 @@ private:
     std::uint32_t m_mapEdition = 0;         ///< of the surfaces
     std::vector<std::uint32_t> m_probeMaps; ///< per probe: edition of its map; 0: none
     std::vector<std::uint32_t>
-        m_refreshedBy;             ///< per probe: the update that traced its map; 0: none
-    std::uint32_t m_updates = 0;   ///< that traced any map
-    std::uint32_t m_next = 0;      ///< probe to be looked at first
-    bool m_materialsStale = false; ///< on the device
-    bool m_lightStale = false;     ///< the probes' light is of older inputs
-    bool m_bouncing = false;       ///< light bounces more than once
-    double m_before = 0;           ///< sum of the mean radiance when a bounce began
-    float m_brightest = 0;         ///< of the means [W m^-2 sr^-1]
+        m_refreshedBy;               ///< per probe: the update that traced its map; 0: none
+    std::uint32_t m_updates = 0;     ///< that traced any map
+    std::uint32_t m_next = 0;        ///< probe to be looked at first
+    bool m_materialsStale = false;   ///< on the device
+    bool m_lightStale = false;       ///< the probes' light is of older inputs
+    MarchedMaps m_planes;            ///< without radiance; of no probe: nothing is marched
+    bool m_planesStale = false;      ///< of probes whose maps are current, on the device
+    bool m_lacksReflections = false; ///< which the document asks for
+    bool m_bouncing = false;         ///< light bounces more than once
+    double m_before = 0;             ///< sum of the mean radiance when a bounce began
+    float m_brightest = 0;           ///< of the means [W m^-2 sr^-1]
 };
 
 /// DeviceProbes for the table of techniques. Fails as DeviceProbes::create().

@@ -4,6 +4,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/storage_maker.h"
 #include "shaders/probes/probe_field.comp.h"
+#include "shaders/probes/probe_levels.comp.h"
 #include "shaders/probes/probe_light.comp.h"
 
 #include <algorithm>
@@ -101,6 +102,7 @@ void GpuProbes::createSets() {
     forSets(PROBE_SKY, m_sky.handle);
     forSets(PROBE_BASIS, m_basis.handle);
     forSets(PROBE_MEANS, m_means.handle);
+    forSets(PROBE_RADIANCE, m_means.handle); // to bind something; not written
     const std::array layouts = {m_setLayout.handle};
     m_layout = gpu::createPipelineLayout(m_device, layouts, sizeof(GpuProbeRange), "probes");
     const std::array constants = {kLanes, m_map.texels(), std::uint32_t(kIrradianceBands)};
@@ -108,6 +110,8 @@ void GpuProbes::createSets() {
                                            "light of probes");
     m_writeField = gpu::createComputePipeline(m_device, kProbeFieldComp, m_layout.handle, constants,
                                               "field of probes");
+    m_writeLevel = gpu::createComputePipeline(m_device, kProbeLevelsComp, m_layout.handle,
+                                              constants, "radiance of probes");
 }
 
 void GpuProbes::forSets(std::uint32_t binding, VkBuffer buffer) {
@@ -144,8 +148,10 @@ void GpuProbes::setMoments(const GridMoments& moments) {
     m_moments = std::make_shared<const gpu::Buffer>(
         gpu::Uploader(m_device).buffer(std::as_bytes(std::span(moments.texels)),
                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "moments of probes"));
-    m_field = createWrittenField(
-        m_device, {.gridSize = m_grid.size, .gridBounds = m_grid.bounds, .gridDepth = m_moments});
+    m_field = createWrittenField(m_device, {.gridSize = m_grid.size,
+                                            .gridBounds = m_grid.bounds,
+                                            .gridDepth = m_moments,
+                                            .marched = m_marched});
     forSets(PROBE_MOMENTS, m_moments->handle);
     forSets(PROBE_GRID, m_field->grid.handle);
     setSmooth(m_smooth);
@@ -154,6 +160,20 @@ void GpuProbes::setMoments(const GridMoments& moments) {
 void GpuProbes::setSmooth(bool smooth) {
     m_smooth = smooth;
     m_field->gridWeights = smooth ? GRID_SMOOTH_MOMENTS : GRID_MOMENTS;
+}
+
+bool GpuProbes::setMarched(bool marched) {
+    if (marched != (m_marched != nullptr)) {
+        m_marched = marched ? createMarchedMaps(m_device, m_grid.count(), m_map.side) : nullptr;
+        m_field->marched = m_marched;
+        forSets(PROBE_RADIANCE, m_marched ? m_marched->radiance.handle : m_means.handle);
+    }
+    return m_marched != nullptr;
+}
+
+void GpuProbes::setPlanes(const MarchedMaps& maps, std::span<const std::uint32_t> probes) {
+    assert(m_marched);
+    uploadMarchedPlanes(m_device, maps, probes, *m_marched);
 }
 
 void GpuProbes::setSky(const Sky& sky) {
@@ -184,7 +204,8 @@ GpuProbeRange GpuProbes::range(const Block& block, bool bounces) const {
             .end = block.end,
             .gridSize = m_grid.size,
             .weights = bounces ? m_field->gridWeights : GRID_PLAIN,
-            .fieldScale = 0};
+            .fieldScale = 0,
+            .marched = m_marched ? 1U : 0U};
 }
 
 void GpuProbes::dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step, VkDescriptorSet set,
@@ -197,6 +218,7 @@ std::span<const glm::vec4> GpuProbes::project(bool bounces) {
     m_written = 1 - m_written;
     m_device.immediate("light of probes", [&](VkCommandBuffer cmd) {
         gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
+        gpu::memoryBarrier(cmd, gpu::kAllReads, gpu::kComputeWrite);  // of the radiance
         m_times.begin(cmd);
         for (const Block& block : m_blocks)
             dispatch(cmd, m_project, block.sets[m_written], range(block, bounces),
@@ -206,6 +228,19 @@ std::span<const glm::vec4> GpuProbes::project(bool bounces) {
     });
     projectMs = m_times.steps()[0];
     return {static_cast<const glm::vec4*>(m_means.mapped), m_grid.count()};
+}
+
+/// Records the coarser levels of the marched maps' radiance, if there are any.
+void GpuProbes::writeLevels(VkCommandBuffer cmd) {
+    GpuProbeRange all = range(m_blocks[0], false);
+    all.end = m_grid.count();
+    all.marched = 1;
+    for (std::size_t side = m_marched ? m_map.side : 0; side > MARCH_COARSEST; ++all.marched) {
+        side = (side + 1) / 2;
+        dispatch(cmd, m_writeLevel, m_blocks[0].sets[m_written], all,
+                 (m_grid.count() * side * side + kLanes - 1) / kLanes);
+        gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kComputeWrite);
+    }
 }
 
 void GpuProbes::writeField(float scale) {
@@ -219,6 +254,7 @@ void GpuProbes::writeField(float scale) {
         beginFieldWrite(cmd, *m_field);
         dispatch(cmd, m_writeField, m_blocks[0].sets[m_written], all,
                  (m_grid.count() + kLanes - 1) / kLanes);
+        writeLevels(cmd);
         endFieldWrite(cmd, *m_field);
         m_times.mark(cmd);
     });

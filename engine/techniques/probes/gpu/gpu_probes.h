@@ -35,6 +35,13 @@ public:
     void setSky(const Sky& sky);
     /// GridMoments::smooth. setMoments() keeps it.
     void setSmooth(bool smooth);
+    /// Gives the field maps through which reflections are marched, or takes them away. The next
+    /// project() and writeField() write the radiance of these maps; setPlanes() writes their
+    /// surfaces. Returns true if the field has maps now. It has none if the device cannot bind
+    /// buffers that large.
+    bool setMarched(bool marched);
+    /// Replaces the planes of some probes in the field's marched maps, of which there must be some.
+    void setPlanes(const MarchedMaps& maps, std::span<const std::uint32_t> probes);
 
     /// Lights the hits. Returns whether their light was computed.
     bool updateDirect(const ShadowedLights& lights);
@@ -55,7 +62,8 @@ public:
     double directMs = 0, projectMs = 0, fieldMs = 0; ///< GPU time of the last call of each
     std::uint32_t lightsComputed = 0;                ///< by the last updateDirect()
     std::uint64_t dispatches() const;                ///< so far
-    VkDeviceSize bytes() const;                      ///< on the GPU
+    VkDeviceSize bytes() const;                      ///< on the GPU, without marchedBytes()
+    VkDeviceSize marchedBytes() const { return m_marched ? m_marched->bytes() : 0; }
 
 private:
     /// The maps of probes [begin, end).
@@ -68,6 +76,7 @@ private:
 
     void createBlocks();
     void createSets();
+    void writeLevels(VkCommandBuffer cmd);
     void forSets(std::uint32_t binding, VkBuffer buffer);
     shared::GpuProbeRange range(const Block& block, bool bounces) const;
     void dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step, VkDescriptorSet set,
@@ -81,13 +90,14 @@ private:
     std::array<gpu::Buffer, 2> m_light; ///< of the last two bounces
     std::uint32_t m_written = 1;        ///< the newer one of them
     std::shared_ptr<const gpu::Buffer> m_moments;
+    std::shared_ptr<const GpuMarchedMaps> m_marched; ///< null: none
     std::shared_ptr<GpuField> m_field;
     bool m_smooth = false;
 
     gpu::DescriptorSetLayout m_setLayout;
     gpu::DescriptorPool m_pool;
     gpu::PipelineLayout m_layout;
-    gpu::Pipeline m_project, m_writeField;
+    gpu::Pipeline m_project, m_writeField, m_writeLevel;
     gpu::Timestamps m_times;
     std::uint64_t m_dispatches = 0; ///< without those of the blocks' irradiance
 };

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/marched_maps.h"
+#include "engine/techniques/probes/probe_maps.h"
+
+#include <cstdint>
+
+namespace limn {
+
+/// Writes the planes of what a probe sees into maps of the same grid and side, and what follows
+/// from them. `seen` holds what the probe sees in `scene`.
+void writePlanes(const Scene& scene, const ProbeMaps& seen, std::uint32_t probe, MarchedMaps& maps);
+
+} // namespace limn
