@@ -77,6 +77,14 @@ render lpv-lobes "Their lattice's cells: direction and colour of the light" corn
 render probes "Light field probes" cornell "${square[@]}" --technique probes
 render probe-balls "Their probes, as balls in the light that reaches them" cornell "${square[@]}" --technique probes --overlay probes
 render sparse-probes "Sparse radiance probes" cornell "${square[@]}" --technique sparse-probes
+render lpv-leak "Irradiance in a sealed dark room: light propagation volumes carry it through the wall" generated:23 "${wide[@]}" \
+    --camera "Dark room" --technique lpv --view irradiance
+render lpv-cells "Irradiance by a lattice of 8 cells a side: patches on walls and ceiling have the size of its cells" cornell \
+    "${square[@]}" --technique lpv --set lpv.resolution=8 --view irradiance
+render probes-dark "Irradiance by light field probes: passages whose probes stand in the court are nearly black" atrium "${wide[@]}" \
+    --technique probes --view irradiance
+render probes-ring "Probes whose harmonics ring: magenta sides would get less than no light" atrium "${wide[@]}" --technique probes \
+    --overlay probes
 
 section "The editor" "Every part of the window is described in the README."
 build/release/journeys --gtest_filter='Gallery.*'

@@ -4,7 +4,6 @@
 #include "engine/gallery/gallery.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/compare.h"
-#include "engine/measure/field_render.h"
 #include "engine/reference/reference.h"
 
 namespace limn {
@@ -30,24 +29,21 @@ LeakRoom::LeakRoom(std::uint32_t samplesPerPixel) {
                            .image);
 }
 
-Result<double> LeakRoom::leak(const Technique& technique, const TechniqueChoice& choice,
-                              const BakeSettings& bake) const {
+Result<double> LeakRoom::leak(const LightPlace& place, const Technique& technique,
+                              const TechniqueChoice& choice, const BakeSettings& bake,
+                              const Progress& progress) const {
     Scene scene = m_scene;
     scene.technique = choice;
-    Prepared prepared;
-    LightmapLayout layout = layoutWithoutLightmap(scene);
-    if (const Precomputation* p = technique.precomputation) {
-        const auto made = p->prepare(*m_trace, {.settings = &bake}, {});
-        if (!made)
-            return tl::make_unexpected(made.error());
-        prepared = {*made, std::make_shared<const Scene>(scene)};
-        layout = prepared.data->layout();
-    }
-    const auto lighting = technique.light(prepared);
-    lighting->update({.scene = scene, .trace = m_trace.get(), .bounces = scene.relight.maxBounces},
-                     {});
-    return meanOf(renderField(
-               *m_trace, *lighting->field(), layout,
+    const Result<PreparedScene> made = prepareScene(technique, *m_trace, scene, bake, progress);
+    if (!made)
+        return tl::make_unexpected(made.error());
+    const auto lighting = place.light(technique, made->prepared, scene, made->layout);
+    if (!lighting)
+        return tl::make_unexpected(lighting.error());
+    (*lighting)->update(
+        {.scene = scene, .trace = m_trace.get(), .bounces = scene.relight.maxBounces}, {});
+    return meanOf(renderLight(
+               *m_trace, **lighting, *made->layout,
                {.view = View::Irradiance, .camera = m_dark, .width = kWidth, .height = kHeight})) /
            m_outside;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/bench/light_place.h"
+
 #include "engine/core/result.h"
 #include "engine/lighting/technique.h"
 #include "engine/scene/camera.h"
@@ -21,9 +23,11 @@ public:
     const std::string& description() const { return m_description; }
 
     /// Mean irradiance that the technique gives the sealed room, over that of the reference in the
-    /// lit one. Fails where the technique cannot precompute its data.
-    Result<double> leak(const Technique& technique, const TechniqueChoice& choice,
-                        const BakeSettings& bake) const;
+    /// lit one. Fails where the technique cannot precompute its data, when cancelled, and as
+    /// LightPlace::light().
+    Result<double> leak(const LightPlace& place, const Technique& technique,
+                        const TechniqueChoice& choice, const BakeSettings& bake,
+                        const Progress& progress = {}) const;
 
 private:
     std::string m_description;

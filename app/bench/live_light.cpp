@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/live_light.h"
 
+#include "app/bench/light_place.h"
+
 #include "engine/measure/compare.h"
 
 #include <algorithm>
@@ -87,20 +89,28 @@ void LiveLight::update(const Scene& scene) {
     m_driver.step({.scene = scene, .trace = &m_trace, .view = &view}, LightingDriver::Rest::All);
 }
 
-void LiveLight::converge(const Scene& scene) {
+/// False if cancelled.
+bool LiveLight::converge(const Scene& scene, const Progress& progress) {
     m_driver.lightChanged();
-    for (std::uint32_t k = 0; !m_driver.done() && k < kMaxUpdates; ++k)
+    for (std::uint32_t k = 0; !m_driver.done() && k < kMaxUpdates; ++k) {
+        if (progress.cancelled())
+            return false;
         update(scene);
+    }
+    return true;
 }
 
 ImageF LiveLight::picture() const {
-    return renderField(m_trace, *m_driver.lighting()->field(), m_layout, m_view);
+    return renderLight(m_trace, *m_driver.lighting(), m_layout, m_view);
 }
 
-double LiveLight::flicker(const MotionTruth& truth) {
-    converge(m_scene);
+std::optional<double> LiveLight::flicker(const MotionTruth& truth, const Progress& progress) {
+    if (!converge(m_scene, progress))
+        return {};
     std::vector<ImageF> frames = {picture()};
     for (int k = 1; k < kMotionFrames; ++k) {
+        if (progress.cancelled())
+            return {};
         m_driver.lightChanged();
         update(withLightsMoved(m_scene, kMotionStep * float(k)));
         frames.push_back(picture());
@@ -108,14 +118,16 @@ double LiveLight::flicker(const MotionTruth& truth) {
     return flickerOf(frames, truth.first, truth.second);
 }
 
-std::optional<std::uint32_t> LiveLight::lag() {
+std::optional<std::uint32_t> LiveLight::lag(const Progress& progress) {
     constexpr double kNear = 0.05;
     const Scene jumped = withLightsMoved(m_scene, 0.5f);
-    converge(jumped);
+    if (!converge(jumped, progress))
+        return {};
     const ImageF goal = picture();
-    converge(m_scene);
+    if (!converge(m_scene, progress))
+        return {};
     m_driver.lightChanged();
-    for (std::uint32_t updates = 1; updates <= kMaxUpdates; ++updates) {
+    for (std::uint32_t updates = 1; updates <= kMaxUpdates && !progress.cancelled(); ++updates) {
         update(jumped);
         if (distanceOf(picture(), goal) <= kNear)
             return updates;

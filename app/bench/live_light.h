@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/progress.h"
 #include "engine/lighting/lighting_driver.h"
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/measure/field_render.h"
@@ -44,23 +45,22 @@ MotionTruth renderMotion(const TraceScene& trace, const ReferenceOptions& view);
 /// camera sees.
 class LiveLight {
 public:
-    /// `lighting`, `trace`, `layout` and `view` outlive the object; `scene` is what the technique
-    /// lights.
+    /// `scene`, `trace` and `layout` outlive the object; `scene` is what the technique lights.
     LiveLight(std::unique_ptr<Lighting> lighting, const Scene& scene, const TraceScene& trace,
               const LightmapLayout& layout, const FieldRenderOptions& view);
 
-    /// Flicker of the move that `truth` shows.
-    double flicker(const MotionTruth& truth);
+    /// Flicker of the move that `truth` shows; std::nullopt: cancelled.
+    std::optional<double> flicker(const MotionTruth& truth, const Progress& progress = {});
 
     /// Updates after a jump by half the way until the picture differs from that of converged light
-    /// by at most 5 %; std::nullopt: it takes more than kMaxUpdates.
-    std::optional<std::uint32_t> lag();
+    /// by at most 5 %; std::nullopt: it takes more than kMaxUpdates, or was cancelled.
+    std::optional<std::uint32_t> lag(const Progress& progress = {});
 
     static constexpr std::uint32_t kMaxUpdates = 4096;
 
 private:
     void update(const Scene& scene);
-    void converge(const Scene& scene);
+    bool converge(const Scene& scene, const Progress& progress);
     ImageF picture() const;
 
     const Scene& m_scene;

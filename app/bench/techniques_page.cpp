@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -149,25 +150,47 @@ std::string number(const Json& value, const char* format, double unit = 1) {
 
 std::string allRows(const std::vector<Json>& rows) {
     std::string html =
-        "<table><tr><th>technique</th><th>settings</th><th>precompute [s]</th><th>MiB</th>"
-        "<th>light moves [ms]</th><th>colour</th><th>material</th><th>object</th>"
-        "<th>nRMSE</th><th>bias</th><th>nRMSE, one bounce</th><th>bias</th>"
-        "<th>SSIM</th><th>FLIP</th><th>leak</th><th>flicker</th><th>lag</th></tr>\n";
-    for (const Json& r : rows)
-        html += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-            "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-            "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            escaped(r["technique"].get<std::string>()), escaped(r["settings"].get<std::string>()),
-            number(r["seconds"], "{:.2f}"), number(r["bytes"], "{:.2f}", 1 << 20),
-            number(r["light_ms"], "{:.2f}"), number(r["color_ms"], "{:.2f}"),
-            number(r["material_ms"], "{:.2f}"), number(r["object_ms"], "{:.2f}"),
-            number(r["nrmse"], "{:.3f}"), number(r["bias"], "{:+.1f} %", 0.01),
-            number(r["one_bounce_nrmse"], "{:.3f}"),
-            number(r["one_bounce_bias"], "{:+.1f} %", 0.01), number(r["ssim"], "{:.3f}"),
-            number(r["flip"], "{:.3f}"), number(r["leak"], "{:.2f} %", 0.01),
-            number(r["flicker"], "{:+.2f} %", 0.01), number(r["lag"], "{:.0f}"));
+        "<table><tr><th>technique</th><th>settings</th><th>device</th><th>precompute [s]</th>"
+        "<th>MiB</th><th>light moves [ms]</th><th>colour</th><th>material</th><th>object</th>"
+        "<th>camera</th><th>nRMSE</th><th>bias</th><th>nRMSE, one bounce</th><th>bias</th>"
+        "<th>SSIM</th><th>FLIP</th><th>leak</th><th>flicker</th><th>lag</th>"
+        "<th>difference to the CPU</th><th>largest</th></tr>\n";
+    for (const Json& r : rows) {
+        const auto cell = [&html](const std::string& text) { html += "<td>" + text + "</td>"; };
+        html += "<tr>";
+        for (const char* key : {"technique", "settings", "device"})
+            cell(escaped(r[key].get<std::string>()));
+        cell(number(r["seconds"], "{:.2f}"));
+        cell(number(r["bytes"], "{:.2f}", 1 << 20));
+        for (const char* key : {"light_ms", "color_ms", "material_ms", "object_ms", "camera_ms"})
+            cell(number(r[key], "{:.2f}"));
+        cell(number(r["nrmse"], "{:.3f}"));
+        cell(number(r["bias"], "{:+.1f} %", 0.01));
+        cell(number(r["one_bounce_nrmse"], "{:.3f}"));
+        cell(number(r["one_bounce_bias"], "{:+.1f} %", 0.01));
+        cell(number(r["ssim"], "{:.3f}"));
+        cell(number(r["flip"], "{:.3f}"));
+        cell(number(r["leak"], "{:.2f} %", 0.01));
+        cell(number(r["flicker"], "{:+.2f} %", 0.01));
+        cell(number(r["lag"], "{:.0f}"));
+        cell(number(r["cpu_difference_rms"], "{:.3f} %", 0.01));
+        cell(number(r["cpu_difference_max"], "{:.3f} %", 0.01));
+        html += "</tr>\n";
+    }
     return html + "</table>\n";
+}
+
+/// Devices in the order of the rows, with the rows of each.
+std::vector<std::pair<std::string, std::vector<Json>>> byDevice(const std::vector<Json>& rows) {
+    std::vector<std::pair<std::string, std::vector<Json>>> devices;
+    for (const Json& row : rows) {
+        const auto name = row["device"].get<std::string>();
+        auto known = std::ranges::find(devices, name, [](const auto& d) { return d.first; });
+        if (known == devices.end())
+            known = devices.insert(known, {name, {}});
+        known->second.push_back(row);
+    }
+    return devices;
 }
 
 } // namespace
@@ -188,30 +211,41 @@ Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
         "<style>body{font:15px/1.45 sans-serif;max-width:1120px;margin:2em auto;padding:0 1em}"
         "table{border-collapse:collapse;margin:.6em 0}td,th{padding:.15em .6em;text-align:right;"
         "border-bottom:1px solid "
-        "#ddd;white-space:nowrap;font-size:13px}th{white-space:normal}td:nth-child(-n+2),th:nth-"
-        "child(-n+2){text-align:left}"
+        "#ddd;white-space:nowrap;font-size:13px}th{white-space:normal}td:nth-child(-n+3),th:nth-"
+        "child(-n+3){text-align:left}"
         "figure{display:inline-block;margin:.4em}figcaption{font-size:13px}svg{font:12px "
         "sans-serif}</style>\n<h1>Techniques of bounced light</h1>\n"
         "<p>Error is that of irradiance against path tracing with all bounces, by two references "
         "of "
-        "independent noise. Times are those of updates on the CPU until the light is up to date "
-        "everywhere. Memory is what updates read and write. A scene's sky and emissive surfaces "
-        "count: techniques that cannot light by them are dark there.</p>\n"
+        "independent noise. Times are those of updates until the light is up to date everywhere, "
+        "and, after the camera has turned, where it looks. They include shadow rays on the CPU, "
+        "and "
+        "shadow maps on a Vulkan device, but neither reading light back nor what follows the scene "
+        "for all techniques: its ray-tracing data, geometry and textures. Memory is what updates "
+        "read and write on the CPU, and what a device has allocated for the light. The difference "
+        "to the CPU is that of irradiance, rms and at the worst pixel, relative to the CPU's mean. "
+        "A "
+        "scene's sky and emissive surfaces count: techniques that cannot light by them are dark "
+        "there.</p>\n"
         "<p>SSIM (1: equal) and FLIP (0: equal) are those of the tone-mapped picture with direct "
         "light. Flicker and lag are measured as the editor shows light, with one update a frame. "
         "Flicker is the change of irradiance between frames of a smooth move of the lights, less "
         "that of path tracing, relative to the mean: below 0 light lags behind. Lag is the number "
         "of updates after a jump of the lights until irradiance is within 5 % of what it becomes; "
-        "empty: it never is. Leak is the mean irradiance in a sealed dark room over that in the "
+        "empty: it never is, or was not within the time of the measurement. Leak is the mean "
+        "irradiance in a sealed dark room over that in the "
         "lit one beside it: " +
         escaped(leakRoom) + ".</p>\n";
     for (const PageScene& scene : scenes) {
         html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(scene.name), escaped(scene.note));
-        html += legend(scene.rows);
-        html += chart(scene.rows, "light_ms", 1, "ms after a light has moved");
-        html += chart(scene.rows, "bytes", 1 << 20, "MiB");
-        html += winners(scene.rows, "light_ms", 1, "at most [ms]", kMilliseconds);
-        html += winners(scene.rows, "bytes", 1 << 20, "at most [MiB]", kMebibytes);
+        for (const auto& [device, rows] : byDevice(scene.rows)) {
+            html += fmt::format("<h3>On {}</h3>\n", escaped(device));
+            html += legend(rows);
+            html += chart(rows, "light_ms", 1, "ms after a light has moved");
+            html += chart(rows, "bytes", 1 << 20, "MiB");
+            html += winners(rows, "light_ms", 1, "at most [ms]", kMilliseconds);
+            html += winners(rows, "bytes", 1 << 20, "at most [MiB]", kMebibytes);
+        }
         html += allRows(scene.rows);
         for (const PagePicture& picture : scene.pictures) {
             const Result<std::string> png = encodePng(picture.image);

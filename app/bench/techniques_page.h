@@ -27,8 +27,9 @@ struct PageScene {
 /// A row of `rows` with the smallest error of those in which `key` is at most `budget`; null: none.
 const Json* bestWithin(const std::vector<Json>& rows, const std::string& key, double budget);
 
-/// A page of HTML that needs no other file: for each scene error over time and over memory, who has
-/// the smallest error at equal time and at equal memory, all rows, and the pictures. `leakRoom`:
+/// A page of HTML that needs no other file: for each scene, and for each device that lights it,
+/// error over time and over memory, and who has the smallest error at equal time and at equal
+/// memory; then all rows, and the pictures. `leakRoom`:
 /// what the rooms are in which leaks were measured. Fails if a picture cannot be encoded.
 Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
                                    const std::string& leakRoom);

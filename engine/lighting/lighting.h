@@ -44,6 +44,10 @@ public:
     /// The light on the CPU, valid until the next update; null if it exists on the device only.
     virtual const IndirectField* field() const = 0;
 
+    /// A copy of the light from wherever it exists. Waits for a device. Precondition: there has
+    /// been an update.
+    virtual IndirectField readField() const { return *field(); }
+
     /// A copy of the light for the technique's overlays of light; null if it has none.
     virtual std::shared_ptr<const LightSnapshot> snapshot() const { return nullptr; }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "app/bench/light_place.h"
 #include "app/bench/live_light.h"
 #include "app/bench/techniques_page.h"
+#include "app/bench/time_limit.h"
+#include "app/bench/timed_updates.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/app/command_line.h"
@@ -10,20 +13,26 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
 
 namespace {
 
 using limn::Json;
 
-Json row(const char* technique, const char* settings, double ms, double nrmse) {
+Json row(const char* technique, const char* settings, double ms, double nrmse,
+         const char* device = "cpu") {
     return {{"technique", technique},
             {"settings", settings},
+            {"device", device},
             {"seconds", 0.5},
             {"bytes", 1 << 20},
             {"light_ms", ms},
             {"color_ms", 1.0},
             {"material_ms", 2.0},
             {"object_ms", nullptr},
+            {"camera_ms", 0.5},
             {"nrmse", nrmse},
             {"bias", -0.1},
             {"one_bounce_nrmse", 1.0},
@@ -32,7 +41,9 @@ Json row(const char* technique, const char* settings, double ms, double nrmse) {
             {"flip", 0.1},
             {"leak", 0.015},
             {"flicker", -0.002},
-            {"lag", nullptr}};
+            {"lag", nullptr},
+            {"cpu_difference_rms", 0.00012},
+            {"cpu_difference_max", nullptr}};
 }
 
 TEST(TechniquesPage, TheSmallestErrorWithinABudgetWins) {
@@ -63,6 +74,21 @@ TEST(TechniquesPage, NeedsNoOtherFileAndEscapesNames) {
     EXPECT_NE(html->find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
     for (const char* outside : {"http:", "https:", "<script", "inf", "nan"})
         EXPECT_EQ(html->find(outside), std::string::npos) << outside;
+}
+
+TEST(TechniquesPage, EachDeviceHasItsWinners) {
+    const auto html = limn::techniquesPage(
+        {{"room", "", {row("A", "s", 1, 0.5), row("B", "s", 1, 0.4, "GPU <1>")}, {}}}, "");
+    ASSERT_TRUE(html);
+    const std::size_t cpu = html->find("<h3>On cpu</h3>"),
+                      gpu = html->find("<h3>On GPU &lt;1&gt;</h3>");
+    ASSERT_TRUE(cpu < gpu && gpu != std::string::npos);
+    const std::size_t first = html->find("<td>A, s</td><td>0.500</td>"),
+                      second = html->find("<td>B, s</td><td>0.400</td>");
+    EXPECT_TRUE(cpu < first && first < gpu) << "the slower device's light counts for itself alone";
+    EXPECT_TRUE(gpu < second && second != std::string::npos);
+    EXPECT_NE(html->find("<td>GPU &lt;1&gt;</td>"), std::string::npos);
+    EXPECT_NE(html->find("<td>0.012 %</td><td></td></tr>"), std::string::npos);
 }
 
 limn::ImageF grey(std::initializer_list<float> pixels) {
@@ -137,10 +163,173 @@ TEST(LiveLight, ProbesThatTakeTurnsLagAndThoseThatDoNotFollowAtOnce) {
     EXPECT_LE(*slow, 64U / 4);
 }
 
+/// Light that says that updates took the milliseconds of a list, over and over, and remembers what
+/// it was asked for. It is on no CPU.
+class ListedLight : public limn::Lighting {
+public:
+    struct Asked {
+        limn::Scene scene;
+        std::uint32_t bounces;
+        std::optional<limn::Viewpoint> view;
+    };
+    explicit ListedLight(std::vector<double> ms) : m_ms(std::move(ms)) {}
+
+    limn::LightingReport update(const limn::LightingInput& input, const limn::Progress&) override {
+        asked.push_back(
+            {input.scene, input.bounces, input.view ? std::optional(*input.view) : std::nullopt});
+        return {.totalMs = m_ms[(asked.size() - 1) % m_ms.size()]};
+    }
+    const limn::IndirectField* field() const override { return nullptr; }
+    limn::IndirectField readField() const override {
+        limn::IndirectField field;
+        field.gridSize = glm::uvec3(1);
+        field.gridBounds = {glm::vec3(0), glm::vec3(4)};
+        field.grid.assign(field.coefficients(), glm::vec4(0));
+        field.grid[0] = glm::vec4(1, 2, 3, 0);
+        return field;
+    }
+
+    std::vector<Asked> asked;
+
+private:
+    std::vector<double> m_ms;
+};
+
+TEST(TimedUpdates, MediansCountAndTheSceneIsAsBefore) {
+    limn::Scene scene = lampRoom();
+    const limn::TraceScene trace(scene);
+    const limn::Viewpoint view{{.eye = {0.5f, 2, 2}, .target = {3, 1, 2}}, 1};
+    ListedLight light({5, 1, 9, 100}); // after three updates, one that brings the scene back
+    const limn::UpdateTimes times = limn::timeUpdates(light, scene, trace, view, {.most = 3});
+    EXPECT_EQ(times.light, 5);
+    EXPECT_EQ(times.color, 5);
+    EXPECT_EQ(times.material, 5);
+    EXPECT_FALSE(times.object) << "nothing is dynamic";
+    // Of 5, 1, 9, 100, 5 and 1 every second one is that after the camera turned.
+    EXPECT_EQ(times.camera, 1);
+    ASSERT_EQ(light.asked.size(), 3 * 4 + 2 * 3 + 1U);
+    EXPECT_NE(light.asked[0].scene.lights, scene.lights);
+    EXPECT_NE(light.asked[8].scene.materials[0].baseColor, scene.materials[0].baseColor);
+    for (const std::size_t back : {3, 7, 11, 18}) {
+        EXPECT_EQ(light.asked[back].scene.lights, scene.lights);
+        EXPECT_FALSE(light.asked[back].view);
+    }
+    for (const std::size_t look : {12, 14, 16}) {
+        const auto &here = light.asked[look], &aside = light.asked[look + 1];
+        ASSERT_TRUE(here.view && aside.view);
+        EXPECT_EQ(here.view->camera.target, view.camera.target);
+        EXPECT_NEAR(glm::distance(aside.view->camera.target, view.camera.eye),
+                    glm::distance(view.camera.target, view.camera.eye), 1e-4f);
+        EXPECT_GT(glm::distance(aside.view->camera.target, view.camera.target), 0.5f);
+        EXPECT_EQ(aside.bounces, 0U) << "only what has come into view";
+        EXPECT_EQ(here.scene.lights, aside.scene.lights);
+    }
+    scene.instances[0].dynamic = true;
+    limn::Scene dark = scene;
+    dark.lights.clear();
+    ListedLight of({1});
+    EXPECT_FALSE(limn::timeUpdates(of, dark, trace, view, {.most = 3}).color);
+    EXPECT_EQ(of.asked.size(), 3 * 4 + 2 * 3 + 1U) << "light, material and object, then the camera";
+    ListedLight moved({5, 1, 9, 100});
+    EXPECT_EQ(limn::timeUpdates(moved, scene, trace, view, {.most = 3}).object, 5);
+    EXPECT_NE(moved.asked[12].scene.instances[0].toWorld, scene.instances[0].toWorld);
+}
+
+TEST(TimedUpdates, EndWhenTheyHaveTakenLongEnough) {
+    const limn::Scene scene = lampRoom();
+    const limn::TraceScene trace(scene);
+    ListedLight light({40});
+    limn::timeUpdates(light, scene, trace, {}, {.most = 100, .enoughMs = 100});
+    EXPECT_EQ(light.asked.size(), 3 * (3 + 1) + 2 * 3 + 1U) << "three updates of 40 ms are enough";
+}
+
+TEST(TimeLimit, EndsWhatItWatchesOrNothing) {
+    const limn::TimeLimit never({});
+    EXPECT_FALSE(never.over());
+    EXPECT_FALSE(never.progress().cancelled());
+    const limn::TimeLimit now(0.);
+    while (!now.over()) { // the test's own limit ends it otherwise
+    }
+    EXPECT_TRUE(now.progress().cancelled());
+    const limn::TimeLimit hour(3600); // does not keep its owner waiting
+    EXPECT_FALSE(hour.progress().cancelled());
+}
+
+TEST(LightPlace, LightThatIsOnNoCpuIsReadBack) {
+    const limn::Scene scene = lampRoom();
+    const limn::TraceScene trace(scene);
+    const limn::LightmapLayout layout = limn::layoutWithoutLightmap(scene);
+    limn::FieldRenderOptions view{.view = limn::View::Irradiance, .width = 4, .height = 4};
+    view.camera = {.eye = {0.5f, 2, 2}, .target = {3, 1, 2}};
+    const limn::ImageF picture = limn::renderLight(trace, ListedLight({1}), layout, view);
+    for (const glm::vec3 E : picture.rgb) { // that of radiance c_0 Y_0 from all around
+        EXPECT_NEAR(E.x, std::sqrt(std::numbers::pi_v<float> / 4), 1e-4f);
+        EXPECT_NEAR(E.z, 3 * std::sqrt(std::numbers::pi_v<float> / 4), 1e-4f);
+    }
+}
+
+#ifdef LIMN_HAS_VIEWPORT
+TEST_F(CommandLine, BenchTechniquesMeasuresOnADeviceToo) {
+    const std::string start =
+        "bench techniques generated:2 --width 16 --height 12 --spp 8 --runs 1 "
+        "--json -o " +
+        path("rivals") + " --technique ";
+    const nlohmann::json both = json(start + "ambient,probes --relight both --seconds 5");
+    // The device lights by one of them. Settings that have begun are measured in both places.
+    ASSERT_GE(both["rows"].size(), 3U);
+    ASSERT_EQ(both["rows"].size() % 2, 1U);
+    EXPECT_EQ(both["rows"][0]["device"], "cpu");
+    for (std::size_t k = 1; k < both["rows"].size(); k += 2) {
+        const auto &cpu = both["rows"][k], &gpu = both["rows"][k + 1];
+        EXPECT_EQ(cpu["device"], "cpu");
+        EXPECT_NE(gpu["device"], "cpu");
+        EXPECT_EQ(cpu["settings"], gpu["settings"]);
+        EXPECT_TRUE(cpu["cpu_difference_rms"].is_null());
+        EXPECT_LT(gpu["cpu_difference_rms"].get<double>(), 0.05) << gpu;
+        EXPECT_GE(gpu["cpu_difference_max"], gpu["cpu_difference_rms"]) << gpu;
+        EXPECT_GT(gpu["bytes"], 0);
+        for (const char* ms : {"light_ms", "material_ms", "camera_ms"})
+            EXPECT_GE(gpu[ms].get<double>(), 0) << ms;
+    }
+    EXPECT_EQ(json(start + "ambient --relight gpu")["rows"].size(), 0U);
+    EXPECT_NE(contents(path("rivals/techniques.html")).find("Ambient does not light on"),
+              std::string::npos);
+    EXPECT_EQ(limn(start + "lpv --relight gpu --device no-such-device").exit, 1);
+}
+
+TEST_F(CommandLine, BenchTechniquesSaysWhereThereIsNoDevice) {
+    const std::string start =
+        "bench techniques generated:2 --technique ambient --width 8 --height 8 "
+        "--spp 4 --runs 1 --json -o " +
+        path("rivals");
+    ASSERT_EQ(setenv("VK_ICD_FILENAMES", "/nothing", 1), 0);
+    ASSERT_EQ(setenv("VK_DRIVER_FILES", "/nothing", 1), 0);
+    const Outcome run = limn(start);
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_NE(run.err.find("measuring on the CPU only"), std::string::npos) << run.err;
+    expectRefusal(start + " --relight gpu", "--relight");
+    unsetenv("VK_ICD_FILENAMES");
+    unsetenv("VK_DRIVER_FILES");
+}
+#endif
+
+TEST_F(CommandLine, BenchTechniquesSkipsWhatDoesNotFitIntoItsTime) {
+    const std::string out = path("short");
+    const nlohmann::json result =
+        json("bench techniques cornell --relight cpu --technique illuminance,ambient --width 16 "
+             "--height 12 --spp 8 --seconds 0.1 --json -o " +
+             out);
+    EXPECT_LT(result["rows"].size(), 4U);
+    for (const auto& r : result["rows"])
+        EXPECT_EQ(r["technique"], "Ambient") << "no bake ends in 30 ms";
+    EXPECT_NE(contents(out + "/techniques.html").find("Skipped: Illuminance composition, draft"),
+              std::string::npos);
+}
+
 TEST_F(CommandLine, BenchTechniquesMeasuresWhatIsAskedAndWritesAPage) {
     const nlohmann::json result =
         json("bench techniques generated:2 --technique ambient,probes --width 16 --height 12 "
-             "--spp 8 --runs 1 --json -o " +
+             "--relight cpu --spp 8 --runs 1 --json -o " +
              path("rivals"));
     ASSERT_EQ(result["rows"].size(), 6U) << "ambient's default and five sizes of probes";
     EXPECT_EQ(result["rows"][0]["technique"], "Ambient");

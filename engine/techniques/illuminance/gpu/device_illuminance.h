@@ -24,6 +24,7 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
 
     const IndirectField* field() const override { return nullptr; }
+    IndirectField readField() const override { return m_relighter->gpu().readField(); }
     /// Waits for the device.
     std::shared_ptr<const LightSnapshot> snapshot() const override;
 

@@ -27,6 +27,7 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
 
     const IndirectField* field() const override { return nullptr; }
+    IndirectField readField() const override { return m_gpu->readField(); }
     /// Waits for the device. What is injected, and the texels of maps, are those of the CPU, for
     /// which this traces rays where a light or an object has moved.
     std::shared_ptr<const LightSnapshot> snapshot() const override;

@@ -255,6 +255,16 @@ LightingReport DeviceProbes::update(const LightingInput& input, const Progress& 
     return report(work, total.lap());
 }
 
+IndirectField DeviceProbes::readField() const {
+    if (!m_gpu)
+        return {};
+    IndirectField out = limn::readField(m_device, *m_gpu->field());
+    out.lightmapWidth = out.lightmapHeight = 0; // a black texel, for shaders to bind
+    out.lightmap.clear();
+    out.gridMoments = std::make_shared<const GridMoments>(m_maps.moments);
+    return out;
+}
+
 std::shared_ptr<const LightSnapshot> DeviceProbes::snapshot() const {
     if (!m_gpu)
         return nullptr;

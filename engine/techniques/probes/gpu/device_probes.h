@@ -27,6 +27,7 @@ public:
     /// of memory.
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return nullptr; }
+    IndirectField readField() const override;
     /// Waits for the GPU.
     std::shared_ptr<const LightSnapshot> snapshot() const override;
 

@@ -33,12 +33,12 @@ public:
     /// Precondition: the viewport shows the lights and objects of input.scene. Waits for the GPU.
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return nullptr; }
+    IndirectField readField() const override;
     /// Waits for the GPU.
     std::shared_ptr<const LightSnapshot> snapshot() const override;
 
-    // Read-back for tests. Each waits.
-    std::vector<glm::vec3> readIrradiance() const; ///< bounced, per receiver [W m^-2]
-    IndirectField readField() const;               ///< as SparseLighting::field()
+    /// Bounced light, per receiver [W m^-2]. For tests. Waits for the GPU.
+    std::vector<glm::vec3> readIrradiance() const;
 
 private:
     /// What an update took [ms] and did.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/measured_scene.h"
+
+#include "app/commands/progress_line.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace limn {
+
+Result<MeasuredScene> openMeasured(const SceneOptions& options, const CameraOptions& camera,
+                                   std::uint32_t samplesPerPixel) {
+    const Result<ImportedScene> imported = openScene(options);
+    if (!imported)
+        return tl::make_unexpected(imported.error());
+    MeasuredScene m{.name = std::filesystem::path(options.scene).stem().string(),
+                    .scene = flatten(imported->document, imported->assets)};
+    const Result<Camera> from = chooseCamera(m.scene, camera);
+    if (!from)
+        return tl::make_unexpected(from.error());
+    m.trace = std::make_unique<TraceScene>(m.scene);
+    m.view = {.view = View::Irradiance,
+              .camera = *from,
+              .width = camera.width,
+              .height = camera.height,
+              .samplesPerPixel = std::max(samplesPerPixel / 4, 1U)};
+    m.all = *renderReferenceSet(*m.trace, m.view, progressOnStderr()); // never cancelled
+    ReferenceOptions once = m.view;
+    once.maxBounces = 1;
+    m.one = *renderReferenceSet(*m.trace, once, progressOnStderr());
+    ReferenceOptions lit = m.view;
+    lit.view = View::Lit;
+    lit.samplesPerPixel = samplesPerPixel;
+    m.lit = renderReference(*m.trace, lit, progressOnStderr()).image;
+    m.motion = renderMotion(*m.trace, m.view);
+    endProgressLine();
+    return m;
+}
+
+} // namespace limn

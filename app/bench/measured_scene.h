@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/bench/live_light.h"
+#include "app/commands/scene_options.h"
+
+#include "engine/measure/reference_set.h"
+#include "engine/reference/reference.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace limn {
+
+/// A scene with its references, which techniques are measured against.
+struct MeasuredScene {
+    std::string name;
+    Scene scene;
+    std::unique_ptr<TraceScene> trace;
+    ReferenceOptions view;
+    ReferenceSet one, all; ///< of one bounce, and of all
+    ImageF lit;            ///< with direct light and all bounces
+    MotionTruth motion;    ///< of irradiance while lights move
+};
+
+/// Opens a scene and renders its references. `samplesPerPixel`: of all references of a kind
+/// together. Shows progress on stderr. Fails as openScene() and chooseCamera().
+Result<MeasuredScene> openMeasured(const SceneOptions& options, const CameraOptions& camera,
+                                   std::uint32_t samplesPerPixel);
+
+} // namespace limn

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/technique_point.h"
+
+#include "app/bench/time_limit.h"
+#include "app/commands/progress_line.h"
+
+#include "engine/lightmap/atlas.h"
+#include "engine/measure/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+double bytesOf(const std::vector<LightingCounter>& counters) {
+    double sum = 0;
+    for (const LightingCounter& c : counters)
+        sum += c.unit == CounterUnit::Bytes ? c.value : 0;
+    return sum;
+}
+
+/// A number for JSON, which has no infinities; null: none.
+Json finite(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// Adds how the light follows its lights, and how much of it leaks.
+Result<void> addLiveColumns(const MeasuredScene& m, const LeakRoom& room, const LightPlace& place,
+                            const Configuration& c, LiveLight live, const TimeLimit& limit,
+                            Json& row) {
+    const Result<double> leak =
+        room.leak(place, *c.technique, c.variant.choice, c.variant.bake, limit.progress());
+    if (!leak && !limit.over())
+        return fail(fmt::format("leak, {}: {}", c.variant.name, leak.error().message));
+    row["leak"] = leak ? finite(*leak) : Json(nullptr);
+    const std::optional<double> flicker = live.flicker(m.motion, limit.progress());
+    row["flicker"] = flicker ? finite(*flicker) : Json(nullptr);
+    const std::optional<std::uint32_t> lag = live.lag(limit.progress());
+    row["lag"] = lag ? Json(*lag) : Json(nullptr);
+    return {};
+}
+
+void addTimes(const UpdateTimes& times, Json& row) {
+    row["light_ms"] = times.light;
+    row["color_ms"] = times.color ? Json(*times.color) : Json(nullptr);
+    row["material_ms"] = times.material;
+    row["object_ms"] = times.object ? Json(*times.object) : Json(nullptr);
+    row["camera_ms"] = times.camera;
+}
+
+void addErrors(const MeasuredScene& m, const ImageF& picture, const ImageF& lit, Json& row) {
+    const Comparison all = *compareImages(picture, m.all), one = *compareImages(picture, m.one);
+    const Comparison seen = *compareImages(lit, m.lit);
+    row["nrmse"] = all.nrmse;
+    row["nrmse_without_worst_percent"] = all.nrmseMost;
+    row["bias"] = all.bias;
+    row["one_bounce_nrmse"] = one.nrmse;
+    row["one_bounce_bias"] = one.bias;
+    row["nrmse_noise"] = all.nrmseNoise;
+    row["ssim"] = seen.ssim;
+    row["flip"] = seen.flip;
+}
+
+/// Largest difference between two pictures of the same size, relative to the mean of `b`; 0 for two
+/// black ones.
+double largestDifference(const ImageF& a, const ImageF& b) {
+    double most = 0;
+    for (std::size_t p = 0; p < a.rgb.size(); ++p)
+        for (int c = 0; c < 3; ++c)
+            most = std::max(most, std::abs(double(a.rgb[p][c]) - double(b.rgb[p][c])));
+    return most > 0 ? most / meanOf(b) : 0;
+}
+
+} // namespace
+
+std::vector<Variant> variantsOf(const Technique& technique, const BakeSettings& bake) {
+    std::vector<Variant> variants;
+    if (technique.precomputation) {
+        for (const BakePreset& preset : kBakePresets) {
+            variants.push_back({preset.name, {technique.name, {}}, bake});
+            preset.applyTo(variants.back().bake);
+        }
+        return variants;
+    }
+    const TechniqueSetting* first = technique.settings.empty() ? nullptr : &technique.settings[0];
+    if (!first || first->range.upper <= 1)
+        return {{"defaults", {technique.name, {}}, bake}};
+    for (const double factor : {0.25, 0.5, 1., 2., 4.}) {
+        const double value = std::clamp(factor * first->usual, double(first->range.lower),
+                                        double(first->range.upper));
+        const std::string key = first->setting.key;
+        variants.push_back({fmt::format("{} {:g}", key.substr(key.find('.') + 1), value),
+                            {technique.name, {{key, value}}},
+                            bake});
+    }
+    return variants;
+}
+
+Result<Configuration> configure(const MeasuredScene& m, const Technique& technique, Variant variant,
+                                const Progress& progress) {
+    Configuration c{.technique = &technique, .variant = std::move(variant), .scene = m.scene};
+    c.scene.technique = c.variant.choice;
+    Result<PreparedScene> made =
+        prepareScene(technique, *m.trace, c.scene, c.variant.bake, progress);
+    endProgressLine();
+    if (!made)
+        return tl::make_unexpected(made.error());
+    c.prepared = std::move(made->prepared);
+    c.layout = std::move(made->layout);
+    if (c.prepared.data) {
+        const PrecomputedReport report = c.prepared.data->report();
+        c.seconds = totalOf(report.seconds);
+        c.bytes = totalOf(report.bytes);
+    }
+    return c;
+}
+
+Result<Point> measurePoint(const MeasuredScene& m, const LeakRoom& room, const LightPlace& place,
+                           const Configuration& c, const PointLimits& limits) {
+    auto lighting = place.light(*c.technique, c.prepared, c.scene, c.layout);
+    if (!lighting)
+        return tl::make_unexpected(lighting.error());
+    const LightingReport first = (*lighting)->update({.scene = c.scene,
+                                                      .trace = m.trace.get(),
+                                                      .bounces = c.scene.relight.maxBounces,
+                                                      .marched = true},
+                                                     {});
+    FieldRenderOptions options;
+    options.view = View::Irradiance;
+    options.camera = m.view.camera;
+    options.width = m.view.width;
+    options.height = m.view.height;
+    FieldRenderOptions whole = options;
+    whole.view = View::Lit;
+    Point point{{{"scene", m.name},
+                 {"technique", c.technique->label},
+                 {"settings", c.variant.name},
+                 {"device", place.device},
+                 {"seconds", c.seconds},
+                 {"bytes", (place.onDevice ? 0 : c.bytes) + bytesOf(first.counters)},
+                 {"first_ms", first.totalMs}},
+                renderLight(*m.trace, **lighting, *c.layout, options)};
+    const ImageF lit = renderLight(*m.trace, **lighting, *c.layout, whole);
+    addTimes(timeUpdates(**lighting, c.scene, *m.trace,
+                         {m.view.camera, float(m.view.width) / float(m.view.height)}, limits.runs),
+             point.row);
+    addErrors(m, point.picture, lit, point.row);
+    const TimeLimit limit(limits.liveSeconds);
+    if (const Result<void> added = addLiveColumns(
+            m, room, place, c, {std::move(*lighting), c.scene, *m.trace, *c.layout, options}, limit,
+            point.row);
+        !added)
+        return tl::make_unexpected(added.error());
+    return point;
+}
+
+void addDifference(const ImageF& picture, const ImageF* onCpu, Json& row) {
+    row["cpu_difference_rms"] = onCpu ? finite(distanceOf(picture, *onCpu)) : Json(nullptr);
+    row["cpu_difference_max"] = onCpu ? finite(largestDifference(picture, *onCpu)) : Json(nullptr);
+}
+
+} // namespace limn
