@@ -14,18 +14,31 @@ float shareInFront(glm::vec2 moments, float r) {
     return variance / (variance + excess * excess);
 }
 
-float momentsWeight(const GridMoments& moments, std::uint32_t cell, glm::vec3 way,
-                    glm::vec3 normal) {
+/// The moments of a cell towards an offset; 0 if it lies in a solid.
+static glm::vec2 momentsTowards(const GridMoments& moments, std::uint32_t cell, glm::vec3 way) {
     const glm::vec2* texels = moments.texels.data() + std::size_t(cell) * kGridDepthTexels;
-    const float r = glm::length(way);
-    if (!(r > 0))
-        return texels[0].y > 0 ? 1.f : 0.f;
-    glm::vec2 here(0);
+    if (!(glm::length(way) > 0))
+        return texels[0];
     const GridDepthLookup at = gridDepthLookup(way);
+    glm::vec2 here(0);
     for (std::size_t k = 0; k < 4; ++k)
         here += at.weight[k] * texels[at.texel[k]];
-    if (!(here.y > 0)) // the cell lies in a solid
+    return here;
+}
+
+float momentsSeen(const GridMoments& moments, std::uint32_t cell, glm::vec3 way) {
+    const glm::vec2 here = momentsTowards(moments, cell, way);
+    return here.y > 0 ? shareInFront(here, glm::length(way)) : 0;
+}
+
+float momentsWeight(const GridMoments& moments, std::uint32_t cell, glm::vec3 way,
+                    glm::vec3 normal) {
+    const float r = glm::length(way);
+    const glm::vec2 here = momentsTowards(moments, cell, way);
+    if (!(here.y > 0))
         return 0;
+    if (!(r > 0))
+        return 1;
     const float facing = -glm::dot(normal, way) / r, seen = shareInFront(here, r);
     if (!moments.smooth)
         return std::max(std::max(float(MOMENTS_LEAST_FACING), facing) * seen,

@@ -28,6 +28,10 @@ struct GridMoments {
 /// excess^2). `moments`: mean distance [m] and mean squared distance [m^2].
 float shareInFront(glm::vec2 moments, float r);
 
+/// shareInFront() of a cell at a point at offset `way` from its centre [m]; 0 if the cell lies in a
+/// solid.
+float momentsSeen(const GridMoments& moments, std::uint32_t cell, glm::vec3 way);
+
 /// Weight of a cell for a surface point, besides the trilinear one, in [0, 2). `way`: offset of the
 /// point from the cell's centre [m]; `normal`: unit, of the surface.
 float momentsWeight(const GridMoments& moments, std::uint32_t cell, glm::vec3 way,

@@ -37,13 +37,14 @@ float cellWeight(const IndirectField& field, std::uint32_t cell, glm::vec3 centr
                         at.clear - centre, at.reach);
 }
 
-/// The eight cells around `p`, with weights of sum 1: trilinear, times cellWeight(). None where all
-/// these are 0.
-FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
+} // namespace
+
+FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3 normal) {
     const glm::vec3 cellSize = field.gridBounds.size() / glm::vec3(field.gridSize);
-    const CellsAbout about = cellsAbout(field.gridBounds, field.gridSize, p);
+    const CellsAbout about = cellsAbout(field.gridBounds, field.gridSize, position);
     const float bias = float(GRID_DEPTH_BIAS) * std::min({cellSize.x, cellSize.y, cellSize.z});
-    const GridPoint point{p, n, p + n * bias, gridReach(field.gridBounds, field.gridSize)};
+    const GridPoint point{position, normal, position + normal * bias,
+                          gridReach(field.gridBounds, field.gridSize)};
     FieldLookup lookup{.grid = true, .count = 8};
     float sum = 0;
     for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -62,6 +63,8 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 p, glm::vec3 n) {
         w /= sum;
     return lookup;
 }
+
+namespace {
 
 /// The first bands^2 coefficients at a surface point; the others are 0.
 Coefficients sampleField(const FieldPoint& at, int bands) {

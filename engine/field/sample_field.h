@@ -32,6 +32,9 @@ struct FieldLookup {
     std::array<float, 8> weight{}; ///< their sum is 1
 };
 FieldLookup lookUp(const FieldPoint& at);
+/// The eight cells of the field's grid around a point of a surface with unit `normal`: trilinear
+/// weights, times what the cells see. None where all these are 0. Precondition: there is a grid.
+FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3 normal);
 
 /// Irradiance at the point [W m^-2], >= 0.
 glm::vec3 sampleIrradiance(const FieldPoint& at);

@@ -117,8 +117,8 @@ CellLight LatticeSources::injected(std::span<const LpvSource> sources,
     return cells;
 }
 
-LitLattice LatticeSources::lit(std::span<const LpvSource> sources) const {
-    LitLattice lit{m_lattice, injected(sources), {}, *m_blockers, {}, 0};
+LitLattice LatticeSources::lit(std::span<const LpvSource> sources, std::uint32_t rounds) const {
+    LitLattice lit{m_lattice, injected(sources), {}, *m_blockers, {}, 0, rounds};
     for (const LpvSource& source : sources) {
         const InjectedLight& light = *injectionOf(source.shape);
         for (const ShownTexel& texel : light.texels)

@@ -89,7 +89,7 @@ public:
                        std::span<const std::uint32_t> black = {}) const;
 
     /// What overlays show, with an empty LitLattice::sum.
-    LitLattice lit(std::span<const LpvSource> sources) const;
+    LitLattice lit(std::span<const LpvSource> sources, std::uint32_t rounds) const;
 
     const Lattice& lattice() const { return m_lattice; }
     /// Call after followSurfaces().

@@ -44,7 +44,7 @@ public:
     std::shared_ptr<const LightSnapshot> snapshot() const override {
         if (!m_inputs)
             return nullptr;
-        LitLattice lit = m_sources.lit(m_inputs->sources);
+        LitLattice lit = m_sources.lit(m_inputs->sources, m_inputs->settings.rounds);
         const std::size_t count = lit.lattice.cells();
         lit.sum.resize(count);
         for (std::size_t c = 0; c < count; ++c)

@@ -6,10 +6,12 @@
 #include "engine/overlay/light_marks.h"
 #include "engine/overlay/palette.h"
 #include "engine/scene/origin.h"
+#include "engine/techniques/lpv/arrival_overlay.h"
 #include "engine/techniques/lpv/lpv.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <span>
 
@@ -32,6 +34,11 @@ constexpr float kTexelScale = 0.15f;                    // a mark's radius over 
 // Faces beside a wall, across it, block an eighth of what moves along the wall; drawn, they would
 // hide the wall's own.
 constexpr float kLeastBlocked = 0.2f;
+constexpr float kBackToBack = -0.7f;       // cosine of the normals of a wall's two sides, at most
+constexpr std::size_t kMostCompared = 256; // texels of a cell with each other
+constexpr float kRingScale = 0.5f;         // a ring's radius over a cell's side
+
+const glm::vec3 kBothSidesColor(0.9f, 0.45f, 0);
 
 /// Mean of the positive luminances; 1 if there are none.
 class Mean {
@@ -160,6 +167,34 @@ OverlayData blockerOverlay(const LitLattice& lit) {
     return out;
 }
 
+/// Whether two texels lie on the two sides of a wall, and not on walls that face each other.
+bool backToBack(const ShownTexel& a, const ShownTexel& b) {
+    return glm::dot(a.normal, b.normal) < kBackToBack &&
+           glm::dot(a.position - b.position, a.normal) >= 0;
+}
+
+/// Cells into which texels of both sides of a wall inject, so that each side lights the other.
+std::vector<std::uint32_t> cellsOfBothSides(const LitLattice& lit) {
+    const Lattice& lattice = lit.lattice;
+    std::map<std::uint32_t, std::vector<const ShownTexel*>> texels; // per cell
+    for (const InjectedTexel& texel : lit.texels)
+        if (luminance(texel.flux) > 0)
+            texels[lattice.index(
+                       lattice.at(texel.at.position + texel.at.normal * (0.5f * lattice.cell)))]
+                .push_back(&texel.at);
+    std::vector<std::uint32_t> found;
+    for (const auto& [cell, in] : texels) {
+        const std::size_t step = (in.size() + kMostCompared - 1) / kMostCompared;
+        bool both = false;
+        for (std::size_t a = 0; a < in.size() && !both; a += step)
+            for (std::size_t b = 0; b < a && !both; b += step)
+                both = backToBack(*in[a], *in[b]);
+        if (both)
+            found.push_back(cell);
+    }
+    return found;
+}
+
 OverlayData texelOverlay(const LitLattice& lit) {
     OverlayData out;
     Mean mean;
@@ -170,8 +205,17 @@ OverlayData texelOverlay(const LitLattice& lit) {
                              .radius = kTexelScale * lit.lattice.cell,
                              .normal = texel.at.normal,
                              .color = packColor(lightColor(texel.flux, mean.value()))});
+    const std::vector<std::uint32_t> both = cellsOfBothSides(lit);
+    for (const std::uint32_t cell : both)
+        out.marks.push_back({.position = lit.lattice.centre(lit.lattice.place(cell)),
+                             .radius = kRingScale * lit.lattice.cell,
+                             .color = packColor(kBothSidesColor),
+                             .shape = MarkShape::Ring});
     out.legend.title = "Texels of reflective shadow maps";
     out.legend.entries = lightColorEntries(mean.value(), "W");
+    out.legend.entries.push_back(
+        {packColor(kBothSidesColor),
+         fmt::format("ring: {} cells lit from both sides of a wall", both.size())});
     out.legend.notes = {fmt::format("Flux that a texel sends into the cell half a cell off its "
                                     "surface; {} of {} texels",
                                     lit.texels.size(), lit.allTexels)};
@@ -209,7 +253,7 @@ const Technique& LpvSnapshot::technique() const {
     return kLpvTechnique;
 }
 
-OverlayData LpvSnapshot::overlay(const OverlayRequest& request, const Scene& /*scene*/,
+OverlayData LpvSnapshot::overlay(const OverlayRequest& request, const Scene& scene,
                                  const LightSnapshot* /*light*/) const {
     if (!request.kind)
         return {};
@@ -226,6 +270,8 @@ OverlayData LpvSnapshot::overlay(const OverlayRequest& request, const Scene& /*s
         return blockerOverlay(m_lit);
     case 3:
         return texelOverlay(m_lit);
+    case 4:
+        return arrivalOverlay(m_lit, scene);
     default:
         return {};
     }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/lattice/lattice.h"
 #include "engine/lighting/light_snapshot.h"
-#include "engine/techniques/lpv/injected_lights.h"
-#include "engine/techniques/lpv/propagation.h"
+#include "engine/techniques/lpv/lit_lattice.h"
 
 #include <array>
 #include <cstdint>
@@ -14,7 +12,7 @@
 namespace limn {
 
 /// Overlays of light propagation volumes. Cells are picked.
-inline constexpr std::array<OverlayKind, 4> kLpvOverlays = {
+inline constexpr std::array<OverlayKind, 5> kLpvOverlays = {
     {{.name = "lpv-lobes",
       .label = "LPV cells: light",
       .tooltip =
@@ -44,23 +42,17 @@ inline constexpr std::array<OverlayKind, 4> kLpvOverlays = {
       .tooltip =
           "Texels of the lights' reflective shadow maps, by the flux that they send into the "
           "lattice. Rings: cells that are lit from both sides of a thin wall",
-      .showsLight = true}}};
-
-/// A texel of a reflective shadow map as injected.
-struct InjectedTexel {
-    ShownTexel at;
-    glm::vec3 flux{0}; ///< that it reflects [W]
-};
-
-/// A lit lattice, copied.
-struct LitLattice {
-    Lattice lattice;
-    CellLight injected;
-    std::vector<Lobe> sum; ///< intensity that leaves each cell, over all rounds [W sr^-1]
-    FaceBlockers blockers;
-    std::vector<InjectedTexel> texels; ///< some of them
-    std::uint64_t allTexels = 0;       ///< number of those injected
-};
+      .showsLight = true},
+     {.name = "lpv-arrival",
+      .label = "LPV arrival of light",
+      .tooltip =
+          "The round after which light arrives in the cell before a surface: far surfaces stay "
+          "dark where there are fewer rounds than cells on the way",
+      .showsLight = true,
+      .pick = OverlayPick::Optional,
+      .describesPick = true,
+      .picked = "Cell",
+      .pickedTooltip = "Number of the lattice's cell that is described; -1: none picked"}}};
 
 class LpvSnapshot : public LightSnapshot {
 public:

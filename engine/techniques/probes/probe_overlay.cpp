@@ -5,6 +5,7 @@
 #include "engine/overlay/light_marks.h"
 #include "engine/overlay/palette.h"
 #include "engine/scene/origin.h"
+#include "engine/techniques/probes/probe_surface_overlay.h"
 #include "engine/techniques/probes/probes.h"
 
 #include <algorithm>
@@ -235,19 +236,25 @@ const Technique& ProbeSnapshot::technique() const {
     return kProbesTechnique;
 }
 
-OverlayData ProbeSnapshot::overlay(const OverlayRequest& request, const Scene& /*scene*/,
+OverlayData ProbeSnapshot::overlay(const OverlayRequest& request, const Scene& scene,
                                    const LightSnapshot* /*light*/) const {
     if (!request.kind)
         return {};
+    if (request.kind->pick == OverlayPick::Required && request.pick >= pickCount())
+        return {.legend = {request.kind->label, {}, {"Click a surface to pick a probe"}}};
     switch (request.kind - kProbeOverlays.data()) {
     case 0:
         return ballOverlay(m_lit);
     case 1:
-        if (request.pick < pickCount())
-            return rayOverlay(m_lit, request.pick);
-        return {.legend = {request.kind->label, {}, {"Click a surface to pick a probe"}}};
+        return rayOverlay(m_lit, request.pick);
     case 2:
         return ageOverlay(m_lit);
+    case 3:
+        return probeWeightOverlay(m_lit.maps, scene, request.pick);
+    case 4:
+        return probeVisibilityOverlay(m_lit.maps, scene, request.pick);
+    case 5:
+        return probeMarchOverlay(m_lit.maps, scene, request.pick);
     default:
         return {};
     }

@@ -2,18 +2,18 @@
 #pragma once
 
 #include "engine/lighting/light_snapshot.h"
-#include "engine/techniques/probes/probe_light.h"
-#include "engine/techniques/probes/probe_maps.h"
+#include "engine/techniques/probes/lit_probes.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace limn {
 
 /// Overlays of light field probes. Probes are picked.
-inline constexpr std::array<OverlayKind, 3> kProbeOverlays = {
+inline constexpr std::array<OverlayKind, 6> kProbeOverlays = {
     {{.name = "probes",
       .label = "Probes",
       .tooltip = "Where probes stand: balls that show the light which reaches the probe from each "
@@ -40,21 +40,35 @@ inline constexpr std::array<OverlayKind, 3> kProbeOverlays = {
       .pick = OverlayPick::Optional,
       .describesPick = true,
       .picked = "Probe",
-      .pickedTooltip = "Number of the probe that is described; -1: none picked"}}};
-
-/// A probe's state.
-struct ProbeAge {
-    std::uint32_t updates = 0; ///< since it was lit: 0 by the last one
-    bool stale = false;        ///< what it shows has changed since
-    bool lit = false;          ///< it ever was
-};
-
-/// Lit probes, copied.
-struct LitProbes {
-    ProbeMaps maps;
-    std::vector<ProbeHarmonics> light; ///< per probe, radiance [W m^-2 sr^-1]
-    std::vector<ProbeAge> ages;        ///< per probe
-};
+      .pickedTooltip = "Number of the probe that is described; -1: none picked"},
+     {.name = "probe-weights",
+      .label = "Weight of a probe",
+      .tooltip = "Which surfaces are lit by one probe, and how much of their light it gives; click "
+                 "a surface to pick the nearest probe",
+      .showsLight = true,
+      .pick = OverlayPick::Required,
+      .describesPick = true,
+      .picked = "Probe",
+      .pickedTooltip = "Number of the probe whose weights are shown; -1: none picked"},
+     {.name = "probe-visibility",
+      .label = "Visibility by a probe",
+      .tooltip = "Which surfaces a probe counts as seen, by its distances alone: hidden ones that "
+                 "are bright get light through walls",
+      .showsLight = true,
+      .pick = OverlayPick::Required,
+      .describesPick = true,
+      .picked = "Probe",
+      .pickedTooltip = "Number of the probe that is shown; -1: none picked"},
+     {.name = "probe-reflections",
+      .label = "Marched reflections",
+      .tooltip = "Where reflections end that are marched through the probes' maps, from all that "
+                 "one probe sees: at a surface, in the sky, or unknown",
+      .showsLight = true,
+      .pick = OverlayPick::Required,
+      .describesPick = true,
+      .picked = "Probe",
+      .pickedTooltip = "Number of the probe from which reflections are looked at; -1: none "
+                       "picked"}}};
 
 class ProbeSnapshot : public LightSnapshot {
 public:

@@ -7,14 +7,18 @@
 
 namespace limn {
 
-static glm::vec4 planeOf(const Scene& scene, const ProbeHit& hit, glm::vec3 direction) {
-    if (hit.instance == ~0U || !(hit.distance > 0))
-        return glm::vec4(0, 0, 0, MarchedMaps::kSky);
+glm::vec3 seenNormal(const Scene& scene, const ProbeHit& hit) {
     const Instance& instance = scene.instances[hit.instance];
     const glm::vec3 front = glm::normalize(instance.normalToWorld *
                                            triangleNormal(scene.meshOf(instance), hit.triangle));
+    return hit.side == 0 ? front : -front;
+}
+
+static glm::vec4 planeOf(const Scene& scene, const ProbeHit& hit, glm::vec3 direction) {
+    if (hit.instance == ~0U || !(hit.distance > 0))
+        return glm::vec4(0, 0, 0, MarchedMaps::kSky);
     const bool solid = hit.side == kInSolid;
-    return marchedPlane(direction, hit.distance, hit.side == 0 ? front : -front,
+    return marchedPlane(direction, hit.distance, seenNormal(scene, hit),
                         solid ? MarchedMaps::kSolid : MarchedMaps::kSurface);
 }
 

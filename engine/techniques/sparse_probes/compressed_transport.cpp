@@ -235,7 +235,7 @@ CompressedTransport compressTransport(const Transport& transport, std::size_t co
 }
 
 void gatherCompressed(const CompressedTransport& transport, std::size_t coefficients,
-                      std::span<const float> probes, bool clampParts,
+                      std::span<const float> probes, NotNegative clamped,
                       std::span<glm::vec3> irradiance) {
     parallelRanges(transport.clusters(), 1, [&](std::size_t begin, std::size_t end) {
         Ranks ranks;
@@ -247,15 +247,17 @@ void gatherCompressed(const CompressedTransport& transport, std::size_t coeffici
             std::fill_n(sums.begin(), n, glm::vec3(0));
             for (std::size_t p = 0; p < cluster.probes.size(); ++p) {
                 addProbe(cluster, p, probes, ranks);
-                if (!clampParts)
+                if (clamped != NotNegative::Parts)
                     continue;
                 for (std::size_t r = 0; r < n; ++r)
                     sums[r] += glm::max(ofReceiver(cluster, r, ranks), glm::vec3(0));
                 std::fill_n(ranks.begin(), cluster.rank, glm::vec3(0));
             }
-            for (std::size_t r = 0; r < n; ++r)
+            for (std::size_t r = 0; r < n; ++r) {
+                const glm::vec3 sum = sums[r] + ofReceiver(cluster, r, ranks);
                 irradiance[cluster.receivers[r]] =
-                    glm::max(sums[r] + ofReceiver(cluster, r, ranks), glm::vec3(0));
+                    clamped == NotNegative::Nothing ? sum : glm::max(sum, glm::vec3(0));
+            }
         }
     });
 }

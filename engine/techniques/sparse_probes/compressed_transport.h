@@ -36,6 +36,13 @@ struct CompressedTransport {
 
 inline constexpr std::uint32_t kMaxClusterReceivers = 256;
 
+/// What of a receiver's irradiance is kept from being negative, which harmonics that ring make it.
+enum class NotNegative : std::uint8_t {
+    Sum,
+    Parts, ///< that of each probe; this adds light
+    Nothing
+};
+
 /// Compresses a transport of `coefficients` per receiver and probe. Receivers are clustered by
 /// place and normal. Of each cluster's matrix at most the share `error` of its Frobenius norm is
 /// lost, besides the rounding to halfs; `error` in [0, 1]. Incomplete when cancelled.
@@ -46,7 +53,7 @@ CompressedTransport compressTransport(const Transport& transport, std::size_t co
 /// Irradiance of all receivers [W m^-2], as gatherReceivers() has it of a transport that is not
 /// compressed. `probes` is a ProbeRadiance; `irradiance` has an entry per receiver.
 void gatherCompressed(const CompressedTransport& transport, std::size_t coefficients,
-                      std::span<const float> probes, bool clampParts,
+                      std::span<const float> probes, NotNegative clamped,
                       std::span<glm::vec3> irradiance);
 
 /// Adds to `probes`, weights per coefficient of each probe, what follows from weights of the

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "engine/math/packing.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
 #include "engine/techniques/sparse_probes/sparse_lighting.h"
 
@@ -31,27 +30,6 @@ glm::dvec3 valueOf(const Weights& weights, const Weights& values) {
     for (std::size_t i = 0; i < weights.size(); ++i)
         sum += glm::dvec3(weights[i] * values[i]);
     return sum;
-}
-
-/// Weights of the harmonics of probes where those of receivers' irradiance are known.
-void addProbeWeights(const SparseBake& bake, const Weights& receivers, Weights& probes) {
-    const std::size_t count = bake.coefficients();
-    const Transport& t = bake.transport;
-    if (!bake.compressed.empty()) {
-        addTransposed(bake.compressed, count, receivers, probes);
-        return;
-    }
-    for (std::size_t r = 0; r < receivers.size(); ++r) {
-        if (receivers[r] == glm::vec3(0))
-            continue;
-        for (std::size_t k = r * kProbesPerReceiver; k < (r + 1) * kProbesPerReceiver; ++k) {
-            if (t.probe[k] == kNoProbe)
-                break;
-            for (std::size_t i = 0; i < count; ++i)
-                probes[t.probe[k] * count + i] +=
-                    receivers[r] * halfToFloat(t.coefficients[k * count + i]);
-        }
-    }
 }
 
 /// Weights of the radiance that receivers send where those of probes are known.
@@ -144,7 +122,7 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
         if (bounce > 0 && (absoluteSum(remainder) <= options.tolerance * absoluteSum(whole) ||
                            bounce >= scene.relight.maxBounces))
             break;
-        addProbeWeights(bake, next.receivers, next.probes);
+        addTransposed(bake, next.receivers, next.probes);
         const Weights sent = radianceWeights(bake, m_basis, next.probes);
         const glm::dvec3 straight = skyValue(bake, m_skyAtProbes, next.probes);
         sky += straight;

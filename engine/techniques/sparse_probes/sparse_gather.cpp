@@ -62,13 +62,13 @@ void gatherProbes(const SparseBake& bake, std::span<const float> basis,
     });
 }
 
-void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, bool clampParts,
+void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, NotNegative clamped,
                      std::vector<glm::vec3>& irradiance) {
     const std::size_t count = bake.coefficients();
     const Transport& t = bake.transport;
     irradiance.resize(bake.receivers.size());
     if (!bake.compressed.empty()) {
-        gatherCompressed(bake.compressed, count, probes, clampParts, irradiance);
+        gatherCompressed(bake.compressed, count, probes, clamped, irradiance);
         return;
     }
     parallelRanges(irradiance.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -85,11 +85,32 @@ void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, bool c
                 glm::vec3 part(0);
                 for (std::size_t i = 0; i < count; ++i)
                     part += row[i] * glm::vec3(p[i], p[count + i], p[2 * count + i]);
-                sum += clampParts ? glm::max(part, glm::vec3(0)) : part;
+                sum += clamped == NotNegative::Parts ? glm::max(part, glm::vec3(0)) : part;
             }
-            irradiance[r] = glm::max(sum, glm::vec3(0));
+            irradiance[r] = clamped == NotNegative::Nothing ? sum : glm::max(sum, glm::vec3(0));
         }
     });
+}
+
+void addTransposed(const SparseBake& bake, std::span<const glm::vec3> receivers,
+                   std::span<glm::vec3> probes) {
+    const std::size_t count = bake.coefficients();
+    const Transport& t = bake.transport;
+    if (!bake.compressed.empty()) {
+        addTransposed(bake.compressed, count, receivers, probes);
+        return;
+    }
+    for (std::size_t r = 0; r < receivers.size(); ++r) {
+        if (receivers[r] == glm::vec3(0))
+            continue;
+        for (std::size_t k = r * kProbesPerReceiver; k < (r + 1) * kProbesPerReceiver; ++k) {
+            if (t.probe[k] == kNoProbe)
+                break;
+            for (std::size_t i = 0; i < count; ++i)
+                probes[t.probe[k] * count + i] +=
+                    receivers[r] * halfToFloat(t.coefficients[k * count + i]);
+        }
+    }
 }
 
 glm::vec3 cellCentre(const IndirectField& field, std::uint32_t cell) {

@@ -34,10 +34,15 @@ void gatherProbes(const SparseBake& bake, std::span<const float> basis,
                   std::span<const glm::vec3> radiance, const ProbeRadiance& sky,
                   ProbeRadiance& probes);
 
-/// Irradiance of all receivers [W m^-2], E = max(0, sum of T_lm P_lm). `clampParts`: each probe's
-/// part of the sum is kept from being negative, too.
-void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, bool clampParts,
+/// Irradiance of all receivers [W m^-2], E = max(0, sum of T_lm P_lm), unless something else is
+/// kept from being negative.
+void gatherReceivers(const SparseBake& bake, const ProbeRadiance& probes, NotNegative clamped,
                      std::vector<glm::vec3>& irradiance);
+
+/// Adds to `probes`, weights per coefficient of each probe, what follows from weights of the
+/// receivers' irradiance: the transpose of the transport.
+void addTransposed(const SparseBake& bake, std::span<const glm::vec3> receivers,
+                   std::span<glm::vec3> probes);
 
 /// Fills the field's grid with the mean of the eight probes nearest to each cell, by their weights
 /// and without regard to walls. The field has three bands.

@@ -143,7 +143,8 @@ LightingReport SparseLighting::update(const LightingInput& input, const Progress
         times.radiosity += watch.lap();
         gatherProbes(*m_bake, m_basis, m_radiance, m_skyAtProbes, m_probes);
         times.probes += watch.lap();
-        gatherReceivers(*m_bake, m_probes, m_clampParts, m_irradiance);
+        gatherReceivers(*m_bake, m_probes, m_clampParts ? NotNegative::Parts : NotNegative::Sum,
+                        m_irradiance);
         times.receivers += watch.lap();
         m_convergence.addRound(change);
         ++bounces;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -28,6 +29,8 @@ using Style = OverlayLine::Style;
 constexpr float kBallScale = 0.12f;        // a ball's radius over the distance of probes
 constexpr std::uint32_t kMaxDots = 200000; // of all balls
 constexpr std::uint32_t kDotsAlongLine = 48;
+constexpr std::uint32_t kLobeDots = 512;
+constexpr float kLobeScale = 4; // a lobe's reach over a ball's radius
 
 const glm::vec3 kUnlitColor(0.6f), kSkyColor(0.35f, 0.7f, 0.9f), kDarkColor(1, 0, 1);
 
@@ -204,6 +207,102 @@ OverlayData rayOverlay(const SparseBake& bake, const Scene& scene, std::uint32_t
     return out;
 }
 
+/// A receiver's weights of the harmonics of all probes.
+std::vector<float> transportRow(const SparseBake& bake, std::uint32_t r) {
+    std::vector<glm::vec3> one(bake.receivers.size(), glm::vec3(0)),
+        row(bake.probes.size() * bake.coefficients(), glm::vec3(0));
+    one[r] = glm::vec3(1);
+    addTransposed(bake, one, row);
+    std::vector<float> weights;
+    for (const glm::vec3 w : row)
+        weights.push_back(w.x);
+    return weights;
+}
+
+OverlayData rowOverlay(const SparseBake& bake, const Scene& scene, std::uint32_t r) {
+    const std::size_t count = bake.coefficients();
+    const std::vector<float> row = transportRow(bake, r);
+    const DirectionSet directions(kLobeDots, true, 0);
+    std::vector<glm::vec3> way;
+    for (std::uint32_t k = 0; k < directions.count; ++k)
+        way.push_back(directions[k]);
+    const std::vector<float> basis = relightBasis(way, int(bake.sparse.bands));
+    std::vector<std::vector<float>> lobes(bake.probes.size()); // [1/sr]
+    float most = 0;
+    for (std::size_t p = 0; p < bake.probes.size(); ++p) {
+        const std::span of = std::span(row).subspan(p * count, count);
+        if (std::ranges::all_of(of, [](float w) { return w == 0; }))
+            continue;
+        for (std::uint32_t k = 0; k < directions.count; ++k) {
+            lobes[p].push_back(
+                std::inner_product(of.begin(), of.end(), basis.begin() + k * count, 0.f));
+            most = std::max(most, std::abs(lobes[p].back()));
+        }
+    }
+    const PickedReceiver picked = pickedReceiver(bake, scene, r);
+    const float radius = ballRadius(bake), width = bake.receivers.width[r];
+    OverlayData out;
+    out.marks.push_back({.position = picked.at.position + picked.at.normal * (0.1f * width),
+                         .radius = std::max(width, 0.5f * radius),
+                         .color = packColor(glm::vec3(1)),
+                         .shape = MarkShape::Ring});
+    std::vector<glm::vec3> color(directions.count);
+    for (std::size_t p = 0; p < lobes.size(); ++p) {
+        float longest = 0;
+        for (std::size_t k = 0; k < lobes[p].size(); ++k) {
+            longest = std::max(longest, std::abs(lobes[p][k]));
+            color[k] = lobes[p][k] < 0 ? kNegativeLight : viridis(lobes[p][k] / most);
+        }
+        if (longest > 0)
+            addLobe({bake.probes[p], kLobeScale * radius * longest / most}, directions, lobes[p],
+                    color, out.marks);
+    }
+    out.legend.title = fmt::format("Transport to texel {}", r);
+    for (int k = 4; k >= 1; --k)
+        out.legend.entries.push_back(
+            {packColor(viridis(float(k) / 4)), fmt::format("{:.3g}", most * float(k) / 4)});
+    out.legend.entries.push_back({packColor(kNegativeLight), "below zero: few bands ring"});
+    out.legend.notes = {"Irradiance that the texel gets per radiance and solid angle from each "
+                        "side of a probe; lobes are as long as that"};
+    return out;
+}
+
+OverlayData negativeOverlay(const SparseBake& bake, const ProbeRadiance* light) {
+    OverlayData out;
+    out.legend.title = "Irradiance before it is kept from being negative";
+    if (!light) {
+        out.legend.notes = {"Nothing is lit yet"};
+        return out;
+    }
+    std::vector<glm::vec3> irradiance;
+    gatherReceivers(bake, *light, NotNegative::Nothing, irradiance);
+    double bright = 0;
+    float least = 0;
+    std::size_t below = 0;
+    for (const glm::vec3 e : irradiance) {
+        bright += double(std::max(luminance(e), 0.f));
+        least = std::min(least, luminance(e));
+        below += luminance(e) < 0 ? 1 : 0;
+    }
+    const float mean = float(bright / double(std::max<std::size_t>(irradiance.size(), 1))),
+                middle = mean > 0 ? mean : 1;
+    out.width = bake.lightmap.width;
+    out.height = bake.lightmap.height;
+    out.texels.resize(std::size_t(out.width) * out.height);
+    out.finer = fineBlocks(bake.lightmap);
+    for (std::size_t r = 0; r < irradiance.size(); ++r)
+        out.texels[bake.receivers.texel[r]] = packColor(
+            luminance(irradiance[r]) < 0 ? kNegativeLight
+                                         : lightColor(glm::max(irradiance[r], 0.f), middle));
+    out.legend.entries = lightColorEntries(middle, "lux");
+    out.legend.entries.push_back(
+        {packColor(kNegativeLight),
+         fmt::format("less than none: {} of {} texels", below, irradiance.size())});
+    out.legend.notes = {
+        fmt::format("The least is {:.3g} lux, {:.2g} % of the mean", least, 100 * least / middle)};
+    return out;
+}
+
 } // namespace
 
 const Technique& SparseSnapshot::technique() const {
@@ -220,14 +319,20 @@ OverlayData sparseOverlay(const SparseBake& bake, const OverlayRequest& request,
         return ballOverlay(bake, light);
     case 1:
         return unseenOverlay(bake);
-    case 2:
-    case 3:
-        if (!picked)
-            return {.legend = {request.kind->label, {}, {"Click a surface to pick a texel"}}};
-        return request.kind == &kSparseOverlays[2] ? receiverOverlay(bake, scene, request.pick)
-                                                   : rayOverlay(bake, scene, request.pick);
+    case 5:
+        return negativeOverlay(bake, light);
     default:
-        return {};
+        break;
+    }
+    if (!picked)
+        return {.legend = {request.kind->label, {}, {"Click a surface to pick a texel"}}};
+    switch (request.kind - kSparseOverlays.data()) {
+    case 2:
+        return receiverOverlay(bake, scene, request.pick);
+    case 3:
+        return rayOverlay(bake, scene, request.pick);
+    default:
+        return rowOverlay(bake, scene, request.pick);
     }
 }
 

@@ -13,7 +13,7 @@
 namespace limn {
 
 /// Overlays of sparse probes. Receivers are picked.
-inline constexpr std::array<OverlayKind, 4> kSparseOverlays = {
+inline constexpr std::array<OverlayKind, 6> kSparseOverlays = {
     {{.name = "sparse-probes",
       .label = "Probes",
       .tooltip = "Where probes stand: balls that show the light which reaches the probe from each "
@@ -37,8 +37,20 @@ inline constexpr std::array<OverlayKind, 4> kSparseOverlays = {
       .pick = OverlayPick::Required,
       .describesPick = true,
       .picked = "Texel",
-      .pickedTooltip =
-          "Number of the texel; its nearest probe's rays are shown; -1: none picked"}}};
+      .pickedTooltip = "Number of the texel; its nearest probe's rays are shown; -1: none picked"},
+     {.name = "sparse-row",
+      .label = "Transport to a texel",
+      .tooltip = "How a texel weighs the light that its probes get from each side: its row of the "
+                 "transport matrix as a lobe at each probe; click a surface to pick the texel",
+      .pick = OverlayPick::Required,
+      .describesPick = true,
+      .picked = "Texel",
+      .pickedTooltip = "Number of the texel whose row is shown; -1: none picked"},
+     {.name = "sparse-negative",
+      .label = "Less than no light",
+      .tooltip = "Irradiance before it is kept from being negative: texels where the harmonics "
+                 "ring so much that less than no light would arrive",
+      .showsLight = true}}};
 
 /// The light of probes, copied.
 class SparseSnapshot : public LightSnapshot {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/lpv/lpv_overlay.h"
 
+#include "engine/techniques/lpv/arrival.h"
 #include "engine/techniques/lpv/blockers.h"
 #include "engine/techniques/lpv/lpv.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -108,9 +110,75 @@ TEST(LpvOverlay, TexelsLieOnTheWallsAndFaceTheLamp) {
                     .marks.empty());
 }
 
+/// Number of rings.
+std::size_t ringsOf(const OverlayData& data) {
+    return std::size_t(std::ranges::count(data.marks, MarkShape::Ring, &OverlayMark::shape));
+}
+
+// Both sides of a wall that lies aslant through a cell inject into that cell. Those of one along
+// its faces, and walls that face each other across a cell, do not light through anything.
+TEST(LpvOverlay, CellsThatBothSidesOfAWallLightHaveRings) {
+    const OverlayKind& texels = kindNamed("lpv-texels");
+    Scene scene = litCube();
+    EXPECT_EQ(ringsOf(snapshotOf(scene)->overlay({.kind = &texels}, scene, nullptr)), 0U);
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::box(glm::vec3(0), glm::vec3(4), true));
+    // From corner to corner, thinner than a thousandth of a cell.
+    const glm::vec3 off(2e-4f, 0, -2e-4f);
+    const glm::vec3 along(4, 0, 4), up(0, 4, 0);
+    b.add(simple::quad(off, up, along));
+    b.add(simple::quad(-off, along, up));
+    b.scene.technique = scene.technique;
+    for (const glm::vec3 at : {glm::vec3(3, 2, 1), glm::vec3(1, 2, 3)})
+        b.scene.lights.push_back({.kind = LightKind::Point, .position = at, .strength = 1});
+    const Scene parted = b.build();
+    const OverlayData data = snapshotOf(parted)->overlay({.kind = &texels}, parted, nullptr);
+    EXPECT_GT(ringsOf(data), 8U);
+    for (const OverlayMark& mark : data.marks)
+        if (mark.shape == MarkShape::Ring)
+            EXPECT_LT(std::abs(mark.position.x - mark.position.z), 0.6f) << "away from the wall";
+    EXPECT_NE(data.legend.entries.back().text.find(std::to_string(ringsOf(data)) + " cells"),
+              std::string::npos);
+}
+
+TEST(LpvOverlay, LightArrivesACellLaterEachRound) {
+    CellLight injected({8, 1, 1});
+    injected.add({0, 0, 0}, {glm::vec3(1), glm::vec3(0), glm::vec3(0), glm::vec3(0)});
+    const std::vector<std::uint32_t> arrival = arrivalRounds(injected, nullptr, 5);
+    EXPECT_EQ(arrival, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, kNeverLit, kNeverLit}));
+    EXPECT_EQ(arrivalRounds(CellLight({2, 1, 1}), nullptr, 3),
+              (std::vector<std::uint32_t>{kNeverLit, kNeverLit}));
+}
+
+TEST(LpvOverlay, ArrivalIsDrawnOnTheWallsAndDarkWhereTooFewRoundsLead) {
+    Scene scene = litCube();
+    // A spot lights the floor's corner alone.
+    scene.lights = {
+        {.kind = LightKind::Spot, .position = {0.4f, 1, 0.4f}, .strength = 1, .outerAngle = 0.3f}};
+    scene.technique.settings["lpv.rounds"] = 4;
+    const auto shown = [&] {
+        return snapshotOf(scene)->overlay({.kind = &kindNamed("lpv-arrival")}, scene, nullptr);
+    };
+    const OverlayData few = shown();
+    EXPECT_EQ(few.marks.size(), 6U * 64) << "one for each cell before six walls";
+    const auto dark = [](const OverlayData& data) {
+        const std::uint32_t color = data.legend.entries.back().color;
+        return std::ranges::count(data.marks, color, &OverlayMark::color);
+    };
+    EXPECT_GT(dark(few), 100);
+    for (const OverlayMark& mark : few.marks) { // the wall behind the face
+        const glm::vec3 off = glm::abs(mark.position - glm::vec3(2));
+        EXPECT_NEAR(std::max({off.x, off.y, off.z}), 2, 0.02f);
+        EXPECT_GT(glm::dot(mark.normal, glm::vec3(2) - mark.position), 1.9f);
+    }
+    scene.technique.settings["lpv.rounds"] = 40;
+    EXPECT_EQ(dark(shown()), 0);
+}
+
 TEST(LpvOverlay, NegativePartsOfALobeAreMagentaAndDarkCellsAreLeftOut) {
     LitLattice lit{
-        {.size = glm::uvec3(2, 1, 1)}, CellLight({2, 1, 1}), {}, FaceBlockers({2, 1, 1}), {}, 0};
+        {.size = glm::uvec3(2, 1, 1)}, CellLight({2, 1, 1}), {}, FaceBlockers({2, 1, 1}), {}, 0, 0};
     lit.sum = {cosine({0, 1, 0}, 1), Lobe{}};
     const LpvSnapshot snapshot(std::move(lit));
     const OverlayData data = snapshot.overlay({.kind = &kindNamed("lpv-lobes")}, Scene{}, nullptr);

@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace limn {
 namespace {
@@ -28,7 +30,9 @@ Scene room() {
 }
 
 struct Lit {
-    Scene scene = room();
+    explicit Lit(Scene s = room()) : scene(std::move(s)) {}
+
+    Scene scene;
     TraceScene trace{scene};
     std::unique_ptr<Lighting> lighting = kProbesTechnique.light({});
 
@@ -144,6 +148,69 @@ TEST(ProbeOverlay, ProbesThatWaitForTheirTurnAreStale) {
     }
     lit.update();
     EXPECT_EQ(count(lit.overlay(2), MarkShape::Square, kStale), 0U);
+}
+
+TEST(ProbeOverlay, WeightsCoverTheSurfacesThatAProbeLights) {
+    Lit lit;
+    lit.update();
+    const std::uint32_t corner = 63; // the last of 4 x 4 x 4, at (3.5, 3.5, 3.5)
+    const OverlayData data = lit.overlay(3, corner);
+    const OverlayMark* nearest = nullptr;
+    for (const OverlayMark& mark : data.marks) {
+        if (mark.shape == MarkShape::Ring)
+            continue;
+        for (int a = 0; a < 3; ++a)
+            EXPECT_GT(mark.position[a], 2.3f) << "cells that look it up end 1 m before it";
+        if (!nearest || glm::distance(mark.position, glm::vec3(4)) <
+                            glm::distance(nearest->position, glm::vec3(4)))
+            nearest = &mark;
+    }
+    ASSERT_TRUE(nearest);
+    EXPECT_EQ(nearest->color, packColor(viridis(1))) << "beyond the outermost, it lights alone";
+    EXPECT_EQ(lit.overlay(3, 0).legend.notes[0], "It stands in a solid and is not used");
+    EXPECT_TRUE(lit.overlay(3).marks.empty()) << "none is picked";
+}
+
+TEST(ProbeOverlay, WhatAWallHidesFromAProbeIsDark) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::box(glm::vec3(0), glm::vec3(4), true));
+    b.add(simple::box({1.9f, -0.1f, -0.1f}, {2.1f, 4.1f, 4.1f}, false)); // between two layers
+    b.scene.technique = {"probes", {{"probes.count", 64}, {"probes.side", 16}}};
+    Lit lit(b.build());
+    lit.update();
+    const OverlayData data = lit.overlay(4, 1 + 4 * (1 + 4 * 1)); // at (1.5, 1.5, 1.5)
+    int here = 0, hereSeen = 0, beyond = 0, beyondSeen = 0;
+    const auto isSeen = [](const OverlayMark& m) { return (m.color >> 8 & 255) > 120; }; // v > 1/2
+    // The far side of the wall itself is too near to what hides it to be told apart.
+    for (const OverlayMark& mark : data.marks)
+        if (mark.shape != MarkShape::Ring && std::abs(mark.position.x - 2.1f) > 0.05f) {
+            (mark.position.x < 2 ? here : beyond) += 1;
+            (mark.position.x < 2 ? hereSeen : beyondSeen) += isSeen(mark) ? 1 : 0;
+        }
+    ASSERT_GT(here, 100);
+    ASSERT_GT(beyond, 100);
+    EXPECT_GT(hereSeen, 0.8 * here);
+    EXPECT_LT(beyondSeen, 0.1 * beyond);
+}
+
+TEST(ProbeOverlay, NearlyAllReflectionsInAConvexRoomMeetASurface) {
+    Scene convex = room();
+    convex.instances.resize(1); // without the block
+    Lit lit(std::move(convex));
+    lit.update();
+    const OverlayData data = lit.overlay(5, 21);
+    constexpr std::array kShapes = {MarkShape::Disc, MarkShape::Disc, MarkShape::Square};
+    unsigned total = 0, said[3] = {};
+    for (std::size_t k = 0; k < 3; ++k) { // "disc: 250 meet a surface"
+        const std::string& text = data.legend.entries[k].text;
+        said[k] = unsigned(std::stoi(text.substr(text.find(' '))));
+        total += said[k];
+        if (k == 2) // the paths are of discs, too
+            EXPECT_EQ(count(data, kShapes[k], data.legend.entries[k].color), said[k]) << text;
+    }
+    EXPECT_EQ(total, 16U * 16);
+    EXPECT_GT(said[0], 0.95 * total);
 }
 
 } // namespace

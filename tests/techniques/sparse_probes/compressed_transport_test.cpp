@@ -56,14 +56,14 @@ struct RandomTransport {
     CompressedTransport compressed(float error) const {
         return compressTransport(bake.transport, kCoefficients, points, error);
     }
-    std::vector<glm::vec3> irradiance(bool clampParts) const {
+    std::vector<glm::vec3> irradiance(NotNegative clamped) const {
         std::vector<glm::vec3> all;
-        gatherReceivers(bake, probes, clampParts, all);
+        gatherReceivers(bake, probes, clamped, all);
         return all;
     }
-    std::vector<glm::vec3> irradiance(const CompressedTransport& t, bool clampParts) const {
+    std::vector<glm::vec3> irradiance(const CompressedTransport& t, NotNegative clamped) const {
         std::vector<glm::vec3> all(bake.receivers.size());
-        gatherCompressed(t, kCoefficients, probes, clampParts, all);
+        gatherCompressed(t, kCoefficients, probes, clamped, all);
         return all;
     }
     /// Frobenius norm of the transport less what is compressed, relative to that of the transport.
@@ -99,8 +99,8 @@ TEST(CompressedTransport, OfFewPatternsHasTheirNumberAsRankAndLosesNothing) {
         EXPECT_EQ(rank, 3);
     EXPECT_LT(t.loss(c), 0.002);
     EXPECT_LT(c.bytes(), 2 * t.bake.transport.coefficients.size() / 10);
-    for (const bool clampParts : {false, true}) {
-        const auto exact = t.irradiance(clampParts), packed = t.irradiance(c, clampParts);
+    for (const NotNegative clamped : {NotNegative::Sum, NotNegative::Parts, NotNegative::Nothing}) {
+        const auto exact = t.irradiance(clamped), packed = t.irradiance(c, clamped);
         for (std::size_t r = 0; r < exact.size(); ++r)
             EXPECT_LT(glm::distance(exact[r], packed[r]), 0.004f * glm::length(exact[r])) << r;
     }
@@ -158,7 +158,7 @@ TEST(CompressedTransport, ItsTransposeBelongsToIt) {
             byProbes += glm::dvec3(probes[p * kCoefficients + i] *
                                    glm::vec3(at[0], at[kCoefficients], at[2 * kCoefficients]));
         }
-    const auto irradiance = t.irradiance(c, false); // of which none is negative here
+    const auto irradiance = t.irradiance(c, NotNegative::Sum); // of which none is negative here
     for (std::size_t r = 0; r < irradiance.size(); ++r)
         byReceivers += glm::dvec3(weights[r] * irradiance[r]);
     EXPECT_LT(glm::distance(byProbes, byReceivers), 1e-4 * glm::length(byReceivers));
@@ -174,7 +174,7 @@ TEST(CompressedTransport, IsTheSameWithAnyNumberOfThreadsAndOfNothingIsNothing) 
     std::ranges::fill(dark.bake.transport.coefficients, std::uint16_t(0));
     const CompressedTransport c = dark.compressed(0.1f);
     EXPECT_EQ(c.rank, std::vector<std::uint16_t>{0});
-    for (const glm::vec3 e : dark.irradiance(c, false))
+    for (const glm::vec3 e : dark.irradiance(c, NotNegative::Sum))
         EXPECT_EQ(e, glm::vec3(0));
 }
 

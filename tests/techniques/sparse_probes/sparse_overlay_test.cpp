@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/sparse_probes/sparse_overlay.h"
 
+#include "engine/math/luminance.h"
+#include "engine/overlay/light_marks.h"
 #include "engine/overlay/palette.h"
 #include "engine/techniques/sparse_probes/relight_rays.h"
 #include "tests/techniques/sparse_probes/lit_by_sparse.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 namespace limn {
 namespace {
@@ -75,6 +79,55 @@ TEST(SparseOverlay, RaysEndAtTheTexelsThatLightTheProbe) {
     ASSERT_LT(hit, kDarkHit);
     EXPECT_LT(glm::distance(data.marks[1].position, points.position[hit]),
               s.bake().receivers.width[hit]);
+}
+
+TEST(SparseOverlay, ARowOfTheTransportIsALobeAtEachOfItsProbes) {
+    const Shown s;
+    const std::uint32_t r = 100;
+    const OverlayData data = s.overlay(4, r);
+    ASSERT_EQ((data.marks.size() - 1) % kProbesPerReceiver, 0U);
+    const ReceiverPoints points = pointsOf(s.scene, s.bake().receivers);
+    const NearProbes near = nearestProbes(s.bake().probes, points.position[r]);
+    std::map<std::uint16_t, std::size_t> dots; // of the probe that a dot is nearest to
+    for (std::size_t k = 1; k < data.marks.size(); ++k) {
+        const auto nearest = std::ranges::min_element(near.probe, {}, [&](std::uint16_t p) {
+            return glm::distance(s.bake().probes[p], data.marks[k].position);
+        });
+        ++dots[*nearest];
+    }
+    EXPECT_EQ(dots.size(), kProbesPerReceiver);
+    for (const auto& [probe, count] : dots)
+        EXPECT_EQ(count, (data.marks.size() - 1) / kProbesPerReceiver) << probe;
+    EXPECT_TRUE(s.overlay(4).marks.empty()) << "none is picked";
+}
+
+TEST(SparseOverlay, TexelsWithLessThanNoLightAreCountedAndMagenta) {
+    Shown s;
+    // A narrow spot far from most walls makes harmonics ring.
+    s.scene.lights = {{.kind = LightKind::Spot,
+                       .position = {2, 2.5f, 2},
+                       .direction = {0, -1, 0},
+                       .strength = 100,
+                       .innerAngle = 0.05f,
+                       .outerAngle = 0.1f}};
+    s.update();
+    const OverlayData data = s.overlay(5);
+    const auto magenta = std::size_t(std::ranges::count(data.texels, packColor(kNegativeLight)));
+    EXPECT_GT(magenta, 0U);
+    const auto lit = s.lighting->snapshot();
+    std::vector<glm::vec3> whole;
+    gatherReceivers(s.bake(), static_cast<const SparseSnapshot&>(*lit).probes(),
+                    NotNegative::Nothing, whole);
+    for (std::size_t r = 0; r < whole.size(); ++r) {
+        const std::uint32_t color = data.texels[s.bake().receivers.texel[r]];
+        EXPECT_NE(color, 0U);
+        EXPECT_EQ(color == packColor(kNegativeLight), luminance(whole[r]) < 0) << r;
+        for (int c = 0; c < 3; ++c) // what surfaces get is this, cut off
+            EXPECT_NEAR(s.ofReceiver(r)[c], std::max(whole[r][c], 0.f), 1e-5f) << r;
+    }
+    EXPECT_NE(data.legend.entries.back().text.find(std::to_string(magenta) + " of"),
+              std::string::npos);
+    EXPECT_TRUE(s.overlay(5, ~0U, false).texels.empty()) << "nothing is lit";
 }
 
 } // namespace

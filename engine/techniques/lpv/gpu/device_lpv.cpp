@@ -112,7 +112,7 @@ std::shared_ptr<const LightSnapshot> DeviceLpv::snapshot() const {
     m_sources->followLights(
         m_scene, *m_inputs,
         [&]() -> const TraceScene& { return trace ? *trace : trace.emplace(m_scene); }, {}, cost);
-    LitLattice lit = m_sources->lit(m_inputs->sources);
+    LitLattice lit = m_sources->lit(m_inputs->sources, m_inputs->settings.rounds);
     lit.sum = m_gpu->readSum();
     return std::make_shared<const LpvSnapshot>(std::move(lit));
 }
