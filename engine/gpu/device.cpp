@@ -12,6 +12,8 @@
 #include <deque>
 #include <mutex>
 
+#include <fmt/format.h>
+
 namespace limn::gpu {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -219,6 +221,14 @@ Result<std::unique_ptr<Device>> createDevice(const DeviceDesc& desc) {
     d->memory.init(d->physicalDevice, d->device);
     d->m_impl->timeline = createTimeline(d->device);
     return d;
+}
+
+Result<void> Device::checkStorageBuffers(std::uint32_t needed) const {
+    const std::uint32_t most = mostStorageBuffers(properties.limits);
+    return most < needed ? fail(fmt::format("{}: {} storage buffers can be bound at once, {} are "
+                                            "needed",
+                                            properties.deviceName, most, needed))
+                         : Result<void>();
 }
 
 void Device::watchValidation() {

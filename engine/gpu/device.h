@@ -14,6 +14,9 @@
 
 namespace limn::gpu {
 
+/// Number of storage buffers that shaders of every device can bind at once.
+inline constexpr std::uint32_t kStorageBuffers = 8;
+
 struct DeviceDesc {
     /// Part of the device's name, case-insensitive ("llvmpipe"); empty selects the best kind.
     std::string name;
@@ -62,6 +65,9 @@ public:
     std::uint64_t submit(VkCommandBuffer cmd, const SubmitDesc& desc = {});
     /// Records, submits and waits.
     void immediate(const char* name, const std::function<void(VkCommandBuffer)>& record);
+
+    /// Fails, with a message for people, where shaders cannot bind as many storage buffers at once.
+    Result<void> checkStorageBuffers(std::uint32_t needed) const;
 
     std::uint64_t submitted() const { return m_submitted; } ///< number of the last submission
     std::uint64_t completed() const; ///< all submissions up to this number are done

@@ -63,12 +63,19 @@ static std::optional<std::uint32_t> findQueueFamily(VkInstance instance, VkPhysi
     return std::nullopt;
 }
 
+std::uint32_t mostStorageBuffers(const VkPhysicalDeviceLimits& limits) {
+    return std::min(limits.maxPerStageDescriptorStorageBuffers,
+                    limits.maxDescriptorSetStorageBuffers);
+}
+
 // Required features that the device lacks; empty if it has them all.
 static std::string whatIsMissing(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
     if (properties.apiVersion < VK_API_VERSION_1_3)
         return "Vulkan 1.3";
+    if (mostStorageBuffers(properties.limits) < kStorageBuffers)
+        return fmt::format("{} storage buffers at once", kStorageBuffers);
     VkPhysicalDeviceVulkan13Features v13{};
     v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     VkPhysicalDeviceVulkan12Features v12{};

@@ -14,6 +14,7 @@
 #include "engine/render/passes/overlay_pass.h"
 #include "engine/render/passes/sky_pass.h"
 #include "engine/render/passes/tonemap_pass.h"
+#include "engine/render/read_back.h"
 #include "engine/render/shadows/light_table.h"
 #include "engine/render/shadows/parted_lights.h"
 #include "engine/render/shadows/shadow_maps.h"
@@ -51,6 +52,9 @@ constexpr std::array kFrameTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+static_assert(std::ranges::count(kFrameTypes, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) ==
+              gpu::kStorageBuffers);
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
@@ -544,18 +548,10 @@ VkImage Viewport::colorImage() const {
     return m_impl->targets.color.handle;
 }
 
-static ImageF readRgb(gpu::Device& device, const gpu::Image& image, std::uint32_t width,
-                      std::uint32_t height) {
-    std::vector<glm::vec4> texels(std::size_t(width) * height);
-    gpu::readImage(device, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, width, height,
-                   std::as_writable_bytes(std::span(texels)));
-    return {width, height, std::vector<glm::vec3>(texels.begin(), texels.end())};
-}
-
 ImageF Viewport::readLinear() {
     Impl& v = *m_impl;
     assert(v.frames > 0);
-    return readRgb(v.device, v.shown(), v.last.width, v.last.height);
+    return readLinearImage(v.device, v.shown(), v.last.width, v.last.height);
 }
 
 ImageF Viewport::readMetering() {
@@ -570,19 +566,13 @@ ImageF Viewport::readMetering() {
         v.targets.metering = gpu::Image(v.device, desc);
     }
     gpu::sampleImage(v.device, v.shown(), v.last.width, v.last.height, v.targets.metering, kLayout);
-    return readRgb(v.device, v.targets.metering, kWidth, kHeight);
+    return readLinearImage(v.device, v.targets.metering, kWidth, kHeight);
 }
 
 Image Viewport::readTonemapped() {
     Impl& v = *m_impl;
     assert(v.frames > 0);
-    Image image;
-    image.width = v.last.width;
-    image.height = v.last.height;
-    image.rgba.resize(std::size_t(image.width) * image.height * 4);
-    gpu::readImage(v.device, v.targets.color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, image.width,
-                   image.height, std::as_writable_bytes(std::span(image.rgba)));
-    return image;
+    return readColorImage(v.device, v.targets.color, v.last.width, v.last.height);
 }
 
 const ViewportStats& Viewport::stats() const {

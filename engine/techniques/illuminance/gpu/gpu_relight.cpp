@@ -17,8 +17,6 @@
 #include <chrono>
 #include <optional>
 
-#include <fmt/format.h>
-
 namespace limn {
 
 namespace {
@@ -95,22 +93,12 @@ struct GpuRelighter::State {
     std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
 };
 
-static Result<void> checkBindings(const gpu::Device& device) {
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    const std::uint32_t most =
-        std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
-    if (most < RelightSteps::kStorageBuffers)
-        return fail(fmt::format("{}: {} storage buffers can be bound at once, {} are needed",
-                                device.properties.deviceName, most, RelightSteps::kStorageBuffers));
-    return {};
-}
-
 GpuRelighter::GpuRelighter(std::unique_ptr<State> state) : m_state(std::move(state)) {}
 GpuRelighter::~GpuRelighter() = default;
 
 Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
                                                            std::shared_ptr<const Bake> bake) {
-    if (const auto bindings = checkBindings(device); !bindings)
+    if (const auto bindings = device.checkStorageBuffers(RelightSteps::kStorageBuffers); !bindings)
         return tl::make_unexpected(bindings.error());
     auto buffers = createRelightBuffers(device, *bake, RelightSteps::kItemLanes);
     if (!buffers)

@@ -14,8 +14,6 @@
 #include <cassert>
 #include <map>
 
-#include <fmt/format.h>
-
 namespace limn {
 
 using shared::GpuCellLobe;
@@ -105,12 +103,8 @@ std::uint32_t groups(std::uint32_t items, std::uint32_t lanes) {
 } // namespace
 
 Result<std::unique_ptr<GpuPropagation>> GpuPropagation::create(gpu::Device& device) {
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    const std::uint32_t most =
-        std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
-    if (most < kStorageBuffers)
-        return fail(fmt::format("{}: {} storage buffers can be bound at once, {} are needed",
-                                device.properties.deviceName, most, kStorageBuffers));
+    if (const auto bindings = device.checkStorageBuffers(kStorageBuffers); !bindings)
+        return tl::make_unexpected(bindings.error());
     return std::unique_ptr<GpuPropagation>(new GpuPropagation(device));
 }
 

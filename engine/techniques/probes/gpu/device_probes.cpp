@@ -12,7 +12,6 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
 #include <glm/packing.hpp>
 
 namespace limn {
@@ -21,12 +20,8 @@ using shared::GpuProbeHit;
 
 Result<std::unique_ptr<DeviceProbes>> DeviceProbes::create(gpu::Device& device,
                                                            Viewport& viewport) {
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    const std::uint32_t most =
-        std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
-    if (most < GpuProbes::kStorageBuffers)
-        return fail(fmt::format("{}: {} storage buffers can be bound at once, {} are needed",
-                                device.properties.deviceName, most, GpuProbes::kStorageBuffers));
+    if (const auto bindings = device.checkStorageBuffers(GpuProbes::kStorageBuffers); !bindings)
+        return tl::make_unexpected(bindings.error());
     return std::unique_ptr<DeviceProbes>(new DeviceProbes(device, viewport));
 }
 

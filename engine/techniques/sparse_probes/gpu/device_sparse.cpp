@@ -14,21 +14,9 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace limn {
 
 static constexpr std::uint32_t kMaxSteps = 3;
-
-static Result<void> checkBindings(const gpu::Device& device) {
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    const std::uint32_t most =
-        std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
-    if (most < SparseSteps::kStorageBuffers)
-        return fail(fmt::format("{}: {} storage buffers can be bound at once, {} are needed",
-                                device.properties.deviceName, most, SparseSteps::kStorageBuffers));
-    return {};
-}
 
 DeviceSparse::DeviceSparse(gpu::Device& device, Viewport& viewport,
                            std::shared_ptr<const SparseBake> bake, const Scene& scene,
@@ -48,7 +36,7 @@ DeviceSparse::DeviceSparse(gpu::Device& device, Viewport& viewport,
 Result<std::unique_ptr<DeviceSparse>> DeviceSparse::create(gpu::Device& device, Viewport& viewport,
                                                            std::shared_ptr<const SparseBake> bake,
                                                            const Scene& scene) {
-    if (const auto bindings = checkBindings(device); !bindings)
+    if (const auto bindings = device.checkStorageBuffers(SparseSteps::kStorageBuffers); !bindings)
         return tl::make_unexpected(bindings.error());
     std::vector<glm::vec3> directions = relightDirections(bake->sparse.rays);
     std::vector<float> basis = relightBasis(directions, int(bake->sparse.bands));
