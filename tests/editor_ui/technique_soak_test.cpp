@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lights one document by every technique in turn, again and again.
 #include "engine/techniques/technique_table.h"
+#include "tests/core/heap_in_use.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/small_session.h"
 
@@ -11,17 +12,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 namespace limn {
 namespace {
-
-/// Memory that the program has allocated and not freed [bytes]. Precondition: all threads share
-/// one arena, since this counts the main one.
-std::size_t bytesInUse() {
-    const struct mallinfo2 info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-}
 
 struct TechniqueSoak : testing::Test {
     TemporaryFolder folder;
@@ -84,7 +77,7 @@ TEST_F(TechniqueSoak, DISABLED_TenMinutesOfSwitchingKeepNoDataOfATechnique) {
     for (int i = 0; i < 3; ++i) {
         round();
         session->state.log.clear();
-        early = std::max(early, bytesInUse());
+        early = std::max(early, heapInUse());
     }
     const auto end = Clock::now() + std::chrono::minutes(10);
     int rounds = 3;
@@ -92,7 +85,7 @@ TEST_F(TechniqueSoak, DISABLED_TenMinutesOfSwitchingKeepNoDataOfATechnique) {
     for (; Clock::now() < end; ++rounds) {
         round();
         session->state.log.clear();
-        late = bytesInUse();
+        late = heapInUse();
         EXPECT_LE(late, early + std::size_t(rounds) * kKept) << "after " << rounds << " rounds";
     }
     fmt::print("{} rounds; {:.1f} MiB after the first three, {:.1f} MiB at the end\n", rounds,
