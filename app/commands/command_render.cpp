@@ -37,7 +37,7 @@ struct Options {
     std::string bake, output, view = "lit", inspection = "none", tonemap = "aces", device = "auto",
                               relight = "auto";
     float exposureEv = 0;
-    std::uint32_t samplesPerPixel = 16;
+    std::uint32_t samplesPerPixel = kSamplesPerPixel;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
     GivenSettings relighting; ///< instead of the document's

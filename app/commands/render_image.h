@@ -31,10 +31,10 @@ struct RenderRequest {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
-    std::uint32_t samplesPerPixel = 16;           ///< box filter; at least 1
-    Inspection inspection = Inspection::None;     ///< of RenderedImage::picture
-    bool tonemapped = false;                      ///< RenderedImage::picture is wanted too
-    std::shared_ptr<const LightmapLayout> layout; ///< of the light; null: there is none
+    std::uint32_t samplesPerPixel = kSamplesPerPixel; ///< box filter; at least 1
+    Inspection inspection = Inspection::None;         ///< of RenderedImage::picture
+    bool tonemapped = false;                          ///< RenderedImage::picture is wanted too
+    std::shared_ptr<const LightmapLayout> layout;     ///< of the light; null: there is none
     /// Computes the light on the CPU; `marched` as LightingInput::marched. Empty: no indirect
     /// light.
     std::function<CpuLight(bool marched)> relight;

@@ -17,9 +17,6 @@ namespace limn {
 
 using Clock = std::chrono::steady_clock;
 
-/// Samples of each pixel of a picture that stands still, as many as `limn render` takes.
-constexpr std::uint32_t kStillSamples = 16;
-
 static double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -174,11 +171,12 @@ DrawnImages RenderWorker::readImages() {
 
 bool RenderWorker::refining() const {
     const bool drawnOver = shown.overlay.kind || shown.options.inspection != Inspection::None;
-    return m_samples > 0 && m_samples < kStillSamples && !shown.moving && !drawnOver && !bouncing();
+    return m_samples > 0 && m_samples < kSamplesPerPixel && !shown.moving && !drawnOver &&
+           !bouncing();
 }
 
 std::optional<DrawnImages> RenderWorker::refine(const std::atomic<bool>& hurry) {
-    const std::uint32_t wanted = std::min(2 * std::bit_floor(m_samples), kStillSamples);
+    const std::uint32_t wanted = std::min(2 * std::bit_floor(m_samples), kSamplesPerPixel);
     while (m_samples < wanted) {
         if (hurry)
             return {};

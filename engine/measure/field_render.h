@@ -21,7 +21,7 @@ struct FieldRenderOptions {
     View view = View::Lit;
     Camera camera;
     std::uint32_t width = 1280, height = 720;
-    std::uint32_t samplesPerPixel = 16; ///< box filter; Owen-scrambled Sobol points
+    std::uint32_t samplesPerPixel = kSamplesPerPixel; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
     MarchedCounts* marched = nullptr; ///< adds to it; null: nothing is counted
     // For comparisons:

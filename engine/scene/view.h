@@ -16,6 +16,9 @@ namespace limn {
 /// emission + specular; the background is the sky. In every other view the background is 0.
 enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Normals };
 
+/// Samples per pixel of finished pictures, unless one asks for others.
+inline constexpr std::uint32_t kSamplesPerPixel = 16;
+
 /// What is drawn over a picture, which fades beneath it, to find faults: the edges of all
 /// triangles, or pixels with a NaN or Inf.
 enum class Inspection : std::uint32_t { None, Wireframe, InvalidPixels };

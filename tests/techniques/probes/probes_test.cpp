@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -103,6 +105,24 @@ TEST(ProbeLight, AGlowingPlaneFillsHalfTheSphere) {
     EXPECT_NEAR(irradiance({0, 1, 0}), 0, 0.01 * kPi);
 }
 
+// Of the radiance n d before a plane with normal n, M = E / pi is 2/3. Three bands of harmonics
+// hold 1/4 + 1/2 + 5/16 of it along n, of which the clamped cosine keeps pi, 2 pi / 3 and pi / 4.
+TEST(ProbeLight, ACosineHasTwoThirds) {
+    const Octahedron map{48};
+    const std::vector<float> solidAngle = map.solidAngles();
+    const glm::vec3 n = glm::normalize(glm::vec3(1, 2, -3));
+    ProbeHarmonics c{};
+    for (std::uint32_t t = 0; t < map.texels(); ++t) {
+        float y[kIrradianceBands * kIrradianceBands];
+        shBasis(kIrradianceBands, map.direction(t), y);
+        for (std::size_t i = 0; i < c.size(); ++i)
+            c[i] += std::max(glm::dot(n, map.direction(t)), 0.f) * solidAngle[t] * y[i];
+    }
+    const double m = double(shIrradiance(kIrradianceBands, c.data(), n).x) / kPi;
+    EXPECT_NEAR(m, 0.25 + 1. / 3 + 5. / 64, 1e-3);
+    EXPECT_NEAR(m, 2. / 3, 0.01 * 2. / 3);
+}
+
 TEST(ProbeLight, ALitPlaneSendsItsRadiosityAndTheSkyTheRest) {
     Scene scene = plane(simple::lambert(glm::vec3(0.5f)));
     Light sun;
@@ -127,17 +147,25 @@ Scene twoRooms(float divider) {
     return b.build();
 }
 
+// Probes stand every metre. Places are the floor in the middle of the dark room, and the wall
+// itself 1 mm behind its dark side, where nothing but the probes' distances tells the two rooms
+// apart.
 TEST(Probes, AWallHidesTheLitRoomFromTheDarkOne) {
-    for (const double smooth : {0., 1.}) {
-        LitByProbes s(twoRooms(0.25f), {{"probes.count", 128}, {"probes.smooth", smooth}});
-        s.update();
-        const float lit = s.irradiance({-2, 0.001f, 2}, {0, 1, 0}).x,
-                    dark = s.irradiance({2, 0.001f, 2}, {0, 1, 0}).x,
-                    beside = s.irradiance({0.126f, 1, 2}, {1, 0, 0}).x;
-        EXPECT_GT(lit, 0.1f);
-        EXPECT_LT(dark, 1e-3f * lit) << smooth;
-        EXPECT_LT(beside, 0.01f * lit) << smooth;
-    }
+    for (const float divider : {0.05f, 0.25f, 1.f, 2.f})
+        for (const double smooth : {0., 1.}) {
+            LitByProbes s(twoRooms(divider), {{"probes.count", 128}, {"probes.smooth", smooth}});
+            s.update();
+            const float lit = s.irradiance({-2, 0.001f, 2}, {0, 1, 0}).x,
+                        dark = s.irradiance({2 + divider / 2, 0.001f, 2}, {0, 1, 0}).x,
+                        beside = s.irradiance({divider / 2 + 1e-3f, 1, 2}, {1, 0, 0}).x;
+            std::printf("divider of %.2f m, %s: floor %.1e, wall %.1e of the lit room\n",
+                        double(divider), smooth > 0 ? "ddgi" : "MM17", double(dark / lit),
+                        double(beside / lit));
+            EXPECT_GT(lit, 0.1f);
+            EXPECT_LT(dark, 1e-3f * lit) << divider << ' ' << smooth;
+            // Distances to a wall's two sides do not differ where it is much thinner than a step.
+            EXPECT_LT(beside, (divider < 0.1f ? 0.15f : 0.01f) * lit) << divider << ' ' << smooth;
+        }
 }
 
 TEST(Probes, ScaleDoesNotChangeIrradiance) {
