@@ -86,6 +86,13 @@ render probes-dark "Irradiance by light field probes: passages whose probes stan
 render probes-ring "Probes whose harmonics ring: magenta sides would get less than no light" atrium "${wide[@]}" --technique probes \
     --overlay probes
 
+render lpv-arrival "Rounds until light arrives before each surface: yellow ones are lit at once, violet ones after 16 rounds, grey ones never" \
+    cornell "${square[@]}" --technique lpv --overlay lpv-arrival
+render probe-reflections "Reflections marched from what one probe sees: teal ones meet a surface, magenta ones are unknown" cornell "${square[@]}" \
+    --technique probes --overlay probe-reflections --pick 200,270
+render sparse-negative "Texels to which few bands of harmonics bring less than no light are magenta" cornell "${square[@]}" \
+    --technique sparse-probes --overlay sparse-negative
+
 section "The editor" "Every part of the window is described in the README."
 build/release/journeys --gtest_filter='Gallery.*'
 cp build/journeys/GalleryOfWindows/*.png "$out/"
