@@ -136,8 +136,9 @@ TEST(LpvOverlay, CellsThatBothSidesOfAWallLightHaveRings) {
     const OverlayData data = snapshotOf(parted)->overlay({.kind = &texels}, parted, nullptr);
     EXPECT_GT(ringsOf(data), 8U);
     for (const OverlayMark& mark : data.marks)
-        if (mark.shape == MarkShape::Ring)
+        if (mark.shape == MarkShape::Ring) {
             EXPECT_LT(std::abs(mark.position.x - mark.position.z), 0.6f) << "away from the wall";
+        }
     EXPECT_NE(data.legend.entries.back().text.find(std::to_string(ringsOf(data)) + " cells"),
               std::string::npos);
 }

@@ -206,8 +206,9 @@ TEST(ProbeOverlay, NearlyAllReflectionsInAConvexRoomMeetASurface) {
         const std::string& text = data.legend.entries[k].text;
         said[k] = unsigned(std::stoi(text.substr(text.find(' '))));
         total += said[k];
-        if (k == 2) // the paths are of discs, too
+        if (k == 2) { // the paths are of discs, too
             EXPECT_EQ(count(data, kShapes[k], data.legend.entries[k].color), said[k]) << text;
+        }
     }
     EXPECT_EQ(total, 16U * 16);
     EXPECT_GT(said[0], 0.95 * total);
