@@ -56,43 +56,52 @@ def best_table(scenes, limits, unit, cost):
             label = ""
 
 
-def change_table(scenes):
-    print("| scene | technique | on | light | colour | material | object | camera | MiB | nRMSE | bias | "
-          "device to CPU: rms, largest |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+def shown_rows(scenes):
+    """The rows of one setting of each technique, with the labels of their first two cells, "" where they repeat."""
     for scene, rows in scenes.items():
         label = scene
         for technique, settings in SHOWN.items():
             first = True
             for r in rows:
-                if (r["technique"], r["settings"]) != (technique, settings):
-                    continue
-                times = " | ".join(milliseconds(r[f"{kind}_ms"])
-                                   for kind in ("light", "color", "material", "object", "camera"))
-                away = ""
-                if r["device"] != "cpu" and r.get("cpu_difference_rms") is not None:
-                    away = f'{percent(r["cpu_difference_rms"])}, {percent(r["cpu_difference_max"])}'
-                print(f'| {label} | {name(r) if first else ""} | {device(r)} | {times} | {r["bytes"] / MIB:.0f} | '
-                      f'{r["nrmse"]:.2f} | {100 * r["bias"]:+.0f} % | {away} |')
-                label, first = "", False
+                if (r["technique"], r["settings"]) == (technique, settings):
+                    yield label, name(r) if first else "", r
+                    label, first = "", False
+
+
+def change_table(scenes):
+    print("| scene | technique | on | light | colour | material | camera | MiB | nRMSE | bias | "
+          "device to CPU: rms, largest |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for label, technique, r in shown_rows(scenes):
+        times = " | ".join(milliseconds(r[f"{kind}_ms"]) for kind in ("light", "color", "material", "camera"))
+        away = ""
+        if r["device"] != "cpu" and r.get("cpu_difference_rms") is not None:
+            away = f'{percent(r["cpu_difference_rms"])}, {percent(r["cpu_difference_max"])}'
+        print(f'| {label} | {technique} | {device(r)} | {times} | {r["bytes"] / MIB:.0f} | '
+              f'{r["nrmse"]:.2f} | {100 * r["bias"]:+.0f} % | {away} |')
+
+
+def object_table(scenes):
+    columns = [(scene, on) for scene, rows in scenes.items() for on in dict.fromkeys(device(r) for r in rows)]
+    print("| technique | " + " | ".join(f"{scene}, {on}" for scene, on in columns) + " |")
+    print("|---|" + "---|" * len(columns))
+    for technique, settings in SHOWN.items():
+        found = {(scene, device(r)): r for scene, rows in scenes.items() for r in rows
+                 if (r["technique"], r["settings"]) == (technique, settings)}
+        if found:
+            cells = [milliseconds(found[c]["object_ms"]) if c in found else "–" for c in columns]
+            print(f"| {name(next(iter(found.values())))} | " + " | ".join(cells) + " |")
 
 
 def live_table(scenes):
     print("| scene | technique | on | SSIM | FLIP | leak | flicker | lag |")
     print("|---|---|---|---|---|---|---|---|")
-    for scene, rows in scenes.items():
-        label = scene
-        for technique, settings in SHOWN.items():
-            first = True
-            for r in rows:
-                if (r["technique"], r["settings"]) != (technique, settings):
-                    continue
-                leak = "–" if r["leak"] is None else percent(r["leak"])
-                flicker = "–" if r["flicker"] is None else f'{r["flicker"]:+.3f}'
-                lag = "–" if r["lag"] is None else r["lag"]
-                print(f'| {label} | {name(r) if first else ""} | {device(r)} | {r["ssim"]:.2f} | {r["flip"]:.2f} | '
-                      f"{leak} | {flicker} | {lag} |")
-                label, first = "", False
+    for label, technique, r in shown_rows(scenes):
+        leak = "–" if r["leak"] is None else percent(r["leak"])
+        flicker = "–" if r["flicker"] is None else f'{r["flicker"]:+.3f}'
+        lag = "–" if r["lag"] is None else r["lag"]
+        print(f'| {label} | {technique} | {device(r)} | {r["ssim"]:.2f} | {r["flip"]:.2f} | '
+              f"{leak} | {flicker} | {lag} |")
 
 
 def thesis_table(scenes):
@@ -129,6 +138,10 @@ def main():
     best_table(scenes, (1, 4, 16, 64, 256), "MiB", lambda r: r["bytes"] / MIB)
     print("\nAll changes, and both devices\n")
     change_table(scenes)
+    moving = {scene: rows for scene, rows in scenes.items() if any(r["object_ms"] is not None for r in rows)}
+    if moving:
+        print("\nAfter a moving object moved\n")
+        object_table(moving)
     print("\nWhile light moves\n")
     live_table(scenes)
     print("\nBeside the thesis\n")

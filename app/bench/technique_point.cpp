@@ -29,7 +29,7 @@ Json finite(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-/// Adds how the light follows its lights, and how much of it leaks.
+/// Adds leak, flicker and lag to a row, or null for those that the limit left no time for.
 Result<void> addLiveColumns(const MeasuredScene& m, const LeakRoom& room, const LightPlace& place,
                             const Configuration& c, LiveLight live, const TimeLimit& limit,
                             Json& row) {

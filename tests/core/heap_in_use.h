@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// Memory that the program has allocated and not freed [bytes]. Precondition: all threads share
-/// one arena (mallopt(M_ARENA_MAX, 1)), since this counts the main one.
+/// Memory that was allocated from the main arena and not freed [bytes]. Threads that started before
+/// mallopt(M_ARENA_MAX, 1) may have arenas of their own, which do not count.
 inline std::size_t heapInUse() {
     const struct mallinfo2 info = mallinfo2();
     return info.uordblks + info.hblkhd;

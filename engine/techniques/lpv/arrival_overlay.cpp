@@ -28,8 +28,8 @@ struct FacedSide {
     std::uint32_t cell;
 };
 
-/// Sides of surfaces for marks: of those in front of which a cell lies and that face the same way,
-/// along the axes, only one.
+/// Sides of surfaces to be marked: for each cell and each of the six directions along the axes at
+/// most one that has the cell in front of it and faces that way.
 std::vector<FacedSide> facedSides(const Scene& scene, const Lattice& lattice) {
     std::vector<FacedSide> sides;
     std::vector<std::uint8_t> taken(6 * lattice.cells());

@@ -41,7 +41,7 @@ OverlayMark markAt(const SeenPoint& p, glm::vec3 color, MarkShape shape = MarkSh
             .shape = shape};
 }
 
-/// Calls visit(point) for all surfaces that a probe sees, but for backs of solids.
+/// Calls visit(point) for all surfaces that a probe sees, except the backs of solids.
 template <class Visit>
 void forSeen(const ProbeMaps& maps, const Scene& scene, std::uint32_t probe, const Visit& visit) {
     const glm::vec3 from = maps.grid.position(probe);
