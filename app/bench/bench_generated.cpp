@@ -154,7 +154,7 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
     return row;
 }
 
-constexpr Column kColumns[] = {
+constexpr Column kGeneratedColumns[] = {
     {"seed", -14, "name"},           {"kind", -14, "kind"},
     {"surfels", 7, "surfels"},       {"texels", 7, "lightmap"},
     {"links", 5, "links"},           {"rays", 5, "rays"},
@@ -321,7 +321,7 @@ Exit runGeneratedBench(const GeneratedBench& o, const std::vector<BakeSettings>&
     }
 #endif
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kGeneratedColumns);
     Json rows = Json::array();
     for (std::uint32_t k = 0; k < o.scenes; ++k) {
         Measured measured(o, o.firstSeed + k);
@@ -330,7 +330,7 @@ Exit runGeneratedBench(const GeneratedBench& o, const std::vector<BakeSettings>&
             if (!row)
                 return failed(row.error().message);
             if (!o.json)
-                printRow(kColumns, *row);
+                printRow(kGeneratedColumns, *row);
             rows.push_back(std::move(*row));
         }
     }

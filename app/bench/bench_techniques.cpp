@@ -41,30 +41,30 @@ struct TechniquesBench {
     bool json = false;
 };
 
-constexpr Column kColumns[] = {{"scene", -10, "scene"},
-                               {"technique", -26, "technique"},
-                               {"settings", -16, "settings"},
-                               {"device", -10, "device"},
-                               {"pre [s]", 7, "seconds"},
-                               {"MiB", 8, "bytes", 2, kMiB},
-                               {"first ms", 9, "first_ms"},
-                               {"light ms", 9, "light_ms"},
-                               {"colour ms", 9, "color_ms"},
-                               {"mat. ms", 9, "material_ms"},
-                               {"obj. ms", 9, "object_ms"},
-                               {"cam. ms", 9, "camera_ms"},
-                               {"nRMSE", 7, "nrmse", 3},
-                               {"-1 %", 7, "nrmse_without_worst_percent", 3},
-                               {"bias %", 7, "bias", 1, 100},
-                               {"1 bounce", 8, "one_bounce_nrmse", 3},
-                               {"bias %", 7, "one_bounce_bias", 1, 100},
-                               {"SSIM", 6, "ssim", 3},
-                               {"FLIP", 6, "flip", 3},
-                               {"leak %", 7, "leak", 2, 100},
-                               {"flick. %", 8, "flicker", 2, 100},
-                               {"lag", 5, "lag"},
-                               {"to CPU %", 8, "cpu_difference_rms", 3, 100},
-                               {"max %", 7, "cpu_difference_max", 3, 100}};
+constexpr Column kTechniqueColumns[] = {{"scene", -10, "scene"},
+                                        {"technique", -26, "technique"},
+                                        {"settings", -16, "settings"},
+                                        {"device", -10, "device"},
+                                        {"pre [s]", 7, "seconds"},
+                                        {"MiB", 8, "bytes", 2, kMiB},
+                                        {"first ms", 9, "first_ms"},
+                                        {"light ms", 9, "light_ms"},
+                                        {"colour ms", 9, "color_ms"},
+                                        {"mat. ms", 9, "material_ms"},
+                                        {"obj. ms", 9, "object_ms"},
+                                        {"cam. ms", 9, "camera_ms"},
+                                        {"nRMSE", 7, "nrmse", 3},
+                                        {"-1 %", 7, "nrmse_without_worst_percent", 3},
+                                        {"bias %", 7, "bias", 1, 100},
+                                        {"1 bounce", 8, "one_bounce_nrmse", 3},
+                                        {"bias %", 7, "one_bounce_bias", 1, 100},
+                                        {"SSIM", 6, "ssim", 3},
+                                        {"FLIP", 6, "flip", 3},
+                                        {"leak %", 7, "leak", 2, 100},
+                                        {"flick. %", 8, "flicker", 2, 100},
+                                        {"lag", 5, "lag"},
+                                        {"to CPU %", 8, "cpu_difference_rms", 3, 100},
+                                        {"max %", 7, "cpu_difference_max", 3, 100}};
 
 /// The CPU, the device or both. Where there is no device, fails if it was asked for, and else says
 /// so.
@@ -97,10 +97,10 @@ Exit runTechniquesBench(const TechniquesBench& o) {
     SceneBenchOptions bench = o.bench;
     bench.show = [json = o.json](const Json& row) {
         if (!json)
-            printRow(kColumns, row);
+            printRow(kTechniqueColumns, row);
     };
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kTechniqueColumns);
     const LeakRoom room(o.samplesPerPixel);
     Json rows = Json::array();
     std::vector<PageScene> pages;

@@ -14,7 +14,7 @@ namespace limn {
 
 namespace {
 
-struct Options {
+struct CompareCommand {
     std::string test, reference, reference2, heatmap;
     bool json = false;
 };
@@ -36,7 +36,7 @@ nlohmann::ordered_json report(const Comparison& c, bool twoReferences) {
     return json;
 }
 
-Exit runCompare(const Options& o) {
+Exit runCompare(const CompareCommand& o) {
     if (!o.heatmap.empty())
         if (const Result<void> writable =
                 checkOutputFile(o.heatmap, {".png"}, {o.test, o.reference, o.reference2});
@@ -75,7 +75,7 @@ Exit runCompare(const Options& o) {
 } // namespace
 
 void addCompareCommand(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<CompareCommand>();
     CLI::App* command =
         app.add_subcommand("compare", "Measure the error of a render against a reference");
     command->add_option("test", o->test, "Linear image to judge, .exr or .hdr")->required();

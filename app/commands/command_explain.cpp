@@ -22,7 +22,7 @@ namespace limn {
 
 namespace {
 
-struct Options {
+struct ExplainCommand {
     SceneOptions scene;
     CameraOptions camera;
     TechniqueOptions technique;
@@ -100,7 +100,7 @@ nlohmann::ordered_json tableJson(const std::vector<LightRow>& rows, glm::vec3 to
     return json;
 }
 
-void printJson(const Options& options, const PixelExplanation& e,
+void printJson(const ExplainCommand& options, const PixelExplanation& e,
                const std::optional<glm::vec3>& without, std::size_t unit, double ms) {
     nlohmann::ordered_json json = {{"pick", options.pick},
                                    {"width", options.camera.width},
@@ -119,7 +119,7 @@ void printJson(const Options& options, const PixelExplanation& e,
     fmt::print("{}\n", json.dump());
 }
 
-Exit runExplain(const Options& options) {
+Exit runExplain(const ExplainCommand& options) {
     using Clock = std::chrono::steady_clock;
     if (options.pick[0] >= options.camera.width || options.pick[1] >= options.camera.height)
         return failed(fmt::format("--pick: {},{} is not in a picture of {} x {} pixels",
@@ -172,7 +172,7 @@ Exit runExplain(const Options& options) {
 } // namespace
 
 void addExplainCommand(CLI::App& app, Run& run) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ExplainCommand>();
     CLI::App* command = app.add_subcommand(
         "explain", "Says where the light of a pixel comes from, in tables that sum to all of it");
     addSceneOptions(*command, options->scene);

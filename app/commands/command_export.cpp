@@ -31,7 +31,7 @@ namespace limn {
 
 namespace {
 
-struct Options {
+struct ExportCommand {
     SceneOptions scene;
     BakeOptions bake;
     GivenSettings relight, given; ///< replace the document's; `given` are those of the export
@@ -62,7 +62,7 @@ const char* flagOf(std::string_view key) {
     return flag;
 }
 
-Exit listFormats(const Options& options) {
+Exit listFormats(const ExportCommand& options) {
     auto json = nlohmann::ordered_json::array();
     for (const ExportFormat* format : exportFormats()) {
         if (options.json)
@@ -84,7 +84,7 @@ Exit listFormats(const Options& options) {
 }
 
 /// The document's settings, where nothing else is given.
-ExportSettings settingsOf(const Options& options, const Document& document) {
+ExportSettings settingsOf(const ExportCommand& options, const Document& document) {
     ExportSettings settings = singleton<ExportSettings>(document);
     for (const auto& [key, text] : options.given)
         setExportSetting(settings, key, text);
@@ -94,7 +94,8 @@ ExportSettings settingsOf(const Options& options, const Document& document) {
 }
 
 /// The given setting that has no effect beside the others; empty: there is none.
-std::string uselessSetting(const Options& options, const ExportSettings& settings, bool hasGrid) {
+std::string uselessSetting(const ExportCommand& options, const ExportSettings& settings,
+                           bool hasGrid) {
     for (const auto& [key, text] : options.given)
         if (const std::string missing = missingFor(settings, key, hasGrid); !missing.empty())
             return fmt::format("{}: has no effect without {}", flagOf(key), missing);
@@ -102,7 +103,7 @@ std::string uselessSetting(const Options& options, const ExportSettings& setting
 }
 
 /// Checks everything that can be checked before the scene is read.
-Result<const ExportFormat*> chooseFormat(const Options& options) {
+Result<const ExportFormat*> chooseFormat(const ExportCommand& options) {
     const ExportFormat* format = findExportFormat(options.format);
     for (const auto& [key, text] : options.given)
         if (!reads(*format, key))
@@ -153,7 +154,7 @@ nlohmann::ordered_json reportJson(const ExportFormat& format, const ExportForeca
             {"files", list}};
 }
 
-Exit runExport(const Options& options) {
+Exit runExport(const ExportCommand& options) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     if (options.list)
@@ -206,7 +207,7 @@ Exit runExport(const Options& options) {
     return Exit::Done;
 }
 
-void addSettingOptions(CLI::App& command, Options& options) {
+void addSettingOptions(CLI::App& command, ExportCommand& options) {
     const ExportSettings defaults;
     visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
         if constexpr (sizeof...(limits) == 0)
@@ -230,7 +231,7 @@ void addSettingOptions(CLI::App& command, Options& options) {
 } // namespace
 
 void addExportCommand(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<ExportCommand>();
     CLI::App* command = app.add_subcommand("export", "Write a scene's light for other programs");
     addSceneOptions(*command, o->scene);
     addBakeOptions(*command, o->bake);

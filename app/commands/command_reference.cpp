@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ReferenceCommand {
     SceneOptions scene;
     CameraOptions camera;
     std::string view = "lit", output;
@@ -55,7 +55,7 @@ Json report(const ReferenceResult& r, const std::string& view, double seconds) {
     return json;
 }
 
-Exit runReference(Options& o) {
+Exit runReference(ReferenceCommand& o) {
     if (const Result<void> writable =
             checkOutputFile(o.output, {".exr"}, {o.scene.scene, o.scene.sky});
         !writable)
@@ -92,7 +92,7 @@ Exit runReference(Options& o) {
 } // namespace
 
 void addReferenceCommand(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<ReferenceCommand>();
     CLI::App* command = app.add_subcommand("reference", "Path-trace ground truth");
     addSceneOptions(*command, o->scene);
     addTimeOption(*command, o->scene);

@@ -29,7 +29,7 @@ namespace limn {
 
 namespace {
 
-struct Options {
+struct RenderCommand {
     SceneOptions scene;
     CameraOptions camera;
     OverlayFlags overlay;
@@ -82,7 +82,7 @@ bool needsIndirect(View view) {
 }
 
 // Reads the bake, or makes one with the document's settings.
-Result<std::shared_ptr<const Precomputed>> obtainBake(const Options& options,
+Result<std::shared_ptr<const Precomputed>> obtainBake(const RenderCommand& options,
                                                       const Precomputation& precomputation,
                                                       Scene& scene, const TraceScene& trace) {
     if (options.bake.empty()) {
@@ -107,7 +107,7 @@ CpuLight relight(const Scene& scene, Baked& baked, bool marched) {
     return {*baked.lighting->field(), std::move(report)};
 }
 
-Result<void> addOverlay(const Options& options, const Scene& scene, const Camera& camera,
+Result<void> addOverlay(const RenderCommand& options, const Scene& scene, const Camera& camera,
                         Baked& baked) {
     std::shared_ptr<const LightSnapshot> lit;
     if (overlayKindOf(options.overlay)->showsLight) {
@@ -126,7 +126,7 @@ Result<void> addOverlay(const Options& options, const Scene& scene, const Camera
     return {};
 }
 
-Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& camera) {
+Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Camera& camera) {
     const bool light = needsIndirect(View(indexOf(kViewNames, options.view)));
     if (scene.instances.empty() || !(light || options.overlay.wanted()))
         return Baked{}; // nothing receives light, or nobody asks
@@ -163,7 +163,7 @@ Result<Baked> prepareBake(const Options& options, Scene& scene, const Camera& ca
 }
 
 // Checks the overlay before anything is read or baked for it.
-Result<void> checkOverlay(const Options& options) {
+Result<void> checkOverlay(const RenderCommand& options) {
     if (!options.overlay.wanted())
         return checkOverlayFlags(options.overlay);
     if (std::filesystem::path(options.output).extension() != ".png")
@@ -175,11 +175,11 @@ Result<void> checkOverlay(const Options& options) {
     return checkOverlayFlags(options.overlay);
 }
 
-bool inspects(const Options& options) {
+bool inspects(const RenderCommand& options) {
     return options.inspection != kInspectionNames[0];
 }
 
-Result<void> checkInspection(const Options& options) {
+Result<void> checkInspection(const RenderCommand& options) {
     if (!inspects(options))
         return {};
     if (std::filesystem::path(options.output).extension() != ".png")
@@ -189,14 +189,14 @@ Result<void> checkInspection(const Options& options) {
     return {};
 }
 
-Result<void> checkRelight(const Options& options) {
+Result<void> checkRelight(const RenderCommand& options) {
     if (options.relight == "gpu" && options.device == "cpu")
         return fail("--relight gpu: needs a Vulkan device that draws; not --device cpu");
     return {};
 }
 
 // "auto" takes the CPU where there is no Vulkan; a device asked for by name must be there.
-Result<DrawPicture> chooseDrawing(const Options& options) {
+Result<DrawPicture> chooseDrawing(const RenderCommand& options) {
     const bool cpuWillDo = options.device == "auto" && !options.overlay.wanted() &&
                            !inspects(options) && options.relight != "gpu";
     if (options.device == "cpu")
@@ -224,7 +224,7 @@ Result<DrawPicture> chooseDrawing(const Options& options) {
 #endif
 }
 
-RenderRequest requestOf(const Options& options, const Scene& scene, const Camera& camera,
+RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const Camera& camera,
                         Baked& baked) {
     RenderRequest request;
     request.view = View(indexOf(kViewNames, options.view));
@@ -264,7 +264,7 @@ nlohmann::ordered_json lightingJson(const std::string& device, const LightingRep
     return json;
 }
 
-nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& image,
+nlohmann::ordered_json reportJson(const RenderCommand& options, const RenderedImage& image,
                                   const OverlayData* overlay, double seconds) {
     nlohmann::ordered_json json;
     json["seconds"] = seconds; // without reading the scene
@@ -285,7 +285,7 @@ nlohmann::ordered_json reportJson(const Options& options, const RenderedImage& i
     return json;
 }
 
-void printReport(const std::string& path, const Options& options, const RenderedImage& image,
+void printReport(const std::string& path, const RenderCommand& options, const RenderedImage& image,
                  const OverlayData* overlay, double seconds) {
     std::string relit;
     if (!image.relightDevice.empty())
@@ -302,7 +302,7 @@ void printReport(const std::string& path, const Options& options, const Rendered
 }
 
 // "walk.png" becomes "walk-03.png" for frame 3 of 100; a single frame keeps the name.
-std::string framePath(const Options& options, std::uint32_t frame) {
+std::string framePath(const RenderCommand& options, std::uint32_t frame) {
     if (options.frames == 1)
         return options.output;
     std::filesystem::path path = options.output;
@@ -318,7 +318,7 @@ Result<void> writePicture(const std::string& path, const RenderedImage& image) {
 
 // Lighting of each frame starts from the previous one, because animated textures change little in
 // between.
-Result<void> renderFrames(const Options& options, const Document& document, Scene& scene,
+Result<void> renderFrames(const RenderCommand& options, const Document& document, Scene& scene,
                           const Camera& camera) {
     using Clock = std::chrono::steady_clock;
     Clock::time_point start = Clock::now();
@@ -360,7 +360,7 @@ Result<void> renderFrames(const Options& options, const Document& document, Scen
     return {};
 }
 
-Exit runRender(const Options& options) {
+Exit runRender(const RenderCommand& options) {
     for (const Result<void>& possible :
          {checkOutputFile(options.output, {".exr", ".png"},
                           {options.scene.scene, options.scene.sky, options.bake}),
@@ -384,7 +384,7 @@ Exit runRender(const Options& options) {
 } // namespace
 
 void addRenderCommand(CLI::App& app, Run& run) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderCommand>();
     CLI::App* command = app.add_subcommand(
         "render", "Draw a picture, or the frames of an animation, as the viewport does");
     addSceneOptions(*command, options->scene);

@@ -39,11 +39,6 @@ constexpr float kRadiansPerPixel = 0.006f;
 constexpr float kClickPixels = 4;
 constexpr std::size_t kMaxBoxes = 200;
 
-glm::vec2 mousePosition() {
-    const ImVec2 m = ImGui::GetIO().MousePos;
-    return {m.x, m.y};
-}
-
 } // namespace
 
 static int buttonOf(const EditorState& state) {

@@ -22,11 +22,6 @@ namespace {
 constexpr float kDragPixels = 4;      ///< from which a drag makes copies
 constexpr float kReadoutPixels = 105; ///< from the pivot, so that the text is below the gizmo
 
-glm::vec2 mousePosition() {
-    const ImVec2 m = ImGui::GetIO().MousePos;
-    return {m.x, m.y};
-}
-
 DragKeys heldKeys(const GizmoSettings& settings) {
     const ImGuiIO& io = ImGui::GetIO();
     return {.snap = settings.snap != io.KeyCtrl, .fine = io.KeyShift};
@@ -47,6 +42,11 @@ const char* labelOf(const GizmoDrag& drag) {
 }
 
 } // namespace
+
+glm::vec2 mousePosition() {
+    const ImVec2 m = ImGui::GetIO().MousePos;
+    return {m.x, m.y};
+}
 
 /// Axes of the gizmo: of the world, of the active object (else of any that moves), or of the view.
 /// None if they are those of an object and none moves.

@@ -8,6 +8,9 @@ namespace limn {
 
 struct EditorState;
 
+/// Where the mouse is in the window [px].
+glm::vec2 mousePosition();
+
 /// Draws the gizmo of the selection and the handles of a selected light, and lets the mouse drag
 /// them. One drag is one edit. Ctrl snaps, Shift moves a tenth of the way, Alt on a handle drags
 /// copies; characters lock an axis or are a number, see typeIntoDrag(). `mouseHere` is true if the

@@ -8,6 +8,7 @@
 #include <utility>
 
 namespace limn {
+namespace babylon_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 4> kSettings = {"quantity", "direct", "detail",
@@ -38,14 +39,16 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
     return litSceneForecast(scene, ownSettings(settings));
 }
 
+} // namespace babylon_format
+
 constinit const ExportFormat kBabylonFormat = {
     .name = "babylon",
     .label = "Babylon.js",
     .summary = "glTF with a lightmap, the mean probe for what moves, and a module that loads them "
                "into Babylon.js",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = babylon_format::kExtensions,
+    .settings = babylon_format::kSettings,
+    .write = babylon_format::write,
+    .forecast = babylon_format::forecast};
 
 } // namespace limn

@@ -6,6 +6,7 @@
 #include <array>
 
 namespace limn {
+namespace blender_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
@@ -28,13 +29,15 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
     return litSceneForecast(scene, ownSettings(settings));
 }
 
+} // namespace blender_format
+
 constinit const ExportFormat kBlenderFormat = {
     .name = "blender",
     .label = "Blender",
     .summary = "glTF with a lightmap of irradiance as EXR, and a script that shows it in Blender",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = blender_format::kExtensions,
+    .settings = blender_format::kSettings,
+    .write = blender_format::write,
+    .forecast = blender_format::forecast};
 
 } // namespace limn

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 namespace limn {
+namespace filament_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".txt"};
 
@@ -38,15 +39,17 @@ static ExportForecast forecast(const ExportScene&, const ExportSettings&) {
     return {.bytes = 2048};
 }
 
+} // namespace filament_format
+
 constinit const ExportFormat kFilamentFormat = {
     .name = "filament",
     .label = "Filament",
     .summary =
         "The mean light of the grid as the irradiance of an IndirectLight, and a module that "
         "makes one",
-    .extensions = kExtensions,
+    .extensions = filament_format::kExtensions,
     .settings = {},
-    .write = write,
-    .forecast = forecast};
+    .write = filament_format::write,
+    .forecast = filament_format::forecast};
 
 } // namespace limn

@@ -6,6 +6,7 @@
 #include <array>
 
 namespace limn {
+namespace gltf_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 8> kSettings = {
@@ -17,14 +18,16 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
     return litScene(scene, settings, {}, name, progress);
 }
 
+} // namespace gltf_format
+
 constinit const ExportFormat kGltfFormat = {
     .name = "gltf",
     .label = "glTF with lightmap",
     .summary = "The scene with texture coordinates for its lightmap, and the lightmap beside it. "
                "Lights, cameras and emission use the Khronos extensions",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
+    .extensions = gltf_format::kExtensions,
+    .settings = gltf_format::kSettings,
+    .write = gltf_format::write,
     .forecast = litSceneForecast};
 
 } // namespace limn

@@ -19,6 +19,7 @@
 
 namespace limn {
 
+namespace godot_format {
 namespace {
 
 constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
@@ -155,15 +156,16 @@ ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings
 }
 
 } // namespace
+} // namespace godot_format
 
 constinit const ExportFormat kGodotFormat = {
     .name = "godot",
     .label = "Godot 4",
     .summary = "glTF, a LightmapGIData with the lightmap and the grid's probes, and a script that "
                "shows them in Godot 4.3 or later",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = godot_format::kExtensions,
+    .settings = godot_format::kSettings,
+    .write = godot_format::write,
+    .forecast = godot_format::forecast};
 
 } // namespace limn

@@ -8,6 +8,7 @@
 #include <array>
 
 namespace limn {
+namespace grid_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".json"};
 static constexpr std::array<std::string_view, 1> kSettings = {"compress"};
@@ -29,14 +30,16 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings&) 
     return {.bytes = gridKtx2Bytes(scene.field)};
 }
 
+} // namespace grid_format
+
 constinit const ExportFormat kGridFormat = {
     .name = "grid",
     .label = "Grid of probes",
     .summary = "The light in the air: a 3D texture of spherical harmonics, a JSON file that "
                "describes it, and a loader for three.js",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = grid_format::kExtensions,
+    .settings = grid_format::kSettings,
+    .write = grid_format::write,
+    .forecast = grid_format::forecast};
 
 } // namespace limn

@@ -12,6 +12,7 @@
 #include <utility>
 
 namespace limn {
+namespace ibl_format {
 
 using Json = nlohmann::ordered_json;
 
@@ -144,6 +145,8 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings&) 
     return {.bytes = gltfBytes(scene) + kImages};
 }
 
+} // namespace ibl_format
+
 constinit const ExportFormat kIblFormat = {
     .name = "ibl",
     .label = "glTF with image-based light",
@@ -151,9 +154,9 @@ constinit const ExportFormat kIblFormat = {
         "glTF whose scene carries the grid's mean light and what is reflected in its middle "
         "by EXT_lights_image_based, once for left-handed and once for right-handed scenes of "
         "Babylon.js",
-    .extensions = kExtensions,
+    .extensions = ibl_format::kExtensions,
     .settings = {},
-    .write = write,
-    .forecast = forecast};
+    .write = ibl_format::write,
+    .forecast = ibl_format::forecast};
 
 } // namespace limn

@@ -19,6 +19,7 @@ namespace limn {
 
 using Json = nlohmann::ordered_json;
 
+namespace json_format {
 namespace {
 
 constexpr std::array<std::string_view, 1> kExtensions = {".json"};
@@ -246,6 +247,7 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
 }
 
 } // namespace
+} // namespace json_format
 
 constinit const ExportFormat kJsonFormat = {
     .name = "json",
@@ -253,9 +255,9 @@ constinit const ExportFormat kJsonFormat = {
     .summary =
         "Everything as one JSON file for programs of your own: geometry, texture coordinates, "
         "harmonics of lightmap and grid, lights and cameras",
-    .extensions = kExtensions,
+    .extensions = json_format::kExtensions,
     .settings = {},
-    .write = write,
-    .forecast = forecast};
+    .write = json_format::write,
+    .forecast = json_format::forecast};
 
 } // namespace limn

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 namespace limn {
+namespace lightmap_format {
 
 static constexpr std::array<std::string_view, 2> kExtensions = {".exr", ".ktx2"};
 static constexpr std::array<std::string_view, 8> kSettings = {
@@ -44,14 +45,16 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
     return forecastPages(scene, settings);
 }
 
+} // namespace lightmap_format
+
 constinit const ExportFormat kLightmapFormat = {
     .name = "lightmap",
     .label = "Lightmap",
     .summary = "A texture of irradiance, or of spherical harmonics, for the texture coordinates "
                "that the glTF export writes",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = lightmap_format::kExtensions,
+    .settings = lightmap_format::kSettings,
+    .write = lightmap_format::write,
+    .forecast = lightmap_format::forecast};
 
 } // namespace limn

@@ -11,6 +11,7 @@
 
 namespace limn {
 
+namespace limnrt_format {
 namespace {
 
 constexpr std::array<std::string_view, 1> kExtensions = {".limnrt"};
@@ -32,10 +33,11 @@ const Bake* bakeBehind(const ExportScene& scene) {
 }
 
 } // namespace
+} // namespace limnrt_format
 
 Result<std::string> transportBytes(const ExportScene& scene, const ExportSettings& settings,
                                    const Progress& progress) {
-    const Bake* bake = bakeBehind(scene);
+    const Bake* bake = limnrt_format::bakeBehind(scene);
     if (!bake)
         return fail("the technique that lights the scene has no transport to export");
     const Result<std::uint32_t> detail = lightmapDetail(scene.layout, settings);
@@ -65,7 +67,7 @@ ExportForecast forecastTransport(const ExportScene& scene, const ExportSettings&
     ExportForecast f = forecastLightmap(scene.layout, settings);
     // About as many texels read one cache as read four; a part takes 6 bytes, a texel 4 more.
     f.bytes = std::uint64_t(f.width) * f.height * (4 + 5 * 6 / 2);
-    const Bake* bake = bakeBehind(scene);
+    const Bake* bake = limnrt_format::bakeBehind(scene);
     if (!bake)
         return f;
     f.bytes += bake->caches.linkCount() * sizeof(Link) + bake->caches.size() * 40 +
@@ -79,9 +81,9 @@ constinit const ExportFormat kLimnrtFormat = {
     .label = "Relightable transport",
     .summary = "A file from which engine/runtime, or any reader of its specification, relights the "
                "scene while lamps, sky and colours change",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
+    .extensions = limnrt_format::kExtensions,
+    .settings = limnrt_format::kSettings,
+    .write = limnrt_format::write,
     .forecast = forecastTransport};
 
 } // namespace limn

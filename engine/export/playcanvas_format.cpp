@@ -8,6 +8,7 @@
 #include <utility>
 
 namespace limn {
+namespace playcanvas_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
@@ -34,14 +35,16 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
     return litSceneForecast(scene, ownSettings(settings));
 }
 
+} // namespace playcanvas_format
+
 constinit const ExportFormat kPlaycanvasFormat = {
     .name = "playcanvas",
     .label = "PlayCanvas",
     .summary = "glTF with a lightmap of irradiance / pi, the mean probe for what moves, and a "
                "module that loads them into PlayCanvas",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = playcanvas_format::kExtensions,
+    .settings = playcanvas_format::kSettings,
+    .write = playcanvas_format::write,
+    .forecast = playcanvas_format::forecast};
 
 } // namespace limn

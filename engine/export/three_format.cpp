@@ -8,6 +8,7 @@
 #include <array>
 
 namespace limn {
+namespace three_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 6> kSettings = {"encoding", "compress", "direct",
@@ -53,14 +54,16 @@ static ExportForecast forecast(const ExportScene& scene, const ExportSettings& s
     return f;
 }
 
+} // namespace three_format
+
 constinit const ExportFormat kThreeFormat = {
     .name = "three",
     .label = "three.js",
     .summary = "glTF with a lightmap of irradiance, the grid for what moves, and a module that "
                "loads them into three.js",
-    .extensions = kExtensions,
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .extensions = three_format::kExtensions,
+    .settings = three_format::kSettings,
+    .write = three_format::write,
+    .forecast = three_format::forecast};
 
 } // namespace limn

@@ -14,6 +14,7 @@
 
 namespace limn {
 
+namespace web_format {
 namespace {
 
 constexpr std::array<std::string_view, 2> kSettings = {"detail", "maxSize"};
@@ -94,6 +95,7 @@ ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings
 }
 
 } // namespace
+} // namespace web_format
 
 constinit const ExportFormat kWebFormat = {
     .name = "web",
@@ -101,8 +103,8 @@ constinit const ExportFormat kWebFormat = {
     .summary = "A folder for any web server: a page on which visitors move lamps and change "
                "colours and sky, and bounced light follows",
     .extensions = {},
-    .settings = kSettings,
-    .write = write,
-    .forecast = forecast};
+    .settings = web_format::kSettings,
+    .write = web_format::write,
+    .forecast = web_format::forecast};
 
 } // namespace limn

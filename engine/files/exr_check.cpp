@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/exr_check.h"
 
+#include "engine/scene/decode_image.h"
+
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -59,7 +61,6 @@ struct ExrLayout {
 
 } // namespace
 
-static constexpr std::int64_t kMaxTexels = std::int64_t(1) << 28; // 16k x 16k
 static constexpr std::size_t kMaxName = 255;
 static constexpr std::int64_t kMaxChannels = 64;
 
@@ -99,7 +100,7 @@ static Result<void> readWindow(ByteReader value, ExrLayout& layout) {
     layout.maxY = value.number<std::int32_t>();
     const std::int64_t width = std::int64_t(layout.maxX) - layout.minX + 1;
     const std::int64_t height = std::int64_t(layout.maxY) - layout.minY + 1;
-    if (!value.ok || width <= 0 || height <= 0 || width > kMaxTexels / height)
+    if (!value.ok || width <= 0 || height <= 0 || width > std::int64_t(kMaxTexels) / height)
         return fail(fmt::format("dataWindow: {} x {} texels", width, height));
     constexpr std::int32_t kFar = 1 << 20; // beyond it tinyexr takes line numbers for damage
     if (layout.minX < -kFar || layout.minY < -kFar || layout.maxX > kFar || layout.maxY > kFar)

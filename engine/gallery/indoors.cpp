@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,7 +15,6 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kBelowGround = 0.05; ///< [m] that walls reach below a floor they stand on
 
 /// A hole in a wall of a room.
@@ -389,15 +389,16 @@ static void addShapedLamp(SceneMaker& m, Box room, int shape) {
         const double r = m.random.between(0.05, 0.25);
         std::vector<dvec2> arc;
         for (int k = 0; k <= 8; ++k)
-            arc.push_back({r * std::sin(kPi * k / 8), -r * std::cos(kPi * k / 8)});
+            arc.push_back(
+                {r * std::sin(std::numbers::pi * k / 8), -r * std::cos(std::numbers::pi * k / 8)});
         addTurned(mesh, dvec3(0), {arc}, 12);
-        area = 4 * kPi * r * r;
+        area = 4 * std::numbers::pi * r * r;
     } else if (shape == 1) { // tube
         const double r = m.random.between(0.01, 0.05), half = m.random.between(0.3, 0.8);
         addTurned(mesh, dvec3(0),
                   {{{0, -half}, {r, -half}}, {{r, -half}, {r, half}}, {{r, half}, {0, half}}}, 10);
         at.rotation = turnBy(1, {0, 0, 1});
-        area = 4 * kPi * r * half;
+        area = 4 * std::numbers::pi * r * half;
     } else { // panel that hangs, or a sign on the wall at the lower z
         const dvec2 half{m.random.between(0.1, 0.6), m.random.between(0.05, 0.4)};
         addQuad(mesh, {-half.x, -half.y, 0}, {half.x, -half.y, 0}, {half.x, half.y, 0},

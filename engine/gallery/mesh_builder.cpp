@@ -2,6 +2,7 @@
 #include "engine/gallery/mesh_builder.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,8 +13,6 @@ namespace {
 
 using glm::dvec2;
 using glm::dvec3;
-
-constexpr double kPi = 3.14159265358979323846;
 
 dvec3 rounded(dvec3 p) {
     return glm::floor(p * 8192.0 + 0.5) / 8192.0;
@@ -128,7 +127,7 @@ void addTurned(Mesh& mesh, dvec3 centre, const Profile& profile, int sides, int 
     for (const std::vector<dvec2>& piece : whole) {
         addSheet(mesh, sides, int(piece.size()) - 1, true, [&](double u, double v) {
             const dvec2 p = piece[std::size_t(std::lround(v * double(piece.size() - 1)))];
-            const double angle = -2 * kPi * u;
+            const double angle = -2 * std::numbers::pi * u;
             const double groove =
                 flutes > 0 ? depth * std::pow(std::abs(std::sin(angle * flutes / 2)), 0.7) : 0;
             const double radius = std::max(p.x - groove, 0.0);
@@ -142,7 +141,7 @@ void addArch(Mesh& mesh, dvec3 centre, dvec2 radii, const std::vector<dvec2>& se
     for (std::size_t k = 0; k + 1 < section.size(); ++k) {
         addSheet(mesh, segments, 1, false, [&](double u, double v) {
             const dvec2 s = v < 0.5 ? section[k] : section[k + 1];
-            const double angle = kPi * u;
+            const double angle = std::numbers::pi * u;
             return centre +
                    dvec3((radii.x + s.x) * std::cos(angle), (radii.y + s.x) * std::sin(angle), s.y);
         });
@@ -155,13 +154,13 @@ void addArcadeWall(Mesh& mesh, double halfLength, double springing, double top, 
     std::vector<dvec2> edge = {{-halfLength, springing}}; // the lower edge, left to right
     for (const Opening& opening : openings) {
         for (int i = 0; i <= segments; ++i) {
-            const double angle = kPi * (1 - double(i) / segments);
+            const double angle = std::numbers::pi * (1 - double(i) / segments);
             edge.push_back({opening.x + opening.radius * std::cos(angle),
                             springing + opening.radius * std::sin(angle)});
         }
         const double crown = opening.radius, middle = opening.x;
         addSheet(mesh, segments, 1, false, [=](double u, double v) {
-            const double angle = kPi * (1 - u);
+            const double angle = std::numbers::pi * (1 - u);
             return dvec3(middle + crown * std::cos(angle), springing + crown * std::sin(angle),
                          v < 0.5 ? -z : z);
         });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,8 +12,6 @@
 namespace limn {
 
 using glm::dvec2, glm::dvec3;
-
-static constexpr double kPi = 3.14159265358979323846;
 
 /// Adds a sun at an elevation of 30 to 65 degrees, in the quadrant of the horizontal direction
 /// `from`.
@@ -157,7 +156,7 @@ void makeCave(SceneMaker& m) {
     const int around = m.random.whole(16, 64), up = around / 2;
     // Star-shaped about the origin: no point is nearer than (1 - depth) of the smallest radius.
     const auto point = [&](double u, double v, double grown) {
-        const double polar = kPi * v * end, angle = 2 * kPi * u;
+        const double polar = std::numbers::pi * v * end, angle = 2 * std::numbers::pi * u;
         const dvec3 d(std::sin(polar) * std::cos(angle), -std::cos(polar),
                       std::sin(polar) * std::sin(angle));
         const double r = 1 - depth * valueNoise(noise, d * frequency);

@@ -51,6 +51,11 @@ Pipeline createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc
 Pipeline createComputePipeline(Device& device, Spirv shader, VkPipelineLayout layout,
                                std::span<const std::uint32_t> constants, const char* name);
 
+/// Workgroups of `lanes` invocations that together have one for each item.
+constexpr std::uint32_t groups(std::uint32_t items, std::uint32_t lanes) {
+    return (items + lanes - 1) / lanes;
+}
+
 /// Records a dispatch of `groups` workgroups in rows, as shaders/shared/compute_groups.glsl counts
 /// them, and a barrier that makes what it wrote visible to the next. `set` is set 0. Returns the
 /// number of dispatches: 0 for no groups.

@@ -14,13 +14,13 @@
 
 namespace limn {
 
-static constexpr std::uint32_t kNone = ~0U, kPointsPerDirection = 2;
+static constexpr std::uint32_t kNoTriangle = ~0U, kPointsPerDirection = 2;
 /// Limits of what isNear() looks at, so that its time is bounded.
 static constexpr std::size_t kMaxNearLamps = 1000, kMaxNearTriangles = 256;
 
 LampLight::LampLight(const TraceScene& trace) : m_trace(trace) {
     const Scene& scene = trace.scene();
-    m_first.assign(scene.instances.size(), kNone);
+    m_first.assign(scene.instances.size(), kNoTriangle);
     m_radiance.assign(scene.instances.size(), 0);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
@@ -104,7 +104,7 @@ LampIrradiance LampLight::at(const WorldPoint& point, float reach, std::uint32_t
         open += back || (hit && hit.t < reach) ? 0 : 1;
         if (!hit)
             continue;
-        if (!back && m_first[hit.instance] != kNone)
+        if (!back && m_first[hit.instance] != kNoTriangle)
             sum += weighted(m_triangles[m_first[hit.instance] + hit.triangle], hit.geometricNormal,
                             direction, hit.t, double(cosine), samples);
     }

@@ -80,11 +80,11 @@ std::uint64_t areaOf(const ChartBox& box) {
 }
 
 /// Packs boxes into a square of `side` texels and writes the places of those that fit. The others
-/// keep page kNone.
-constexpr std::uint32_t kNone = ~0U;
+/// keep page kNoPage.
+constexpr std::uint32_t kNoPage = ~0U;
 struct Place {
     glm::uvec2 at{0};
-    std::uint32_t page = kNone;
+    std::uint32_t page = kNoPage;
 };
 
 void packPage(const std::vector<ChartBox>& boxes, std::span<const std::uint32_t> which,
@@ -150,7 +150,7 @@ LightmapPages lightmapPages(const Scene& scene, const LightmapLayout& layout, st
     pages.copies.clear();
     for (std::size_t k = 0; k < boxes.size(); ++k) {
         const ChartBox& box = boxes[k];
-        assert(places[k].page != kNone);
+        assert(places[k].page != kNoPage);
         used = glm::max(used, places[k].at + box.size);
         pages.count = std::max(pages.count, places[k].page + 1);
         pages.copies.push_back(

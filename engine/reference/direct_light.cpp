@@ -67,10 +67,6 @@ DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, con
     return {light.color * light.strength * share, toLight};
 }
 
-float strength(glm::vec3 e) {
-    return e.x + e.y + e.z;
-}
-
 // `l` is that light's, not 0.
 DirectSample sampleShadowed(const TraceScene& trace, const SurfacePoint& p, const Light& light,
                             const Unshadowed& l, glm::vec2 onLight, std::uint64_t& rays) {
@@ -109,7 +105,7 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
     glm::vec3 E(0);
     for (const Light& light : trace.scene().lights) {
         const Unshadowed l = unshadowed(light, p);
-        if (!(strength(l.irradiance) > 0))
+        if (!(channelSum(l.irradiance) > 0))
             continue;
         if (light.kind == LightKind::Rectangle) {
             E += light.color * light.strength *
@@ -127,8 +123,8 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
 DirectSample sampleDirectLightFrom(const TraceScene& trace, const SurfacePoint& p,
                                    const Light& light, glm::vec2 onLight, std::uint64_t& rays) {
     const Unshadowed l = unshadowed(light, p);
-    return strength(l.irradiance) > 0 ? sampleShadowed(trace, p, light, l, onLight, rays)
-                                      : DirectSample{};
+    return channelSum(l.irradiance) > 0 ? sampleShadowed(trace, p, light, l, onLight, rays)
+                                        : DirectSample{};
 }
 
 void addDirectHarmonics(const TraceScene& trace, const SurfacePoint& p, int bands, glm::vec3* c,
@@ -145,7 +141,7 @@ void addDirectHarmonics(const TraceScene& trace, const SurfacePoint& p, int band
             continue;
         }
         const LightSample s = sampleLight(light, p.position);
-        if (!(strength(s.irradiance) > 0) || !(glm::dot(p.geometricNormal, s.toLight) > 0))
+        if (!(channelSum(s.irradiance) > 0) || !(glm::dot(p.geometricNormal, s.toLight) > 0))
             continue;
         ++rays;
         if (!inShadow(trace, p, s))
@@ -157,7 +153,7 @@ DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, f
                                glm::vec2 onLight, std::uint64_t& rays) {
     float total = 0;
     for (const Light& light : trace.scene().lights)
-        total += strength(unshadowed(light, p).irradiance);
+        total += channelSum(unshadowed(light, p).irradiance);
     if (!(total > 0))
         return {};
     float below = 0;
@@ -165,16 +161,16 @@ DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, f
     const Light* light = nullptr;
     for (const Light& candidate : trace.scene().lights) {
         const Unshadowed l = unshadowed(candidate, p);
-        if (!(strength(l.irradiance) > 0))
+        if (!(channelSum(l.irradiance) > 0))
             continue;
         chosen = l;
         light = &candidate;
-        below += strength(l.irradiance);
+        below += channelSum(l.irradiance);
         if (pick * total < below)
             break;
     }
     DirectSample s = sampleShadowed(trace, p, *light, chosen, onLight, rays);
-    s.irradiance *= total / strength(chosen.irradiance); // 1 / chance
+    s.irradiance *= total / channelSum(chosen.irradiance); // 1 / chance
     return s;
 }
 

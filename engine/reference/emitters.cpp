@@ -12,10 +12,6 @@ namespace limn {
 
 namespace {
 
-float strength(glm::vec3 e) {
-    return e.x + e.y + e.z;
-}
-
 // Maps the unit square to uniform barycentrics by folding it at its diagonal.
 glm::vec2 foldToTriangle(glm::vec2 u) {
     return u.x + u.y > 1 ? glm::vec2(1 - u.x, 1 - u.y) : u;
@@ -34,7 +30,7 @@ double meanEmission(const Scene& scene, const Instance& instance, std::uint32_t 
                 foldToTriangle({(float(x) + 0.5f) / float(n), (float(y) + 0.25f) / float(n)});
             const SurfaceMaterial s = surfaceMaterial(scene, instance, triangle, b.x, b.y);
             if (s.alpha > 0)
-                sum += double(strength(s.emission));
+                sum += double(channelSum(s.emission));
         }
     return sum / (n * n);
 }
@@ -68,7 +64,7 @@ Emitters findEmitters(const TraceScene& trace) {
     double sum = 0;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (!(strength(scene.materialOf(instance).emission) > 0))
+        if (!(channelSum(scene.materialOf(instance).emission) > 0))
             continue;
         const std::size_t count = scene.meshOf(instance).triangleCount();
         emitters.firstOf[i] = std::uint32_t(emitters.emitterOf.size());

@@ -8,6 +8,11 @@
 
 namespace limn {
 
+/// Above 0 where there is light of any color.
+inline float channelSum(glm::vec3 light) {
+    return light.x + light.y + light.z;
+}
+
 /// A Lambertian surface point at a ray's hit. Its normals face the side that the ray came from.
 struct SurfacePoint {
     glm::vec3 position{0};

@@ -85,21 +85,21 @@ Json describe(const std::string& scene, const BakeSettings& s, const Bake& bake,
             {"bytes", bytesOf(bake).total()}};
 }
 
-constexpr Column kColumns[] = {{"scene", -14, "name"},
-                               {"surfels", 7, "surfels"},
-                               {"linker", -11, "linker"},
-                               {"clustering", -13, "clustering"},
-                               {"cut", -11, "cut"},
-                               {"links", 5, "links"},
-                               {"nRMSE", 8, "nrmse", 4},
-                               {"-1 %", 8, "nrmse_without_worst_percent", 4},
-                               {"bias [%]", 8, "bias", 2, 100},
-                               {"cut only", 8, "cut_nrmse", 4},
-                               {"-1 %", 8, "cut_nrmse_without_worst_percent", 4},
-                               {"seam", 6, "seam", 3},
-                               {"bake [s]", 8, "seconds"},
-                               {"cut [s]", 7, "cut_seconds"},
-                               {"MiB", 8, "bytes", 2, kMiB}};
+constexpr Column kErrorColumns[] = {{"scene", -14, "name"},
+                                    {"surfels", 7, "surfels"},
+                                    {"linker", -11, "linker"},
+                                    {"clustering", -13, "clustering"},
+                                    {"cut", -11, "cut"},
+                                    {"links", 5, "links"},
+                                    {"nRMSE", 8, "nrmse", 4},
+                                    {"-1 %", 8, "nrmse_without_worst_percent", 4},
+                                    {"bias [%]", 8, "bias", 2, 100},
+                                    {"cut only", 8, "cut_nrmse", 4},
+                                    {"-1 %", 8, "cut_nrmse_without_worst_percent", 4},
+                                    {"seam", 6, "seam", 3},
+                                    {"bake [s]", 8, "seconds"},
+                                    {"cut [s]", 7, "cut_seconds"},
+                                    {"MiB", 8, "bytes", 2, kMiB}};
 
 Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& rows) {
     SceneOptions options = o.common;
@@ -153,7 +153,7 @@ Result<void> measureScene(const ErrorBench& o, const std::string& path, Json& ro
         row["seam"] = measureSeams(scene, baked->lightmap, relighter.field()).relative();
         row["reference_noise"] = reference.noise;
         if (!o.json)
-            printRow(kColumns, row);
+            printRow(kErrorColumns, row);
         rows.push_back(std::move(row));
     }
     return {};
@@ -164,7 +164,7 @@ Exit runErrorBench(const ErrorBench& o) {
     if (o.generated.scenes > 0)
         return runGeneratedBench(o.generated, sweepRows(o.sweep));
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kErrorColumns);
     Json rows = Json::array();
     for (const std::string& scene : o.scenes)
         if (const Result<void> measured = measureScene(o, scene, rows); !measured)

@@ -138,29 +138,29 @@ Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& fra
     return row;
 }
 
-constexpr Column kColumns[] = {{"scene", -14, "name"},
-                               {"relight", -7, "relight"},
-                               {"lit", -4, "caches_lit"},
-                               {"unseen", 6, "caches_unseen"},
-                               {"lights", 6, "lights"},
-                               {"surfels", 7, "surfels"},
-                               {"links", 5, "links"},
-                               {"bands", 5, "bands_lit"},
-                               {"kind", -4, "storage"},
-                               {"shadows", 7, "shadow_maps_median_ms"},
-                               {"direct", 7, "lights_on_surfels_median_ms"},
-                               {"surfels", 7, "surfels_median_ms"},
-                               {"pull", 7, "pull_median_ms"},
-                               {"caches", 7, "caches_median_ms"},
-                               {"field", 7, "field_median_ms"},
-                               {"drawn", 5, "geometry_drawn"},
-                               {"geom", 7, "geometry_median_ms"},
-                               {"bounced", 7, "indirect_median_ms"},
-                               {"shade", 7, "direct_median_ms"},
-                               {"tone", 7, "tonemap_median_ms"},
-                               {"/light", 8, "per_light_median_ms", 3},
-                               {"all [ms]", 8, "median_ms"},
-                               {"p95", 8, "p95_ms"}};
+constexpr Column kFrameColumns[] = {{"scene", -14, "name"},
+                                    {"relight", -7, "relight"},
+                                    {"lit", -4, "caches_lit"},
+                                    {"unseen", 6, "caches_unseen"},
+                                    {"lights", 6, "lights"},
+                                    {"surfels", 7, "surfels"},
+                                    {"links", 5, "links"},
+                                    {"bands", 5, "bands_lit"},
+                                    {"kind", -4, "storage"},
+                                    {"shadows", 7, "shadow_maps_median_ms"},
+                                    {"direct", 7, "lights_on_surfels_median_ms"},
+                                    {"surfels", 7, "surfels_median_ms"},
+                                    {"pull", 7, "pull_median_ms"},
+                                    {"caches", 7, "caches_median_ms"},
+                                    {"field", 7, "field_median_ms"},
+                                    {"drawn", 5, "geometry_drawn"},
+                                    {"geom", 7, "geometry_median_ms"},
+                                    {"bounced", 7, "indirect_median_ms"},
+                                    {"shade", 7, "direct_median_ms"},
+                                    {"tone", 7, "tonemap_median_ms"},
+                                    {"/light", 8, "per_light_median_ms", 3},
+                                    {"all [ms]", 8, "median_ms"},
+                                    {"p95", 8, "p95_ms"}};
 
 /// Unit vector to the camera's right.
 glm::vec3 across(const Camera& camera) {
@@ -214,7 +214,7 @@ Exit runFrameBench(const FrameBench& o) {
         return failed("--device: " + device.error().message);
     Json rows = Json::array();
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kFrameColumns);
     const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
         for (const std::uint32_t lights : o.lights)
             for (const std::string& on : o.relightOn)
@@ -224,7 +224,7 @@ Exit runFrameBench(const FrameBench& o) {
                         return tl::make_unexpected(row.error());
                     rows.push_back(std::move(*row));
                     if (!o.json)
-                        printRow(kColumns, rows.back());
+                        printRow(kFrameColumns, rows.back());
                 }
         return {};
     });

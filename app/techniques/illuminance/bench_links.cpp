@@ -105,7 +105,7 @@ Result<void> measureScene(const LinksBench& o, const std::string& path, Json& ro
 }
 
 /// The first three bands are what irradiance reads.
-constexpr Column kColumns[] = {
+constexpr Column kLinkColumns[] = {
     {"scene", -14, "name"},          {"caches", -8, "caches"},      {"links", -5, "storage"},
     {"link 0", 7, "link_band_0", 4}, {"1", 7, "link_band_1", 4},    {"2", 7, "link_band_2", 4},
     {"lit 0", 7, "lit_band_0", 4},   {"1", 7, "lit_band_1", 4},     {"2", 7, "lit_band_2", 4},
@@ -119,9 +119,9 @@ Exit runLinksBench(const LinksBench& o) {
         if (const Result<void> measured = measureScene(o, scene, rows); !measured)
             return failed(measured.error().message);
     if (!o.json) {
-        printTitles(kColumns);
+        printTitles(kLinkColumns);
         for (const Json& row : rows)
-            printRow(kColumns, row);
+            printRow(kLinkColumns, row);
     }
     return writeRows(rows, o.output, "links", o.json);
 }

@@ -32,11 +32,12 @@ void stopAfterCase(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-constexpr Column kColumns[] = {{"oracle", -14, "oracle"},    {"judged", 7, "judged"},
-                               {"skipped", 7, "skipped"},    {"failed", 7, "failed"},
-                               {"worst", 12, "worst", 6},    {"limit", 10, "limit", 6},
-                               {"of seed", 8, "worst_seed"}, {"first failed", 12, "first_failed"},
-                               {"what holds", -70, "what"}};
+constexpr Column kOracleColumns[] = {
+    {"oracle", -14, "oracle"},    {"judged", 7, "judged"},
+    {"skipped", 7, "skipped"},    {"failed", 7, "failed"},
+    {"worst", 12, "worst", 6},    {"limit", 10, "limit", 6},
+    {"of seed", 8, "worst_seed"}, {"first failed", 12, "first_failed"},
+    {"what holds", -70, "what"}};
 
 Json rowsOf(const std::vector<CaseResult>& cases, const std::vector<Oracle>& oracles) {
     Json rows = Json::array();
@@ -81,9 +82,9 @@ Exit report(const OracleBench& o, const std::vector<CaseResult>& cases,
     if (o.json) {
         fmt::print("{}\n", Json{{"rows", rows}, {"ends", ends}}.dump());
     } else {
-        printTitles(kColumns);
+        printTitles(kOracleColumns);
         for (const Json& row : rows)
-            printRow(kColumns, row);
+            printRow(kOracleColumns, row);
         for (const auto& [key, value] : ends.items())
             if (!value.is_array() || !value.empty())
                 fmt::print("{:<16}{}\n", key, value.dump());

@@ -158,17 +158,17 @@ Json describe(const std::string& scene, const char* variant, const PrecomputedCo
     return row;
 }
 
-constexpr Column kColumns[] = {{"scene", -10, "scene"},
-                               {"settings", -18, "settings"},
-                               {"CPU s", 7, "seconds_measured"},
-                               {"pred.", 7, "seconds_predicted"},
-                               {"off %", 6, "seconds_off_percent", 0},
-                               {"MiB", 8, "bytes_measured", 2, kMiB},
-                               {"pred.", 8, "bytes_predicted", 2, kMiB},
-                               {"off %", 6, "bytes_off_percent", 0},
-                               {"ms", 8, "update_ms_measured"},
-                               {"pred.", 8, "update_ms_predicted"},
-                               {"off %", 6, "update_ms_off_percent", 0}};
+constexpr Column kPredictionColumns[] = {{"scene", -10, "scene"},
+                                         {"settings", -18, "settings"},
+                                         {"CPU s", 7, "seconds_measured"},
+                                         {"pred.", 7, "seconds_predicted"},
+                                         {"off %", 6, "seconds_off_percent", 0},
+                                         {"MiB", 8, "bytes_measured", 2, kMiB},
+                                         {"pred.", 8, "bytes_predicted", 2, kMiB},
+                                         {"off %", 6, "bytes_off_percent", 0},
+                                         {"ms", 8, "update_ms_measured"},
+                                         {"pred.", 8, "update_ms_predicted"},
+                                         {"off %", 6, "update_ms_off_percent", 0}};
 
 Result<void> predictScene(const PredictBench& o, const std::string& path, Json& rows) {
     SceneOptions options = o.common;
@@ -194,7 +194,7 @@ Result<void> predictScene(const PredictBench& o, const std::string& path, Json& 
         rows.push_back(describe(std::filesystem::path(path).stem().string(), variant.name,
                                 predicted, made->cost));
         if (!o.json)
-            printRow(kColumns, rows.back());
+            printRow(kPredictionColumns, rows.back());
     }
     return {};
 }
@@ -217,7 +217,7 @@ void printWorst(const Json& rows) {
 Exit runPredictBench(const PredictBench& o) {
     const ThreadLimit threads(o.threads);
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kPredictionColumns);
     Json rows = Json::array();
     for (const std::string& scene : o.scenes)
         if (const Result<void> done = predictScene(o, scene, rows); !done)

@@ -165,28 +165,28 @@ Json describe(const RelightBench& o, const BenchBake& baked, const Measured& mea
     return row;
 }
 
-constexpr Column kColumns[] = {{"scene", -14, "name"},
-                               {"device", -8, "device"},
-                               {"lit", -4, "caches_lit"},
-                               {"unseen", 6, "caches_unseen"},
-                               {"lights", 6, "lights"},
-                               {"surfels", 7, "surfels"},
-                               {"links", 5, "links"},
-                               {"bands", 5, "bands"},
-                               {"chroma", 6, "chroma_bands"},
-                               {"kind", -4, "storage"},
-                               {"MiB", 8, "bytes", 2, kMiB},
-                               {"skip [%]", 8, "skipped_percent", 1},
-                               {"floor", 7, "floor_ms"},
-                               {"direct", 7, "direct_median_ms"},
-                               {"occlusion", 9, "occlusion_median_ms"},
-                               {"surfels", 7, "surfel_light_median_ms"},
-                               {"pull", 7, "pull_median_ms"},
-                               {"caches", 7, "cache_light_median_ms"},
-                               {"read", 7, "surfel_read_median_ms"},
-                               {"field", 7, "field_median_ms"},
-                               {"all [ms]", 8, "median_ms"},
-                               {"p95", 8, "p95_ms"}};
+constexpr Column kRelightColumns[] = {{"scene", -14, "name"},
+                                      {"device", -8, "device"},
+                                      {"lit", -4, "caches_lit"},
+                                      {"unseen", 6, "caches_unseen"},
+                                      {"lights", 6, "lights"},
+                                      {"surfels", 7, "surfels"},
+                                      {"links", 5, "links"},
+                                      {"bands", 5, "bands"},
+                                      {"chroma", 6, "chroma_bands"},
+                                      {"kind", -4, "storage"},
+                                      {"MiB", 8, "bytes", 2, kMiB},
+                                      {"skip [%]", 8, "skipped_percent", 1},
+                                      {"floor", 7, "floor_ms"},
+                                      {"direct", 7, "direct_median_ms"},
+                                      {"occlusion", 9, "occlusion_median_ms"},
+                                      {"surfels", 7, "surfel_light_median_ms"},
+                                      {"pull", 7, "pull_median_ms"},
+                                      {"caches", 7, "cache_light_median_ms"},
+                                      {"read", 7, "surfel_read_median_ms"},
+                                      {"field", 7, "field_median_ms"},
+                                      {"all [ms]", 8, "median_ms"},
+                                      {"p95", 8, "p95_ms"}};
 
 Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBench& o,
                                      const Scene& scene, const BenchBake& baked) {
@@ -218,7 +218,7 @@ Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& ro
             for (const Measured& m : *measured) {
                 rows.push_back(describe(o, baked, m, lit, bandwidth));
                 if (!o.json)
-                    printRow(kColumns, rows.back());
+                    printRow(kRelightColumns, rows.back());
             }
         }
     }
@@ -229,7 +229,7 @@ Exit runRelightBench(const RelightBench& o) {
     if (o.anew && o.bounces > kFewBounces)
         return failed(fmt::format("--anew: at most {} bounces", kFewBounces));
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kRelightColumns);
     Json rows = Json::array();
     const Result<void> measured =
         forEachBake(o.bakes, [&](const BenchBake& baked) { return measureBake(o, baked, rows); });

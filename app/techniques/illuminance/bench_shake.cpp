@@ -175,17 +175,17 @@ Json describe(const ShakeBench& o, const BenchBake& baked, const gpu::Device& de
     return row;
 }
 
-constexpr Column kColumns[] = {{"scene", -14, "name"},
-                               {"frames", 7, "frames"},
-                               {"messages", 8, "messages"},
-                               {"bad px", 8, "invalid_pixels"},
-                               {"bad tx", 8, "invalid_field"},
-                               {"start MiB", 9, "resident_start", 1, kMiB},
-                               {"warm MiB", 9, "resident_warm", 1, kMiB},
-                               {"end MiB", 9, "resident_end", 1, kMiB},
-                               {"growth", 8, "growth_mib", 1},
-                               {"frame ms", 9, "median_ms"},
-                               {"p95", 8, "p95_ms"}};
+constexpr Column kShakeColumns[] = {{"scene", -14, "name"},
+                                    {"frames", 7, "frames"},
+                                    {"messages", 8, "messages"},
+                                    {"bad px", 8, "invalid_pixels"},
+                                    {"bad tx", 8, "invalid_field"},
+                                    {"start MiB", 9, "resident_start", 1, kMiB},
+                                    {"warm MiB", 9, "resident_warm", 1, kMiB},
+                                    {"end MiB", 9, "resident_end", 1, kMiB},
+                                    {"growth", 8, "growth_mib", 1},
+                                    {"frame ms", 9, "median_ms"},
+                                    {"p95", 8, "p95_ms"}};
 
 /// Describes what is wrong with a run; empty if nothing is.
 std::string defectOf(const ShakeBench& o, const ShakeResult& r,
@@ -210,7 +210,7 @@ Exit runShakeBench(const ShakeBench& o) {
     if (!(*device)->validating)
         return failed("the Vulkan validation layer is missing");
     if (!o.json)
-        printTitles(kColumns);
+        printTitles(kShakeColumns);
     Json rows = Json::array();
     std::string defect;
     const Result<void> measured = forEachBake(o.bakes, [&](const BenchBake& baked) -> Result<void> {
@@ -220,7 +220,7 @@ Exit runShakeBench(const ShakeBench& o) {
         const std::vector<std::string> messages = (*device)->validationMessages();
         rows.push_back(describe(o, baked, **device, *result, messages.size()));
         if (!o.json)
-            printRow(kColumns, rows.back());
+            printRow(kShakeColumns, rows.back());
         if (defect.empty())
             defect = defectOf(o, *result, messages);
         return {};

@@ -35,7 +35,7 @@ static Json storageTable(const Bake& bake) {
     return table;
 }
 
-static Json describe(const Precomputed& data) {
+static Json describeBake(const Precomputed& data) {
     const Bake& bake = *bakeOf(data);
     Json json;
     json["kind"] = "bake";
@@ -94,7 +94,7 @@ static void addBenches(CLI::App& bench, Run& run) {
 }
 
 constinit const TechniqueProgram kIlluminanceProgram = {.technique = &kIlluminanceTechnique,
-                                                        .describe = describe,
+                                                        .describe = describeBake,
                                                         .print = print,
                                                         .addBenches = addBenches};
 

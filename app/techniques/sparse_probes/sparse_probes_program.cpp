@@ -10,7 +10,7 @@ namespace limn {
 
 using Json = nlohmann::ordered_json;
 
-static Json describe(const Precomputed& data) {
+static Json describeProbes(const Precomputed& data) {
     Json json;
     json["kind"] = "sparse probes";
     json["settings"] = settingsJson(data.settings());
@@ -24,7 +24,7 @@ static Json describe(const Precomputed& data) {
 
 constinit const TechniqueProgram kSparseProbesProgram = {
     .technique = &kSparseProbesTechnique,
-    .describe = describe,
+    .describe = describeProbes,
     .print = [](const std::string&, const Json&) { return false; },
     .addBenches = [](CLI::App&, Run&) {}};
 

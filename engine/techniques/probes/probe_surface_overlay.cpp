@@ -25,7 +25,7 @@ constexpr std::uint32_t kDrawnPaths = 64; // of a probe's reflections
 constexpr std::uint32_t kDotsAlongPath = 32;
 constexpr float kPathScale = 0.01f; // a dot's radius over the distance of probes
 
-const glm::vec3 kHitColor(0.13f, 0.57f, 0.55f), kSkyColor(0.75f, 0.9f, 1), kUnknownColor(1, 0, 1);
+const glm::vec3 kHitColor(0.13f, 0.57f, 0.55f), kMissColor(0.75f, 0.9f, 1), kUnknownColor(1, 0, 1);
 
 /// A surface that a probe sees.
 struct SeenPoint {
@@ -143,7 +143,7 @@ OverlayData probeMarchOverlay(const ProbeMaps& maps, const Scene& scene, std::ui
                         way = glm::reflect(glm::normalize(p.position - p.from), p.normal);
         const MarchedRay ray = marchRay(marched, origin, way);
         const bool hit = ray.end == MarchEnd::Hit, miss = ray.end == MarchEnd::Miss;
-        const glm::vec3 color = hit ? kHitColor : miss ? kSkyColor : kUnknownColor;
+        const glm::vec3 color = hit ? kHitColor : miss ? kMissColor : kUnknownColor;
         ++ends[std::size_t(ray.end)];
         out.marks.push_back(markAt(p, color, hit || miss ? MarkShape::Disc : MarkShape::Square));
         const float length = std::min(miss ? glm::length(step) : ray.t, glm::length(size));
@@ -159,7 +159,7 @@ OverlayData probeMarchOverlay(const ProbeMaps& maps, const Scene& scene, std::ui
     };
     out.legend.title = fmt::format("Reflections where probe {} looks", probe);
     entry(kHitColor, "disc", MarchEnd::Hit, "meet a surface");
-    entry(kSkyColor, "disc", MarchEnd::Miss, "meet the sky");
+    entry(kMissColor, "disc", MarchEnd::Miss, "meet the sky");
     entry(kUnknownColor, "square", MarchEnd::Unknown, "unknown: no probe sees where they go");
     out.legend.notes = {fmt::format("{} rays are marched as if all that the probe sees were "
                                     "mirrors; the path of one in {} is drawn",

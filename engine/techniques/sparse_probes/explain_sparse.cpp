@@ -16,8 +16,6 @@ namespace limn {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// Weights per receiver, or per coefficient of each probe, of the value that is explained.
 using Weights = std::vector<glm::vec3>;
 
@@ -36,7 +34,7 @@ glm::dvec3 valueOf(const Weights& weights, const Weights& values) {
 Weights radianceWeights(const SparseBake& bake, const std::vector<float>& basis,
                         const Weights& probes) {
     const std::size_t count = bake.coefficients(), rays = bake.sparse.rays;
-    const float share = 4 * kPi / float(rays);
+    const float share = 4 * std::numbers::pi_v<float> / float(rays);
     Weights weights(bake.receivers.size(), glm::vec3(0));
     for (std::size_t p = 0; p < bake.probes.size(); ++p) {
         const glm::vec3* of = &probes[p * count];
@@ -143,8 +141,9 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
         }
         for (std::size_t r = 0; r < sent.size(); ++r) {
             all[r] += sent[r];
-            next.receivers[r] =
-                isBlack(instanceOf[r]) ? glm::vec3(0) : sent[r] * m_materials.albedo[r] / kPi;
+            next.receivers[r] = isBlack(instanceOf[r])
+                                    ? glm::vec3(0)
+                                    : sent[r] * m_materials.albedo[r] / std::numbers::pi_v<float>;
         }
         std::ranges::fill(next.probes, glm::vec3(0));
         result.bounces = bounce + 1;
@@ -160,7 +159,7 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
         glm::dvec3 sum(0);
         for (std::size_t r = 0; r < all.size(); ++r)
             if (share[r] > 0 && !isBlack(instanceOf[r]))
-                sum += glm::dvec3(all[r] * m_materials.albedo[r] / kPi *
+                sum += glm::dvec3(all[r] * m_materials.albedo[r] / std::numbers::pi_v<float> *
                                   glm::min(strength * share[r], kMaxIrradiance));
         addRow(result.byOrigin, {.kind = LightRowKind::Light,
                                  .label = light.name,

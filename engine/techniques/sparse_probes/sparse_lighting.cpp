@@ -15,8 +15,6 @@
 
 namespace limn {
 
-static constexpr float kPi = std::numbers::pi_v<float>;
-
 SparseLighting::SparseLighting(std::shared_ptr<const SparseBake> bake, const Scene& scene)
     : m_bake(std::move(bake)), m_points(pointsOf(scene, m_bake->receivers)),
       m_areas(areasOf(m_bake->receivers)), m_directions(relightDirections(m_bake->sparse.rays)),
@@ -55,9 +53,9 @@ RoundChange SparseLighting::lightReceivers() {
     std::vector<float> change(n);
     parallelRanges(n, 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t r = begin; r < end; ++r) {
-            const glm::vec3 next =
-                m_materials.albedo[r] / kPi * (m_direct.irradiance[r] + m_irradiance[r]) +
-                m_materials.emission[r];
+            const glm::vec3 next = m_materials.albedo[r] / std::numbers::pi_v<float> *
+                                       (m_direct.irradiance[r] + m_irradiance[r]) +
+                                   m_materials.emission[r];
             const glm::vec3 d = glm::abs(next - m_radiance[r]);
             change[r] = d.x + d.y + d.z;
             m_radiance[r] = next;
@@ -67,7 +65,8 @@ RoundChange SparseLighting::lightReceivers() {
     for (std::size_t r = 0; r < n; ++r) {
         const glm::vec3 sent = m_radiance[r];
         const float sum = sent.x + sent.y + sent.z;
-        const double flux = double(kPi) * double(m_areas.share[r]) * m_areas.total;
+        const double flux =
+            double(std::numbers::pi_v<float>) * double(m_areas.share[r]) * m_areas.total;
         round.change += flux * double(change[r]);
         round.total += flux * double(sum);
         round.relative += double(m_areas.share[r]) * double(relativeChange(change[r], sum));

@@ -18,8 +18,6 @@ namespace limn {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// Direction i of a set in which directions are dense in proportion to their cosine with z.
 glm::vec3 cosineDirection(const DirectionSet& set, std::uint32_t i) {
     const glm::vec3 d = set[i]; // z is uniform, so its root has the cosine's distribution
@@ -178,8 +176,8 @@ Transport traceTransport(const TraceScene& trace, std::span<const AtlasTexel> te
                 one.gather(texels[r]);
                 std::ranges::copy(one.near.probe, &transport.probe[r * kProbesPerReceiver]);
                 for (std::size_t c = 0; c < row; ++c)
-                    transport.coefficients[r * row + c] =
-                        floatToHalf(one.rows()[c] * kPi / float(options.rays));
+                    transport.coefficients[r * row + c] = floatToHalf(
+                        one.rows()[c] * std::numbers::pi_v<float> / float(options.rays));
                 transport.unseen[r] = one.unseen();
             }
         });

@@ -23,7 +23,6 @@ using shared::GpuLpvMap;
 
 namespace {
 
-constexpr gpu::Access kStep = gpu::kComputeWrite;
 constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                            kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 constexpr std::array kTypes = {kTexture, kTexture, kTexture, kBuffer, kBuffer, kBuffer};
@@ -112,10 +111,6 @@ GpuLpvMap constantsOf(const Light& light, const RsmView& view, float unit, float
             .parallel = view.parallel};
 }
 
-std::uint32_t groups(std::uint32_t items, std::uint32_t lanes) {
-    return (items + lanes - 1) / lanes;
-}
-
 } // namespace
 
 GpuLightMaps::GpuLightMaps(gpu::Device& device, Viewport& viewport)
@@ -148,7 +143,7 @@ void GpuLightMaps::makeRoom(const Lattice& lattice) {
                .name = "sums of a map"}};
     m_device.immediate("clear sums", [&](VkCommandBuffer cmd) {
         vkCmdFillBuffer(cmd, m_sums.handle, 0, VK_WHOLE_SIZE, 0);
-        gpu::memoryBarrier(cmd, gpu::kTransferWrite, kStep);
+        gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);
     });
 }
 
@@ -163,22 +158,22 @@ void GpuLightMaps::record(VkCommandBuffer cmd, const gpu::Pipeline& step,
 
 void GpuLightMaps::recordMap(VkCommandBuffer cmd, const GpuLpvMap& constants) {
     record(cmd, m_map, constants);
-    const std::uint32_t side = groups(constants.mapSize, LPV_MAP_LANES);
+    const std::uint32_t side = gpu::groups(constants.mapSize, LPV_MAP_LANES);
     vkCmdDispatch(cmd, side, side, 1);
-    gpu::memoryBarrier(cmd, kStep, kStep);
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kComputeWrite);
 }
 
 void GpuLightMaps::recordCollect(VkCommandBuffer cmd, const gpu::Pipeline& step,
                                  const GpuLpvMap& constants) {
     gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kTransferWrite);
     vkCmdFillBuffer(cmd, m_count.handle, 0, VK_WHOLE_SIZE, 0);
-    gpu::memoryBarrier(cmd, gpu::kAllWrites, kStep);
+    gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);
     record(cmd, step, constants);
     const glm::uvec3 size = constants.size;
-    vkCmdDispatch(cmd, groups(size.x, LPV_GROUP_X), groups(size.y, LPV_GROUP_Y),
-                  groups(size.z, LPV_GROUP_Z));
-    gpu::memoryBarrier(cmd, kStep, gpu::kAllReads);
-    gpu::memoryBarrier(cmd, kStep, gpu::kHostRead);
+    vkCmdDispatch(cmd, gpu::groups(size.x, LPV_GROUP_X), gpu::groups(size.y, LPV_GROUP_Y),
+                  gpu::groups(size.z, LPV_GROUP_Z));
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads);
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
 }
 
 MappedLight GpuLightMaps::cast(const Light& light, const Bounds& bounds, std::uint32_t size,

@@ -26,8 +26,6 @@ constexpr std::uint32_t kBands = 2;
 /// driver takes the device for hung.
 constexpr std::uint64_t kCellRounds = 1 << 22;
 
-constexpr gpu::Access kStep = gpu::kComputeWrite;
-constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr std::uint32_t kStorageBuffers = LPV_BINDINGS + 1; // the lobes' too
 
 static_assert(LPV_FRONT_SOLID_ANGLE == kFrontSolidAngle &&
@@ -96,10 +94,6 @@ gpu::Buffer volume(gpu::Device& device, glm::uvec3 size, const char* name) {
              .name = name}};
 }
 
-std::uint32_t groups(std::uint32_t items, std::uint32_t lanes) {
-    return (items + lanes - 1) / lanes;
-}
-
 } // namespace
 
 Result<std::unique_ptr<GpuPropagation>> GpuPropagation::create(gpu::Device& device) {
@@ -128,9 +122,9 @@ GpuPropagation::GpuPropagation(gpu::Device& device)
 
 void GpuPropagation::createSets() {
     std::array<VkDescriptorType, LPV_BINDINGS> types;
-    types.fill(kBuffer);
+    types.fill(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     m_setLayout = gpu::createSetLayout(m_device, types);
-    m_lobesLayout = gpu::createSetLayout(m_device, std::array{kBuffer});
+    m_lobesLayout = gpu::createSetLayout(m_device, std::array{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
     m_layout =
         gpu::createPipelineLayout(m_device, std::array{m_setLayout.handle, m_lobesLayout.handle},
                                   sizeof(GpuLpvStep), "light propagation");
@@ -143,7 +137,8 @@ void GpuPropagation::createSets() {
 void GpuPropagation::writeSets() {
     for (std::size_t k = 0; k < m_sets.size(); ++k) {
         const auto write = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
-            gpu::writeBuffer(m_device, m_sets[k], binding, kBuffer, buffer.handle);
+            gpu::writeBuffer(m_device, m_sets[k], binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                             buffer.handle);
         };
         write(LPV_BLOCKERS, m_blockers);
         write(LPV_FROM, m_light[k]);
@@ -182,9 +177,10 @@ GpuLobes GpuPropagation::lobesOf(gpu::Buffer cells, std::uint32_t count) {
     if (!cells)
         return {};
     GpuLobes lobes{.cells = std::move(cells), .count = count};
-    lobes.pool = gpu::createDescriptorPool(m_device, 1, std::array{kBuffer});
+    lobes.pool =
+        gpu::createDescriptorPool(m_device, 1, std::array{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
     lobes.set = gpu::allocateSet(m_device, lobes.pool, m_lobesLayout);
-    gpu::writeBuffer(m_device, lobes.set, 0, kBuffer, lobes.cells.handle);
+    gpu::writeBuffer(m_device, lobes.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, lobes.cells.handle);
     return lobes;
 }
 
@@ -205,7 +201,8 @@ void GpuPropagation::makeField() {
              .name = "grid cells"}};
         m_field = std::move(field);
         for (const VkDescriptorSet set : m_sets)
-            gpu::writeBuffer(m_device, set, LPV_GRID, kBuffer, m_field->grid.handle);
+            gpu::writeBuffer(m_device, set, LPV_GRID, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                             m_field->grid.handle);
     }
     m_field->gridBounds = m_lattice.bounds();
 }
@@ -223,9 +220,9 @@ void GpuPropagation::dispatchCells(VkCommandBuffer cmd, const gpu::Pipeline& ste
     bind(cmd, step, set);
     vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof constants, &constants);
     const glm::uvec3 size = m_lattice.size;
-    vkCmdDispatch(cmd, groups(size.x, LPV_GROUP_X), groups(size.y, LPV_GROUP_Y),
-                  groups(size.z, LPV_GROUP_Z));
-    gpu::memoryBarrier(cmd, kStep, kStep);
+    vkCmdDispatch(cmd, gpu::groups(size.x, LPV_GROUP_X), gpu::groups(size.y, LPV_GROUP_Y),
+                  gpu::groups(size.z, LPV_GROUP_Z));
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kComputeWrite);
     ++m_dispatches;
 }
 
@@ -237,7 +234,7 @@ void GpuPropagation::recordInjection(VkCommandBuffer cmd, std::span<const GpuSou
         vkCmdFillBuffer(cmd, light.handle, 0, VK_WHOLE_SIZE, 0);
     if (dark)
         vkCmdFillBuffer(cmd, m_sum.handle, 0, VK_WHOLE_SIZE, 0);
-    gpu::memoryBarrier(cmd, gpu::kTransferWrite, kStep);
+    gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);
     for (const GpuSource& source : sources) {
         if (source.lobes->count == 0)
             continue;
@@ -248,8 +245,8 @@ void GpuPropagation::recordInjection(VkCommandBuffer cmd, std::span<const GpuSou
                                 &source.lobes->set, 0, nullptr);
         vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof constants,
                            &constants);
-        vkCmdDispatch(cmd, groups(source.lobes->count, LPV_LIST_LANES), 1, 1);
-        gpu::memoryBarrier(cmd, kStep, kStep);
+        vkCmdDispatch(cmd, gpu::groups(source.lobes->count, LPV_LIST_LANES), 1, 1);
+        gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kComputeWrite);
         ++m_dispatches;
     }
 }
@@ -257,14 +254,14 @@ void GpuPropagation::recordInjection(VkCommandBuffer cmd, std::span<const GpuSou
 void GpuPropagation::recordField(VkCommandBuffer cmd, std::array<float, 2> factors) {
     gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kTransferWrite);
     vkCmdFillBuffer(cmd, m_brightest.handle, 0, VK_WHOLE_SIZE, 0);
-    gpu::memoryBarrier(cmd, gpu::kTransferWrite, kStep);
+    gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);
     const GpuLpvStep constants{.size = m_lattice.size, .mean = factors[0], .slope = factors[1]};
     dispatchCells(cmd, m_findBrightest, constants);
     // Frames that were submitted before may still read the grid.
-    gpu::memoryBarrier(cmd, gpu::kAllReads, kStep);
+    gpu::memoryBarrier(cmd, gpu::kAllReads, gpu::kComputeWrite);
     dispatchCells(cmd, m_writeField, constants);
-    gpu::memoryBarrier(cmd, kStep, gpu::kAllReads);
-    gpu::memoryBarrier(cmd, kStep, gpu::kHostRead);
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads);
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
 }
 
 bool GpuPropagation::light(std::span<const GpuSource> sources, std::uint32_t rounds,
@@ -285,7 +282,7 @@ bool GpuPropagation::light(std::span<const GpuSource> sources, std::uint32_t rou
             if (round == 0)
                 recordInjection(cmd, sources, rounds == 0);
             else
-                gpu::memoryBarrier(cmd, gpu::kAllWrites, kStep);
+                gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite);
             m_times.mark(cmd);
             for (; round < end; ++round)
                 dispatchCells(cmd, m_propagate, {.size = m_lattice.size, .first = round == 0},

@@ -11,29 +11,29 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kLamps = TracedTraining::kLamps;
+constexpr std::uint32_t kTracedLamps = TracedTraining::kLamps;
 constexpr std::uint32_t kNone = ~0U;
 
 /// One bit per lamp that lights the surfel.
 std::vector<std::uint32_t> lampsOf(const TracedTraining& traced) {
-    static_assert(kLamps <= 32);
+    static_assert(kTracedLamps <= 32);
     std::vector<std::uint32_t> result(traced.position.size());
     for (std::size_t s = 0; s < result.size(); ++s)
-        for (std::uint32_t k = 0; k < kLamps; ++k)
+        for (std::uint32_t k = 0; k < kTracedLamps; ++k)
             result[s] |= std::uint32_t(traced.lamp(s, k) > 0) << k;
     return result;
 }
 
 /// Per lamp, the lowest-numbered lamp of its room.
-std::array<std::uint32_t, kLamps> joinLamps(const std::vector<std::uint32_t>& lamps) {
-    std::array<std::array<std::uint32_t, kLamps>, kLamps> both{};
+std::array<std::uint32_t, kTracedLamps> joinLamps(const std::vector<std::uint32_t>& lamps) {
+    std::array<std::array<std::uint32_t, kTracedLamps>, kTracedLamps> both{};
     for (const std::uint32_t lit : lamps)
-        for (std::uint32_t a = 0; a < kLamps; ++a)
+        for (std::uint32_t a = 0; a < kTracedLamps; ++a)
             for (std::uint32_t b = 0; lit >> a & 1 && b <= a; ++b)
                 both[a][b] += lit >> b & 1;
-    std::array<std::uint32_t, kLamps> room;
+    std::array<std::uint32_t, kTracedLamps> room;
     std::iota(room.begin(), room.end(), 0U);
-    for (std::uint32_t a = 0; a < kLamps; ++a)
+    for (std::uint32_t a = 0; a < kTracedLamps; ++a)
         for (std::uint32_t b = 0; b < a; ++b)
             if (both[a][b] > 0 && 2 * both[a][b] >= std::min(both[a][a], both[b][b]))
                 std::ranges::replace(room, std::max(room[a], room[b]), std::min(room[a], room[b]));
@@ -65,17 +65,17 @@ std::uint32_t span(const ClusterTree& tree, In in, ClusterTree& out) {
 
 std::vector<std::uint32_t> findRooms(const TracedTraining& traced) {
     const std::vector<std::uint32_t> lamps = lampsOf(traced);
-    const std::array<std::uint32_t, kLamps> roomOf = joinLamps(lamps);
-    std::vector<std::uint32_t> result(lamps.size(), kLamps);
+    const std::array<std::uint32_t, kTracedLamps> roomOf = joinLamps(lamps);
+    std::vector<std::uint32_t> result(lamps.size(), kTracedLamps);
     for (std::size_t s = 0; s < result.size(); ++s) {
-        std::array<float, kLamps> light{};
-        for (std::uint32_t k = 0; k < kLamps; ++k)
+        std::array<float, kTracedLamps> light{};
+        for (std::uint32_t k = 0; k < kTracedLamps; ++k)
             light[roomOf[k]] += traced.lamp(s, k);
         const auto most = std::ranges::max_element(light);
         if (*most > 0)
             result[s] = std::uint32_t(most - light.begin());
     }
-    std::array<std::uint32_t, kLamps + 1> number;
+    std::array<std::uint32_t, kTracedLamps + 1> number;
     number.fill(kNone);
     std::uint32_t rooms = 0;
     for (std::uint32_t& r : result) {
