@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+namespace limn::bake_kill_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,3 +94,4 @@ TEST(BakeKill, TwentyKillsLaterTheBakeEqualsTheUndisturbedOne) {
 }
 
 } // namespace
+} // namespace limn::bake_kill_test

@@ -2,8 +2,7 @@
 #include "engine/techniques/technique_table.h"
 #include "tests/app/command_line.h"
 
-using namespace limn;
-
+namespace limn::bake_output_test {
 namespace {
 
 using BakeOutput = CommandLine;
@@ -28,3 +27,4 @@ TEST_F(BakeOutput, ReplacesTheBakeOfAnyTechniqueAndNothingElse) {
 }
 
 } // namespace
+} // namespace limn::bake_output_test

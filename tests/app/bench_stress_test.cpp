@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/app/command_line.h"
 
+namespace limn::bench_stress_test {
 namespace {
 
 TEST_F(CommandLine, BenchStressAsksOraclesAndGoesOnWhereItEnded) {
@@ -24,3 +25,4 @@ TEST_F(CommandLine, BenchStressAsksOraclesAndGoesOnWhereItEnded) {
 }
 
 } // namespace
+} // namespace limn::bench_stress_test

@@ -17,6 +17,7 @@
 #include <optional>
 #include <utility>
 
+namespace limn::bench_techniques_test {
 namespace {
 
 using limn::Json;
@@ -352,3 +353,4 @@ TEST_F(CommandLine, BenchTechniquesMeasuresWhatIsAskedAndWritesAPage) {
 }
 
 } // namespace
+} // namespace limn::bench_techniques_test

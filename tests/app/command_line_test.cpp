@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace limn::command_line_test {
 
 const std::string kCoarse = " --surfels 256 --links 32 --rays 64 --lightmap 300 --grid 3x3x3 ";
 
@@ -597,4 +597,4 @@ TEST_F(CommandLine, RenderDrawsAnOverlayAndSaysWhatItsColoursMean) {
 }
 #endif
 
-} // namespace
+} // namespace limn::command_line_test

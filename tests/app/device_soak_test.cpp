@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::device_soak_test {
 namespace {
 
 /// A technique with the same room at three places of its lamp.
@@ -150,4 +150,4 @@ TEST_F(DeviceSoak, DISABLED_TenMinutesOfSwitchingKeepNothing) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::device_soak_test

@@ -20,7 +20,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace limn {
+namespace limn::editor_window_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -319,4 +319,4 @@ TEST_F(EditorProbesOnGpuTest, AMovedLightIsFollowedWithoutABake) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::editor_window_test

@@ -2,8 +2,7 @@
 #include "engine/files/image_file.h"
 #include "tests/app/command_line.h"
 
-using namespace limn;
-
+namespace limn::explain_command_test {
 namespace {
 
 constexpr const char* kCamera = " --width 64 --height 64";
@@ -80,3 +79,4 @@ TEST_F(ExplainCommand, RefusesPixelsAndRowsThatAreNotThere) {
 }
 
 } // namespace
+} // namespace limn::explain_command_test

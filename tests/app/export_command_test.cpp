@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/app/command_line.h"
 
+namespace limn::export_command_test {
 namespace {
 
 const std::string kCoarse = " --surfels 500 --rays 64 --links 32 --lightmap 600 ";
@@ -100,3 +101,4 @@ TEST_F(CommandLine, InfoSaysWhatATransportFileHoldsAndWhatIsWrongWithIt) {
 }
 
 } // namespace
+} // namespace limn::export_command_test

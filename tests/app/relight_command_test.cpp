@@ -3,6 +3,7 @@
 // samples a pixel has.
 #include "tests/app/command_line.h"
 
+namespace limn::relight_command_test {
 namespace {
 
 TEST_F(CommandLine, RenderLightsAnyTechniqueOnEitherDevice) {
@@ -36,3 +37,4 @@ TEST_F(CommandLine, RenderTakesSeveralSamplesOfAPixelOnEitherDevice) {
 }
 
 } // namespace
+} // namespace limn::relight_command_test

@@ -18,7 +18,7 @@
 
 namespace fs = std::filesystem;
 
-namespace limn {
+namespace limn::render_worker_test {
 namespace {
 
 struct RenderWorkerTest : testing::Test {
@@ -327,4 +327,4 @@ TEST_F(RenderWorkerTest, AMovedObjectTakesItsOcclusionAlong) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::render_worker_test

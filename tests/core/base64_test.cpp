@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::base64_test {
 namespace {
 
 TEST(Base64, HasTheVectorsOfItsRfc) {
@@ -18,4 +18,4 @@ TEST(Base64, HasTheVectorsOfItsRfc) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::base64_test

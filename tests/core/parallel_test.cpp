@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace limn {
+namespace limn::parallel_test {
 namespace {
 
 TEST(ParallelRanges, VisitEveryItemOnce) {
@@ -108,4 +108,4 @@ TEST(Hash, DependsOnEveryByteTheLengthAndTheOrder) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::parallel_test

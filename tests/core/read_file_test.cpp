@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-namespace limn {
+namespace limn::read_file_test {
 namespace {
 
 std::string problem(const std::string& path, std::uint64_t most = 1000) {
@@ -39,4 +39,4 @@ TEST(ReadFile, RefusesWhatIsNoFile) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::read_file_test

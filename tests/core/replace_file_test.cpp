@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-namespace limn {
+namespace limn::replace_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST(ReplaceFile, ATemporaryFileLeftBehindIsRemoved) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::replace_file_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::user_folder_test {
 namespace {
 
 TEST(UserFolder, FollowsItsVariableElseTheHomeFolderAndIgnoresRelativePaths) {
@@ -49,4 +49,4 @@ TEST(UserFolder, DocumentsAreWhereTheUserSaysElseInDocumentsElseAtHome) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::user_folder_test

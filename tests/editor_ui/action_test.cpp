@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::action_test {
 namespace {
 
 void runAllActionsOneByOne(const std::function<EditorState()>& make) {
@@ -153,4 +153,4 @@ TEST(Actions, UndoNamesWhatItWouldUndo) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::action_test

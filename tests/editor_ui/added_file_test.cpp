@@ -17,7 +17,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::added_file_test {
 namespace {
 
 struct AddedFile : testing::Test {
@@ -223,4 +223,4 @@ TEST(ShapePlacement, AClickAsksForTheShapeAndEscapeTakesItBack) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::added_file_test

@@ -17,7 +17,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::auto_bake_test {
 namespace {
 
 struct AutoBake : testing::Test {
@@ -237,4 +237,4 @@ TEST(BakeInputChanges, NamesMaterialsAddedAndDeletedObjectsAndThoseThatBecameDyn
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::auto_bake_test

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::bake_panel_test {
 namespace {
 
 struct BakePanel : testing::Test {
@@ -133,4 +133,4 @@ TEST_F(BakePanel, IsDrawnWithEveryState) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::bake_panel_test

@@ -8,7 +8,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::camera_control_test {
 namespace {
 
 void expectNear(glm::vec3 a, glm::vec3 b, float tolerance = 1e-4f) {
@@ -140,4 +140,4 @@ TEST(CameraControl, ACameraThatStandsOnItsTargetStaysFinite) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::camera_control_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
-namespace limn {
+namespace limn::color_field_test {
 namespace {
 
 TEST(ColorField, DisplaysWhatTheSrgbStandardSays) {
@@ -97,4 +97,4 @@ TEST_F(Field, ATypedCodeIsAnSrgbColour) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::color_field_test

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::document_edit_test {
 namespace {
 
 struct DocumentEditTest : testing::Test {
@@ -112,4 +112,4 @@ TEST_F(DocumentEditTest, ACycleOfParentsDoesNotHang) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::document_edit_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::edit_history_test {
 namespace {
 
 Light named(const char* name) {
@@ -58,4 +58,4 @@ TEST(EditHistory, AnEditWithoutChangesIsNotRecorded) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::edit_history_test

@@ -17,7 +17,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-namespace limn {
+namespace limn::editor_settings_test {
 namespace {
 
 EditorSettings unusual() {
@@ -154,4 +154,4 @@ TEST(EditorSettings, PanelsAreAsLargeAsTheirTextAtAnyDensity) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::editor_settings_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::escape_test {
 namespace {
 
 struct EscapeTest : testing::Test {
@@ -124,4 +124,4 @@ TEST_F(EscapeTest, ClosesThePaletteAndKeepsTheSelection) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::escape_test

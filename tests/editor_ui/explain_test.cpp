@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <string>
 
-namespace limn {
+namespace limn::explain_test {
 namespace {
 
 struct Explaining : testing::Test {
@@ -186,4 +186,4 @@ TEST_F(Explaining, TheEyeOfARowMutesItAndShowsItAgain) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::explain_test

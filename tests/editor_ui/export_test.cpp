@@ -18,7 +18,7 @@
 #include <string>
 #include <thread>
 
-namespace limn {
+namespace limn::export_test {
 namespace {
 
 struct Exporting : testing::Test {
@@ -157,4 +157,4 @@ TEST_F(Exporting, TheDialogIsDrawnAtEverySizeAndInEveryState) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::export_test

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
-namespace limn {
+namespace limn::first_light_test {
 namespace {
 
 /// Two boxes, a camera and a black sky.
@@ -127,4 +127,4 @@ TEST(FirstLight, TheFirstPictureOfADarkImportOffersThem) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::first_light_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::frame_record_test {
 namespace {
 
 FrameTime taking(double panels, double viewport = 0) {
@@ -50,4 +50,4 @@ TEST(FrameRecord, EachWorkHasTheLongestFrameOfItsLatestRun) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::frame_record_test

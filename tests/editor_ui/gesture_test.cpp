@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gesture_test {
 namespace {
 
 struct GestureTest : testing::Test {
@@ -90,4 +90,4 @@ TEST_F(GestureTest, SeveralObjectsMovedTogetherAreOneStep) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gesture_test

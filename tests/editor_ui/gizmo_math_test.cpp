@@ -9,7 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gizmo_math_test {
 namespace {
 
 Picture somePicture() {
@@ -204,4 +204,4 @@ TEST(GizmoMath, SnappingRoundsEachComponent) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gizmo_math_test

@@ -16,7 +16,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gizmo_test {
 namespace {
 
 struct GizmoTest : testing::Test {
@@ -442,4 +442,4 @@ TEST_F(CornellGizmoTest, NothingBelowMeansThatItStays) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gizmo_test

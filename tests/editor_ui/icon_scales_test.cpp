@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::icon_scales_test {
 namespace {
 
 TEST(IconScales, IconsApartKeepTheirSizeAndNeighboursTouch) {
@@ -42,4 +42,4 @@ TEST(IconScales, NoTwoIconsOfACrowdOverlapUnlessTheyAreAlreadySmallest) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::icon_scales_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::input_queue_test {
 namespace {
 
 /// Runs the queue dry and counts the frames on which ImGui saw a click at `at`.
@@ -69,4 +69,4 @@ TEST(Keys, ShortcutsReadAsTheManualsWriteThem) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::input_queue_test

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
-namespace limn {
+namespace limn::key_map_test {
 namespace {
 
 constexpr Shortcut kAltU{key::of('U'), kAlt};
@@ -134,4 +134,4 @@ TEST(HelpSheet, AClickOnARowWaitsForItsKey) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::key_map_test

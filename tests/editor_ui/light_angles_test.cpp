@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::light_angles_test {
 namespace {
 
 TEST(LightAngles, AreRecoveredFromTheirDirection) {
@@ -37,4 +37,4 @@ TEST(LightAngles, AnAzimuthThatIsSetAtTheZenithStays) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::light_angles_test

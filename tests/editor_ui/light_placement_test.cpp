@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::light_placement_test {
 namespace {
 
 bool within(const Bounds& b, glm::vec3 p) {
@@ -140,4 +140,4 @@ TEST(LightPlacement, EnterPlacesBeforeTheCameraAndEscapeAddsNothing) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::light_placement_test

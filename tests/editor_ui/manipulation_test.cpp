@@ -12,7 +12,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::manipulation_test {
 namespace {
 
 struct ManipulationTest : testing::Test {
@@ -190,4 +190,4 @@ TEST_F(ManipulationTest, ACameraTurnsAboutThePivotAndKeepsItsDistance) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::manipulation_test

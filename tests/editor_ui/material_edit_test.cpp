@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::material_edit_test {
 namespace {
 
 struct MaterialEdit : testing::Test {
@@ -147,4 +147,4 @@ TEST_F(MixedMark, IsDrawnWhereTheSelectedObjectsDiffer) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::material_edit_test

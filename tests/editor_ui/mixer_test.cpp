@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::mixer_test {
 namespace {
 
 std::vector<bool> lightsOn(const Scene& scene) {
@@ -143,4 +143,4 @@ TEST_F(MixerTest, ItsWidgetsEditTheLightOfTheirRowInOneStepEach) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::mixer_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::object_rules_test {
 namespace {
 
 template <class T>
@@ -55,4 +55,4 @@ TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::object_rules_test

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-namespace limn {
+namespace limn::other_technique_test {
 namespace {
 
 struct OtherTechniqueTest : testing::Test {
@@ -72,4 +72,4 @@ TEST_F(OtherTechniqueTest, SaysThatABakeIsMissing) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::other_technique_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
-namespace limn {
+namespace limn::outliner_test {
 namespace {
 
 struct Outliner : testing::Test {
@@ -49,4 +49,4 @@ TEST_F(Outliner, AFilterLooksIntoClosedSections) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::outliner_test

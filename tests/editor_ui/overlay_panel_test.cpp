@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace limn {
+namespace limn::overlay_panel_test {
 namespace {
 
 std::shared_ptr<const Precomputed> smallBake(const TraceScene& trace) {
@@ -195,4 +195,4 @@ TEST(OverlayPanel, AnotherBakeKeepsThePlaceThatWasPicked) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::overlay_panel_test

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::panels_test {
 namespace {
 
 void drawWithEverySelection(HeadlessUi& ui, EditorState& state) {
@@ -161,4 +161,4 @@ TEST(Panels, AClickOnALightsIconSelectsItAndADragInThePictureDoesNot) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::panels_test

@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::photometry_test {
 namespace {
 
 TEST(Photometry, TheFluxOfASpotIsTheIntegralOfWhatTheLightSends) {
@@ -63,4 +63,4 @@ TEST(Photometry, TheNearestTemperatureOfABlackBodyIsItsOwn) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::photometry_test

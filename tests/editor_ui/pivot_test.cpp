@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::pivot_test {
 namespace {
 
 TEST(Pivot, IsTheSurfaceUnderTheMouse) {
@@ -77,4 +77,4 @@ TEST(Pivot, ANumpadViewStandsOffWhatTheMiddleSees) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::pivot_test

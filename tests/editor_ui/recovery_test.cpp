@@ -17,7 +17,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-namespace limn {
+namespace limn::recovery_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -298,4 +298,4 @@ TEST_F(Asking, EnterRecovers) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::recovery_test

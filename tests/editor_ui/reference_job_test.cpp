@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::reference_job_test {
 namespace {
 
 constexpr std::uint32_t kWidth = 24, kHeight = 18;
@@ -219,4 +219,4 @@ TEST(SessionReference, StandsBesideThePictureAndIsTakenAwayAgain) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::reference_job_test

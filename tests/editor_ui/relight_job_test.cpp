@@ -13,7 +13,7 @@
 #include <functional>
 #include <thread>
 
-namespace limn {
+namespace limn::relight_job_test {
 namespace {
 
 std::shared_ptr<const Scene> lampAt(const Scene& scene, glm::vec3 position) {
@@ -153,4 +153,4 @@ TEST_F(RelightJobTest, LightsAllForOverlaysOfLight) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::relight_job_test

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::selection_test {
 namespace {
 
 struct SelectionTest : testing::Test {
@@ -94,4 +94,4 @@ TEST(Picking, AClickFindsTheMeshAndItsMaterial) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::selection_test

@@ -25,7 +25,7 @@
 #include <imgui_internal.h>
 #include <unistd.h>
 
-namespace limn {
+namespace limn::session_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -595,4 +595,4 @@ TEST(BakeEstimate, FollowsTheStagesPaceAndWhatLaterOnesTook) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::session_test

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::technique_soak_test {
 namespace {
 
 struct TechniqueSoak : testing::Test {
@@ -93,4 +93,4 @@ TEST_F(TechniqueSoak, DISABLED_TenMinutesOfSwitchingKeepNoDataOfATechnique) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::technique_soak_test

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::theme_test {
 
 /// Whether the font that addFont() adds has a capital sigma. `used` becomes its file.
 static bool hasGreek(const std::string& fonts, std::string& used) {
@@ -71,4 +71,4 @@ TEST(Theme, TextOfEveryColourIsReadableOnPanelsOfBothThemes) {
     ImGui::DestroyContext();
 }
 
-} // namespace limn
+} // namespace limn::theme_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::time_history_test {
 namespace {
 
 LightingReport taking(double ms) {
@@ -62,4 +62,4 @@ TEST(TimeHistory, StepsBeyondItsColoursAreAddedToTheLast) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::time_history_test

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::tree_edit_test {
 namespace {
 
 struct TreeEditTest : testing::Test {
@@ -333,4 +333,4 @@ TEST(OutlinerDrag, PutsANodeBelowAnother) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::tree_edit_test

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::undo_law_test {
 namespace {
 
 void undoAll(EditorState& state) {
@@ -154,4 +154,4 @@ TEST(UndoLaw, DISABLED_TwentySoaksOfFiveThousandEventsCanBeUndoneAndRedone) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::undo_law_test

@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::workspace_test {
 namespace {
 
 const ImGuiWindow* windowNamed(const char* name) {
@@ -456,4 +456,4 @@ TEST(PaletteOfActions, IsAsLargeOnAScreenOfTwiceTheDensity) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::workspace_test

@@ -18,7 +18,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::explain_pixel_test {
 namespace {
 
 constexpr std::uint32_t kWidth = 60, kHeight = 45;
@@ -397,4 +397,4 @@ TEST(ExplainPixel, WhereNothingIsSeenTheSkyBehindIsAll) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::explain_pixel_test

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::engine_formats_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -297,4 +297,4 @@ TEST(EngineFormats, ACancelledExportSaysSoAndWritesNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
-} // namespace limn
+} // namespace limn::engine_formats_test

@@ -22,7 +22,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-namespace limn {
+namespace limn::gltf_test {
 namespace {
 
 class Gltf : public testing::Test {
@@ -326,4 +326,4 @@ TEST_F(Gltf, SaysWhatItCannotHold) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_test

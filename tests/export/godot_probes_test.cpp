@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::godot_probes_test {
 namespace {
 
 std::array<glm::vec3, 9> linearLight(glm::vec3 p) {
@@ -102,4 +102,4 @@ TEST(GodotProbes, ALargeGridIsThinnedAndKeepsItsOuterCells) {
                   1e-4f);
 }
 
-} // namespace limn
+} // namespace limn::godot_probes_test

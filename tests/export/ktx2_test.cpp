@@ -10,8 +10,7 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-using namespace limn;
-
+namespace limn::ktx2_test {
 namespace {
 
 std::span<const std::uint8_t> bytesOf(const std::string& file) {
@@ -189,3 +188,5 @@ TEST(Ktx2, EveryFlippedByteOfTheHeadIsRefused) {
         EXPECT_EQ(accepted, 0);
     }
 }
+
+} // namespace limn::ktx2_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::lightmap_file_test {
 namespace {
 
 LightmapImage image(std::uint32_t layers, glm::vec3 value) {
@@ -55,4 +55,4 @@ TEST(LightmapFile, LightThatTheEncodingCannotHoldIsRefused) {
     EXPECT_TRUE(lightmapFile(image(4, glm::vec3(-65504)), settings, "room"));
 }
 
-} // namespace limn
+} // namespace limn::lightmap_file_test

@@ -16,7 +16,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-namespace limn {
+namespace limn::probe_cube_test {
 namespace {
 
 constexpr float kHalf = 0.5f, kSlope = 0.4f;
@@ -124,4 +124,4 @@ TEST(ProbeCube, ImagesOfAnExportShowTheSkyTheRightWayUp) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::probe_cube_test

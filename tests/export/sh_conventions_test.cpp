@@ -10,8 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-using namespace limn;
-
+namespace limn::sh_conventions_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -189,3 +188,5 @@ TEST(ShConventions, AGridCellHoldsNineColoursOneAfterTheOther) {
         EXPECT_EQ(cell[std::size_t(n / 4)][n % 4], float(n));
     EXPECT_EQ(cell[6].w, 0);
 }
+
+} // namespace limn::sh_conventions_test

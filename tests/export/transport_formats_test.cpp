@@ -17,7 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace limn {
+namespace limn::transport_formats_test {
 namespace {
 
 ExportedRoom room() {
@@ -167,4 +167,4 @@ TEST_F(Web, WhatIsMissingIsNamedWithWhatHelps) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::transport_formats_test

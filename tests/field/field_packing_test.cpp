@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace limn {
+namespace limn::field_packing_test {
 namespace {
 
 /// Layers of `texels` texels; from band `chroma` on grey.
@@ -77,4 +77,4 @@ TEST(FieldPacking, NothingBecomesInfiniteOrNoNumber) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::field_packing_test

@@ -13,7 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::march_ray_test {
 namespace {
 
 /// Number `i` of points spread evenly over [-1, 1]^3.
@@ -222,4 +222,4 @@ TEST(MarchedMaps, RadianceIsContinuousWhereTheSquareIsFolded) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::march_ray_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace limn {
+namespace limn::document_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -179,4 +179,4 @@ TEST(DocumentJson, DamagedTextNeverCrashes) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::document_json_test

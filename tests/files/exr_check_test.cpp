@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::exr_check_test {
 namespace {
 
 /// An EXR 4 texels wide, of three chunks if it has 40 lines, to be harmed.
@@ -147,4 +147,4 @@ TEST(ExrCheck, OnlySinglePartScanLinesAreTaken) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::exr_check_test

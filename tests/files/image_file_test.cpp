@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::image_file_test {
 namespace {
 
 ImageF randomImage(std::uint32_t width, std::uint32_t height) {
@@ -196,4 +196,4 @@ TEST(ImageFile, DamagedFilesNeverCrash) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::image_file_test

@@ -20,7 +20,7 @@
 #include <set>
 #include <thread>
 
-namespace limn {
+namespace limn::kill_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -132,4 +132,4 @@ TEST(Kill, LeavesWholeStages) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::kill_test

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::project_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -342,4 +342,4 @@ TEST(ProjectFile, AnyKindOfNameOpens) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::project_file_test

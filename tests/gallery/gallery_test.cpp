@@ -19,7 +19,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::gallery_test {
 namespace {
 
 constexpr std::uint64_t kSeeds = 200;
@@ -268,4 +268,4 @@ TEST(Blocks, AnOpeningLeavesOutASheetAndNothingElse) {
     }
 }
 
-} // namespace limn
+} // namespace limn::gallery_test

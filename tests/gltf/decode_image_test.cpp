@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::decode_image_test {
 namespace {
 
 std::vector<std::uint8_t> bytesOf(const std::string& text) {
@@ -142,4 +142,4 @@ TEST(DecodeImage, SixteenBitsPalettesAndTransparencyBecomeRgba) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::decode_image_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gltf_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,4 +177,4 @@ TEST_F(SceneFiles, TheDefaultViewOfSponzaIsInsideItsHall) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_files_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gltf_fuzz_test {
 namespace {
 
 /// A file with something of everything: sparse, indices, a texture in a view, a light, a camera,
@@ -113,4 +113,4 @@ TEST(GltfFuzz, ChangedDigitsNeverCrash) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_fuzz_test

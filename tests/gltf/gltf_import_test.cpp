@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gltf_import_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -481,4 +481,4 @@ TEST(GltfImport, StopsWhenCancelled) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_import_test

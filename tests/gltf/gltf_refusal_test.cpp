@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::gltf_refusal_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -130,4 +130,4 @@ TEST(GltfRefusal, AMissingFileOrAFolderIsNoScene) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_refusal_test

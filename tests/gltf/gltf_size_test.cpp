@@ -4,7 +4,7 @@
 #include "tests/gltf/gltf_builder.h"
 #include "tests/scene/small_png.h"
 
-namespace limn {
+namespace limn::gltf_size_test {
 namespace {
 
 std::string problem(GltfBuilder b, std::uint64_t most) {
@@ -68,4 +68,4 @@ TEST(GltfSize, WhatFitsIsRead) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_size_test

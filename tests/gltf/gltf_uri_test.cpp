@@ -4,7 +4,7 @@
 #include "tests/gltf/gltf_builder.h"
 #include "tests/scene/small_png.h"
 
-namespace limn {
+namespace limn::gltf_uri_test {
 namespace {
 
 std::string fileOf(const std::string& uri, FileReach reach = FileReach::Folder) {
@@ -66,4 +66,4 @@ TEST(GltfUri, AnImportReadsWhatItMay) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gltf_uri_test

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace limn {
+namespace limn::device_test {
 
 using gpu::Buffer;
 using gpu::Image;
@@ -221,4 +221,4 @@ TEST(GpuErrors, NameTheFunctionAndTheReason) {
     }
 }
 
-} // namespace limn
+} // namespace limn::device_test

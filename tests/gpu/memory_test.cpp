@@ -4,7 +4,7 @@
 #include <map>
 #include <random>
 
-namespace limn {
+namespace limn::memory_test {
 
 using gpu::Allocation;
 using gpu::MemoryBlocks;
@@ -90,4 +90,4 @@ TEST_F(GpuMemory, UploadAndReadbackAreMapped) {
     EXPECT_EQ(allocate(256).mapped, nullptr);
 }
 
-} // namespace limn
+} // namespace limn::memory_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::lattice_test {
 namespace {
 
 TEST(Lattice, FillsTheLongestSideAndIsCubicAndCentred) {
@@ -95,4 +95,4 @@ TEST(CellLobes, AreSummedByCellInTheOrderOfCells) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lattice_test

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace limn {
+namespace limn::lighting_driver_test {
 namespace {
 
 /// Converges after so many bounces, and lights only what is seen where there is a view.
@@ -101,4 +101,4 @@ TEST_F(LightingDriverTest, WithoutALightingThereIsNothingToDo) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lighting_driver_test

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace limn {
+namespace limn::relight_choice_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ TEST_F(RelightTimesFile, AFolderThatCannotBeMadeIsAnErrorOfRememberingOnly) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::relight_choice_test

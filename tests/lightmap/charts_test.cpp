@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-namespace limn {
+namespace limn::charts_test {
 namespace {
 
 using namespace simple;
@@ -257,4 +257,4 @@ TEST(Atlas, TexelsAreOrderedAndEachOnce) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::charts_test

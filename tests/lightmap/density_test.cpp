@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace limn {
+namespace limn::density_test {
 namespace {
 
 using namespace simple;
@@ -259,4 +259,4 @@ TEST(Density, TexelsFollowTheirFactors) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::density_test

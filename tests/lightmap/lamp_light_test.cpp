@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::lamp_light_test {
 namespace {
 
 using namespace simple;
@@ -102,4 +102,4 @@ TEST(LampLight, NothingEmitsWithoutLamps) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lamp_light_test

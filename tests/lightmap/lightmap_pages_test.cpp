@@ -13,7 +13,7 @@
 #include <set>
 #include <tuple>
 
-namespace limn {
+namespace limn::lightmap_pages_test {
 namespace {
 
 using namespace simple;
@@ -123,4 +123,4 @@ TEST(LightmapPages, TheirNumberIsForeseen) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lightmap_pages_test

@@ -17,7 +17,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::plain_lightmap_test {
 namespace {
 
 using namespace simple;
@@ -149,4 +149,4 @@ TEST(PlainLightmap, FollowsWallsTheMoreCloselyTheFinerItIs) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::plain_lightmap_test

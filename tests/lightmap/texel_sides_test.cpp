@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace limn {
+namespace limn::texel_sides_test {
 namespace {
 
 constexpr float kWall = 3.7f;
@@ -237,4 +237,4 @@ TEST(TexelSides, AreAlikeForAnyNumberOfThreads) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::texel_sides_test

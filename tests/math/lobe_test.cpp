@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace limn {
+namespace limn::lobe_test {
 namespace {
 
 /// The least value of the kernel sum (2l+1) s_l P_l over its value in the middle.
@@ -157,4 +157,4 @@ TEST(Lobe, LossIsTheRmsOverSkiesOfOneBrightCap) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lobe_test

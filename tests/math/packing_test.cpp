@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace limn {
+namespace limn::packing_test {
 namespace {
 
 TEST(Half, EveryFiniteHalfSurvivesARoundTrip) {
@@ -119,4 +119,4 @@ TEST(Halton, RadicalInverseMirrorsTheDigits) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::packing_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace limn {
+namespace limn::sh_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -159,4 +159,4 @@ TEST(Cone, ProjectionEqualsNumericIntegrationOverTheRotatedCone) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::sh_test

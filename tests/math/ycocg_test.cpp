@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace limn {
+namespace limn::ycocg_test {
 namespace {
 
 TEST(YCoCg, TurnsBackIntoTheSameColour) {
@@ -39,4 +39,4 @@ TEST(YCoCg, HalfOfLumaIsGreen) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::ycocg_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace limn {
+namespace limn::bake_to_error_test {
 namespace {
 
 const Technique& kBaking = precomputingTechnique({});
@@ -105,4 +105,4 @@ TEST(FinerSettings, LeadThroughTheCountsOfThePresets) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::bake_to_error_test

@@ -9,8 +9,7 @@
 #include <limits>
 #include <random>
 
-using namespace limn;
-
+namespace limn::compare_test {
 namespace {
 
 ImageF constantImage(std::uint32_t width, std::uint32_t height, glm::vec3 color) {
@@ -329,3 +328,5 @@ TEST(Heatmap, IsBlueWhereTooDarkAndOrangeWhereTooBright) {
     EXPECT_EQ(pixel(3)[1], 0);
     EXPECT_EQ(pixel(3)[0], 255);
 }
+
+} // namespace limn::compare_test

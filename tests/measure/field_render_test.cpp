@@ -13,8 +13,9 @@
 
 #include <glm/gtc/constants.hpp>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::field_render_test {
+
+using namespace simple;
 
 namespace {
 
@@ -184,3 +185,5 @@ TEST(FieldRender, ABakedRoomLooksLikeItsPathTracedSelf) {
     EXPECT_NEAR(meanOf(image) / meanOf(reference.image), 1, 0.03);
     EXPECT_LT(rmsDifference(image, reference.image), 0.1 * meanOf(reference.image));
 }
+
+} // namespace limn::field_render_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-using namespace limn;
-
+namespace limn::flip_test {
 namespace {
 
 ImageF constantImage(std::uint32_t width, std::uint32_t height, glm::vec3 color) {
@@ -84,3 +83,5 @@ TEST(Flip, FarAwayViewersSeeLessOfFinePatterns) {
     const ImageF grey = constantImage(64, 64, glm::vec3(0.5f));
     EXPECT_GT(centre(flipMap(checker, grey, 20)), 2 * centre(flipMap(checker, grey, 200)));
 }
+
+} // namespace limn::flip_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace limn {
+namespace limn::reference_set_test {
 namespace {
 
 using namespace simple;
@@ -99,4 +99,4 @@ TEST(ReferenceSet, FiguresAreSureWhenTheirErrorsAreAQuarter) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::reference_set_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::seams_test {
 namespace {
 
 using namespace simple;
@@ -83,4 +83,4 @@ TEST(Seams, BothSidesAreReadAtTheSamePlaceOfAnEdge) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::seams_test

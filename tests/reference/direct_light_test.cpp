@@ -14,7 +14,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::direct_light_test {
 namespace {
 
 using namespace simple;
@@ -107,4 +107,4 @@ TEST(DirectHarmonics, OfARectangleHaveItsSolidAngleAndVectorIrradiance) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::direct_light_test

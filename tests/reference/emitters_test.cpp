@@ -11,8 +11,9 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::emitters_test {
+
+using namespace simple;
 
 static std::uint32_t addTwoTexelImage(SceneBuilder& b) {
     b.assets->images.push_back({"half", 2, 1, {255, 255, 255, 255, 0, 0, 0, 255}});
@@ -101,3 +102,5 @@ TEST(Emitters, AlphaMaskedTexelsEmitNothing) {
         EXPECT_EQ(s.radiance.x, s.position.x < 0.5f ? 1 : 0);
     }
 }
+
+} // namespace limn::emitters_test

@@ -12,8 +12,9 @@
 
 #include <glm/gtc/constants.hpp>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::glossy_test {
+
+using namespace simple;
 
 namespace {
 
@@ -205,3 +206,5 @@ TEST(Glossy, ReadsTheBandsThatItsMaterialNeedsAndTheFieldHas) {
             << bands;
     }
 }
+
+} // namespace limn::glossy_test

@@ -5,7 +5,7 @@
 #include "engine/measure/field_render.h"
 #include "engine/reference/reference.h"
 
-namespace limn {
+namespace limn::golden_test {
 namespace {
 
 TEST(Golden, TheFieldOfTheCornellBoxIsCloseToItsPathTracedPicture) {
@@ -41,4 +41,4 @@ TEST(Golden, AFewPathsOfTheCornellBoxAgreeWithinTheirOwnNoise) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::golden_test

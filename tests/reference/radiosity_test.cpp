@@ -10,8 +10,9 @@
 #include <cmath>
 #include <vector>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::radiosity_test {
+
+using namespace simple;
 
 namespace {
 
@@ -169,3 +170,5 @@ TEST(Radiosity, PathTracingAgreesWithIt) {
     EXPECT_LT(error, 1.5e-3);
     EXPECT_NEAR(sum / exact, 1, 1e-3 + 4 * error);
 }
+
+} // namespace limn::radiosity_test

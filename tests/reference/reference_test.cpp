@@ -12,8 +12,9 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::reference_test {
+
+using namespace simple;
 
 namespace {
 
@@ -504,3 +505,5 @@ TEST(Reference, ARectangleLightGivesTheClosedFormAndTheSameSceneAnEmitterDoes) {
     EXPECT_NEAR(meanOf(direct.image) / meanOf(emitted.image), 1, 4 * error + 1e-5);
     EXPECT_LT(error, 5e-3);
 }
+
+} // namespace limn::reference_test

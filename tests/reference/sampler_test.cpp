@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-using namespace limn;
+namespace limn::sampler_test {
 
 // 2^m points of a (0, 2)-sequence put exactly one into every box of area 2^-m with sides 2^-a,
 // 2^-b.
@@ -60,3 +60,5 @@ TEST(Sampler, CosineHemisphereHasTheMomentsOfCosOverPi) {
         EXPECT_NEAR(cosSquared, 0.5, 1e-3);
     }
 }
+
+} // namespace limn::sampler_test

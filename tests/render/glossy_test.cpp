@@ -5,7 +5,7 @@
 #include "engine/scene/surface/reflection_lobe.h"
 #include "tests/render/viewport_fixture.h"
 
-namespace limn {
+namespace limn::glossy_test {
 namespace {
 
 class ViewportGlossy : public ViewportTest {
@@ -140,4 +140,4 @@ TEST_F(ViewportGlossy, AWhiteHemisphereIsReflectedWhole) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::glossy_test

@@ -3,7 +3,7 @@
 #include "tests/golden/cornell_golden.h"
 #include "tests/gpu/test_device.h"
 
-namespace limn {
+namespace limn::golden_test {
 namespace {
 
 /// Means of squares of `factor` pixels a side: the box filter of the path tracer.
@@ -37,4 +37,4 @@ TEST_F(Golden, TheViewportsCornellBoxIsCloseToItsPathTracedPicture) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::golden_test

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace limn {
+namespace limn::gpu_field_test {
 namespace {
 
 class ViewportGpuField : public ViewportTest {
@@ -161,4 +161,4 @@ TEST_F(ViewportGrid, IsReadByMomentsOfDistancesAsOnTheCpu) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_field_test

@@ -2,7 +2,7 @@
 #include "engine/measure/field_render.h"
 #include "tests/render/viewport_fixture.h"
 
-namespace limn {
+namespace limn::lightmap_test {
 namespace {
 
 using ViewportLightmap = ViewportTest;
@@ -70,4 +70,4 @@ TEST_F(ViewportLightmap, EachSideOfATwoSidedSurfaceReadsItsOwnTexels) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lightmap_test

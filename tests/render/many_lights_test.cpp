@@ -11,7 +11,7 @@
 
 #include <glm/gtx/string_cast.hpp>
 
-namespace limn {
+namespace limn::many_lights_test {
 namespace {
 
 using render::ShadowTiles;
@@ -273,4 +273,4 @@ TEST(ShadowTiles, HalveTheirSizeAsTheyGrowInNumber) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::many_lights_test

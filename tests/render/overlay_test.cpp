@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace limn {
+namespace limn::overlay_test {
 
 namespace {
 
@@ -266,4 +266,4 @@ TEST_F(ViewportOverlays, EachOverlayOfABakeIsDrawnInTurn) {
         }
 }
 
-} // namespace limn
+} // namespace limn::overlay_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace limn {
+namespace limn::parted_hall_test {
 namespace {
 
 class ViewportPartedHall : public ViewportTest {
@@ -109,4 +109,4 @@ TEST_F(ViewportPartedHall, FinerTexelsAreReadAsOnTheCpu) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::parted_hall_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace limn {
+namespace limn::refine_test {
 namespace {
 
 /// A viewport that looks down on the plane y = 0.
@@ -134,4 +134,4 @@ TEST(SamplePoints, LieInDifferentSquares) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::refine_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace limn {
+namespace limn::shadow_cascades_test {
 namespace {
 
 using render::cascadeProjections;
@@ -232,4 +232,4 @@ TEST_F(SunOnAWidePlane, ACameraThatMovesDrawsCascadesAndNotTheMapOfTheWholeScene
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::shadow_cascades_test

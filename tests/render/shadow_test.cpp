@@ -6,7 +6,7 @@
 #include "engine/trace/rectangle_shadow.h"
 #include "engine/trace/trace_scene.h"
 
-namespace limn {
+namespace limn::shadow_test {
 
 namespace {
 
@@ -438,4 +438,4 @@ TEST(RenderScene, BoundsFollowTransforms) {
     EXPECT_NEAR(b.upper.z, 1, 1e-5f);
 }
 
-} // namespace limn
+} // namespace limn::shadow_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace limn {
+namespace limn::sides_test {
 namespace {
 
 /// A pane of 1.4 m, tilted a little, in the middle of place `k` of a row along x, 1 m above the
@@ -192,4 +192,4 @@ TEST_F(Sides, ATextureThatIsMostlyHolesCoversAsMuchFromAfarAsRaysSay) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::sides_test

@@ -7,7 +7,7 @@
 
 #include <glm/vector_relational.hpp>
 
-namespace limn {
+namespace limn::surface_images_test {
 namespace {
 
 /// Two boxes' worth of quads over a plane, a lamp, light from lightmap and grid: what a change of
@@ -148,4 +148,4 @@ TEST_F(KeptSurfaces, MarksDrawnOverThePictureDoNotStayInItsDepths) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::surface_images_test

@@ -2,7 +2,7 @@
 #include "engine/scene/tone_map.h"
 #include "tests/render/viewport_fixture.h"
 
-namespace limn {
+namespace limn::tonemap_test {
 
 class ViewportTonemap : public ViewportTest {
 protected:
@@ -110,4 +110,4 @@ TEST_F(ViewportTonemap, DataViewsAreShownAsTheyAre) {
                 {srgb(0.2f), srgb(0.4f), srgb(0.8f)});
 }
 
-} // namespace limn
+} // namespace limn::tonemap_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace limn {
+namespace limn::viewport_test {
 
 namespace {
 
@@ -555,4 +555,4 @@ TEST_F(ViewportLife, ChartsMayCutVerticesApart) {
     expectNear(pixel(image, 4, 4), glm::vec3(3 * kPi), 1e-4f + kHalf);
 }
 
-} // namespace limn
+} // namespace limn::viewport_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::reflective_shadow_map_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -158,4 +158,4 @@ TEST(ReflectiveShadowMap, StopsWhenCancelledAndNeedsNoSurface) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::reflective_shadow_map_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace limn {
+namespace limn::hostile_file_test {
 namespace {
 
 const std::string& roomFile() {
@@ -203,4 +203,4 @@ TEST(HostileFile, NumbersAreFinite) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::hostile_file_test

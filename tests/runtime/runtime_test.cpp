@@ -35,7 +35,7 @@ static std::atomic<std::size_t> allocations = 0;
     std::free(memory);
 }
 
-namespace limn {
+namespace limn::runtime_test {
 namespace {
 
 /// A closed room, its bake and its file.
@@ -447,4 +447,4 @@ TEST(Runtime, MaterialsKeepWhatTexturesVary) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::runtime_test

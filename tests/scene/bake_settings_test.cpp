@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-namespace limn {
+namespace limn::bake_settings_test {
 
 TEST(BakeSettings, EverySettingIsNamedOnceAndExplained) {
     std::set<std::string> keys, flags;
@@ -115,4 +115,4 @@ TEST(BakeSettings, TextForTheLightmapsSizeReplacesItsDensity) {
     EXPECT_EQ(s.lightmapCaches, 500U);
 }
 
-} // namespace limn
+} // namespace limn::bake_settings_test

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace limn {
+namespace limn::export_settings_test {
 namespace {
 
 bool applies(const ExportSettings& settings, std::string_view key) {
@@ -59,10 +59,10 @@ TEST(ExportSettings, EveryOneHasAKeyAndAFlagOfItsOwn) {
 }
 
 TEST(ExportSettings, ADefectNamesTheFlag) {
-    EXPECT_EQ(settingsDefect({}), "");
+    EXPECT_EQ(settingsDefect(ExportSettings{}), "");
     EXPECT_TRUE(settingsDefect({.detail = 2}).starts_with("--detail"));
     EXPECT_TRUE(settingsDefect({.maxSize = 1}).starts_with("--max-size"));
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::export_settings_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace limn {
+namespace limn::exposure_test {
 namespace {
 
 ImageF pictureOf(std::vector<float> luminances) {
@@ -60,4 +60,4 @@ TEST(Exposure, MeteringIgnoresLampsBlackAndInvalidPixels) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::exposure_test

@@ -11,7 +11,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::light_parts_test {
 namespace {
 
 using namespace simple;
@@ -122,4 +122,4 @@ TEST(LightParts, InsideASolidThereIsNone) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::light_parts_test

@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::light_test {
 namespace {
 
 Light pointLight() {
@@ -178,4 +178,4 @@ TEST(LightSpec, ASkyIsThreeNumbersThatAreNotNegative) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::light_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::material_test {
 namespace {
 
 TEST(Flipbook, FramesFollowEachOtherForEverAndBackwardsBeforeTheStart) {
@@ -59,4 +59,4 @@ TEST(ShowTime, ChangesTheMaterialsThatPlayAndSaysWhetherAnyDid) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::material_test

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::origin_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -144,4 +144,4 @@ TEST(Origin, ALightIsGivenInTheFilesCoordinates) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::origin_test

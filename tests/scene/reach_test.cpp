@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace limn {
+namespace limn::reach_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -68,4 +68,4 @@ TEST(Reach, ACameraFarAwayLooksWhereItLooks) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::reach_test

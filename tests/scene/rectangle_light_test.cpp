@@ -9,7 +9,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::rectangle_light_test {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
@@ -207,4 +207,4 @@ TEST(SphericalRectangle, FromFarAwayItIsItsAreaOverTheSquaredDistance) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::rectangle_light_test

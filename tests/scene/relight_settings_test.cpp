@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace limn {
+namespace limn::relight_settings_test {
 
 TEST(RelightSettings, EverySettingIsNamedOnceAndExplainedAndAsksForNoBake) {
     std::set<std::string> keys, flags;
@@ -43,4 +43,4 @@ TEST(RelightSettings, TextSetsWhatItNamesAndTellsWhatIsWrong) {
     EXPECT_EQ(s, expected);
 }
 
-} // namespace limn
+} // namespace limn::relight_settings_test

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::scene_test {
 namespace {
 
 Mesh unitTriangle() {
@@ -294,4 +294,4 @@ TEST(Camera, UpAlongTheViewStillGivesAView) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::scene_test

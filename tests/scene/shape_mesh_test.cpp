@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::shape_mesh_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -87,4 +87,4 @@ TEST(ShapeMesh, PathsNameShapes) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::shape_mesh_test

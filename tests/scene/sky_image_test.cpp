@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::sky_image_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -117,4 +117,4 @@ TEST(SkyImage, ACellIsTheMeanOfTheDirectionsInIt) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::sky_image_test

@@ -15,7 +15,7 @@
 
 #include <glm/gtc/matrix_access.hpp>
 
-namespace limn {
+namespace limn::specular_test {
 namespace {
 
 const glm::vec3 kUp(0, 1, 0);
@@ -273,4 +273,4 @@ TEST(ReceiverBands, OfASceneAreThoseOfWhatIsInIt) {
     EXPECT_EQ(receiverBands(scene, 8), 4);
 }
 
-} // namespace limn
+} // namespace limn::specular_test

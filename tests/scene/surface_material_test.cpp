@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::surface_material_test {
 namespace {
 
 /// A row of grey texels with alpha 255.
@@ -190,4 +190,4 @@ TEST(SurfaceMaterial, VertexColorsMultiplyTheBaseColor) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::surface_material_test

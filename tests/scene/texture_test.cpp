@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace limn {
+namespace limn::texture_test {
 namespace {
 
 using namespace simple;
@@ -164,4 +164,4 @@ TEST(Mips, OfAnImageWithoutTexelsOrOfOneAreNone) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::texture_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace limn;
+namespace limn::tone_map_test {
 
 TEST(ToneMap, StaysWithinTheDisplayNeverFallsAndKeepsGrey) {
     for (Tonemap curve : {Tonemap::None, Tonemap::Aces, Tonemap::Agx, Tonemap::PbrNeutral}) {
@@ -43,3 +43,5 @@ TEST(ToneMap, InvalidPixelsDoNotSpread) {
         EXPECT_GT(image.rgba[5], 240) << kTonemapNames[std::size_t(curve)];
     }
 }
+
+} // namespace limn::tone_map_test

@@ -7,7 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::triangle_geometry_test {
 namespace {
 
 Mesh triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
@@ -46,4 +46,4 @@ TEST(TriangleGeometry, KnowsAreasInTheWorldAtAnyScale) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::triangle_geometry_test

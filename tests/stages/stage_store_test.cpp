@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace limn {
+namespace limn::stage_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST_F(Store, AFolderThatCannotBeMadeIsSaidAndMemoryServes) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::stage_store_test

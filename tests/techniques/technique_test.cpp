@@ -14,7 +14,7 @@
 #include <set>
 #include <string>
 
-namespace limn {
+namespace limn::technique_test {
 namespace {
 
 /// A technique with what it needs to light a scene.
@@ -254,4 +254,4 @@ TEST(Ambient, IsPiTimesTheMeanOfTheSkyOnEverySurface) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::technique_test

@@ -8,8 +8,9 @@
 #include <cmath>
 #include <random>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::alpha_mask_test {
+
+using namespace simple;
 
 namespace {
 
@@ -89,3 +90,5 @@ TEST(AlphaMask, FarAndNonFiniteCoordinatesDoNotCrash) {
             opaqueAt(mask, 1, 0.5f, 0.1f);
         }
 }
+
+} // namespace limn::alpha_mask_test

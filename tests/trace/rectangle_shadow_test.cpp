@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::rectangle_shadow_test {
 namespace {
 
 /// 2 x 1 m, 3 m above the floor y = 0, shining down.
@@ -175,4 +175,4 @@ TEST(RectangleShadow, OfALightThatReachesThroughWallsIsThatOfItsPartInTheRoom) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::rectangle_shadow_test

@@ -14,8 +14,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-using namespace limn;
-using namespace limn::simple;
+namespace limn::trace_scene_test {
+
+using namespace simple;
 
 namespace {
 
@@ -456,3 +457,5 @@ TEST(TraceScene, TiesBetweenCoincidentTrianglesDoNotDependOnThreads) {
     EXPECT_EQ(one, trianglesHit(2));
     EXPECT_EQ(one, trianglesHit(0));
 }
+
+} // namespace limn::trace_scene_test

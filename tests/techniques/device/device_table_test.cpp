@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace limn {
+namespace limn::device_table_test {
 namespace {
 
 class DeviceTableTest : public ViewportTest {};
@@ -66,4 +66,4 @@ TEST_F(DeviceTableTest, LightThatIsReadBackIsThatOfTheCpu) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::device_table_test

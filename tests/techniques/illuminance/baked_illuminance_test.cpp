@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::baked_illuminance_test {
 namespace {
 
 std::string sizeClassOf(std::size_t links) {
@@ -111,4 +111,4 @@ TEST(BakedIlluminance, NamesTheStagesThatTheStoreHeld) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::baked_illuminance_test

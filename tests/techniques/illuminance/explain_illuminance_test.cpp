@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::explain_illuminance_test {
 namespace {
 
 /// A reading of one cache with random weights.
@@ -55,4 +55,4 @@ TEST(ExplainIlluminance, SplitsWhatAnyCacheHoldsThoseThatAreFilledIncluded) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::explain_illuminance_test

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <string>
 
-namespace limn {
+namespace limn::lpv_overlay_test {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -225,4 +225,4 @@ TEST(LpvOverlay, AClickPicksTheCellInFrontOfTheSurfaceWhichIsDescribed) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lpv_overlay_test

@@ -15,7 +15,7 @@
 #include <limits>
 #include <numbers>
 
-namespace limn {
+namespace limn::lpv_test {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -408,4 +408,4 @@ TEST(Lpv, SendsTheLightOfEmissiveSurfacesUnlessThatIsOff) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lpv_test

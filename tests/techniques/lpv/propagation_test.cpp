@@ -12,7 +12,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::propagation_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -253,4 +253,4 @@ TEST(Propagation, IsTheSameForAnyNumberOfThreads) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::propagation_test

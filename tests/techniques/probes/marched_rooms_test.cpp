@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::marched_rooms_test {
 namespace {
 
 /// The maps that the probes of a grid trace of a scene, black.
@@ -163,4 +163,4 @@ TEST(MarchedRooms, WhatNoProbeSeesIsUnknownAndReadsTheNearestAlongTheRay) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::marched_rooms_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::probe_maps_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -136,4 +136,4 @@ TEST(GridMoments, WeightsFallWithTheAngleAndBehindWalls) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::probe_maps_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace limn {
+namespace limn::probe_overlay_test {
 namespace {
 
 const std::uint32_t kSolid = packColor({1, 0, 1}), kStale = packColor({0.9f, 0.45f, 0});
@@ -215,4 +215,4 @@ TEST(ProbeOverlay, NearlyAllReflectionsInAConvexRoomMeetASurface) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::probe_overlay_test

@@ -15,7 +15,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::probes_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -317,4 +317,4 @@ TEST(Probes, NothingToLightAndStrangeLightsAreHarmless) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::probes_test

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace limn {
+namespace limn::reflections_test {
 namespace {
 
 constexpr std::uint32_t kMetal = 1;
@@ -178,4 +178,4 @@ TEST(ProbeReflections, APictureCountsThemAndMirrorsTheHalfOfTheWallThatGlows) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::reflections_test

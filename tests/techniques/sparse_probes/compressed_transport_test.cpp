@@ -13,7 +13,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::compressed_transport_test {
 namespace {
 
 constexpr std::uint32_t kBands = 3, kCoefficients = kBands * kBands, kProbes = 20;
@@ -179,4 +179,4 @@ TEST(CompressedTransport, IsTheSameWithAnyNumberOfThreadsAndOfNothingIsNothing) 
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::compressed_transport_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace limn {
+namespace limn::probe_places_test {
 namespace {
 
 TEST(ProbeFalloff, FallsSmoothlyFromOneToZero) {
@@ -110,4 +110,4 @@ TEST(ProbePlaces, AreAboutAsManyAsWantedAndApart) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::probe_places_test

@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-namespace limn {
+namespace limn::sparse_overlay_test {
 namespace {
 
 struct Shown : LitBySparse {
@@ -131,4 +131,4 @@ TEST(SparseOverlay, TexelsWithLessThanNoLightAreCountedAndMagenta) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::sparse_overlay_test

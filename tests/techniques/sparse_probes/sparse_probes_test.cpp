@@ -19,7 +19,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::sparse_probes_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -411,4 +411,4 @@ TEST(SparseProbes, NothingToLightAndStrangeLightsAreHarmless) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::sparse_probes_test

@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace limn {
+namespace limn::transport_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -170,4 +170,4 @@ TEST(Transport, WhatNoProbeSeesIsCountedAndBlackUnlessAskedFor) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::transport_test

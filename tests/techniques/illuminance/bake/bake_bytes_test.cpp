@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::bake_bytes_test {
 namespace {
 
 using namespace simple;
@@ -147,4 +147,4 @@ TEST(BakeBytes, WorkingMemoryHoldsAtLeastTheArraysOfEveryStage) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::bake_bytes_test

@@ -20,7 +20,7 @@
 
 #include <unistd.h>
 
-namespace limn {
+namespace limn::bake_file_test {
 namespace {
 
 using namespace simple;
@@ -345,4 +345,4 @@ TEST_F(BakeFile, AnUnwritablePlaceIsAnError) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::bake_file_test

@@ -15,7 +15,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::caches_test {
 namespace {
 
 using namespace simple;
@@ -167,4 +167,4 @@ TEST(OpenPoints, OfATexelHalfUnderAWallAreThoseInTheOpen) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::caches_test

@@ -13,7 +13,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::clustering_test {
 namespace {
 
 std::vector<ClusterItem> randomItems(std::size_t count, unsigned seed) {
@@ -163,4 +163,4 @@ TEST(Agglomerative, SpotsZeroNormalsAndExtremeAreasStaySafe) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::clustering_test

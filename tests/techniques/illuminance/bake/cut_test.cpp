@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace limn {
+namespace limn::cut_test {
 namespace {
 
 using namespace simple;
@@ -339,4 +339,4 @@ TEST(WeighByLinks, LinksKeepTheEnergyOfWhatTheyStandFor) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::cut_test

@@ -10,7 +10,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::grid_depth_test {
 namespace {
 
 using namespace simple;
@@ -84,4 +84,4 @@ TEST(GridDepth, FewRaysLeaveNoTexelWithoutADistance) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::grid_depth_test

@@ -12,7 +12,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::light_points_test {
 namespace {
 
 using namespace simple;
@@ -115,4 +115,4 @@ TEST(LightPoints, LieOnOneSideOfAWall) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::light_points_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::link_harmonics_test {
 namespace {
 
 using namespace simple;
@@ -262,4 +262,4 @@ TEST(LinkHarmonics, AreTheSameForAnyNumberOfThreads) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::link_harmonics_test

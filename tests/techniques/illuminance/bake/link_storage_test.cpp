@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace limn {
+namespace limn::link_storage_test {
 namespace {
 
 /// Random cones of a mean transport of about `transport`, up to a thousand times more or less.
@@ -116,4 +116,4 @@ TEST(LinkStorage, JoinsTheLinksOfAllCachesInTheirOrder) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::link_storage_test

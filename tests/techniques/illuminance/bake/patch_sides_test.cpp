@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace limn {
+namespace limn::patch_sides_test {
 namespace {
 
 constexpr float kWall = 3.7f;
@@ -168,4 +168,4 @@ TEST(PatchSides, AreNoneWithoutWallsAndAlikeForAnyNumberOfThreads) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::patch_sides_test

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-namespace limn {
+namespace limn::placement_test {
 namespace {
 
 using namespace simple;
@@ -266,4 +266,4 @@ TEST(SurfelOwners, NeedlesTakeNoMoreThanTheirShare) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::placement_test

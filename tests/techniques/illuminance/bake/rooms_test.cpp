@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-namespace limn {
+namespace limn::rooms_test {
 namespace {
 
 using namespace simple;
@@ -121,4 +121,4 @@ TEST(Rooms, ATreeSplitByThemKeepsEveryLeafOnce) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::rooms_test

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <set>
 
-namespace limn {
+namespace limn::seen_patches_test {
 namespace {
 
 using namespace simple;
@@ -165,4 +165,4 @@ TEST(SeenPatches, CachesOfTheirOwnTakeTexelsThatNoLookupNeeds) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::seen_patches_test

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <random>
 
-namespace limn {
+namespace limn::senders_test {
 namespace {
 
 using namespace simple;
@@ -259,4 +259,4 @@ TEST(Sky, CellsHaveEqualSolidAngleAndContainTheirDirection) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::senders_test

@@ -14,7 +14,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::stage_rules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +117,4 @@ TEST_F(KeptStages, AnEarlierTraceOutOfRangeIsNotUsed) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::stage_rules_test

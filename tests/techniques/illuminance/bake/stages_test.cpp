@@ -25,7 +25,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <unistd.h>
 
-namespace limn {
+namespace limn::stages_test {
 namespace {
 
 using namespace simple;
@@ -397,4 +397,4 @@ TEST(Stages, HitsThatWouldFillTheMemoryAreRefusedByName) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::stages_test

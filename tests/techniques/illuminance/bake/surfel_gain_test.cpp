@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::surfel_gain_test {
 namespace {
 
 /// Two caches that look up, each with one narrow link, to 60 degrees from the normal, and a third
@@ -98,4 +98,4 @@ TEST(SurfelGain, NoSurfelOfABakeReadsMoreThanIsSent) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::surfel_gain_test

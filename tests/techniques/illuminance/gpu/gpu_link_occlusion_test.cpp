@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::gpu_link_occlusion_test {
 namespace {
 
 /// The court with a dynamic block over its floor that occludes links. Few bounces, so that light
@@ -176,4 +176,4 @@ TEST_F(GpuLinkOcclusion, SendsInPartsWhatIsMoreThanFitsAtOnce) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_link_occlusion_test

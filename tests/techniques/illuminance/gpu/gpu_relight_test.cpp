@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace limn {
+namespace limn::gpu_relight_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -227,4 +227,4 @@ TEST_F(GpuRelight, AClosedGlowingRoomReachesItsRadiosityAtEveryBandCount) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_relight_test

@@ -3,7 +3,7 @@
 #include "tests/techniques/illuminance/gpu/relit_scene.h"
 #include "tests/techniques/illuminance/relight/differing_caches.h"
 
-namespace limn {
+namespace limn::gpu_seen_caches_test {
 namespace {
 
 class GpuSeenCaches : public DeviceTest {};
@@ -65,4 +65,4 @@ TEST_F(GpuSeenCaches, AreLitAsIfAllWereAndTheOthersLater) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_seen_caches_test

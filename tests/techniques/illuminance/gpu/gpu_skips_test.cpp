@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/techniques/illuminance/gpu/relit_scene.h"
 
-namespace limn {
+namespace limn::gpu_skips_test {
 namespace {
 
 class GpuSkips : public DeviceTest {};
@@ -47,4 +47,4 @@ TEST_F(GpuSkips, NoGridCacheIsLitWhereNothingReadsThem) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_skips_test

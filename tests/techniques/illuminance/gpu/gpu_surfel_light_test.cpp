@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace limn {
+namespace limn::gpu_surfel_light_test {
 namespace {
 
 /// A court with one light, whose surfels reflect half of what they get.
@@ -316,4 +316,4 @@ TEST_F(ViewportSurfelLight, FramesDrawNoShadowMapAgain) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_surfel_light_test

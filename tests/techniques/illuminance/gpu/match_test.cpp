@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace limn {
+namespace limn::match_test {
 namespace {
 
 TEST(ShNormalisation, IsTheSameForShadersToTheLastBit) {
@@ -205,4 +205,4 @@ TEST_F(GpuMatch, FollowsTheLightAsTheCpuDoes) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::match_test

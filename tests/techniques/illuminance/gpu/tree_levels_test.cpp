@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace limn {
+namespace limn::tree_levels_test {
 namespace {
 
 /// Joins two random nodes that have no parent yet, or the newest with the oldest where `chain`.
@@ -73,4 +73,4 @@ TEST(TreeLevels, AreAsManyAsTheTreeIsHigh) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::tree_levels_test

@@ -3,7 +3,7 @@
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/illuminance/gpu/relit_scene.h"
 
-namespace limn {
+namespace limn::viewport_relighter_test {
 namespace {
 
 /// A corner that no light reaches through anything else: floor and two walls, one of which glows;
@@ -213,4 +213,4 @@ TEST_F(RelightViewport, TheViewportShowsItsField) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::viewport_relighter_test

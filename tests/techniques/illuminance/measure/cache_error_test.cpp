@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace limn {
+namespace limn::cache_error_test {
 namespace {
 
 using namespace simple;
@@ -89,4 +89,4 @@ TEST(CompareCaches, CountsErrorAndBiasOverTheMean) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::cache_error_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace limn {
+namespace limn::energy_chain_test {
 namespace {
 
 using namespace simple;
@@ -118,4 +118,4 @@ TEST(EnergyChain, ACancelledMeasurementIsNotComplete) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::energy_chain_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace limn {
+namespace limn::gallery_error_test {
 namespace {
 
 struct Figures {
@@ -101,4 +101,4 @@ TEST(GalleryError, ElevenSmallScenesAreNoWorseThanTheyWere) {
     }
 }
 
-} // namespace limn
+} // namespace limn::gallery_error_test

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::link_error_test {
 namespace {
 
 using namespace simple;
@@ -113,4 +113,4 @@ TEST(LinkError, OfMoreRaysIsTheNoiseOfFewer) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::link_error_test

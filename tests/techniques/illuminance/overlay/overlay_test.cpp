@@ -19,7 +19,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::overlay_test {
 
 namespace {
 
@@ -517,4 +517,4 @@ TEST(Palette, ViridisGrowsLighterAndDistinctColoursDiffer) {
                 << k << ", " << other;
 }
 
-} // namespace limn
+} // namespace limn::overlay_test

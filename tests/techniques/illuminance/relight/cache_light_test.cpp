@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <random>
 
-namespace limn {
+namespace limn::cache_light_test {
 namespace {
 
 Bake bakedRoom(LinkStorage storage, std::uint32_t bands, bool window = false,
@@ -304,4 +304,4 @@ TEST(ReadCaches, IsTheIrradianceOfTheWeightedCaches) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::cache_light_test

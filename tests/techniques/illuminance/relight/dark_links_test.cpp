@@ -13,7 +13,7 @@
 
 #include <hwy/targets.h>
 
-namespace limn {
+namespace limn::dark_links_test {
 namespace {
 
 Scene litHall(LinkStorage storage, std::uint32_t bands, bool window = false) {
@@ -205,4 +205,4 @@ TEST(DarkLinks, AreThoseToWhatALampDoesNotReachUntilItsLightHasBounced) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::dark_links_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace limn {
+namespace limn::energy_test {
 namespace {
 
 Scene roomOf(float albedo, LinkStorage storage = LinkStorage::Rtp) {
@@ -153,4 +153,4 @@ TEST(Energy, ALittleMoreThanAllIsGrowthAndRoundingIsNot) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::energy_test

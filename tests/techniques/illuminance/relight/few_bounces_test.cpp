@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limn {
+namespace limn::few_bounces_test {
 namespace {
 
 using namespace simple;
@@ -105,4 +105,4 @@ TEST_F(FewBounces, ToleranceDecidesHowManyOfManyThereAre) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::few_bounces_test

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <utility>
 
-namespace limn {
+namespace limn::fine_texels_test {
 namespace {
 
 constexpr std::uint32_t kGround = 0;
@@ -120,4 +120,4 @@ TEST(FineTexels, LookupsEndThoughBlocksLeadToEachOther) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::fine_texels_test

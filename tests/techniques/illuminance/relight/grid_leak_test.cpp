@@ -12,7 +12,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::grid_leak_test {
 namespace {
 
 using namespace simple;
@@ -154,4 +154,4 @@ TEST(GridNeed, CellsThatNothingReadsAreLitWhereAskedFor) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::grid_leak_test

@@ -14,7 +14,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::hostile_mesh_test {
 namespace {
 
 using namespace simple;
@@ -219,4 +219,4 @@ TEST(HostileMesh, AClosedBoxInAClosedBoxKeepsItsEnergyBetweenTheWalls) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::hostile_mesh_test

@@ -11,7 +11,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::lamp_test {
 namespace {
 
 using namespace simple;
@@ -251,4 +251,4 @@ TEST(Lamps, OfMoreSurfelsThanCachesAimAtNoneIsFavoured) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lamp_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::lamp_texels_test {
 namespace {
 
 using namespace simple;
@@ -123,4 +123,4 @@ TEST(LampTexels, ShowTheLightBesideARim) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::lamp_texels_test

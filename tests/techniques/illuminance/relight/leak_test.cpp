@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limn {
+namespace limn::leak_test {
 namespace {
 
 using namespace simple;
@@ -80,4 +80,4 @@ TEST(Leak, OfTheCutIntoASealedRoomIsAtMostAQuarterOfThePapers) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::leak_test

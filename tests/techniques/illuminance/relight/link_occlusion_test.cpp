@@ -21,7 +21,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vector_relational.hpp>
 
-namespace limn {
+namespace limn::link_occlusion_test {
 namespace {
 
 using namespace simple;
@@ -446,4 +446,4 @@ TEST(SceneBlockers, LeaveStaticAndFlattenedInstancesOut) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::link_occlusion_test

@@ -28,7 +28,7 @@ static std::atomic<std::uint64_t> allocations = 0;
     std::free(memory);
 }
 
-namespace limn {
+namespace limn::memory_test {
 namespace {
 
 void expectNoneAnew(LinkStorage storage) {
@@ -61,4 +61,4 @@ TEST(RelightMemory, MovedLightsTakeNoneAnew) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::memory_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limn {
+namespace limn::relight_test {
 namespace {
 
 using namespace simple;
@@ -591,4 +591,4 @@ TEST(Relight, ASurfaceThatIsPolishedGetsItsBandsAtOnceAndGivesThemBack) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::relight_test

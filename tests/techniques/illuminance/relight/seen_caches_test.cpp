@@ -14,7 +14,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::seen_caches_test {
 namespace {
 
 using namespace simple;
@@ -376,4 +376,4 @@ TEST(ViewDependentRelighting, OccludesWhatIsSeen) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::seen_caches_test

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace limn {
+namespace limn::sky_leak_test {
 namespace {
 
 using namespace simple;
@@ -45,4 +45,4 @@ TEST(SkyLeak, ThroughAShelfIntoASealedRoomIsLessThanAThousandth) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::sky_leak_test

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::smooth_normals_test {
 namespace {
 
 using namespace simple;
@@ -52,4 +52,4 @@ TEST(SmoothNormals, SurfelsGetLightByTheNormalsOfTheVertices) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::smooth_normals_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace limn {
+namespace limn::strong_light_test {
 namespace {
 
 // Every kind of light at once, as strong as may be, with lamps less than a micrometre above a point
@@ -41,4 +41,4 @@ TEST(StrongLight, StaysWithinFloat) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::strong_light_test

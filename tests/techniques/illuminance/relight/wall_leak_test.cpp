@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace limn {
+namespace limn::wall_leak_test {
 namespace {
 
 /// Mean bounced irradiance where rays from a few points of either part meet surfaces: the dark
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Walls, WallLeak,
                                           testing::Values(500U, 1000U, 4000U)));
 
 } // namespace
-} // namespace limn
+} // namespace limn::wall_leak_test

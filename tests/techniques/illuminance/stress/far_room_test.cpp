@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::far_room_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -109,4 +109,4 @@ TEST(FarRoom, IsLitAsBrightlyAtAnyPlace) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::far_room_test

@@ -15,7 +15,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::oracle_test {
 namespace {
 
 TEST(Oracles, AreMetByThirtyHostileScenes) {
@@ -184,4 +184,4 @@ TEST(Minimise, LeavesWhatAnOracleFailsBy) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::oracle_test

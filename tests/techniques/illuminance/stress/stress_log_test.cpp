@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-namespace limn {
+namespace limn::stress_log_test {
 namespace {
 
 const std::vector<Oracle> kOracles = {{"first", "", nullptr}, {"second", "", nullptr}};
@@ -116,4 +116,4 @@ TEST(CaseFile, IsRefusedInWordsWhereItIsDamaged) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::stress_log_test

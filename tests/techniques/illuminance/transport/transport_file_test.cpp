@@ -6,7 +6,7 @@
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/techniques/illuminance/relight/relit.h"
 
-namespace limn {
+namespace limn::transport_file_test {
 namespace {
 
 /// Errors of the runtime's radiosity and lightmap against the Relighter's.
@@ -213,4 +213,4 @@ TEST(TransportFile, IsTheSameForTheSameInput) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::transport_file_test

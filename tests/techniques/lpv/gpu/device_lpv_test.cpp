@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-namespace limn {
+namespace limn::device_lpv_test {
 namespace {
 
 /// A room with a block, a lamp, and a material that may glow; `scale` times as large, lit alike.
@@ -328,4 +328,4 @@ TEST_F(DeviceLpvTest, TakesTimeInEachStep) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::device_lpv_test

@@ -12,7 +12,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn {
+namespace limn::gpu_light_maps_test {
 namespace {
 
 /// A texture of 4 x 4 texels, half of which are holes.
@@ -168,4 +168,4 @@ TEST_F(GpuLightMapsTest, AreEmptyWhereALightReachesNothing) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_light_maps_test

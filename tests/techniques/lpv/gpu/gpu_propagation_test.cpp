@@ -13,7 +13,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn {
+namespace limn::gpu_propagation_test {
 namespace {
 
 class GpuPropagationTest : public DeviceTest {
@@ -180,4 +180,4 @@ TEST_F(GpuPropagationTest, LeavesTheFieldWhenCancelledBetweenSubmissions) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::gpu_propagation_test

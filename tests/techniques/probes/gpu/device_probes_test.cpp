@@ -9,7 +9,7 @@
 #include <atomic>
 #include <cstdio>
 
-namespace limn {
+namespace limn::device_probes_test {
 namespace {
 
 using Settings = std::map<std::string, double>;
@@ -364,4 +364,4 @@ TEST_F(DeviceProbesTest, TheirOverlaysShowTheLightOfTheDevice) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::device_probes_test

@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-namespace limn {
+namespace limn::device_reflections_test {
 namespace {
 
 /// Differences of pixels from those of the CPU [W m^-2 sr^-1].
@@ -183,4 +183,4 @@ TEST_F(DeviceReflectionsTest, AreHarmonicsWhereTheDeviceCannotBindTheMaps) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::device_reflections_test

@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace limn {
+namespace limn::device_sparse_test {
 namespace {
 
 using Settings = std::map<std::string, double>;
@@ -392,4 +392,4 @@ TEST_F(DeviceSparseTest, ItsOverlayShowsTheLightOfTheDevice) {
 }
 
 } // namespace
-} // namespace limn
+} // namespace limn::device_sparse_test
