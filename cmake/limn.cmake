@@ -7,7 +7,7 @@ target_compile_options(limn_options INTERFACE -Wall -Wextra -Wshadow -Wconversio
                        -Wno-missing-field-initializers) # designated initialisers name what differs from the default
 # Results must not depend on whether the compiler found a fused multiply-add.
 target_compile_options(limn_options INTERFACE -ffp-contract=off)
-# Two hundred test programs are linked in every build of everything; mold takes a third of the time of GNU ld.
+# Some sixty programs are linked in every build of everything; mold takes a third of the time of GNU ld.
 find_program(MOLD mold)
 if(MOLD)
   target_link_options(limn_options INTERFACE -fuse-ld=mold)
@@ -39,18 +39,81 @@ function(limn_room name)
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(${name} PUBLIC limn_options ${ROOM_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY LIMN_ROOMS ${name})
+  set_property(GLOBAL APPEND PROPERTY LIMN_JOINED ${name})
 endfunction()
 
-# limn_test(scene_gltf_import_test SOURCES scene/gltf_import_test.cpp DEPENDS limn_scene)
-# Arguments that follow LABELS are ctest labels.
+# limn_test(scene_light_test SOURCES light_test.cpp DEPENDS limn_scene)
+# The tests of a folder become one program, and each test a ctest entry that runs the tests of its first source.
+# Arguments that follow LABELS are ctest labels. ALONE: a program of its own, for what changes the whole program.
 function(limn_test name)
-  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
-  add_executable(${name} ${TEST_SOURCES})
-  target_link_libraries(${name} PRIVATE ${TEST_DEPENDS} limn_test_paths GTest::gtest_main)
-  target_precompile_headers(${name} REUSE_FROM limn_test_headers)
-  add_test(NAME ${name} COMMAND ${name})
+  cmake_parse_arguments(TEST "ALONE" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  if(TEST_ALONE)
+    set(program ${name})
+  else()
+    limn_test_program(program)
+  endif()
+  if(NOT TARGET ${program})
+    add_executable(${program})
+    target_link_libraries(${program} PRIVATE limn_test_main)
+    target_precompile_headers(${program} REUSE_FROM limn_test_headers)
+    set_property(GLOBAL APPEND PROPERTY LIMN_JOINED ${program})
+  endif()
+  target_sources(${program} PRIVATE ${TEST_SOURCES})
+  target_link_libraries(${program} PRIVATE ${TEST_DEPENDS})
+  list(GET TEST_SOURCES 0 file)
+  cmake_path(ABSOLUTE_PATH file NORMALIZE)
+  cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
+  add_test(NAME ${name} COMMAND ${program} ${file})
   set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 600
     ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0;TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp")
+endfunction()
+
+# The name of the program that limn_test makes of this folder: tests/techniques/lpv is techniques_lpv_tests.
+function(limn_test_program variable)
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR}/tests OUTPUT_VARIABLE folder)
+  string(REPLACE / _ folder ${folder})
+  set(${variable} ${folder}_tests PARENT_SCOPE)
+endfunction()
+
+# Most of a compiler's time goes to headers, the same for each file of a room. limn_join_sources(TARGET) lets the compiler see
+# up to LIMN_UNITY sources of a target as one. Those with options of their own, or with SKIP_UNITY_BUILD_INCLUSION, stay alone.
+# CMake's UNITY_BUILD does this too, but names sources by their absolute paths, so that two checkouts would share no object.
+function(limn_join_sources target)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(output ${target} BINARY_DIR)
+  set(kept)
+  set(lines)
+  foreach(source ${sources})
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
+    get_source_file_property(options ${source} TARGET_DIRECTORY ${target} COMPILE_OPTIONS)
+    get_source_file_property(definitions ${source} TARGET_DIRECTORY ${target} COMPILE_DEFINITIONS)
+    get_source_file_property(skip ${source} TARGET_DIRECTORY ${target} SKIP_UNITY_BUILD_INCLUSION)
+    if(options OR definitions OR skip OR NOT source MATCHES "\\.cpp$")
+      list(APPEND kept ${source})
+    else()
+      cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
+      list(APPEND lines "#include \"${source}\"\n")
+    endif()
+  endforeach()
+  list(LENGTH lines count)
+  if(count LESS 2)
+    return()
+  endif()
+  math(EXPR batches "(${count} + ${LIMN_UNITY} - 1) / ${LIMN_UNITY}")
+  set(begin 0)
+  foreach(batch RANGE 1 ${batches})
+    math(EXPR end "${count} * ${batch} / ${batches}") # batches of equal size
+    math(EXPR length "${end} - ${begin}")
+    list(SUBLIST lines ${begin} ${length} content)
+    list(JOIN content "" content)
+    file(CONFIGURE OUTPUT ${output}/joined/${target}_${batch}.cpp CONTENT "${content}")
+    list(APPEND kept ${output}/joined/${target}_${batch}.cpp)
+    set(begin ${end})
+  endforeach()
+  set_target_properties(${target} PROPERTIES SOURCES "${kept}")
+  # GCC takes every source that is included for a header, whose types must not have members of unnamed namespaces.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # limn_shaders(limn_render viewport/surface.frag): compiles shaders/viewport/surface.frag to SPIR-V and embeds it, as
