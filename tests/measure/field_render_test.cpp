@@ -2,6 +2,7 @@
 #include "engine/measure/field_render.h"
 
 #include "engine/core/parallel.h"
+#include "engine/measure/compare.h"
 #include "engine/reference/reference.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/trace/simple_scene.h"
@@ -71,13 +72,6 @@ double rmsDifference(const ImageF& a, const ImageF& b) {
     for (std::size_t i = 0; i < a.rgb.size(); ++i)
         sum += double(glm::dot(a.rgb[i] - b.rgb[i], a.rgb[i] - b.rgb[i])) / 3;
     return std::sqrt(sum / double(a.rgb.size()));
-}
-
-double meanOf(const ImageF& image) {
-    double sum = 0;
-    for (glm::vec3 p : image.rgb)
-        sum += double(p.x + p.y + p.z) / 3;
-    return sum / double(image.rgb.size());
 }
 
 } // namespace

@@ -46,7 +46,7 @@ FieldRenderOptions fieldOptions(const ReferenceOptions& o) {
     return f;
 }
 
-glm::vec3 meanOf(const ImageF& image) {
+glm::vec3 meanColor(const ImageF& image) {
     glm::dvec3 sum(0);
     for (const glm::vec3 c : image.rgb)
         sum += glm::dvec3(c);
@@ -96,7 +96,8 @@ TEST(Glossy, AFurnaceIsReflectedWhole) {
         const ReferenceOptions o = pointOptions({0, 0.5f, 0}, {0, 0.5f, -1}, 256);
         const Gloss gloss{glm::vec3(m.baseColor), roughness};
         const glm::vec3 truth = glm::vec3(1) + reflected(gloss, {0, 1, 0}).light;
-        EXPECT_LT(glm::length(meanOf(renderReference(trace, o).image) - truth), 4e-3f) << roughness;
+        EXPECT_LT(glm::length(meanColor(renderReference(trace, o).image) - truth), 4e-3f)
+            << roughness;
         // In spherical harmonics of any number of bands too.
         const glm::vec3 expected = glm::vec3(1) + specularAlbedo(gloss, 1);
         EXPECT_LT(glm::length(expected - truth), 0.01f) << "the table's error";
@@ -111,7 +112,8 @@ TEST(Glossy, AFurnaceIsReflectedWhole) {
                 FieldRenderOptions f = fieldOptions(o);
                 f.windowedLobes = windowed;
                 f.samplesPerPixel = 1;
-                EXPECT_LT(glm::length(meanOf(renderField(trace, field, {}, f)) - expected), 1e-3f);
+                EXPECT_LT(glm::length(meanColor(renderField(trace, field, {}, f)) - expected),
+                          1e-3f);
             }
         }
     }
@@ -133,7 +135,7 @@ TEST(Glossy, AGradientIsReflectedAsTheBrdfDoes) {
             const Reflected r = reflected({glm::vec3(1), roughness}, toEye);
             const glm::vec3 truth = r.light + 2.f * r.height;
             const ReferenceOptions o = pointOptions(2.f * toEye, {0, 0, 0}, 1024);
-            EXPECT_LT(glm::length(meanOf(renderReference(trace, o).image) - truth),
+            EXPECT_LT(glm::length(meanColor(renderReference(trace, o).image) - truth),
                       4e-3f * glm::length(truth))
                 << roughness << " " << NoV;
 
@@ -148,7 +150,7 @@ TEST(Glossy, AGradientIsReflectedAsTheBrdfDoes) {
             FieldRenderOptions f = fieldOptions(o);
             f.windowedLobes = false;
             f.samplesPerPixel = 1;
-            EXPECT_LT(glm::length(meanOf(renderField(trace, field, {}, f)) - truth),
+            EXPECT_LT(glm::length(meanColor(renderField(trace, field, {}, f)) - truth),
                       0.012f * glm::length(truth))
                 << roughness << " " << NoV;
         }
@@ -173,7 +175,7 @@ TEST(Glossy, ALightIsReflectedByTheBrdf) {
                                                 glm::normalize(o.camera.eye), -sun.direction);
         for (const ImageF& image :
              {renderReference(trace, o).image, renderField(trace, {}, {}, fieldOptions(o))})
-            EXPECT_LT(glm::length(meanOf(image) - expected), 1e-3f * glm::length(expected));
+            EXPECT_LT(glm::length(meanColor(image) - expected), 1e-3f * glm::length(expected));
     }
 }
 
@@ -201,7 +203,7 @@ TEST(Glossy, ReadsTheBandsThatItsMaterialNeedsAndTheFieldHas) {
             expected += s[std::size_t(l)] * y[i] * field.grid[std::size_t(i)].x;
         ASSERT_GT(expected, 0);
         expected *= specularAlbedo({glm::vec3(1), 0.2f}, toEye.y).x;
-        EXPECT_NEAR(meanOf(renderField(trace, field, {}, fieldOptions(o))).x, expected,
+        EXPECT_NEAR(meanColor(renderField(trace, field, {}, fieldOptions(o))).x, expected,
                     1e-3f * expected)
             << bands;
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/measure/compare.h"
 #include "engine/reference/reference.h"
 #include "engine/reference/sky_light.h"
 
@@ -46,13 +47,6 @@ ReferenceOptions optionsFor(View view, glm::vec3 eye, glm::vec3 target, std::uin
     o.width = o.height = size;
     o.samplesPerPixel = spp;
     return o;
-}
-
-double meanOf(const ImageF& image) {
-    double sum = 0;
-    for (glm::vec3 p : image.rgb)
-        sum += double(p.x) + double(p.y) + double(p.z);
-    return sum / (3 * double(image.rgb.size()));
 }
 
 /// Standard error of meanOf, relative. Channels are equal in these tests, pixels are independent.

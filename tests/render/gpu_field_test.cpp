@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/grid_depth.h"
 #include "engine/field/sample_field.h"
+#include "engine/measure/compare.h"
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/illuminance/gpu/relit_scene.h"
 
@@ -41,13 +42,6 @@ protected:
     std::unique_ptr<GpuRelighter> relighter;
     SurfelValues values;
 };
-
-double meanOf(const ImageF& image) {
-    double sum = 0;
-    for (const glm::vec3 c : image.rgb)
-        sum += double(c.x + c.y + c.z);
-    return sum / double(3 * image.rgb.size());
-}
 
 TEST_F(ViewportGpuField, LooksTheSameAsByWayOfTheCpu) {
     relighter->relight(values.inputs(), 4);
