@@ -4,6 +4,7 @@
 #include "engine/field/grid_cells.h"
 #include "engine/field/grid_depth.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/math/hemisphere_radiance.h"
 #include "engine/math/lobe.h"
 
 #include <algorithm>
@@ -107,6 +108,17 @@ glm::vec3 sampleIrradiance(const FieldPoint& at) {
     const int bands = std::min(int(at.field.bands), kIrradianceBands);
     const Coefficients c = sampleField(at, bands);
     return glm::max(shIrradiance(bands, c.data(), at.normal), glm::vec3(0));
+}
+
+glm::vec3 sampleRadiance(const FieldPoint& at, glm::vec3 direction) {
+    const int bands = std::min(int(at.field.bands), kIrradianceBands);
+    const Coefficients c = sampleField(at, bands);
+    float w[kIrradianceBands * kIrradianceBands];
+    hemisphereRadianceWeights(bands, at.normal, direction, w);
+    glm::vec3 radiance(0);
+    for (int i = 0; i < bands * bands; ++i)
+        radiance += w[i] * c[std::size_t(i)];
+    return glm::max(radiance, glm::vec3(0));
 }
 
 glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,

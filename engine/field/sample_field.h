@@ -39,6 +39,10 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3
 /// Irradiance at the point [W m^-2], >= 0.
 glm::vec3 sampleIrradiance(const FieldPoint& at);
 
+/// Radiance [W m^-2 sr^-1], >= 0, that arrives from unit `direction` above a surface with a
+/// lightmap, as far as up to three of the field's bands tell.
+glm::vec3 sampleRadiance(const FieldPoint& at, glm::vec3 direction);
+
 /// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`. Uses the first `bands`
 /// bands, or as many as the field has, each weighted by its factor in `factors`.
 glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,

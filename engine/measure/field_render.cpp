@@ -3,7 +3,9 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
+#include "engine/lightmap/near_reach.h"
 #include "engine/measure/field_lobe.h"
+#include "engine/measure/near_light.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/direct_light.h"
 #include "engine/reference/surface_point.h"
@@ -26,14 +28,17 @@ struct FieldContext {
     std::vector<int> bands;    ///< that each material reflects
     std::vector<bool> marches; ///< whether its reflections are marched
     MarchedCounts* counts;
+    NearLight near;
 
     bool hasField() const { return field.lightmapWidth > 0 || field.gridSize.x > 0; }
 };
 
-glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePoint& p) {
+glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePoint& p,
+                          const Sampler& nearSampler) {
     if (!c.hasField())
         return glm::vec3(0);
-    return sampleIrradiance(fieldPoint(c.field, c.layout, c.trace.scene(), hit, p));
+    return sampleIrradiance(fieldPoint(c.field, c.layout, c.trace.scene(), hit, p)) +
+           nearCorrection(c.near, hit, p, nearSampler);
 }
 
 /// Specular reflection of the field's light.
@@ -56,31 +61,35 @@ glm::vec3 fieldReflection(const FieldContext& c, const Hit& hit, const GlossyPoi
 }
 
 glm::vec3 shadeLit(const FieldContext& c, const Hit& hit, const GlossyPoint& g,
-                   const DirectSample& direct) {
+                   const DirectSample& direct, glm::vec3 bounced) {
     const SurfacePoint& p = g.surface;
     return p.emission + g.reflect(direct.irradiance, direct.toLight) +
-           p.albedo / glm::pi<float>() * fieldIrradiance(c, hit, p) + fieldReflection(c, hit, g);
+           p.albedo / glm::pi<float>() * bounced + fieldReflection(c, hit, g);
 }
 
-glm::vec3 shade(const FieldContext& c, const Ray& ray, float pickLight, glm::vec2 onLight) {
-    const Hit hit = c.trace.closestHit(ray);
+glm::vec3 shade(const FieldContext& c, const PixelSample& sample) {
+    const Hit hit = c.trace.closestHit(sample.ray);
     if (!hit)
-        return c.view == View::Lit ? skyRadiance(c.trace.scene().sky, ray.direction) : glm::vec3(0);
+        return c.view == View::Lit ? skyRadiance(c.trace.scene().sky, sample.ray.direction)
+                                   : glm::vec3(0);
     const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
     if (!p)
         return glm::vec3(0);
     std::uint64_t rays = 0;
-    const auto direct = [&] { return sampleDirectLight(c.trace, *p, pickLight, onLight, rays); };
+    const auto direct = [&] {
+        return sampleDirectLight(c.trace, *p, sample.pickLight, sample.onLight, rays);
+    };
+    const auto bounced = [&] { return fieldIrradiance(c, hit, *p, sample.near); };
     const glm::vec3 reflectance = p->albedo / glm::pi<float>();
     switch (c.view) {
     case View::Lit:
-        return shadeLit(c, hit, glossyPoint(c.trace, hit, ray, *p), direct());
+        return shadeLit(c, hit, glossyPoint(c.trace, hit, sample.ray, *p), direct(), bounced());
     case View::Direct:
         return reflectance * direct().irradiance;
     case View::Indirect:
-        return reflectance * fieldIrradiance(c, hit, *p);
+        return reflectance * bounced();
     case View::Irradiance:
-        return fieldIrradiance(c, hit, *p);
+        return bounced();
     case View::Albedo:
         return p->albedo;
     case View::Normals:
@@ -96,8 +105,17 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
     constexpr std::size_t kTile = 256; // pixels
-    FieldContext context{trace, field, layout,         options.view, options.windowedLobes,
-                         {},    {},    options.marched};
+    FieldContext context{.trace = trace,
+                         .field = field,
+                         .layout = layout,
+                         .view = options.view,
+                         .windowedLobes = options.windowedLobes,
+                         .bands = {},
+                         .marches = {},
+                         .counts = options.marched,
+                         .near = {trace, field, layout, {}, options.nearRays}};
+    if (options.nearRays > 0)
+        context.near.reach = nearReaches(trace.scene(), layout);
     context.bands = options.allBands
                         ? std::vector<int>(trace.scene().materials.size(), int(field.bands))
                         : reflectedBands(trace.scene(), field);
@@ -111,8 +129,7 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
             for (std::size_t i = first; i < last; ++i) {
                 glm::vec3 sum(0);
                 for (std::uint32_t s = 0; s < options.samplesPerPixel; ++s) {
-                    const PixelSample sample(pixelRays, options.seed, std::uint32_t(i), s);
-                    sum += shade(context, sample.ray, sample.pickLight, sample.onLight);
+                    sum += shade(context, {pixelRays, options.seed, std::uint32_t(i), s});
                 }
                 image.rgb[i] = sum / float(options.samplesPerPixel);
             }

@@ -14,6 +14,9 @@ struct PixelSample {
     Ray ray;
     float pickLight;   ///< for sampleDirectLight()
     glm::vec2 onLight; ///< the same
+    Sampler near;      ///< for nearCorrection()
+
+    static constexpr std::uint32_t kNearSeed = 0x6e656172; ///< sets those rays apart from others
 
     /// `pixel`: y * width + x.
     PixelSample(const PixelRays& rays, std::uint32_t seed, std::uint32_t pixel, std::uint32_t s) {
@@ -23,6 +26,7 @@ struct PixelSample {
         ray = rays.through(corner + sampler.pair(0));
         pickLight = sampler.pair(1).x;
         onLight = sampler.pair(kOnLightDimension);
+        near = {mixBits(sampler.seed, kNearSeed), s};
     }
 };
 

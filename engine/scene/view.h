@@ -19,6 +19,10 @@ enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Nor
 /// Samples per pixel of finished pictures, unless one asks for others.
 inline constexpr std::uint32_t kSamplesPerPixel = 16;
 
+/// Number of rays of each of these samples that look for near surfaces by default, where pictures
+/// are meant to be right rather than fast.
+inline constexpr std::uint32_t kNearRays = 4;
+
 /// What is drawn over a picture, which fades beneath it, to find faults: the edges of all
 /// triangles, or pixels with a NaN or Inf.
 enum class Inspection : std::uint32_t { None, Wireframe, InvalidPixels };
