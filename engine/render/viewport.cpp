@@ -11,6 +11,7 @@
 #include "engine/render/passes/geometry_passes.h"
 #include "engine/render/passes/indirect_pass.h"
 #include "engine/render/passes/mean_pass.h"
+#include "engine/render/passes/near_pass.h"
 #include "engine/render/passes/overlay_pass.h"
 #include "engine/render/passes/sky_pass.h"
 #include "engine/render/passes/tonemap_pass.h"
@@ -129,6 +130,7 @@ struct Viewport::Impl {
     SurfaceImages surfaces;
     SurfaceMaps surfaceMaps;
     IndirectPass indirectPass;
+    NearPass nearPass;
     SkyPass sky;
     DirectPass direct;
     gpu::Sampler texelSampler;
@@ -167,7 +169,7 @@ Viewport::Impl::Impl(gpu::Device& d)
       reflectionTable(uploadReflectionTable(d)),
       geometry(d, frameLayout.handle, materials.layout()), surfaces(d),
       surfaceMaps(d, frameLayout, kFrameTypes), indirectPass(d, frameLayout.handle),
-      sky(d, frameLayout.handle), direct(d, frameLayout.handle),
+      nearPass(d, frameLayout.handle), sky(d, frameLayout.handle), direct(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
       mean(d), tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})),
@@ -301,6 +303,11 @@ void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
         sky.record(cmd, slot.set, slotIndex);
         vkCmdEndRendering(cmd);
     }
+    if (nearPass.active(options)) {
+        beginOnLinear(cmd, options);
+        nearPass.record(cmd, slot.set, options, *indirect.field, samples);
+        vkCmdEndRendering(cmd);
+    }
 }
 
 void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
@@ -396,6 +403,8 @@ void Viewport::setScene(const Scene& scene, std::shared_ptr<const LightmapLayout
 void Viewport::setLighting(const Scene& scene) {
     m_impl->maskVersion += m_impl->materials.update(scene);
     m_impl->sky.set(scene.sky);
+    m_impl->nearPass.set(scene, m_impl->scene.layout,
+                         m_impl->scene.version + m_impl->materials.version);
     m_impl->parted.set(scene, m_impl->scene.version + m_impl->maskVersion);
     m_impl->stats.lightsOff = m_impl->parted.lightsOff;
 }
@@ -429,7 +438,7 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     const auto start = Clock::now();
     ensureTargets(options.width, options.height);
     const glm::vec2 point = samplePoint(samples);
-    const bool lit = showsDirectLight(options.view);
+    const bool lit = nearPass.prepare(options) || showsDirectLight(options.view);
     GeometryView view = geometryView(options, scene.bounds, indirect.field->hasGrid());
     describeField(*indirect.field, view);
     std::vector<ShadowSlot> shadowSlots(lights.size());

@@ -31,6 +31,10 @@ struct ViewportOptions {
     Camera camera;
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
+    /// Rays of each sample of a pixel that look for surfaces nearer than half a texel of the
+    /// lightmap, whose own light then takes the place of the field's, as nearCorrection() does; 0:
+    /// none. Dynamic objects and cutouts are not found.
+    std::uint32_t nearRays = 0;
     float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
     /// Wireframe needs a device that fills polygons with lines; on others, surfaces are grey.
     Inspection inspection = Inspection::None;

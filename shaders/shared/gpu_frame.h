@@ -39,7 +39,8 @@ struct GpuDraw {
     vec4 toWorld[3]; // rows of object to world
     uint flags;      // DRAW_*
     float backOffset; // offset in v of the lightmap from the place of a front down to that of its back
-    uint pad0, pad1;
+    float nearReach;  // m; of nearReaches() of engine/lightmap/near_reach.h
+    uint pad;
 };
 // clang-format on
 

@@ -11,6 +11,7 @@ struct PackedSurface {
     float metallic, roughness;
     vec2 lightmapUv;
     vec3 albedo; // diffuse reflectance
+    float nearReach; // m; within it, what is near is exchanged for the field's light. 0: nowhere
 };
 
 // Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014
@@ -27,16 +28,27 @@ vec3 octDecode(vec2 p) {
     return normalize(n);
 }
 
+// A number from 2^-32 to 2^32 within 0.04 %, or 0, as a fraction in [0, 1].
+float packScale(float x) {
+    return x > 0.0 ? (clamp(log2(x), -31.9, 32.0) + 32.0) / 64.0 : 0.0;
+}
+
+float unpackScale(float x) {
+    return x > 0.0 ? exp2(64.0 * x - 32.0) : 0.0;
+}
+
 // Stores square roots of the base colour: their 16 bits keep dark colours down to 2e-4 within 1e-3 of themselves.
-uvec4 packSurface(vec3 baseColor, vec3 normal, vec3 geometricNormal) {
+uvec4 packSurface(vec3 baseColor, vec3 normal, vec3 geometricNormal, float nearReach) {
     const vec3 root = sqrt(clamp(baseColor, 0.0, 1.0));
-    return uvec4(packUnorm2x16(root.rg), packUnorm2x16(vec2(root.b, 0)), packSnorm2x16(octEncode(normal)),
+    return uvec4(packUnorm2x16(root.rg), packUnorm2x16(vec2(root.b, packScale(nearReach))), packSnorm2x16(octEncode(normal)),
                  packSnorm2x16(octEncode(geometricNormal)));
 }
 
 PackedSurface unpackSurface(uvec4 p, vec4 receiver) {
     PackedSurface s;
-    const vec3 root = vec3(unpackUnorm2x16(p.x), unpackUnorm2x16(p.y).x);
+    const vec2 more = unpackUnorm2x16(p.y);
+    const vec3 root = vec3(unpackUnorm2x16(p.x), more.x);
+    s.nearReach = unpackScale(more.y);
     s.baseColor = root * root;
     s.lightmapUv = receiver.xy;
     s.metallic = receiver.z;

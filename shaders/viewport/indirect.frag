@@ -32,18 +32,13 @@ layout(location = 0) out vec4 outColor;
 #include "shaders/shared/grid_moments.glsl"
 #include "shaders/shared/seen_surface.glsl"
 #include "shaders/shared/march_ray.glsl"
+#include "shaders/shared/field_layers.glsl"
 
 /// Two sums over the harmonics of the bounced light that reaches the surface. They are unrolled, because on a software
 /// rasteriser a loop over 64 lookups takes half as long again.
 struct FieldSums {
     vec3 irradiance, lobe;
 };
-
-// As engine/field/field_packing.h: coefficients in colour, then grey ones, in layers of four values.
-const int kColoured = kChroma < kBands ? kChroma * kChroma : kCoefficients;
-const int kGreyFrom = 3 * kChroma * kChroma;
-const int kValues = kChroma < kBands ? kGreyFrom + kCoefficients - kColoured : 3 * kCoefficients;
-const int kLayers = (kValues + 3) / 4;
 
 void addValues(inout FieldSums sums, int layer, vec4 values, float irradiance[kCoefficients], float lobe[kCoefficients]) {
     [[unroll]] for (int q = 0; q < 4; ++q) {

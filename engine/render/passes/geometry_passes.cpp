@@ -45,6 +45,7 @@ void bindInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& m
         draw.toWorld[r] = rows[r];
     draw.flags = flags;
     draw.backOffset = instance.backOffset;
+    draw.nearReach = instance.nearReach;
     vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_ALL, 0, sizeof draw, &draw);
     const std::array buffers = {mesh.positions.handle, mesh.attributes.handle,
                                 instance.lightmapUv ? instance.lightmapUv.handle

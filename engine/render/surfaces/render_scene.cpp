@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/gpu/uploader.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/lightmap/near_reach.h"
 
 #include <algorithm>
 #include <limits>
@@ -150,12 +151,16 @@ void updateRenderScene(gpu::Device& device, RenderScene& target, const Scene& sc
         changed = true;
         target.instances.clear();
         target.instances.resize(scene.instances.size());
+        const std::vector<float> reaches = target.layout
+                                               ? nearReaches(scene, *target.layout)
+                                               : std::vector<float>(scene.instances.size(), 0.f);
         for (std::size_t i = 0; i < scene.instances.size(); ++i) {
             GpuInstance& g = target.instances[i];
             g.mesh = scene.instances[i].mesh;
             g.lightmapUv = uploadLightmapUv(uploader, target, i, scene.instances.size(),
                                             target.meshes[g.mesh].vertexCount);
             g.hasLightmap = bool(g.lightmapUv);
+            g.nearReach = g.hasLightmap ? reaches[i] : 0;
             g.backOffset = g.hasLightmap ? backOffset(*target.layout, std::uint32_t(i)) : 0;
         }
     }

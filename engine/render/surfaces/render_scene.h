@@ -42,6 +42,7 @@ struct GpuInstance {
     bool hasLightmap = false;
     gpu::Buffer lightmapUv; ///< vec2 per vertex; empty without lightmap
     float backOffset = 0;   ///< see limn::backOffset()
+    float nearReach = 0;    ///< see nearReaches() [m]
     Bounds bounds;          ///< world space
 };
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/render/near/near_surfaces.h"
+#include "engine/render/viewport.h"
+
+#include <compare>
+#include <map>
+#include <memory>
+
+namespace limn::render {
+
+/// Adds to the linear image what light from near surfaces is beyond that of the field. Needs the
+/// shadow maps of all lights.
+class NearPass {
+public:
+    NearPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
+
+    /// Takes note of the scene, if `version` is not that of the last call.
+    void set(const Scene& scene, std::shared_ptr<const LightmapLayout> layout,
+             std::uint64_t version);
+
+    /// Makes what pictures with these options need and is not there yet. Returns active().
+    bool prepare(const ViewportOptions& options);
+    /// Whether the options ask for near light, the view shows it, and there are surfaces, which the
+    /// device can bind.
+    bool active(const ViewportOptions& options) const;
+
+    /// Records the pass over the whole bound linear image, for sample `sample` of each pixel.
+    /// `frameSet` holds the surface images, the lights with their shadow maps and the field.
+    /// Precondition: active().
+    void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, const ViewportOptions& options,
+                const GpuField& field, std::uint32_t sample);
+
+private:
+    struct Variant {
+        View view;
+        std::uint32_t bands, chroma;
+        auto operator<=>(const Variant&) const = default;
+    };
+
+    VkPipeline pipeline(const Variant& variant);
+
+    gpu::Device& m_device;
+    VkDescriptorSetLayout m_frameLayout;
+    NearSurfaces m_surfaces;
+    gpu::PipelineLayout m_layout; ///< made when first needed
+    std::map<Variant, gpu::Pipeline> m_pipelines;
+};
+
+} // namespace limn::render
