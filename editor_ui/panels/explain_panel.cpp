@@ -28,7 +28,8 @@ void explainAt(EditorState& state, glm::vec2 mouse) {
                                        .width = size.x,
                                        .height = size.y,
                                        .x = std::min(pixel.x, size.x - 1),
-                                       .y = std::min(pixel.y, size.y - 1)},
+                                       .y = std::min(pixel.y, size.y - 1),
+                                       .nearRays = state.frame.nearLight ? kNearRays : 0},
                           .point = hit.position};
 }
 

@@ -81,6 +81,7 @@ struct FrameStatus {
     double uploadMs = 0, shadowMs = 0, surfacesMs = 0, shadeMs = 0, viewportMs = 0;
     std::uint32_t shadowMapsDrawn = 0;
     std::uint64_t gpuBytes = 0;
+    bool nearLight = false;              ///< pictures at rest show light from near surfaces
     std::uint32_t width = 0, height = 0; ///< of the last picture [px]
     std::uint64_t pictures = 0;          ///< viewport renders
     std::uint64_t surfacesDrawn = 0;     ///< of those, how many drew triangles

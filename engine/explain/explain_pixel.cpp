@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/explain/explain_pixel.h"
 
+#include "engine/lightmap/near_reach.h"
 #include "engine/math/luminance.h"
 #include "engine/measure/field_lobe.h"
+#include "engine/measure/near_light.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/direct_light.h"
 
@@ -21,7 +23,10 @@ struct PixelParts {
     glm::vec3 sky{0};               ///< seen itself
     glm::vec3 emission{0};          ///< of the surfaces that are seen
     std::vector<glm::vec3> byLight; ///< direct light of each of Scene::lights
-    FieldReading reading;           ///< of the field: all other light
+    /// Direct light of each of them by way of near surfaces, which the field is too coarse for.
+    std::vector<glm::vec3> nearByLight;
+    std::vector<glm::vec3> nearBySurface; ///< the same by way of each of Scene::instances
+    FieldReading reading;                 ///< of the field: all other light
     std::vector<std::uint32_t> seen;
 };
 
@@ -31,6 +36,7 @@ struct PixelReader {
     const ExplainOptions& options;
     std::vector<int> bands;    ///< that each material reflects
     std::vector<bool> marches; ///< whether its reflections are marched
+    NearLight near;
     PixelParts parts;
 
     float share() const { return 1 / float(question.samples); }
@@ -72,11 +78,42 @@ struct PixelReader {
     void addArriving(const PixelSample& sample, const Hit& hit, const SurfacePoint& p) {
         addDirect(sample, p, [](const DirectSample& d) { return d.irradiance; });
         if (hasField())
-            addIrradiance(pointOf(hit, p), glm::vec3(share()), parts.reading);
+            addBounced(sample, hit, p, glm::vec3(share()));
+    }
+
+    bool isBlack(std::uint32_t instance) const {
+        return std::ranges::count(options.black, instance) > 0;
+    }
+
+    /// Adds weight times the irradiance from bounces at the point.
+    void addBounced(const PixelSample& sample, const Hit& hit, const SurfacePoint& p,
+                    glm::vec3 weight) {
+        const FieldPoint at = pointOf(hit, p);
+        addIrradiance(at, weight, parts.reading);
+        for (const NearSurface& s : findNearSurfaces(near, hit, p, sample.near)) {
+            addRadiance(at, s.direction, -s.weight * weight, parts.reading);
+            if (s.point && !isBlack(s.hit.instance))
+                addNear(s, s.weight / glm::pi<float>() * s.point->albedo * weight);
+        }
+    }
+
+    /// Adds weight times the irradiance of a near surface.
+    void addNear(const NearSurface& s, glm::vec3 weight) {
+        addIrradiance(pointOf(s.hit, *s.point), weight, parts.reading);
+        std::uint64_t rays = 0;
+        const std::vector<Light>& lights = lit.trace->scene().lights;
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            const glm::vec3 light =
+                weight * sampleDirectLightFrom(*lit.trace, *s.point, lights[l],
+                                               s.sampler.pair(kNearOnLight), rays)
+                             .irradiance;
+            parts.nearByLight[l] += light;
+            parts.nearBySurface[s.hit.instance] += light;
+        }
     }
 
     void addLeaving(const PixelSample& sample, const Hit& hit, SurfacePoint p) {
-        if (std::ranges::count(options.black, hit.instance) > 0)
+        if (isBlack(hit.instance))
             p.albedo = glm::vec3(0);
         const GlossyPoint g = glossyPoint(*lit.trace, hit, sample.ray, p);
         parts.emission += share() * p.emission;
@@ -85,8 +122,8 @@ struct PixelReader {
         if (!hasField())
             return;
         const Scene& scene = lit.trace->scene();
+        addBounced(sample, hit, p, p.albedo * (share() / glm::pi<float>()));
         const FieldPoint at = pointOf(hit, p);
-        addIrradiance(at, p.albedo * (share() / glm::pi<float>()), parts.reading);
         const std::uint32_t material = scene.instances[hit.instance].material;
         if (lit.field().marched && marches[material]) {
             const MarchedReflection found = marchReflection(*lit.field().marched, *lit.trace, g);
@@ -122,20 +159,47 @@ std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) 
     return rows;
 }
 
+/// Light of the scene's lights that near surfaces reflect: by light, or by surface.
+std::vector<LightRow> nearRows(const Scene& scene, const PixelParts& parts, bool byLight) {
+    std::vector<LightRow> rows;
+    const std::vector<glm::vec3>& values = byLight ? parts.nearByLight : parts.nearBySurface;
+    for (std::uint32_t i = 0; i < values.size(); ++i)
+        if (values[i] != glm::vec3(0))
+            addRow(rows, {.kind = byLight ? LightRowKind::Light : LightRowKind::Surface,
+                          .label = byLight ? scene.lights[i].name : objectLabel(scene, i),
+                          .index = i,
+                          .value = values[i]});
+    return rows;
+}
+
+constexpr const char* kNearLabel = "Direct light on what is near";
+
 } // namespace
 
 PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
                               const ExplainOptions& options) {
     const Scene& scene = lit.trace->scene();
-    PixelReader reader{
-        lit, question, options, reflectedBands(scene, lit.field()), marchedReflections(scene), {}};
+    PixelReader reader{lit,
+                       question,
+                       options,
+                       reflectedBands(scene, lit.field()),
+                       marchedReflections(scene),
+                       {*lit.trace, lit.field(), *lit.layout, {}, question.nearRays},
+                       {}};
+    if (question.nearRays > 0)
+        reader.near.reach = nearReaches(scene, *lit.layout);
     reader.parts.byLight.assign(scene.lights.size(), glm::vec3(0));
+    reader.parts.nearByLight = reader.parts.byLight;
+    reader.parts.nearBySurface.assign(scene.instances.size(), glm::vec3(0));
     const PixelRays rays(question.camera, question.width, question.height);
     for (std::uint32_t s = 0; s < question.samples; ++s)
         reader.add(PixelSample(rays, question.seed, question.y * question.width + question.x, s));
     PixelExplanation result;
     const Explanation indirect = lit.lighting->explain(scene, reader.parts.reading, options);
     result.tables.byOrigin = result.tables.bySender = straightRows(scene, reader.parts);
+    addGroup(result.tables.byOrigin, kNearLabel, nearRows(scene, reader.parts, true));
+    addGroup(result.tables.bySender, kNearLabel,
+             strongest(nearRows(scene, reader.parts, false), options.rows));
     addGroup(result.tables.byOrigin, "Indirect", indirect.byOrigin);
     addGroup(result.tables.bySender, "Indirect", indirect.bySender);
     result.tables.bounces = indirect.bounces;

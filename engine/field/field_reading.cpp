@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/field_reading.h"
 
+#include "engine/math/hemisphere_radiance.h"
+
 #include <algorithm>
+#include <span>
 
 namespace limn {
 
-/// Adds, for each band l, factors[l] times the field's harmonics in `direction`, where `value` of
-/// that is above 0.
-static void addBands(const FieldPoint& at, glm::vec3 direction, int bands,
-                     const std::array<float, kMaxBands>& factors, glm::vec3 value, glm::vec3 weight,
-                     FieldReading& reading) {
+/// Adds the sum of `ofCoefficients` times the field's coefficients, where `value` of that is above
+/// 0.
+static void addSum(const FieldPoint& at, std::span<const float> ofCoefficients, glm::vec3 value,
+                   glm::vec3 weight, FieldReading& reading) {
     for (int k = 0; k < 3; ++k)
         weight[k] = value[k] > 0 ? weight[k] : 0;
-    float basis[kMaxCoefficients];
-    shBasis(bands, direction, basis);
-    for (int l = 0, i = 0; l < bands; ++l)
-        for (; i < (l + 1) * (l + 1); ++i)
-            basis[i] *= factors[std::size_t(l)];
     const FieldLookup lookup = lookUp(at);
     for (std::size_t k = 0; k < lookup.count; ++k) {
         auto entry = std::ranges::find_if(reading.entries, [&](const FieldReading::Entry& e) {
@@ -24,14 +21,35 @@ static void addBands(const FieldPoint& at, glm::vec3 direction, int bands,
         });
         if (entry == reading.entries.end())
             entry = reading.entries.insert(entry, {.grid = lookup.grid, .index = lookup.index[k]});
-        for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
-            entry->weight[i] += weight * (lookup.weight[k] * basis[i]);
+        for (std::size_t i = 0; i < ofCoefficients.size(); ++i)
+            entry->weight[i] += weight * (lookup.weight[k] * ofCoefficients[i]);
     }
+}
+
+/// The same for the harmonics in `direction`, times factors[l] for each band l.
+static void addBands(const FieldPoint& at, glm::vec3 direction, int bands,
+                     const std::array<float, kMaxBands>& factors, glm::vec3 value, glm::vec3 weight,
+                     FieldReading& reading) {
+    float basis[kMaxCoefficients];
+    shBasis(bands, direction, basis);
+    for (int l = 0, i = 0; l < bands; ++l)
+        for (; i < (l + 1) * (l + 1); ++i)
+            basis[i] *= factors[std::size_t(l)];
+    addSum(at, {basis, std::size_t(bands * bands)}, value, weight, reading);
 }
 
 void addIrradiance(const FieldPoint& at, glm::vec3 weight, FieldReading& reading) {
     addBands(at, at.normal, std::min(int(at.field.bands), kIrradianceBands), irradianceFactors(),
              sampleIrradiance(at), weight, reading);
+}
+
+void addRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+                 FieldReading& reading) {
+    const int bands = std::min(int(at.field.bands), kIrradianceBands);
+    float ofCoefficients[kIrradianceBands * kIrradianceBands];
+    hemisphereRadianceWeights(bands, at.normal, direction, ofCoefficients);
+    addSum(at, {ofCoefficients, std::size_t(bands * bands)}, sampleRadiance(at, direction), weight,
+           reading);
 }
 
 void addLobe(const FieldPoint& at, glm::vec3 direction, int bands,

@@ -36,6 +36,10 @@ struct FieldReading {
 /// adds nothing.
 void addIrradiance(const FieldPoint& at, glm::vec3 weight, FieldReading& reading);
 
+/// Adds weight * sampleRadiance(at, direction), with the same exception.
+void addRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+                 FieldReading& reading);
+
 /// Adds weight * sampleLobe(at, direction, bands, factors), with the same exception.
 void addLobe(const FieldPoint& at, glm::vec3 direction, int bands,
              const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading);

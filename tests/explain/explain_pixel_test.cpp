@@ -315,6 +315,61 @@ TEST(ExplainPixel, WithoutTheRowsOfALightItIsThePictureWithoutTheLight) {
     }
 }
 
+/// The mixed room with its lamp near the floor, so that the block's sides have light from nearby.
+Scene roomWithALowLamp() {
+    Scene scene = mixedRoom(LinkStorage::Rtp, 3, 0);
+    scene.lights[0].position = {2.5f, 0.6f, 2.5f};
+    return scene;
+}
+
+constexpr std::uint32_t kNear = 4;
+
+std::vector<glm::vec3> pictureWithNearLight(const ConvergedLight& lit) {
+    FieldRenderOptions options = pictureOf(inMixedRoom(), View::Lit);
+    options.nearRays = kNear;
+    return renderField(*lit.trace, lit.field(), *lit.layout, options).rgb;
+}
+
+PixelQuestion questionWithNearLight(Pixel p) {
+    PixelQuestion question = questionOf(inMixedRoom(), p);
+    question.nearRays = kNear;
+    return question;
+}
+
+TEST(ExplainPixel, SumsToThePictureWithLightFromNearSurfaces) {
+    const ConvergedLight lit = light(roomWithALowLamp());
+    const std::vector<glm::vec3> shown = pictureWithNearLight(lit);
+    const double mean = meanOf(shown);
+    std::size_t near = 0;
+    for (const Pixel p : randomPixels(100)) {
+        SCOPED_TRACE(testing::Message() << "pixel " << p.x << ", " << p.y);
+        const PixelExplanation e = explainPixel(lit, questionWithNearLight(p));
+        expectSame(totalOf(e.tables.byOrigin), shown[p.index()], 0.01, mean, "by origin");
+        expectSame(totalOf(e.tables.bySender), shown[p.index()], 0.01, mean, "by sender");
+        expectRowsSum(e.tables.byOrigin, mean);
+        expectRowsSum(e.tables.bySender, mean);
+        near += rowOf(e.tables.byOrigin, LightRowKind::Light, 0, "Direct light on what is near")
+                    ? 1U
+                    : 0U;
+    }
+    EXPECT_GT(near, 10U);
+}
+
+TEST(ExplainPixel, WithoutALightNearSurfacesLackItToo) {
+    const Scene scene = roomWithALowLamp();
+    const ConvergedLight lit = light(scene);
+    Scene without = scene;
+    without.lights.clear();
+    const std::vector<glm::vec3> shown =
+        pictureWithNearLight(light(without, lit.prepared.data.get()));
+    const double mean = meanOf(pictureWithNearLight(lit));
+    for (const Pixel p : randomPixels(30)) {
+        SCOPED_TRACE(testing::Message() << "pixel " << p.x << ", " << p.y);
+        expectSame(lightWithout(lit, questionWithNearLight(p), {.lights = {0}}), shown[p.index()],
+                   0.01, mean, "without");
+    }
+}
+
 TEST(ExplainPixel, WithoutTheSkyItIsThePictureWithoutTheSky) {
     const Scene scene = mixedRoom(LinkStorage::Rtp, 3, 0);
     const ConvergedLight lit = light(scene);
