@@ -148,7 +148,8 @@ Exit runExplain(const ExplainCommand& options) {
                                  .height = options.camera.height,
                                  .x = options.pick[0],
                                  .y = options.pick[1],
-                                 .light = PixelLight(unit)};
+                                 .light = PixelLight(unit),
+                                 .nearRays = kNearRays};
     const Clock::time_point start = Clock::now();
     const PixelExplanation e = explainPixel(*lit, question, {.rows = options.rows});
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

@@ -38,6 +38,7 @@ struct RenderCommand {
                               relight = "auto";
     float exposureEv = 0;
     std::uint32_t samplesPerPixel = kSamplesPerPixel;
+    std::uint32_t nearRays = kNearRays;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
     GivenSettings relighting; ///< instead of the document's
@@ -235,6 +236,7 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.tonemap = Tonemap(indexOf(kTonemapNames, options.tonemap));
     request.exposureEv = options.exposureEv;
     request.samplesPerPixel = options.samplesPerPixel;
+    request.nearRays = options.nearRays;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
         request.relight = [&](bool marched) { return relight(scene, baked, marched); };
@@ -273,6 +275,7 @@ nlohmann::ordered_json reportJson(const RenderCommand& options, const RenderedIm
     json["width"] = image.linear.width;
     json["height"] = image.linear.height;
     json["samples_per_pixel"] = options.samplesPerPixel;
+    json["near_rays"] = options.nearRays;
     json["invalid_pixels"] = countInvalidPixels(image.linear);
     if (!image.relightDevice.empty())
         json["relight"] = lightingJson(image.relightDevice, image.relight);
@@ -399,6 +402,11 @@ void addRenderCommand(CLI::App& app, Run& run) {
     addCameraOptions(*command, options->camera);
     command->add_option("--spp", options->samplesPerPixel, "Samples per pixel")
         ->check(CLI::Range(1, 65536));
+    command
+        ->add_option("--near-rays", options->nearRays,
+                     "Rays of each sample that look for surfaces within half a texel, whose own "
+                     "light then takes the place of the lightmap's; 0: none")
+        ->check(CLI::Range(0, 1024));
     addOverlayFlags(*command, options->overlay);
     command->add_option(
         "--bake", options->bake,

@@ -14,6 +14,7 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
     options.width = request.width;
     options.height = request.height;
     options.samplesPerPixel = request.samplesPerPixel;
+    options.nearRays = request.nearRays;
     static const IndirectField noField;
     static const LightmapLayout noLayout;
     RenderedImage result;

@@ -94,6 +94,7 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     options.camera = request.camera;
     options.width = request.width;
     options.height = request.height;
+    options.nearRays = request.nearRays;
     options.tonemap = request.tonemap;
     options.exposureEv = request.exposureEv;
     options.inspection = request.inspection;

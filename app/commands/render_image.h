@@ -32,6 +32,7 @@ struct RenderRequest {
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
     std::uint32_t samplesPerPixel = kSamplesPerPixel; ///< box filter; at least 1
+    std::uint32_t nearRays = kNearRays;               ///< of each sample; 0: none
     Inspection inspection = Inspection::None;         ///< of RenderedImage::picture
     bool tonemapped = false;                          ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout;     ///< of the light; null: there is none

@@ -55,6 +55,7 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     ++m_result.number;
     m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
     m_result.stats = worker.viewport.stats();
+    m_result.nearLight = worker.showsNearLight();
     m_result.running = m_next.has_value() || worker.bouncing();
     m_result.lit = worker.shown.litBy();
     m_result.relight = worker.relight;

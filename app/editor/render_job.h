@@ -55,6 +55,7 @@ struct DrawnPicture {
     std::optional<float> metered; ///< meteredExposure() of it; empty: not asked for, or black
     OverlayLegend legend;         ///< of its overlay
     ViewportStats stats;
+    bool nearLight = false;                        ///< RenderWorker::showsNearLight()
     bool running = false;                          ///< another one is being drawn
     LitBy lit;                                     ///< what the following members are about
     LightingStatus relight;                        ///< by this device

@@ -177,6 +177,11 @@ bool RenderWorker::refining() const {
 
 std::optional<DrawnImages> RenderWorker::refine(const std::atomic<bool>& hurry) {
     const std::uint32_t wanted = std::min(2 * std::bit_floor(m_samples), kSamplesPerPixel);
+    if (m_samples == 1 && showsNearLight()) { // the first sample, which was to be fast, has none
+        ViewportOptions near = shown.options;
+        near.nearRays = kNearRays;
+        viewport.render(near);
+    }
     while (m_samples < wanted) {
         if (hurry)
             return {};

@@ -33,6 +33,10 @@ public:
     /// is drawn over them would tremble.
     bool refining() const;
 
+    /// Whether refined pictures have light from near surfaces (ViewportOptions::nearRays): on all
+    /// devices but software rasterisers, on which a picture would hold up the next for seconds.
+    bool showsNearLight() const { return !device->softwareRasteriser; }
+
     /// Doubles the samples of the picture shown. Empty if `hurry` was set before that was done.
     /// Precondition: refining().
     std::optional<DrawnImages> refine(const std::atomic<bool>& hurry);

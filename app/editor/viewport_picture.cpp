@@ -101,6 +101,7 @@ void ViewportPicture::takeDrawn(Session& session) {
     frame.shadowMapsDrawn = stats.shadowMapsDrawn;
     frame.surfacesDrawn = stats.geometryDrawn;
     frame.gpuBytes = stats.gpuBytes;
+    frame.nearLight = m_drawn.nearLight;
     frame.width = image.width;
     frame.height = image.height;
     frame.pictures = m_drawn.number;
