@@ -158,7 +158,8 @@ Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Came
         if (const Result<void> added = addOverlay(options, scene, camera, baked); !added)
             return tl::make_unexpected(added.error());
     baked.light = light;
-    if (!options.allCaches)
+    // What near rays meet may be out of view.
+    if (!options.allCaches && options.nearRays == 0)
         baked.view = {camera, float(options.camera.width) / float(options.camera.height)};
     return baked;
 }

@@ -376,7 +376,7 @@ TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) 
             const std::string render = std::string("render ") + view.scene + view.lens +
                                        " --light 'sun dir=-0.4,-1,-0.3 lux=20' --bake " + bake +
                                        " --device " + device +
-                                       " --width 160 --height 100 --json -o ";
+                                       " --near-rays 0 --width 160 --height 100 --json -o ";
             const nlohmann::json with = json(render + few),
                                  without = json(render + all + " --all-caches");
             EXPECT_EQ(without["relight"]["caches_unseen"], 0);
@@ -559,7 +559,7 @@ TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndOccludesTheLightWhereverItIs) {
     expectRefusal(start + "--dynamic Ball -o " + b, "Ball");
     expectRefusal(start + "--dynamic 'Short block@1,2' -o " + b, "x,y,z");
     const std::string onDevice = "render cornell --bake " + bake +
-                                 " --view irradiance --width 48 --height 32 "
+                                 " --view irradiance --near-rays 0 --width 48 --height 32 "
                                  "--dynamic 'Short block@0.3,0.7,0.3' -o ";
     ASSERT_EQ(limn(onDevice + a + " --relight cpu").exit, 0);
     ASSERT_EQ(limn(onDevice + b + " --relight gpu").exit, 0);
