@@ -437,8 +437,10 @@ void addRenderCommand(CLI::App& app, Run& run) {
             "whichever the editor has measured to be faster here; cpu where it has not")
         ->check(CLI::IsMember(strings(kRelightOnNames)));
     addRelightOptions(*command, options->relighting);
-    command->add_flag("--all-caches", options->allCaches,
-                      "Light the whole lightmap, not only the texels that the picture reads");
+    command->add_flag(
+        "--all-caches", options->allCaches,
+        "Light the whole lightmap, not only the texels that the picture reads; near rays "
+        "have it lit anyway");
     command->add_flag("--json", options->json, "Print one JSON object to stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/explain/explain_pixel.h"
 
-#include "engine/lightmap/near_reach.h"
 #include "engine/math/luminance.h"
 #include "engine/measure/field_lobe.h"
 #include "engine/measure/near_light.h"
@@ -141,6 +140,18 @@ void addGroup(std::vector<LightRow>& rows, const char* label, const std::vector<
         addRows(rows, group, addRow(rows, {.label = label, .value = totalOf(group)}));
 }
 
+/// The light of each of Scene::lights.
+std::vector<LightRow> lightRows(const Scene& scene, const std::vector<glm::vec3>& byLight) {
+    std::vector<LightRow> rows;
+    for (std::uint32_t l = 0; l < byLight.size(); ++l)
+        if (byLight[l] != glm::vec3(0))
+            addRow(rows, {.kind = LightRowKind::Light,
+                          .label = scene.lights[l].name,
+                          .index = l,
+                          .value = byLight[l]});
+    return rows;
+}
+
 /// The rows that both tables begin with.
 std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) {
     std::vector<LightRow> rows;
@@ -148,27 +159,19 @@ std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) 
         addRow(rows, {.kind = LightRowKind::Sky, .label = "Sky behind", .value = parts.sky});
     if (parts.emission != glm::vec3(0))
         addRow(rows, {.label = "Emitted here", .value = parts.emission});
-    std::vector<LightRow> direct;
-    for (std::uint32_t l = 0; l < parts.byLight.size(); ++l)
-        if (parts.byLight[l] != glm::vec3(0))
-            addRow(direct, {.kind = LightRowKind::Light,
-                            .label = scene.lights[l].name,
-                            .index = l,
-                            .value = parts.byLight[l]});
-    addGroup(rows, "Direct", direct);
+    addGroup(rows, "Direct", lightRows(scene, parts.byLight));
     return rows;
 }
 
-/// Light of the scene's lights that near surfaces reflect: by light, or by surface.
-std::vector<LightRow> nearRows(const Scene& scene, const PixelParts& parts, bool byLight) {
+/// Direct light by way of each near surface.
+std::vector<LightRow> nearSurfaceRows(const Scene& scene, const PixelParts& parts) {
     std::vector<LightRow> rows;
-    const std::vector<glm::vec3>& values = byLight ? parts.nearByLight : parts.nearBySurface;
-    for (std::uint32_t i = 0; i < values.size(); ++i)
-        if (values[i] != glm::vec3(0))
-            addRow(rows, {.kind = byLight ? LightRowKind::Light : LightRowKind::Surface,
-                          .label = byLight ? scene.lights[i].name : objectLabel(scene, i),
+    for (std::uint32_t i = 0; i < parts.nearBySurface.size(); ++i)
+        if (parts.nearBySurface[i] != glm::vec3(0))
+            addRow(rows, {.kind = LightRowKind::Surface,
+                          .label = objectLabel(scene, i),
                           .index = i,
-                          .value = values[i]});
+                          .value = parts.nearBySurface[i]});
     return rows;
 }
 
@@ -184,10 +187,8 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
                        options,
                        reflectedBands(scene, lit.field()),
                        marchedReflections(scene),
-                       {*lit.trace, lit.field(), *lit.layout, {}, question.nearRays},
+                       nearLight(*lit.trace, lit.field(), *lit.layout, question.nearRays),
                        {}};
-    if (question.nearRays > 0)
-        reader.near.reach = nearReaches(scene, *lit.layout);
     reader.parts.byLight.assign(scene.lights.size(), glm::vec3(0));
     reader.parts.nearByLight = reader.parts.byLight;
     reader.parts.nearBySurface.assign(scene.instances.size(), glm::vec3(0));
@@ -197,9 +198,9 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
     PixelExplanation result;
     const Explanation indirect = lit.lighting->explain(scene, reader.parts.reading, options);
     result.tables.byOrigin = result.tables.bySender = straightRows(scene, reader.parts);
-    addGroup(result.tables.byOrigin, kNearLabel, nearRows(scene, reader.parts, true));
+    addGroup(result.tables.byOrigin, kNearLabel, lightRows(scene, reader.parts.nearByLight));
     addGroup(result.tables.bySender, kNearLabel,
-             strongest(nearRows(scene, reader.parts, false), options.rows));
+             strongest(nearSurfaceRows(scene, reader.parts), options.rows));
     addGroup(result.tables.byOrigin, "Indirect", indirect.byOrigin);
     addGroup(result.tables.bySender, "Indirect", indirect.bySender);
     result.tables.bounces = indirect.bounces;

@@ -12,8 +12,8 @@ namespace limn {
 
 namespace {
 
-/// Maximum area of an instance's texels, in those of the whole scene. Charts that are smaller than
-/// a texel cover next to none of it, however small they are.
+/// Maximum area of an instance's texels as a multiple of the scene's mean. The bound is for charts
+/// smaller than a texel, whose triangles cover almost no area of the lightmap.
 constexpr double kMaxTexel = 4;
 
 /// Areas of an instance's triangles.

@@ -8,13 +8,13 @@
 
 namespace limn {
 
-/// Distance within which other surfaces light an instance in ways that its texels are too coarse
-/// for: half the mean width of its texels [m], for each of Scene::instances. Texels
-/// wider than twice the scene's mean count as that wide. 0 for instances without a lightmap.
+/// For each of Scene::instances, the distance within which light from other surfaces varies too
+/// much for its texels: half their mean width [m], which is taken to be at most twice the scene's.
+/// 0 for instances without a lightmap.
 std::vector<float> nearReaches(const Scene& scene, const LightmapLayout& layout);
 
-/// Weight of a surface at distance `t` in what is near, for `reach` > 0: 1 up to half of the
-/// reach, falling to 0 at its end.
+/// Weight with which a surface at distance `t` counts as near, for `reach` > 0: 1 up to half the
+/// reach, then falling linearly to 0 at the reach.
 inline float nearWeight(float t, float reach) {
     const float w = 2 - 2 * t / reach;
     return w < 0 ? 0 : w > 1 ? 1 : w;

@@ -3,7 +3,6 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
-#include "engine/lightmap/near_reach.h"
 #include "engine/measure/field_lobe.h"
 #include "engine/measure/near_light.h"
 #include "engine/measure/pixel_sample.h"
@@ -113,9 +112,7 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                          .bands = {},
                          .marches = {},
                          .counts = options.marched,
-                         .near = {trace, field, layout, {}, options.nearRays}};
-    if (options.nearRays > 0)
-        context.near.reach = nearReaches(trace.scene(), layout);
+                         .near = nearLight(trace, field, layout, options.nearRays)};
     context.bands = options.allBands
                         ? std::vector<int>(trace.scene().materials.size(), int(field.bands))
                         : reflectedBands(trace.scene(), field);

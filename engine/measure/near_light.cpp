@@ -13,6 +13,12 @@ namespace limn {
 
 static constexpr std::uint32_t kDirection = 0; ///< dimension of the sampler
 
+NearLight nearLight(const TraceScene& trace, const IndirectField& field,
+                    const LightmapLayout& layout, std::uint32_t rays) {
+    return {trace, field, layout,
+            rays > 0 ? nearReaches(trace.scene(), layout) : std::vector<float>(), rays};
+}
+
 std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
                                           const SurfacePoint& p, const Sampler& sampler) {
     std::vector<NearSurface> found;

@@ -13,16 +13,18 @@
 
 namespace limn {
 
-/// What light from near surfaces is computed from. `layout` belongs to the field.
+/// Input of the functions below; made by nearLight(). `layout` belongs to the field.
 struct NearLight {
     const TraceScene& trace;
     const IndirectField& field;
     const LightmapLayout& layout;
-    std::vector<float> reach; ///< nearReaches()
-    std::uint32_t rays = 0;   ///< for each estimate; 0: none, and no correction
+    std::vector<float> reach; ///< nearReaches(); empty if there are no rays
+    std::uint32_t rays = 0;   ///< for each estimate; 0: no correction
 };
+NearLight nearLight(const TraceScene& trace, const IndirectField& field,
+                    const LightmapLayout& layout, std::uint32_t rays);
 
-/// A near surface that takes the place of the field's light, as one ray found it.
+/// A near surface, hit by one ray, whose radiance replaces the field's.
 struct NearSurface {
     Hit hit;
     std::optional<SurfacePoint> point; ///< none: the black back of a one-sided surface

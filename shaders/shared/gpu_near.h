@@ -14,18 +14,18 @@ using uint = std::uint32_t;
 #endif
 
 // clang-format off
-/// A node of a tree of triangles in depth-first order: where a ray misses its box, the node `next` is the next to visit,
-/// else the one that follows in memory.
+/// Node of a bounding volume hierarchy in depth-first order. A ray that misses its box goes on at node `next`, which
+/// comes after the whole subtree; a ray that meets it, at the following node.
 struct GpuNearNode {
     vec3 lower; uint next;      // m
     vec3 upper; uint triangles; // m; of a leaf: number of its first triangle * 8 + number of triangles, else 0
 };
 
-/// A static triangle with a lightmap, in world space; its front is counter-clockwise. Normals are packed as packNormal()
-/// of engine/render/near/near_geometry.cpp.
+/// A static triangle with a lightmap, in world space; its front is counter-clockwise. Vertex normals are octahedral maps
+/// in 2 x 16-bit snorm.
 struct GpuNearTriangle {
-    vec3 origin; uint normal0; // of its vertices
-    vec3 edge1;  uint normal1; // from the origin
+    vec3 origin; uint normal0; // first vertex; normal of that vertex
+    vec3 edge1;  uint normal1; // from the first vertex to the second
     vec3 edge2;  uint normal2;
     vec2 uv0; vec2 uv1;        // of the lightmap
     vec2 uv2; uint albedo; float backOffset; // square roots in bytes, then NEAR_*; as GpuDraw
@@ -33,9 +33,8 @@ struct GpuNearTriangle {
 
 /// Push constants of near.frag.
 struct GpuNear {
-    uint rays;  // of each pixel
-    uint first; // number of the first of them in the pixel's sequence
-    uint pad0, pad1;
+    uint rays;  // number of rays of each pixel
+    uint first; // index of the first of them in the pixel's sequence
 };
 // clang-format on
 

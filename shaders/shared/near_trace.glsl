@@ -24,8 +24,8 @@ void meetTriangle(uint k, vec3 origin, vec3 direction, inout NearHit hit) {
         hit = NearHit(t, k, vec2(u, v), det > 0.0);
 }
 
-// The nearest triangle within `reach`; none: t = reach. The number of nodes is read from their root: invocations whose
-// pixel is not covered may read 0 from every buffer, and would never reach an end that they were told.
+// The nearest triangle within `reach`; none: t = reach. The number of nodes is that of the root's `next`: invocations of
+// pixels that are not covered may read 0 from every buffer, so that a loop up to a number from elsewhere would not end.
 NearHit traceNear(vec3 origin, vec3 direction, float reach) {
     const uint nodes = reach > 0.0 ? nearNodes[0].next : 0u;
     NearHit hit = NearHit(reach, 0u, vec2(0), true);
@@ -38,7 +38,7 @@ NearHit traceNear(vec3 origin, vec3 direction, float reach) {
                     to = min(min(leave.x, leave.y), min(leave.z, hit.t));
         const uint triangles = nearNodes[node].triangles;
         if (from > to) {
-            node = max(nearNodes[node].next, node + 1u); // ends whatever is read
+            node = max(nearNodes[node].next, node + 1u); // node increases, so that the loop ends whatever is read
             continue;
         }
         for (uint k = triangles >> 3, end = k + (triangles & 7u); k < end; ++k)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a surface lies nearer than half a texel of the lightmap, puts its own light in the place of what the field says
-// arrives from its direction: nearCorrection() of engine/measure/near_light.h.
+// Traces short rays to surfaces nearer than half a texel of the lightmap, and replaces the field's radiance from their
+// direction by the radiance that they reflect: nearCorrection() of engine/measure/near_light.h.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_frame.h"
@@ -105,7 +105,7 @@ vec3 cosineDirection(vec3 n, vec2 u) {
     return sqrt(u.x) * (cos(phi) * t + sin(phi) * s) + sqrt(1.0 - u.x) * n;
 }
 
-/// Irradiance from light i without its shadow.
+/// Unshadowed irradiance from light i.
 vec3 openIrradiance(uint i, PackedSurface s, out vec3 toLight) {
     toLight = vec3(0);
     if (lights[i].kind == LIGHT_RECTANGLE)
@@ -146,7 +146,7 @@ vec3 pickedLight(PackedSurface s, float u) {
     return picked * all * seen;
 }
 
-/// The surface that a ray met, on the side that the ray came from.
+/// The surface that a ray hit, on the side from which the ray came.
 PackedSurface metSurface(NearHit hit, vec3 position) {
     const GpuNearTriangle t = nearTriangles[hit.triangle];
     const float side = hit.front ? 1.0 : -1.0;

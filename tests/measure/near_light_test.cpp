@@ -19,8 +19,7 @@ constexpr float kPi = glm::pi<float>();
 glm::vec3 correctionAt(const TwoPlates& plates, const Scene& scene, glm::vec3 point,
                        std::uint32_t rays = 16384) {
     const TraceScene trace(scene);
-    const NearLight near{trace, plates.field, *plates.layout, nearReaches(scene, *plates.layout),
-                         rays};
+    const NearLight near = nearLight(trace, plates.field, *plates.layout, rays);
     const Hit hit =
         trace.closestHit({point + glm::vec3(0, 0.01f, 0), glm::vec3(0, -1, 0), 0, 0.02f});
     EXPECT_EQ(hit.instance, 0U);
@@ -104,9 +103,9 @@ TEST(NearLight, NothingChangesWhereNothingIsNearOrItIsEmissiveOrDynamicOrNoRayLo
     EXPECT_LT(correction(close).x, -1);
 }
 
-// A sun lights a strip of a floor before a wall, from where the wall's shadow ends. Texels of 4/3 m
-// cannot hold that; with near light the picture of the wall's foot meets the path tracer's.
-TEST(NearLight, ASunlitStripLightsAWallAsPathsSay) {
+// A sun lights a floor before a wall, from where the wall's shadow ends. The field is dark, so that
+// the wall's foot has that part of the path tracer's light which comes from within reach.
+TEST(NearLight, ASunlitFloorWithinReachLightsAWall) {
     TwoPlates plates(wall(), 0.8f);
     Light sun;
     sun.kind = LightKind::Directional;

@@ -3,12 +3,12 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/math/packing.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <span>
 
 #include <glm/common.hpp>
@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kLeafTriangles = 4;
 constexpr std::size_t kGrain = 1024; ///< triangles
 
-/// A triangle of the scene.
+/// A triangle of an instance.
 struct Source {
     std::uint32_t instance, triangle;
 };
@@ -45,11 +45,10 @@ std::vector<Source> findSources(const Scene& scene, const LightmapLayout& layout
     return sources;
 }
 
-/// As octEncode() of shaders/shared/surface_pack.glsl, in two signed halves of a word.
+/// packOct() in one word, x in its lower half, as unpackSnorm2x16() of GLSL reads it.
 std::uint32_t packNormal(glm::vec3 n) {
-    const glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    const glm::vec2 side(p.x >= 0 ? 1 : -1, p.y >= 0 ? 1 : -1);
-    return glm::packSnorm2x16(n.z >= 0 ? p : (1.f - glm::abs(glm::vec2(p.y, p.x))) * side);
+    const Oct16 packed = packOct(n);
+    return packed.x | std::uint32_t(packed.y) << 16;
 }
 
 std::uint32_t packAlbedo(glm::vec3 albedo, std::uint32_t flags) {
@@ -126,7 +125,7 @@ std::vector<Coded> alongCurve(const std::vector<GpuNearTriangle>& triangles, con
     return coded;
 }
 
-/// Number of codes of the first half: those without the highest bit in which they differ.
+/// Number of codes in the first part of a range, those in which the highest differing bit is 0.
 std::size_t splitOf(std::span<const Coded> range) {
     const std::uint32_t differ = range.front().code ^ range.back().code;
     if (differ == 0)
@@ -141,8 +140,8 @@ Bounds boundsOf(const GpuNearTriangle& t) {
     return limn::boundsOf(std::array{t.origin, t.origin + t.edge1, t.origin + t.edge2});
 }
 
-/// Appends the subtree of a range of the curve. Its depth is at most 30 + log2 of the triangles
-/// that share a code.
+/// Appends the subtree over a range of the curve and returns its bounding box. Its depth is at most
+/// 30, plus log2 of the number of triangles that share a code.
 Bounds addSubtree(NearGeometry& out, const std::vector<GpuNearTriangle>& triangles,
                   std::span<const Coded> range) {
     const std::size_t node = out.nodes.size();

@@ -9,17 +9,17 @@
 
 namespace limn::render {
 
-/// Surfaces that near.frag finds with rays: those that nearCorrection() of
-/// engine/measure/near_light.h exchanges light with, but for cutouts, which are left out. The
-/// albedo of a triangle is its mean.
+/// Bounding volume hierarchy of the triangles against which near.frag traces rays: those that
+/// findNearSurfaces() of engine/measure/near_light.h may return, without cutouts. Each triangle has
+/// the mean albedo of its area.
 struct NearGeometry {
-    std::vector<shared::GpuNearNode> nodes; ///< empty: there are no such surfaces
+    std::vector<shared::GpuNearNode> nodes; ///< the first is the root; empty: no triangles
     std::vector<shared::GpuNearTriangle> triangles;
 };
 
-/// Builds a tree of the static triangles with a lightmap. Its leaves hold up to four triangles that
-/// are neighbours on a Morton curve, which is fast to build and good enough for short rays
-/// (Lauterbach et al. Fast BVH Construction on GPUs. 2009).
+/// Builds the hierarchy of the scene's static triangles with a lightmap. Leaves hold up to four
+/// neighbours on a Morton curve, which is fast to build and good enough for short rays.
+/// Lauterbach et al. Fast BVH Construction on GPUs. 2009
 NearGeometry nearGeometry(const Scene& scene, const LightmapLayout& layout);
 
 } // namespace limn::render

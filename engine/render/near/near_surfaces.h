@@ -17,14 +17,14 @@ class NearSurfaces {
 public:
     explicit NearSurfaces(gpu::Device& device);
 
-    /// Takes note of the scene, if `version` is not that of the last call.
+    /// Copies the scene for prepare(), unless `version` is that of the last call.
     void take(const Scene& scene, std::shared_ptr<const LightmapLayout> layout,
               std::uint64_t version);
 
-    /// Uploads what take() has noted, unless it is there.
+    /// Uploads the geometry of the last scene taken, unless that is already there.
     void prepare();
 
-    /// Whether there are any surfaces, and the device can bind them.
+    /// Whether there are any surfaces that fit the device's limits.
     bool any() const { return m_any; }
 
     VkDescriptorSetLayout layout() const { return m_setLayout.handle; }

@@ -11,8 +11,8 @@
 
 namespace limn::render {
 
-/// Adds to the linear image what light from near surfaces is beyond that of the field. Needs the
-/// shadow maps of all lights.
+/// Adds nearCorrection() of engine/measure/near_light.h to the bounced light in the linear image.
+/// Reads the shadow maps of all lights.
 class NearPass {
 public:
     NearPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
@@ -21,10 +21,10 @@ public:
     void set(const Scene& scene, std::shared_ptr<const LightmapLayout> layout,
              std::uint64_t version);
 
-    /// Makes what pictures with these options need and is not there yet. Returns active().
+    /// Uploads the surfaces if these options need them and they have changed. Returns active().
     bool prepare(const ViewportOptions& options);
-    /// Whether the options ask for near light, the view shows it, and there are surfaces, which the
-    /// device can bind.
+    /// Whether record() is to be called: the options ask for near rays, the view shows bounced
+    /// light, and there are surfaces that fit the device.
     bool active(const ViewportOptions& options) const;
 
     /// Records the pass over the whole bound linear image, for sample `sample` of each pixel.
