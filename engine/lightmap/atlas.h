@@ -39,8 +39,8 @@ struct Atlas {
 
 /// Places the charts of every static instance in one atlas. A chart of extent e metres gets round(e
 /// * density) + 1 texels per side, with its borders on texel centres, so that bilinear lookups stay
-/// inside without padding. A side shorter than half a texel becomes one texel; charts shorter than
-/// that in both directions share a texel with neighbours of similar orientation. A two-sided
+/// inside without padding, but at least two texels on a side longer than an eighth of a texel.
+/// Charts smaller than that share texels with neighbours of similar orientation. A two-sided
 /// surface gets two places of the same shape, one per side, because each side is lit independently.
 /// The density is settings.texelsPerMetre, or found by bisection so that lookups read about
 /// settings.lightmapCaches texels. `charts` are per mesh, as Assets::meshes. Of the instances only

@@ -27,9 +27,13 @@ glm::vec2 along(int axis, glm::vec3 p) {
     return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
 }
 
+/// Sides shorter than this have one texel, longer ones at least two: one on each edge.
+constexpr float kNarrow = 0.125f; // texels
+
 std::uint32_t sideTexels(float texels) {
     constexpr float kLargestSide = 8192;
-    return texels < 0.5f ? 1U : std::uint32_t(std::lround(std::min(texels, kLargestSide))) + 1;
+    const auto steps = std::uint32_t(std::lround(std::min(texels, kLargestSide)));
+    return texels < kNarrow ? 1U : std::max(steps, 1U) + 1;
 }
 
 /// Sets the place's texel size; `size` is its extent in its plane in object units.
@@ -80,7 +84,8 @@ struct DisjointSets {
 /// Whether the chart is worth a place of its own.
 bool standsAlone(const MeshChartShapes& shapes, const MeshCharts& charts, std::uint32_t chart,
                  float texelsPerUnit) {
-    constexpr float kMaxOverhead = 2.5f, kMaxDepth = 2, kMaxCells = 4096;
+    constexpr float kMaxDepth = 2, kMaxCells = 4096;
+    constexpr float kMaxOverhead = (1 + kNarrow) / kNarrow; // of a long strip as narrow as that
     const glm::vec2 size = charts.chartSize[chart] * texelsPerUnit;
     if ((size.x + 1) * (size.y + 1) <= kMaxOverhead * size.x * size.y)
         return true;

@@ -74,10 +74,13 @@ glm::vec2 cornerInPlace(const AtlasInput& in, const ChartPlace& place, std::uint
 /// Places for all charts of all static instances at `density` texels per metre.
 ///
 /// A separate place costs half a texel on every side beyond the chart's own area, so a mesh of
-/// small or narrow pieces would use up the texels of the large ones. Where the border exceeds the
-/// area by more than half, charts of an instance share a place: charts that face the same side, lie
-/// in the same slab about one texel thick and have touching texels are drawn over each other along
-/// the object's axis. A texel then represents everything inside it, whichever piece it belongs to.
+/// tiny pieces would use up the texels of the large ones. Where the place is more than nine times
+/// the chart's area, as that of a strip narrower than an eighth of a texel or of a square of less
+/// than half a texel, charts of an instance share a place: charts that face the same side, lie in
+/// the same slab about one texel thick and have touching texels are drawn over each other along the
+/// object's axis. A texel then represents everything inside it, whichever piece it belongs to.
+/// Strips wider than that keep their own light, because the parts of mouldings and window frames,
+/// centimetres apart, differ in light by factors.
 std::vector<ChartPlace> placeCharts(const AtlasInput& in, float density);
 
 } // namespace limn

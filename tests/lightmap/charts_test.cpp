@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <set>
@@ -189,6 +190,56 @@ TEST(Atlas, ALookupMeetsTexelsOfItsOwnChartOrOfNeighboursThatFaceTheSameSide) {
         EXPECT_LT(std::max({size.x, size.y, size.z}), 4.f);
     }
     EXPECT_LT(shared, atlas.texels.size() / 10);
+}
+
+/// Two bars along x, `width` thick and half as far apart, as one mesh.
+Scene barsScene(float width) {
+    Mesh bars = box({0, 0, 0}, {20, width, width}, false);
+    const Mesh other = box({0, 0, 1.5f * width}, {20, width, 2.5f * width}, false);
+    const auto first = std::uint32_t(bars.positions.size());
+    bars.positions.insert(bars.positions.end(), other.positions.begin(), other.positions.end());
+    bars.normals.insert(bars.normals.end(), other.normals.begin(), other.normals.end());
+    bars.uv0.clear();
+    for (const std::uint32_t i : other.indices)
+        bars.indices.push_back(first + i);
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(bars);
+    return b.build();
+}
+
+/// The texel that a corner of a triangle reads most.
+std::uint32_t texelAt(const Atlas& atlas, std::uint32_t triangle, int corner) {
+    const glm::vec2 at(corner == 1 ? 1 : 0, corner == 2 ? 1 : 0);
+    const Bilinear b =
+        bilinearAt(atlas.layout, lightmapUv(atlas.layout, 0, 0, triangle, at.x, at.y, false));
+    return b.texel[std::max_element(&b.weight[0], &b.weight[0] + 4) - &b.weight[0]];
+}
+
+// Its front may face a dark room while its side looks out of the window.
+TEST(Atlas, AStripWiderThanAnEighthOfATexelHasTexelsOfItsOwnAtBothEdges) {
+    BakeSettings settings;
+    settings.texelsPerMetre = 1;
+    for (const float width : {0.14f, 0.3f, 0.45f}) {
+        const Scene scene = barsScene(width);
+        const Atlas atlas = atlasOf(scene, settings);
+        const Mesh& mesh = scene.assets->meshes[0];
+        std::map<std::uint32_t, std::set<int>> readers; // faces of the bars, by texel
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+            if (triangleArea(mesh, t) < width) // the ends of the bars
+                continue;
+            for (int a = 0; a < 3; ++a) {
+                readers[texelAt(atlas, t, a)].insert(int(t / 2));
+                for (int b = 0; b < a; ++b)
+                    EXPECT_NE(texelAt(atlas, t, a), texelAt(atlas, t, b)) << width;
+            }
+        }
+        EXPECT_EQ(readers.size(), 32U);
+        for (const auto& [texel, faces] : readers)
+            EXPECT_EQ(faces.size(), 1U) << width;
+    }
+    const Atlas narrow = atlasOf(barsScene(0.06f), settings);
+    EXPECT_LT(narrow.texels.size(), 8U * 21) << "faces that look alike share texels";
 }
 
 TEST(Atlas, ATwoSidedSurfaceHasOnePlaceForEachSide) {
