@@ -82,57 +82,71 @@ private:
     double m_start = 0;
 };
 
-/// CPU time of an update of one bounce with all lights moved: the least of several, because caches
-/// of the processor are shared, too. The steps, which are timed by the wall, are scaled to it.
-void measureUpdate(const PredictBench& o, Lighting& lighting, const Scene& scene,
-                   const TraceScene& trace, PrecomputedCost& cost) {
-    cost.updateMs = std::numeric_limits<double>::max();
-    for (int k = 0; k <= o.runs; ++k) {
-        const Scene moved = withMovedLights(scene, k);
+constexpr int kBaseBakes = 3;
+
+/// A bake, what it took, and what lights by it.
+struct CostedBake {
+    std::shared_ptr<const Precomputed> bake;
+    PrecomputedCost cost;
+    std::unique_ptr<Lighting> lighting;
+};
+
+/// Bakes `times` times; the fastest counts.
+Result<CostedBake> measureBake(const Scene& scene, const TraceScene& trace,
+                               const BakeSettings& settings, int times) {
+    CostedBake costed;
+    for (int k = 0; k < times; ++k) {
+        StageCpu cpu;
+        Progress progress = progressOnStderr();
+        progress.report = [&, show = progress.report](const char* stage, float fraction) {
+            cpu.at(stage);
+            if (show)
+                show(stage, fraction);
+        };
+        auto made =
+            kIlluminanceTechnique.precomputation->prepare(trace, {.settings = &settings}, progress);
+        StageSeconds seconds = cpu.finish();
+        endProgressLine();
+        if (!made)
+            return tl::make_unexpected(made.error());
+        if (k == 0 || totalOf(seconds) < totalOf(costed.cost.seconds))
+            costed.cost.seconds = std::move(seconds);
+        costed.bake = *std::move(made);
+    }
+    costed.cost.bytes = totalOf(costed.bake->report().bytes);
+    costed.cost.updateMs = std::numeric_limits<double>::max();
+    costed.lighting = kIlluminanceTechnique.light({costed.bake, std::make_shared<Scene>(scene)});
+    return costed;
+}
+
+/// CPU time of an update of one bounce with all lights moved, the least so far. The first update of
+/// a round lights the materials, or finds the processor's caches full of another bake.
+void measureUpdates(const Scene& scene, const TraceScene& trace, int round, CostedBake& costed) {
+    constexpr int kUpdates = 4; // in a round
+    PrecomputedCost& cost = costed.cost;
+    for (int k = 0; k < kUpdates; ++k) {
+        const Scene moved = withMovedLights(scene, kUpdates * round + k);
         const double start = cpuSeconds();
         const LightingReport update =
-            lighting.update({.scene = moved, .trace = &trace, .bounces = 1}, {});
+            costed.lighting->update({.scene = moved, .trace = &trace, .bounces = 1}, {});
         const double ms = 1000 * (cpuSeconds() - start);
         if (k == 0)
-            continue; // it also lights the materials
+            continue;
         cost.updateMs = std::min(cost.updateMs, ms);
         if (cost.update.empty())
             cost.update = update.steps;
         for (std::size_t i = 0; i < update.steps.size(); ++i)
             cost.update[i].ms = std::min(cost.update[i].ms, update.steps[i].ms);
     }
+}
+
+/// Scales the steps, which are timed by the wall, to the CPU time of all.
+void scaleSteps(PrecomputedCost& cost) {
     double sum = 0;
     for (const LightingStep& step : cost.update)
         sum += step.ms;
     for (LightingStep& step : cost.update)
         step.ms *= cost.updateMs / std::max(sum, 1e-9);
-}
-
-struct CostedBake {
-    std::shared_ptr<const Precomputed> bake;
-    PrecomputedCost cost;
-};
-
-Result<CostedBake> measure(const PredictBench& o, const Scene& scene, const TraceScene& trace,
-                           const BakeSettings& settings) {
-    StageCpu cpu;
-    Progress progress = progressOnStderr();
-    progress.report = [&, show = progress.report](const char* stage, float fraction) {
-        cpu.at(stage);
-        if (show)
-            show(stage, fraction);
-    };
-    const auto made =
-        kIlluminanceTechnique.precomputation->prepare(trace, {.settings = &settings}, progress);
-    StageSeconds seconds = cpu.finish();
-    endProgressLine();
-    if (!made)
-        return tl::make_unexpected(made.error());
-    const auto lighting = kIlluminanceTechnique.light({*made, std::make_shared<Scene>(scene)});
-    CostedBake costed{*made,
-                      {.seconds = std::move(seconds), .bytes = totalOf((*made)->report().bytes)}};
-    measureUpdate(o, *lighting, scene, trace, costed.cost);
-    return costed;
 }
 
 double percentOff(double predicted, double measured) {
@@ -181,18 +195,30 @@ Result<void> predictScene(const PredictBench& o, const std::string& path, Json& 
         if (preset.name == o.preset)
             preset.applyTo(scene.bake);
     const TraceScene trace(scene);
-    const Result<CostedBake> base = measure(o, scene, trace, scene.bake);
-    if (!base)
-        return fail(fmt::format("{}: {}", path, base.error().message));
+    std::vector<BakeSettings> settings = {scene.bake};
     for (const Variant& variant : kVariants) {
-        BakeSettings wanted = scene.bake;
-        variant.apply(wanted);
-        const PrecomputedCost predicted = base->bake->expectedCost(scene, wanted, base->cost);
-        const Result<CostedBake> made = measure(o, scene, trace, wanted);
+        settings.push_back(scene.bake);
+        variant.apply(settings.back());
+    }
+    std::vector<CostedBake> all;
+    for (const BakeSettings& s : settings) {
+        // All predictions start from the first bake.
+        Result<CostedBake> made = measureBake(scene, trace, s, all.empty() ? kBaseBakes : 1);
         if (!made)
             return fail(fmt::format("{}: {}", path, made.error().message));
-        rows.push_back(describe(std::filesystem::path(path).stem().string(), variant.name,
-                                predicted, made->cost));
+        all.push_back(*std::move(made));
+    }
+    // In turns, because the machine is faster at one time than at another.
+    for (int round = 0; round < o.runs; ++round)
+        for (CostedBake& costed : all)
+            measureUpdates(scene, trace, round, costed);
+    for (CostedBake& costed : all)
+        scaleSteps(costed.cost);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const PrecomputedCost predicted =
+            all[0].bake->expectedCost(scene, settings[i], all[0].cost);
+        rows.push_back(describe(std::filesystem::path(path).stem().string(), kVariants[i - 1].name,
+                                predicted, all[i].cost));
         if (!o.json)
             printRow(kPredictionColumns, rows.back());
     }
@@ -245,7 +271,7 @@ void addPredictBench(CLI::App& bench, Run& run) {
         ->check(CLI::IsMember(presets));
     command->add_option("-o,--output", o->output, "Folder for predict.csv and predict.json")
         ->required();
-    command->add_option("--runs", o->runs, "Number of updates; the fastest one counts")
+    command->add_option("--runs", o->runs, "Number of rounds of updates; the fastest update counts")
         ->check(CLI::Range(1, 1000));
     command->add_option("--threads", o->threads, "Threads to use; 0: all")
         ->check(CLI::Range(0, 1024));

@@ -24,10 +24,10 @@ TEST(BakedIlluminance, TimesCarryOverToBakesOfAboutAsManyLinks) {
 }
 
 /// A closed room with a few thousand caches.
-Scene room() {
+Scene room(float emission = 0) {
     using namespace simple;
     SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.addMaterial(lambert(glm::vec3(0.5f), glm::vec3(emission)));
     b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
     Scene scene = b.build();
     scene.bake.surfels = 1000;
@@ -85,6 +85,19 @@ TEST(BakedIlluminance, IsExpectedToCostMoreWithMoreOfEachSetting) {
     EXPECT_DOUBLE_EQ(totalOf(bands.seconds), totalOf(kMeasured.seconds));
     const PrecomputedCost more = with([](auto& s) { s.bands = 5; });
     EXPECT_DOUBLE_EQ(more.updateMs, kMeasured.updateMs) << "no surface needs more than three bands";
+}
+
+// Bakes of fewer than 128 rays do not look for places where lamps need finer texels.
+TEST(BakedIlluminance, ALampCostsTimeForChartsUnlessRaysAreFew) {
+    const PrecomputedCost measured{.seconds = {{"charts", 1}}};
+    for (const float emission : {0.f, 1.f}) {
+        const Scene scene = room(emission);
+        BakeSettings few = scene.bake;
+        few.rays = 64;
+        const PrecomputedCost cost = bakeOf(scene)->expectedCost(scene, few, measured);
+        EXPECT_LT(secondsOf(cost, "charts"), emission > 0 ? 0.5 : 1.001);
+        EXPECT_GT(secondsOf(cost, "charts"), emission > 0 ? 0.1 : 0.999);
+    }
 }
 
 TEST(BakedIlluminance, BytesAreExpectedFromABakeWithOtherSettings) {

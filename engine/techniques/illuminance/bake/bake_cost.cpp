@@ -11,9 +11,9 @@
 namespace limn {
 
 static constexpr std::array kQuantities = {
-    &BakeWork::triangles, &BakeWork::surfels, &BakeWork::texels, &BakeWork::grid,
-    &BakeWork::rays,      &BakeWork::leaves,  &BakeWork::links,  &BakeWork::bands,
-    &BakeWork::chroma,    &BakeWork::bytes};
+    &BakeWork::triangles, &BakeWork::surfels, &BakeWork::texels, &BakeWork::lampTexels,
+    &BakeWork::grid,      &BakeWork::rays,    &BakeWork::leaves, &BakeWork::links,
+    &BakeWork::bands,     &BakeWork::chroma,  &BakeWork::bytes};
 
 BakeWork BakeWork::operator*(const BakeWork& factor) const {
     BakeWork product;
@@ -35,6 +35,7 @@ BakeWork expectedWork(const Scene& scene) {
     const int bands = receiverBands(scene, int(s.bands));
     BakeWork work{.surfels = double(s.surfels),
                   .texels = double(p.caches - p.gridCaches),
+                  .lampTexels = looksForLampTexels(scene) ? double(p.caches - p.gridCaches) : 0,
                   .grid = double(p.gridCaches),
                   .rays = double(s.rays),
                   .leaves = p.leaves,
@@ -62,7 +63,7 @@ BakeWork workOf(const Bake& bake, BakeWork expected) {
 
 double stageWork(std::string_view stage, const BakeWork& w) {
     if (stage == "charts")
-        return 29 * w.texels + 4 * w.triangles;
+        return 29 * w.texels + 70 * w.lampTexels + 4 * w.triangles;
     if (stage == "surfels")
         return 8 * w.surfels + 0.5 * w.triangles;
     if (stage == "caches") {

@@ -11,14 +11,15 @@ namespace limn {
 struct BakeWork {
     double triangles = 0; ///< of the scene
     double surfels = 0;
-    double texels = 0; ///< caches of the lightmap
-    double grid = 0;   ///< caches of the grid
-    double rays = 0;   ///< of a cache
-    double leaves = 0; ///< senders that a cache sees, as its rays find them
-    double links = 0;  ///< of all caches
-    double bands = 0;  ///< of the bake that surfaces of the scene need
-    double chroma = 0; ///< of those, with colour
-    double bytes = 0;  ///< BakeBytes::total()
+    double texels = 0;     ///< caches of the lightmap
+    double lampTexels = 0; ///< texels between which light from lamps is looked for
+    double grid = 0;       ///< caches of the grid
+    double rays = 0;       ///< of a cache
+    double leaves = 0;     ///< senders that a cache sees, as its rays find them
+    double links = 0;      ///< of all caches
+    double bands = 0;      ///< of the bake that surfaces of the scene need
+    double chroma = 0;     ///< of those, with colour
+    double bytes = 0;      ///< BakeBytes::total()
 
     double caches() const { return texels + grid; }
     // Quantity by quantity; the quotient is 1 where the divisor is 0.
