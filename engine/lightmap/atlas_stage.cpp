@@ -286,19 +286,17 @@ std::vector<PlacedTriangle> allTriangles(const Scene& scene, const LightmapLayou
     return result;
 }
 
+bool isLamp(const Scene& scene, const Instance& instance) {
+    return !instance.dynamic && emits(scene.materialOf(instance));
+}
+
 /// Adds finer texels where light from lamps varies within a texel, at most as many as were asked
 /// for. `placed` says how triangles lie in the finer texels that the atlas has, and gets those that
 /// are added.
 void addLampTexels(const TexelInput& in, LaidTexels& laid, std::vector<PlacedTriangle>& placed) {
     std::uint64_t key = surfacesKey(in.trace, in.meshes, laid.key);
-    bool any = false;
-    for (const Instance& i : in.scene.instances) {
-        const bool lamp = !i.dynamic && emits(in.scene.materialOf(i));
-        key = hashValue(std::uint32_t(lamp), key);
-        any = any || lamp;
-    }
-    if (!any)
-        return;
+    for (const Instance& i : in.scene.instances)
+        key = hashValue(std::uint32_t(isLamp(in.scene, i)), key);
     std::vector<PlacedTriangle> triangles = allTriangles(in.scene, laid.atlas.layout);
     triangles.insert(triangles.end(), placed.begin(), placed.end());
     const FineLookups lookups = keptOrMade<FineLookups>(
@@ -336,9 +334,11 @@ void addSnaps(std::vector<std::uint32_t> snaps, LightmapLayout& layout) {
 
 } // namespace
 
-bool refinesNearLamps(const BakeSettings& settings) {
+bool refinesNearLamps(const Scene& scene) {
     constexpr std::uint32_t kFewRays = 128;
-    return settings.rays >= kFewRays && !(settings.texelsPerMetre > 0);
+    return scene.bake.rays >= kFewRays && !(scene.bake.texelsPerMetre > 0) &&
+           std::ranges::any_of(scene.instances,
+                               [&](const Instance& i) { return isLamp(scene, i); });
 }
 
 std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scene,
@@ -363,7 +363,7 @@ std::optional<PlacedAtlas> atlasStage(const TraceScene& trace, const Scene& scen
     Atlas& atlas = laid.atlas;
     std::vector<PlacedTriangle> placed =
         addFineTexels(scene, variedTriangles(scene, density, atlas.layout), laid.fine, atlas);
-    if (refinesNearLamps(scene.bake))
+    if (refinesNearLamps(scene))
         addLampTexels(in, laid, placed);
     if (progress.cancelled())
         return {};

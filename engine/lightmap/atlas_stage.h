@@ -17,9 +17,10 @@ struct PlacedAtlas {
     std::vector<MeshDensity> surfels; ///< per mesh
 };
 
-/// Whether lookups get finer texels where light from emissive surfaces varies
-/// (findLampLookups()): not in quick bakes of few rays, nor where the density is given.
-bool refinesNearLamps(const BakeSettings& settings);
+/// Whether lookups get finer texels where light from emissive surfaces varies (findLampLookups()):
+/// where a static surface emits, but not in quick bakes of few rays, nor where the density is
+/// given.
+bool refinesNearLamps(const Scene& scene);
 
 /// Runs the stages charts, density and atlas with the scene's bake settings, reusing results in
 /// `store` (may be null). The texel density follows Instance::texelDensity alone if the settings

@@ -192,7 +192,7 @@ TEST(Atlas, ALookupMeetsTexelsOfItsOwnChartOrOfNeighboursThatFaceTheSameSide) {
     EXPECT_LT(shared, atlas.texels.size() / 10);
 }
 
-/// Two bars along x, `width` thick and half as far apart, as one mesh.
+/// Two parallel bars along x as one mesh: `width` thick, with a gap of half that between them.
 Scene barsScene(float width) {
     Mesh bars = box({0, 0, 0}, {20, width, width}, false);
     const Mesh other = box({0, 0, 1.5f * width}, {20, width, 2.5f * width}, false);
@@ -216,7 +216,7 @@ std::uint32_t texelAt(const Atlas& atlas, std::uint32_t triangle, int corner) {
     return b.texel[std::max_element(&b.weight[0], &b.weight[0] + 4) - &b.weight[0]];
 }
 
-// Its front may face a dark room while its side looks out of the window.
+// The front of a window's frame may face a dark room while the side of the frame faces the sky.
 TEST(Atlas, AStripWiderThanAnEighthOfATexelHasTexelsOfItsOwnAtBothEdges) {
     BakeSettings settings;
     settings.texelsPerMetre = 1;

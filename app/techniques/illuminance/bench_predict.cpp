@@ -82,9 +82,10 @@ private:
     double m_start = 0;
 };
 
+/// All predictions start from one bake, which is therefore made several times.
 constexpr int kBaseBakes = 3;
 
-/// A bake, what it took, and what lights by it.
+/// A bake, its cost, and the lighting that uses it.
 struct CostedBake {
     std::shared_ptr<const Precomputed> bake;
     PrecomputedCost cost;
@@ -119,8 +120,9 @@ Result<CostedBake> measureBake(const Scene& scene, const TraceScene& trace,
     return costed;
 }
 
-/// CPU time of an update of one bounce with all lights moved, the least so far. The first update of
-/// a round lights the materials, or finds the processor's caches full of another bake.
+/// Measures a round of updates of one bounce, each with all lights moved, and keeps the least CPU
+/// time so far. The first update of a round does not count: it also lights the materials, or reads
+/// a bake that the processor's caches no longer hold.
 void measureUpdates(const Scene& scene, const TraceScene& trace, int round, CostedBake& costed) {
     constexpr int kUpdates = 4; // in a round
     PrecomputedCost& cost = costed.cost;
@@ -202,13 +204,12 @@ Result<void> predictScene(const PredictBench& o, const std::string& path, Json& 
     }
     std::vector<CostedBake> all;
     for (const BakeSettings& s : settings) {
-        // All predictions start from the first bake.
         Result<CostedBake> made = measureBake(scene, trace, s, all.empty() ? kBaseBakes : 1);
         if (!made)
             return fail(fmt::format("{}: {}", path, made.error().message));
         all.push_back(*std::move(made));
     }
-    // In turns, because the machine is faster at one time than at another.
+    // The bakes take turns, because the machine is faster at one time than at another.
     for (int round = 0; round < o.runs; ++round)
         for (CostedBake& costed : all)
             measureUpdates(scene, trace, round, costed);

@@ -203,17 +203,10 @@ static std::uint64_t expectedGrid(const Scene& scene) {
     return std::uint64_t(grid.x) * grid.y * grid.z;
 }
 
-bool looksForLampTexels(const Scene& scene) {
-    return refinesNearLamps(scene.bake) &&
-           std::ranges::any_of(scene.instances, [&](const Instance& i) {
-               return !i.dynamic && emits(scene.materialOf(i));
-           });
-}
-
 /// Share of the texels asked for that light from lamps is expected to add: none to nearly as many
 /// in the scenes measured.
 static double lampShare(const Scene& scene) {
-    return looksForLampTexels(scene) ? 0.25 : 0;
+    return refinesNearLamps(scene) ? 0.25 : 0;
 }
 
 std::uint64_t expectedCaches(const Scene& scene) {

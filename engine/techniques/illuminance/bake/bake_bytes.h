@@ -26,10 +26,6 @@ BakeBytes bytesOf(const Bake& bake, LinkStorage storage, std::uint32_t bands);
 /// where the settings leave the grid's size open, for the depths of its cells, 512 bytes each.
 BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std::uint64_t caches);
 
-/// Whether a bake looks for places where light from lamps needs finer texels: the scene has static
-/// lamps, and its settings allow it (refinesNearLamps()).
-bool looksForLampTexels(const Scene& scene);
-
 /// Approximate number of caches in a bake of the scene, with the maximum number of own caches. With
 /// texelsPerMetre the texels at the charts' borders are not counted. Cheap unless that is set; then
 /// it sums the areas of all triangles. Does not take minTexels() into account.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/bake_cost.h"
 
+#include "engine/lightmap/atlas_stage.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/bake/bake_bytes.h"
 
@@ -33,9 +34,10 @@ BakeWork expectedWork(const Scene& scene) {
     const BakeSettings& s = scene.bake;
     const BakePrediction p = predictBake(scene);
     const int bands = receiverBands(scene, int(s.bands));
+    const auto texels = double(p.caches - p.gridCaches);
     BakeWork work{.surfels = double(s.surfels),
-                  .texels = double(p.caches - p.gridCaches),
-                  .lampTexels = looksForLampTexels(scene) ? double(p.caches - p.gridCaches) : 0,
+                  .texels = texels,
+                  .lampTexels = refinesNearLamps(scene) ? texels : 0,
                   .grid = double(p.gridCaches),
                   .rays = double(s.rays),
                   .leaves = p.leaves,

@@ -12,7 +12,7 @@ struct BakeWork {
     double triangles = 0; ///< of the scene
     double surfels = 0;
     double texels = 0;     ///< caches of the lightmap
-    double lampTexels = 0; ///< texels between which light from lamps is looked for
+    double lampTexels = 0; ///< texels of bakes that refine them near lamps, else 0
     double grid = 0;       ///< caches of the grid
     double rays = 0;       ///< of a cache
     double leaves = 0;     ///< senders that a cache sees, as its rays find them
