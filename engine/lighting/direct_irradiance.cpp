@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -67,21 +68,19 @@ float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::
 
 // Returns the shadow rays traced.
 std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                         const TraceScene& trace, DirectIrradiance::PerLight& out) {
+                         std::uint32_t each, const TraceScene& trace,
+                         DirectIrradiance::PerLight& out) {
     const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
-    out.share.resize(normals.size());
-    if (normals.empty())
-        return 0;
-    const auto each = std::uint32_t(positions.size() / normals.size());
+    out.share.resize(positions.size() / each);
     const std::uint32_t samples = std::max(DirectIrradiance::kRectanglePoints / each, 1U);
     std::atomic<std::uint64_t> rays = 0;
-    parallelRanges(normals.size(), 256, [&](std::size_t begin, std::size_t end) {
+    parallelRanges(out.share.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::uint64_t mine = 0;
         for (std::size_t s = begin; s < end; ++s) {
             float sum = 0;
             for (std::uint32_t k = 0; k < each; ++k) {
                 const std::uint32_t at = std::uint32_t(s) * each + k;
-                const glm::vec3 p = positions[at], n = normals[s];
+                const glm::vec3 p = positions[at], n = normals[at];
                 sum += rectangles.empty()
                            ? pointShare(trace, out.light, p, n, mine)
                            : rectangleShare(trace, rectangles, p, n, at, samples, mine);
@@ -109,10 +108,12 @@ void sumLights(std::size_t points, DirectIrradiance& state) {
 
 bool updateDirectIrradiance(std::span<const glm::vec3> positions,
                             std::span<const glm::vec3> normals, const Scene& scene,
-                            const TraceScene& trace, DirectIrradiance& state) {
+                            const TraceScene& trace, DirectIrradiance& state, std::uint32_t each) {
+    assert(positions.size() == normals.size() && positions.size() % each == 0);
+    const std::size_t points = positions.size() / each;
     state.lightsTraced = 0;
     state.raysTraced = 0;
-    if (state.irradiance.size() != normals.size())
+    if (state.irradiance.size() != points)
         state.bounds = boundsOf(positions);
     std::vector<Light>& lights = state.wanted;
     lights.clear();
@@ -123,7 +124,7 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
     if (occluders != state.occluders)
         for (DirectIrradiance::PerLight& light : state.lights)
             light.light.enabled = false; // matches no light that shines
-    else if (lights == state.summed && state.irradiance.size() == normals.size())
+    else if (lights == state.summed && state.irradiance.size() == points)
         return false;
     state.occluders = occluders;
 
@@ -146,12 +147,12 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
         gone = std::find_if(gone, known.end(), hasShare);
         if (gone != known.end())
             std::swap(light.share, gone->share);
-        state.raysTraced += traceLight(positions, normals, trace, light);
+        state.raysTraced += traceLight(positions, normals, each, trace, light);
         ++state.lightsTraced;
     }
     std::swap(state.summed, lights);
     std::swap(state.before, state.irradiance);
-    sumLights(normals.size(), state);
+    sumLights(points, state);
     return state.before != state.irradiance;
 }
 

@@ -39,13 +39,14 @@ struct DirectIrradiance {
     std::vector<glm::vec3> before;
 };
 
-/// Brings `state` up to date with the scene's lights at points with unit normals, on the side that
-/// is lit. A point may have several positions, the same number for all, one point after the other:
-/// its light is their mean. Lights that are off, black, of no strength, out of reach of every
+/// Brings `state` up to date with the scene's lights at positions with unit normals, on the side
+/// that is lit. `each` positions, one after the other, make one of the points of `state`, whose
+/// light is their mean. Lights that are off, black, of no strength, out of reach of every
 /// point, or unchanged cost nothing. Returns true if any irradiance changed. The points are the
 /// same at every call with that state.
 bool updateDirectIrradiance(std::span<const glm::vec3> positions,
                             std::span<const glm::vec3> normals, const Scene& scene,
-                            const TraceScene& trace, DirectIrradiance& state);
+                            const TraceScene& trace, DirectIrradiance& state,
+                            std::uint32_t each = 1);
 
 } // namespace limn

@@ -186,6 +186,8 @@ Defect senderDefect(const TransportView& v) {
         return {"SPOS", "out of range"};
     if (!placed(v.lightPoint, n * v.lightPointsEach))
         return {"SLPT", "out of range"};
+    if (v.lightNormal && !unit(v.lightNormal, n * v.lightPointsEach))
+        return {"SLNM", "not of unit length"};
     if (!unit(v.surfelNormal, n))
         return {"SNRM", "not of unit length"};
     if (!within(v.surfelAlbedo, 3 * n, 0, kMaxAlbedo))

@@ -136,7 +136,9 @@ void meanShares(const TransportView& v, const Share& share, float* mean) {
     for (std::size_t k = 0; k < v.dims.surfels; ++k) {
         float sum = 0;
         for (std::size_t point = k * each; point < (k + 1) * each; ++point)
-            sum += share(v.lightPoint + 3 * point, v.surfelNormal + 3 * k, std::uint32_t(point));
+            sum += share(v.lightPoint + 3 * point,
+                         v.lightNormal ? v.lightNormal + 3 * point : v.surfelNormal + 3 * k,
+                         std::uint32_t(point));
         mean[k] = sum / float(each);
     }
 }

@@ -71,13 +71,13 @@ void limnrt_close(limnrt_scene*); /* 0 is allowed */
 /* What the file holds. Pointers lead into its bytes. */
 void limnrt_get_counts(const limnrt_scene*, limnrt_counts* counts);
 const char* limnrt_meta(const limnrt_scene*, size_t* size); /* JSON, not terminated by 0 */
-/* UTF-8; 0 beyond the last; O(names) */
-const char* limnrt_material_name(const limnrt_scene*, uint32_t index);
-const float* limnrt_surfel_positions(const limnrt_scene*); /* 3 each */
-const float* limnrt_surfel_normals(const limnrt_scene*);   /* 3 each, unit */
+const char* limnrt_material_name(const limnrt_scene*, uint32_t index); /* UTF-8; 0 after the last */
+const float* limnrt_surfel_positions(const limnrt_scene*);             /* 3 each */
+const float* limnrt_surfel_normals(const limnrt_scene*);               /* 3 each, unit */
 /* Points [m], 3 each, whose mean direct light is the surfel's; sets *each to its number of them. */
 const float* limnrt_light_points(const limnrt_scene*, uint32_t* each);
-const float* limnrt_surfel_areas(const limnrt_scene*); /* [m^2] */
+const float* limnrt_light_normals(const limnrt_scene*); /* 3 each, unit; 0: the surfels' own */
+const float* limnrt_surfel_areas(const limnrt_scene*);  /* [m^2] */
 const uint32_t* limnrt_surfel_materials(const limnrt_scene*);
 const uint32_t* limnrt_surfel_instances(const limnrt_scene*);
 /* 3 each, lightmap caches, then the grid's cells, which have no normals; normals are unit. */

@@ -132,6 +132,9 @@ const float* limnrt_light_points(const limnrt_scene* s, uint32_t* each) {
     *each = s->view.lightPointsEach;
     return s->view.lightPoint;
 }
+const float* limnrt_light_normals(const limnrt_scene* s) {
+    return s->view.lightNormal;
+}
 const float* limnrt_surfel_areas(const limnrt_scene* s) {
     return s->view.surfelArea;
 }

@@ -172,18 +172,25 @@ bool takeSenders(const Table& t, TransportView& v) {
            t.take("SKYL", 12, d.skyCells, v.skyRadiance);
 }
 
-/// Files of minor version 0 have no light points, and no section for them.
+/// Files of minor version 0 have no light points, and no section for them. Those of minor version 1
+/// have no normals of light points.
 bool takeLightPoints(const Table& t, TransportView& v) {
     const Dims& d = v.dims;
     v.lightPoint = v.surfelPosition;
     v.lightPointsEach = std::max(d.lightPoints, 1U);
+    v.lightNormal = nullptr;
     if (d.lightPoints == 0 && !t.find("SLPT"))
         return true;
     const float* points = nullptr;
     if (!t.take("SLPT", 12, d.surfels * std::uint64_t(d.lightPoints), points))
         return false;
-    if (d.lightPoints > 0)
+    const float* normals = nullptr;
+    if (t.find("SLNM") && !t.take("SLNM", 12, d.surfels * std::uint64_t(d.lightPoints), normals))
+        return false;
+    if (d.lightPoints > 0) {
         v.lightPoint = points;
+        v.lightNormal = normals;
+    }
     return true;
 }
 

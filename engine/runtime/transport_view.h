@@ -89,6 +89,7 @@ struct TransportView {
     /// surfel. Those of a file without light points are the surfels' positions.
     const float* lightPoint;
     std::uint32_t lightPointsEach;
+    const float* lightNormal; ///< unit, per light point; null: those of the surfels
     const std::uint32_t *surfelMaterial, *surfelInstance, *surfelCache;
     const float* surfelCacheWeight;
     const std::uint32_t* child; ///< left and right of each inner node

@@ -63,6 +63,8 @@ class Transport:
         self.dims = words("DIMS")
         self.normal, self.albedo = threes("SNRM"), threes("SALB")
         each, points = max(self.dims[21], 1), threes("SLPT" if self.dims[21] else "SPOS")
+        normals = threes("SLNM") if "SLNM" in s and self.dims[21] else [n for n in self.normal for _ in range(each)]
+        points = list(zip(points, normals))
         self.points = [points[k * each:(k + 1) * each] for k in range(self.dims[0])]
         self.emission, self.sky = threes("SEMI"), threes("SKYL")
         self.reads = [[(c, w) for c, w in zip(v[:4], v[4:]) if w > 0] for v in
@@ -161,7 +163,7 @@ class Transport:
         n, direct = self.dims[0], [[0, 0, 0] for _ in range(self.dims[0])]
         for light in self.lights:
             for k in range(n):
-                e = sum(self.irradiance(light, p, self.normal[k]) for p in self.points[k]) / len(self.points[k])
+                e = sum(self.irradiance(light, p, m) for p, m in self.points[k]) / len(self.points[k])
                 direct[k] = [direct[k][i] + light[8 + i] * e for i in range(3)]
         factor = [math.pi] + [2 * math.pi / 3] * 3 + [math.pi / 4] * 5
         basis = [[a * y for a, y in zip(factor, harmonics(*m))] for m in self.normal]

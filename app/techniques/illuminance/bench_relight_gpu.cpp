@@ -34,7 +34,8 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
         const Scene lit = sceneAt(k);
         const TraceScene moved(lit, trace);
         const auto start = std::chrono::steady_clock::now();
-        updateDirectIrradiance(bake->surfels.litAt(), bake->surfels.normal, lit, moved, light);
+        updateDirectIrradiance(bake->surfels.litAt(), bake->surfels.litNormals(), lit, moved, light,
+                               bake->surfels.litAtEach());
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g = (*relighter)

@@ -48,7 +48,8 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
         return broken();
     DirectIrradiance light;
     std::vector<glm::vec3> albedo, emitted;
-    updateDirectIrradiance(bake.surfels.litAt(), bake.surfels.normal, s.scene, *s.trace, light);
+    updateDirectIrradiance(bake.surfels.litAt(), bake.surfels.litNormals(), s.scene, *s.trace,
+                           light, bake.surfels.litAtEach());
     surfelMaterials(bake.surfels, s.scene, albedo, emitted);
     const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, s.scene.sky);
     const std::uint32_t bounces = std::min(s.scene.relight.maxBounces, kBounces);

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/math/morton.h"
 #include "engine/math/packing.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 
@@ -94,31 +95,19 @@ GpuNearTriangle makeTriangle(const Scene& scene, const LightmapLayout& layout, S
             .backOffset = backOffset(layout, s.instance)};
 }
 
-/// The lowest 10 bits of x, two zeros after each.
-std::uint32_t spreadBits(std::uint32_t x) {
-    x = (x | x << 16) & 0x030000ffU;
-    x = (x | x << 8) & 0x0300f00fU;
-    x = (x | x << 4) & 0x030c30c3U;
-    return (x | x << 2) & 0x09249249U;
-}
-
-std::uint32_t mortonCode(glm::vec3 p, const Bounds& bounds) {
-    const glm::vec3 size = glm::max(bounds.size(), glm::vec3(1e-30f));
-    const glm::uvec3 cell(glm::clamp((p - bounds.lower) / size * 1024.f, 0.f, 1023.f));
-    return spreadBits(cell.x) << 2 | spreadBits(cell.y) << 1 | spreadBits(cell.z);
-}
-
 struct Coded {
     std::uint32_t code, triangle;
     auto operator<=>(const Coded&) const = default;
 };
 
 std::vector<Coded> alongCurve(const std::vector<GpuNearTriangle>& triangles, const Bounds& bounds) {
+    const glm::vec3 size = glm::max(bounds.size(), glm::vec3(1e-30f));
     std::vector<Coded> coded(triangles.size());
     parallelRanges(coded.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const GpuNearTriangle& t = triangles[i];
-            coded[i] = {mortonCode(t.origin + (t.edge1 + t.edge2) / 3.f, bounds), std::uint32_t(i)};
+            const glm::vec3 middle = t.origin + (t.edge1 + t.edge2) / 3.f;
+            coded[i] = {mortonCode((middle - bounds.lower) / size), std::uint32_t(i)};
         }
     });
     std::ranges::sort(coded);

@@ -159,7 +159,8 @@ BakeBytes bytesOf(const Bake& bake) {
     const ClusterTree& t = bake.tree;
     const Caches& c = bake.caches;
     BakeBytes b;
-    b.surfels = surfelArrays(bake.surfels, kBytes) + kBytes(bake.surfels.lightPoints);
+    b.surfels = surfelArrays(bake.surfels, kBytes) +
+                kBytes(bake.surfels.lightPoints, bake.surfels.lightNormals);
     b.clusters = innerNodeArrays(t, kBytes) + kBytes(t.parent, t.skyDirection);
     b.links = kBytes(c.linkBegin, c.linkExponent, c.links, c.shNode, c.shCoefficients);
     b.caches = cacheArrays(c, kBytes) + kBytes(c.fillBegin, c.fillSource, c.fillWeight) +
@@ -179,7 +180,7 @@ BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std:
     const Caches c;
     const std::uint64_t leaves = surfels + kSkyCells, inner = leaves - 1;
     BakeBytes b;
-    b.surfels = surfels * (surfelArrays({}, kBytesPerEntry) + kLightPoints * sizeof(glm::vec3));
+    b.surfels = surfels * (surfelArrays({}, kBytesPerEntry) + kLightPoints * 2 * sizeof(glm::vec3));
     b.clusters = inner * innerNodeArrays(t, kBytesPerEntry) +
                  (leaves + inner) * kBytesPerEntry(t.parent) +
                  kSkyCells * kBytesPerEntry(t.skyDirection);

@@ -36,6 +36,7 @@ void surfelFields(A& a, B& b, const Scene* scene) {
     a("cache", s.cache, rule::count(n), rule::belowOr(b.caches.lightmapCount, ~0U));
     a("cacheWeight", s.cacheWeight, rule::count(n), rule::within(0, 1 + 1e-4));
     a("lightPoints", s.lightPoints, rule::noneOr(n * kLightPoints), rule::inReach());
+    a("lightNormals", s.lightNormals, rule::count(s.lightPoints.size()), rule::unit());
 }
 
 template <class A, class B>

@@ -9,7 +9,7 @@
 
 namespace limn {
 
-static constexpr ChunkFormat kFormat = {kBakeMark, 6};
+static constexpr ChunkFormat kFormat = {kBakeMark, 7};
 
 static constexpr auto kForChunks = [](const auto& visit) { forBakeChunks(nullptr, visit); };
 

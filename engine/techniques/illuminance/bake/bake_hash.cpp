@@ -26,7 +26,7 @@ std::uint64_t Bake::hash() const {
     h = hashLayout(lightmap, h);
     const Surfels& s = surfels;
     h = hashVector(s.position, hashVector(s.normal, hashVector(s.area, hashVector(s.instance, h))));
-    h = hashVector(s.lightPoints, h);
+    h = hashVector(s.lightPoints, hashVector(s.lightNormals, h));
     h = hashVector(s.triangle,
                    hashVector(s.barycentric, hashVector(s.cache, hashVector(s.cacheWeight, h))));
     const ClusterTree& t = tree;

@@ -18,10 +18,10 @@
 #include "engine/techniques/illuminance/bake/receivers/fill_invalid.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
-#include "engine/techniques/illuminance/bake/senders/light_points.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 #include "engine/techniques/illuminance/bake/transport/cut.h"
+#include "engine/techniques/illuminance/bake/transport/light_points.h"
 #include "engine/techniques/illuminance/bake/transport/rooms.h"
 #include "engine/techniques/illuminance/bake/transport/surfel_gain.h"
 #include "engine/techniques/illuminance/bake/transport/trace_record.h"
@@ -137,22 +137,25 @@ SeenPatches seenPatchesStage(BakeRun& run) {
         });
 }
 
-/// Finds where direct light falls on the surfels.
-std::vector<glm::vec3> lightPointsStage(BakeRun& run) {
-    const Surfels& surfels = run.set.surfels;
-    const std::uint64_t key =
-        hashVector(surfels.position, hashVector(surfels.area, hashSenders(run)));
-    return keptOrMade<LightPoints>(
-               run.store, stageKey(Stage::LightPoints, key), run.progress,
-               [&surfels](auto& a, auto& l) {
-                   a("at", l.at, rule::count(surfels.size() * kLightPoints), rule::inReach());
-               },
-               [&] {
-                   LightPoints made = findLightPoints(run.trace, surfels, run.progress);
-                   run.rays += made.rays;
-                   return made;
-               })
-        .at;
+/// Finds where direct light falls on the surfels, among the points that were hit.
+void lightPointsStage(BakeRun& run, const GatherHits& hits, const TraceReport& traced) {
+    Surfels& surfels = run.set.surfels;
+    LightPoints found = keptOrMade<LightPoints>(
+        run.store, stageKey(Stage::LightPoints, traced.key), run.progress,
+        [&surfels](auto& a, auto& l) {
+            a("at", l.at, rule::count(surfels.size() * kLightPoints), rule::inReach());
+            a("normal", l.normal, rule::count(l.at.size()), rule::unit());
+        },
+        [&] {
+            const RayGatherer gatherer(run.trace, run.set, run.bake.caches, run.points, hits.rays,
+                                       *run.owners);
+            LightPoints made = findLightPoints(run.trace, surfels, gatherer, run.bake.caches,
+                                               run.points, hits, run.progress);
+            run.rays += made.rays;
+            return made;
+        });
+    surfels.lightPoints = std::move(found.at);
+    surfels.lightNormals = std::move(found.normal);
 }
 
 /// Traces the training lights' shadow rays, again only near what moved.
@@ -249,9 +252,6 @@ Result<void> placeReceivers(BakeRun& run) {
     if (run.progress.cancelled())
         return cancelled();
     placeSeen(scene, seen, run.set);
-    run.set.surfels.lightPoints = lightPointsStage(run);
-    if (run.progress.cancelled())
-        return cancelled();
     addOwnCaches(scene, layout, seen, run.set.surfels, bake.caches, run.points);
     addGridCaches(bake.gridSize, bake.gridBounds, bake.caches, run.points);
     run.clock.finish("caches");
@@ -269,6 +269,9 @@ Result<TraceReport> traceCaches(BakeRun& run, GatherHits& hits) {
     bake.notes = std::move(traced->notes);
     bake.gridDepth = std::move(traced->gridDepth);
     run.rays += traced->rays;
+    lightPointsStage(run, hits, *traced);
+    if (run.progress.cancelled())
+        return cancelled();
     run.clock.finish("trace");
     return traced;
 }

@@ -28,13 +28,17 @@ struct Surfels {
     /// Caches from which the surfel reads bounced light: four with bilinear weights; ~0: none.
     std::vector<glm::uvec4> cache;
     std::vector<glm::vec4> cacheWeight;
-    /// Points on the surface whose mean direct light is the surfel's, kLightPoints each; empty: its
-    /// position.
-    std::vector<glm::vec3> lightPoints;
+    /// Points on the surface whose mean direct light is the surfel's, kLightPoints each, and the
+    /// unit normals there, on the surfel's side; empty: its own position and normal.
+    std::vector<glm::vec3> lightPoints, lightNormals;
 
     std::size_t size() const { return position.size(); }
     const std::vector<glm::vec3>& litAt() const {
         return lightPoints.empty() ? position : lightPoints;
+    }
+    /// The normals at the points of litAt().
+    const std::vector<glm::vec3>& litNormals() const {
+        return lightPoints.empty() ? normal : lightNormals;
     }
     /// Number of points of litAt() per surfel.
     std::uint32_t litAtEach() const { return lightPoints.empty() ? 1 : kLightPoints; }

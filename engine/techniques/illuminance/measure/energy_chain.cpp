@@ -121,7 +121,22 @@ std::optional<Irradiances> Chain::atTexels() const {
     return done ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// Radiosity of the tree's leaves if surfels receive the path-traced light at their places.
+/// Mean direct irradiance at the surfel's light points.
+glm::vec3 directAt(const TraceScene& trace, const Surfels& s, std::size_t surfel,
+                   std::uint64_t& rays) {
+    const std::uint32_t each = s.litAtEach();
+    glm::vec3 E(0);
+    for (std::size_t k = surfel * each; k < (surfel + 1) * each; ++k) {
+        SurfacePoint p;
+        p.position = s.litAt()[k];
+        p.normal = p.geometricNormal = s.litNormals()[k];
+        E += directIrradiance(trace, p, rays) / float(each);
+    }
+    return E;
+}
+
+/// Radiosity of the tree's leaves if surfels receive direct light at their light points and all
+/// other light, path-traced, at their places.
 std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     const Bake& bake = *bakes.bake;
     const Surfels& s = bake.surfels;
@@ -136,7 +151,7 @@ std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
                 p.position = s.position[i];
                 p.normal = s.normal[i];
                 p.geometricNormal = geometricNormal(trace.scene(), s, std::uint32_t(i));
-                glm::vec3 E = directIrradiance(trace, p, rays);
+                glm::vec3 E = directAt(trace, s, i, rays);
                 for (std::uint32_t k = 0; k < options.paths; ++k)
                     E += truth(p, mixBits(options.seed + 29, std::uint32_t(i)), k) /
                          float(options.paths);

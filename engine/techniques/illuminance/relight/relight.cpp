@@ -285,7 +285,8 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     const bool materialsChanged = updateMaterials(scene);
     const bool skyChanged = updateSky(scene);
     const bool directChanged =
-        updateDirectIrradiance(bake->surfels.litAt(), bake->surfels.normal, scene, trace, direct);
+        updateDirectIrradiance(bake->surfels.litAt(), bake->surfels.litNormals(), scene, trace,
+                               direct, bake->surfels.litAtEach());
     stats.lightsTraced = direct.lightsTraced;
     stats.shadowRays = direct.raysTraced;
     stats.lightsOff = std::uint32_t(scene.lights.size() - direct.lights.size());

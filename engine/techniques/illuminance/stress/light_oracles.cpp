@@ -80,8 +80,8 @@ FirstLight firstLight(const LitScene& s) {
     DirectIrradiance direct;
     std::vector<glm::vec3> albedo;
     surfelMaterials(s.bake->surfels, s.scene, albedo, out.radiosity);
-    updateDirectIrradiance(s.bake->surfels.litAt(), s.bake->surfels.normal, s.scene, *s.trace,
-                           direct);
+    updateDirectIrradiance(s.bake->surfels.litAt(), s.bake->surfels.litNormals(), s.scene, *s.trace,
+                           direct, s.bake->surfels.litAtEach());
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         out.radiosity[i] += albedo[i] * direct.irradiance[i];
         out.maxAlbedo = std::max(out.maxAlbedo, largest(albedo[i]));

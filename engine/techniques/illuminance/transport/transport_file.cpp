@@ -173,6 +173,7 @@ void addSenders(const TransportInput& in, TransportSections& out) {
                 weight[k][j] = 0;
     out.add("SPOS", s.position);
     out.add("SLPT", s.lightPoints);
+    out.add("SLNM", s.lightNormals);
     out.add("SNRM", s.normal);
     out.add("SALB", albedo);
     out.add("SEMI", emission);

@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "sections are written as in memory");
 
 constexpr std::size_t kAlignment = 64;
-constexpr std::uint32_t kMajor = 2, kMinor = 1;
+constexpr std::uint32_t kMajor = 2, kMinor = 2;
 
 struct Header {
     char magic[8] = {'L', 'I', 'M', 'N', 'R', 'T', '\r', '\n'};

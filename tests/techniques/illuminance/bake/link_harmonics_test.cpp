@@ -69,11 +69,26 @@ TEST(LinkHarmonics, OfASampleWithAConeAreTheCones) {
         EXPECT_NEAR(c[i], 0.25f * g[int(std::sqrt(i))] * y[i], 1e-6f) << i;
 }
 
+// Two faces of a gable roof: light from the zenith meets both at 45 degrees, light along the
+// ridge's side only one.
+TEST(IrradianceAxis, IsTheMeanOfSeveralNormals) {
+    const float a = std::sqrt(0.5f);
+    const std::vector<glm::vec3> roof = {{a, a, 0}, {-a, a, 0}};
+    for (const glm::vec3 direction : {glm::vec3(0, 1, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1)}) {
+        float sh[9];
+        shBasis(3, direction, sh);
+        double mean = 0;
+        for (const glm::vec3& n : roof)
+            mean += double(IrradianceAxis(3, {&n, 1}).irradiance(sh)) / 2;
+        EXPECT_NEAR(IrradianceAxis(3, roof).irradiance(sh), mean, 1e-6);
+    }
+}
+
 TEST(IrradianceAxis, ScalesToTheIrradianceWithinBounds) {
     const glm::vec3 n = glm::normalize(glm::vec3(0.2f, 0.9f, -0.4f)),
                     beside = glm::normalize(glm::cross(n, glm::vec3(1, 0, 0)));
     for (const int bands : {2, 3}) {
-        const IrradianceAxis axis(bands, n);
+        const IrradianceAxis axis(bands, {&n, 1});
         const auto of = [&](glm::vec3 direction) {
             std::array<float, 9> c{};
             addHarmonics(bands, direction, 0, 0.1f, c.data());

@@ -124,11 +124,12 @@ TEST_F(ViewportSurfelLight, ThatOfARectangleDiffersFromThatOfRaysByTheNoiseOfIts
     const LightRectangle rectangle = lightRectangle(shaded.lights[0]);
     std::vector<float> truth;
     std::uint64_t rays = 0;
-    const std::vector<glm::vec3>& at = made->surfels.lightPoints;
+    const std::vector<glm::vec3>&at = made->surfels.lightPoints,
+          &normal = made->surfels.lightNormals;
     const auto meanOver = [&](std::size_t surfel, const auto& lightAt) {
         float sum = 0;
         for (std::size_t k = 0; k < kLightPoints; ++k)
-            sum += lightAt(at[surfel * kLightPoints + k], made->surfels.normal[surfel]);
+            sum += lightAt(at[surfel * kLightPoints + k], normal[surfel * kLightPoints + k]);
         return sum / float(kLightPoints);
     };
     for (std::size_t i = 0; i < made->surfels.size(); ++i)

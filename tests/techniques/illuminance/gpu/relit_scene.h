@@ -34,7 +34,8 @@ inline std::vector<glm::vec3> radiosityOf(const Relighter& relighter) {
 inline SurfelValues surfelValues(const Bake& bake, const Scene& scene, const TraceScene& trace) {
     SurfelValues out;
     DirectIrradiance light;
-    updateDirectIrradiance(bake.surfels.litAt(), bake.surfels.normal, scene, trace, light);
+    updateDirectIrradiance(bake.surfels.litAt(), bake.surfels.litNormals(), scene, trace, light,
+                           bake.surfels.litAtEach());
     out.direct = light.irradiance;
     surfelMaterials(bake.surfels, scene, out.albedo, out.emitted);
     out.sky = skyRadiosity(bake.tree, scene.sky);

@@ -50,6 +50,7 @@ protected:
         // Shadow maps and rays differ at points that touch the walls beside them; the middles do
         // not.
         made->surfels.lightPoints.clear();
+        made->surfels.lightNormals.clear();
         layout = std::shared_ptr<LightmapLayout>(made, &made->lightmap);
         relighter = create();
         cpu = std::make_unique<Relighter>(made);

@@ -21,6 +21,7 @@ inline std::shared_ptr<const Bake> bakeOf(const TraceScene& trace) {
 inline std::shared_ptr<const Bake> bakeOfMiddles(const TraceScene& trace) {
     Bake made = *bakeOf(trace);
     made.surfels.lightPoints.clear();
+    made.surfels.lightNormals.clear();
     return std::make_shared<const Bake>(std::move(made));
 }
 

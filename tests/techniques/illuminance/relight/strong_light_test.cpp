@@ -16,7 +16,7 @@ TEST(StrongLight, StaysWithinFloat) {
     const TraceScene trace{scene};
     const auto made = std::make_shared<const Bake>(*bake(trace));
     Light strong{.color = glm::vec3(kMaxLight), .strength = kMaxLight};
-    strong.position = made->surfels.lightPoints[0] + 8e-7f * made->surfels.normal[0];
+    strong.position = made->surfels.lightPoints[0] + 8e-7f * made->surfels.lightNormals[0];
     scene.lights.assign(50, strong);
     for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Rectangle}) {
         scene.lights.push_back(strong);

@@ -109,7 +109,8 @@ TEST(TransportFile, RelightsThroughAWindowInEveryNumberOfBands) {
 std::string withoutLightPoints(std::string file) {
     file[12] = 0; // the minor version
     changeSection(file, "DIMS", [](std::string& dims) { dims.replace(4 * 21, 4, 4, '\0'); });
-    file.replace(sectionOf(file, "SLPT").entry, 4, "NONE"); // a tag that readers skip
+    file.replace(sectionOf(file, "SLPT").entry, 4, "NON1"); // tags that readers skip
+    file.replace(sectionOf(file, "SLNM").entry, 4, "NON2");
     rehash(file);
     return file;
 }

@@ -30,17 +30,20 @@ glm::vec3 geometricNormal(const Scene& scene, const Surfels& surfels, std::uint3
     return front == glm::vec3(0) ? surfels.normal[surfel] : sideOf(surfels, surfel, front) * front;
 }
 
+glm::vec3 vertexNormal(const Scene& scene, const Surfels& surfels, std::uint32_t surfel) {
+    const Instance& instance = scene.instances[surfels.instance[surfel]];
+    const glm::vec3 front = frontNormal(scene, surfels, surfel);
+    if (front == glm::vec3(0))
+        return surfels.normal[surfel];
+    return sideOf(surfels, surfel, front) * shadingNormal(scene.meshOf(instance), instance,
+                                                          surfels.triangle[surfel],
+                                                          surfels.barycentric[surfel], front);
+}
+
 void shade(const Scene& scene, Surfels& surfels) {
     parallelRanges(surfels.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (auto s = std::uint32_t(begin); s < end; ++s) {
-            const Instance& instance = scene.instances[surfels.instance[s]];
-            const glm::vec3 front = frontNormal(scene, surfels, s);
-            if (front != glm::vec3(0))
-                surfels.normal[s] =
-                    sideOf(surfels, s, front) * shadingNormal(scene.meshOf(instance), instance,
-                                                              surfels.triangle[s],
-                                                              surfels.barycentric[s], front);
-        }
+        for (auto s = std::uint32_t(begin); s < end; ++s)
+            surfels.normal[s] = vertexNormal(scene, surfels, s);
     });
 }
 

@@ -2,12 +2,12 @@
 #include "engine/techniques/illuminance/bake/transport/cut.h"
 
 #include "engine/core/parallel.h"
-#include "engine/math/cone.h"
 #include "engine/math/sh.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/transport/cut_worth.h"
 #include "engine/techniques/illuminance/bake/transport/link_harmonics.h"
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/bake/transport/seen_hits.h"
 #include "engine/techniques/illuminance/bake/transport/visible_tree.h"
 
 #include <algorithm>
@@ -34,27 +34,18 @@ Cone makeCone(std::uint32_t node, const Sight& s) {
 }
 
 /// Scales each link of a surface cache so that its sender brings, through the SH, exactly the
-/// cosine-weighted irradiance of its rays to a surface of the cache's own normal. Three bands of
-/// the clamped cosine are 6 % too strong for light along the normal, 8 % too weak at 60 degrees and
-/// leave 9 % at 90, and a round cone is too tall for a cluster seen along the surface. Without this
-/// a wall lit from the side comes out up to a tenth too bright. The factor differs from 1 by no
-/// more than those errors of the truncated series; radiance seen by other normals changes as much.
-void matchIrradiance(int bands, glm::vec3 normal, std::vector<Cone>& cones) {
-    const auto factors = irradianceFactors();
-    float axis[kMaxCoefficients], y[kMaxCoefficients], g[kMaxBands];
-    shBasis(bands, normal, axis);
+/// cosine-weighted irradiance of its rays to the surface at the cache's points, as a mean. Three
+/// bands of the clamped cosine are 6 % too strong for light along the normal, 8 % too weak at 60
+/// degrees and leave 9 % at 90, and a round cone is too tall for a cluster seen along the surface.
+/// Without this a wall lit from the side comes out up to a tenth too bright. The factor differs
+/// from 1 by no more than those errors of the truncated series; radiance seen by other normals
+/// changes as much.
+void matchIrradiance(int bands, const IrradianceAxis& axis, std::vector<Cone>& cones) {
+    float c[kMaxCoefficients];
     for (Cone& cone : cones) {
-        shBasis(bands, cone.direction, y);
-        coneFactors(bands, cone.u, g);
-        float series = 0;
-        for (int l = 0, i = 0; l < bands; ++l) {
-            float band = 0;
-            for (; i < (l + 1) * (l + 1); ++i)
-                band += y[i] * axis[i];
-            series += factors[std::size_t(l)] * g[l] * band;
-        }
-        const float seen = cone.transport * series;
-        cone.transport *= seen > 0 ? std::min(cone.irradiance / seen, IrradianceAxis::kMaxGain) : 1;
+        std::fill_n(c, bands * bands, 0.f);
+        addHarmonics(bands, cone.direction, cone.u, cone.transport, c);
+        cone.transport *= axis.gainTo(cone.irradiance, c);
     }
 }
 
@@ -62,12 +53,6 @@ glm::mat3 turnAboutZ(float turns) {
     const float angle = 2 * std::numbers::pi_v<float> * turns;
     const float c = std::cos(angle), s = std::sin(angle);
     return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
-}
-
-/// Irradiance from a sender of radiosity 1, divided by its solid angle / pi; for a cell of the
-/// grid, half the mean over all normals that see it.
-float irradianceShare(CacheKind kind, float cosTheta) {
-    return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
 }
 
 /// The directions of a cache's rays, without its own rotation about z and its surface's frame.
@@ -139,6 +124,19 @@ public:
     }
 
 private:
+    /// Of a surface cache, for the mean irradiance of its points that are not buried: where a texel
+    /// covers a fold or a column, they face different ways.
+    IrradianceAxis axisOf(std::uint32_t cache) {
+        const std::uint32_t first = in.points.begin[cache],
+                            count = in.points.begin[cache + 1] - first;
+        const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * in.hits.rays;
+        m_normals.clear();
+        for (std::uint32_t k = 0; k < count && k < in.hits.rays; ++k)
+            if (sender[k] != GatherHits::kLeftOut) // ray k is the first of point k
+                m_normals.push_back(in.points.normal[first + k]);
+        return {std::min(in.settings.bands, kIrradianceBands), m_normals};
+    }
+
     /// Calls visit(sender, Sight of the sample, u of the cone that it stands for) for rays and
     /// aimed samples.
     template <class Visit>
@@ -187,8 +185,7 @@ private:
 
     PackedLinks packOwnCones(const Caches& caches, std::uint32_t cache) {
         if (caches.kind[cache] == CacheKind::Hemisphere)
-            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), caches.normal[cache],
-                            m_cones);
+            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), axisOf(cache), m_cones);
         return packCones(m_cones);
     }
 
@@ -203,7 +200,7 @@ private:
                          m_harmonics.data() + m_linkOf[sender] * stride);
         });
         if (caches.kind[cache] == CacheKind::Hemisphere) {
-            const IrradianceAxis axis(std::min(bands, kIrradianceBands), caches.normal[cache]);
+            const IrradianceAxis axis = axisOf(cache);
             for (std::size_t k = 0; k < m_cones.size(); ++k) {
                 float* own = m_harmonics.data() + k * stride;
                 const float gain = axis.gainTo(m_cones[k].irradiance, own);
@@ -260,6 +257,7 @@ private:
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
     std::vector<Cone> m_cones;
+    std::vector<glm::vec3> m_normals; ///< of one cache's points
     // For LinkStorage::Sh only:
     std::vector<float> m_harmonics;         ///< bands^2 for each of m_cones
     std::vector<std::uint32_t> m_linkOf;    ///< per node of the ClusterTree
@@ -328,24 +326,17 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
                                 const CachePoints& points, const Caches& caches,
                                 const ClusterTree& tree) {
     std::vector<double> seen(tree.leaves());
-    for (std::uint32_t c = 0; c < caches.size(); ++c) {
-        const CacheKind kind = caches.kind[c];
-        const auto weight = double(points.weightOf(c));
-        const bool sphere = kind != CacheKind::Hemisphere;
-        const DirectionSet rays(hits.rays, sphere, 0); // the rotation changes no height
-        const std::uint32_t* sender = hits.sender.data() + std::size_t(c) * hits.rays;
-        const auto kept =
-            hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
-        for (std::uint32_t r = 0; r < hits.rays; ++r)
-            if (sender[r] < GatherHits::kFirstMark)
-                seen[sender[r]] += weight * double((sphere ? 4.f : 2.f) / float(kept) *
-                                                   irradianceShare(kind, rays.height(r)));
+    forEachSeenHit(hits, points, caches,
+                   [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
+                       seen[sender] += weight;
+                   });
+    for (std::uint32_t c = 0; c < caches.size(); ++c)
         for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
+            const CacheKind kind = caches.kind[c];
             const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
-            seen[hits.aimed[k].sender] +=
-                weight * double(v.transport * irradianceShare(kind, v.cosTheta));
+            seen[hits.aimed[k].sender] += double(points.weightOf(c)) *
+                                          double(v.transport * irradianceShare(kind, v.cosTheta));
         }
-    }
     return {seen.begin(), seen.end()};
 }
 

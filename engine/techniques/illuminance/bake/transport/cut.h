@@ -46,8 +46,9 @@ struct CutSettings {
 /// harmonics of the rays themselves, which are more accurate (`limn bench links`).
 ///
 /// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
-/// irradiance of its rays at the surface's own normal under any light. `linked`, if not null,
-/// receives per node of the tree what a radiosity of 1 brings through all links to it, summed.
+/// irradiance of its rays at the surface's own normals, as a mean over the cache's points, under
+/// any light. `linked`, if not null, receives per node of the tree what a radiosity of 1 brings
+/// through all links to it, summed.
 bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches,

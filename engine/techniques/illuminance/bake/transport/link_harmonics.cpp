@@ -22,13 +22,16 @@ void addHarmonics(int bands, glm::vec3 direction, float u, float transport, floa
     });
 }
 
-IrradianceAxis::IrradianceAxis(int bands, glm::vec3 normal) : m_count(bands * bands) {
+IrradianceAxis::IrradianceAxis(int bands, std::span<const glm::vec3> normals)
+    : m_count(bands * bands), m_axis{} {
     const auto factors = irradianceFactors();
-    float y[kMaxCoefficients];
-    shBasis(bands, normal, y);
-    for (int l = 0, i = 0; l < bands; ++l)
-        for (; i < (l + 1) * (l + 1); ++i)
-            m_axis[i] = factors[std::size_t(l)] * y[i];
+    for (const glm::vec3 normal : normals) {
+        float y[kMaxCoefficients];
+        shBasis(bands, normal, y);
+        for (int l = 0, i = 0; l < bands; ++l)
+            for (; i < (l + 1) * (l + 1); ++i)
+                m_axis[i] += factors[std::size_t(l)] * y[i] / float(normals.size());
+    }
 }
 
 float IrradianceAxis::irradiance(const float* coefficients) const {

@@ -3,6 +3,8 @@
 
 #include "engine/math/sh.h"
 
+#include <span>
+
 #include <glm/vec3.hpp>
 
 namespace limn {
@@ -15,14 +17,15 @@ namespace limn {
 /// with Chrominance Compression. 2016, eq. 2 and appendix A
 void addHarmonics(int bands, glm::vec3 direction, float u, float transport, float* coefficients);
 
-/// Irradiance of a surface as a linear function of SH coefficients: sum_i a_i c_i with a_i = A_l
-/// Y_i(normal). The series is too short to be exact for one link.
+/// Mean irradiance of surfaces of some unit normals as a linear function of SH coefficients: sum_i
+/// a_i c_i, where a_i is the mean of A_l Y_i(normal). The series is too short to be exact for one
+/// link.
 class IrradianceAxis {
 public:
     static constexpr float kMaxGain = 2; ///< for the near-zero series along the surface
 
-    /// bands in [2, kIrradianceBands].
-    IrradianceAxis(int bands, glm::vec3 normal);
+    /// bands in [2, kIrradianceBands]; at least one normal.
+    IrradianceAxis(int bands, std::span<const glm::vec3> normals);
 
     /// Irradiance of unscaled coefficients.
     float irradiance(const float* coefficients) const;
