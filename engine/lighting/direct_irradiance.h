@@ -40,10 +40,10 @@ struct DirectIrradiance {
 };
 
 /// Brings `state` up to date with the scene's lights at positions with unit normals, on the side
-/// that is lit. `each` positions, one after the other, make one of the points of `state`, whose
-/// light is their mean. Lights that are off, black, of no strength, out of reach of every
-/// point, or unchanged cost nothing. Returns true if any irradiance changed. The points are the
-/// same at every call with that state.
+/// that is lit. Every `each` positions in turn form one point, whose light is the mean over them.
+/// Lights that are off, black, of no strength, out of reach of every point, or unchanged cost
+/// nothing. Returns true if any irradiance changed. The points are the same at every call with that
+/// state.
 bool updateDirectIrradiance(std::span<const glm::vec3> positions,
                             std::span<const glm::vec3> normals, const Scene& scene,
                             const TraceScene& trace, DirectIrradiance& state,

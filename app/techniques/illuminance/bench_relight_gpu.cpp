@@ -3,9 +3,9 @@
 
 #include "engine/field/grid_placement.h"
 #include "engine/gpu/device.h"
-#include "engine/lighting/direct_irradiance.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/gpu/gpu_relight.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 
 #include <chrono>
@@ -34,8 +34,7 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
         const Scene lit = sceneAt(k);
         const TraceScene moved(lit, trace);
         const auto start = std::chrono::steady_clock::now();
-        updateDirectIrradiance(bake->surfels.litAt(), bake->surfels.litNormals(), lit, moved, light,
-                               bake->surfels.litAtEach());
+        updateDirectIrradiance(bake->surfels, lit, moved, light);
         const std::chrono::duration<double, std::milli> traced =
             std::chrono::steady_clock::now() - start;
         const GpuRelightStats g = (*relighter)

@@ -4,8 +4,8 @@
 #include "engine/core/log.h"
 #include "engine/field/grid_placement.h"
 #include "engine/gpu/device.h"
-#include "engine/lighting/direct_irradiance.h"
 #include "engine/techniques/illuminance/gpu/gpu_relight.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 
 #include <algorithm>
@@ -48,8 +48,7 @@ Judgement judgeDevice(gpu::Device& device, const Subject& subject) {
         return broken();
     DirectIrradiance light;
     std::vector<glm::vec3> albedo, emitted;
-    updateDirectIrradiance(bake.surfels.litAt(), bake.surfels.litNormals(), s.scene, *s.trace,
-                           light, bake.surfels.litAtEach());
+    updateDirectIrradiance(bake.surfels, s.scene, *s.trace, light);
     surfelMaterials(bake.surfels, s.scene, albedo, emitted);
     const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, s.scene.sky);
     const std::uint32_t bounces = std::min(s.scene.relight.maxBounces, kBounces);

@@ -135,8 +135,8 @@ glm::vec3 directAt(const TraceScene& trace, const Surfels& s, std::size_t surfel
     return E;
 }
 
-/// Radiosity of the tree's leaves if surfels receive direct light at their light points and all
-/// other light, path-traced, at their places.
+/// Radiosity of the tree's leaves if surfels receive the path-traced light: direct light at their
+/// light points, all other light at their places.
 std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     const Bake& bake = *bakes.bake;
     const Surfels& s = bake.surfels;

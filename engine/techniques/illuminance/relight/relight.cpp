@@ -5,11 +5,11 @@
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/field/grid_placement.h"
-#include "engine/lighting/direct_irradiance.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/relight/surfel_read.h"
 
@@ -284,9 +284,7 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     Stopwatch timer;
     const bool materialsChanged = updateMaterials(scene);
     const bool skyChanged = updateSky(scene);
-    const bool directChanged =
-        updateDirectIrradiance(bake->surfels.litAt(), bake->surfels.litNormals(), scene, trace,
-                               direct, bake->surfels.litAtEach());
+    const bool directChanged = updateDirectIrradiance(bake->surfels, scene, trace, direct);
     stats.lightsTraced = direct.lightsTraced;
     stats.shadowRays = direct.raysTraced;
     stats.lightsOff = std::uint32_t(scene.lights.size() - direct.lights.size());

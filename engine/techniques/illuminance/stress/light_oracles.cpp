@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/sample_field.h"
-#include "engine/lighting/direct_irradiance.h"
 #include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/stress/oracle.h"
 
@@ -80,8 +80,7 @@ FirstLight firstLight(const LitScene& s) {
     DirectIrradiance direct;
     std::vector<glm::vec3> albedo;
     surfelMaterials(s.bake->surfels, s.scene, albedo, out.radiosity);
-    updateDirectIrradiance(s.bake->surfels.litAt(), s.bake->surfels.litNormals(), s.scene, *s.trace,
-                           direct, s.bake->surfels.litAtEach());
+    updateDirectIrradiance(s.bake->surfels, s.scene, *s.trace, direct);
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         out.radiosity[i] += albedo[i] * direct.irradiance[i];
         out.maxAlbedo = std::max(out.maxAlbedo, largest(albedo[i]));

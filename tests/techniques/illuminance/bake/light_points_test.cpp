@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -16,6 +16,14 @@ namespace limn::light_points_test {
 namespace {
 
 using namespace simple;
+
+/// Throws where the bake fails, which ends the test.
+Surfels bakedSurfels(const Scene& scene) {
+    Result<Bake> made = bake(TraceScene(scene));
+    if (!made)
+        throw std::runtime_error(made.error().message);
+    return std::move(made->surfels);
+}
 
 std::vector<glm::vec3> lightAt(const Scene& scene, const std::vector<glm::vec3>& at,
                                const std::vector<glm::vec3>& normals, std::uint32_t each) {
@@ -64,10 +72,7 @@ TEST(LightPoints, StripsOfSunLightAFloorByTheirShare) {
     double errors = 0, atMiddle = 0;
     for (float period = 0.2f; period < 0.8f; period += 0.05f) {
         const Scene scene = slats(period);
-        const TraceScene trace(scene);
-        const Result<Bake> made = bake(trace);
-        ASSERT_TRUE(made) << made.error().message;
-        const Surfels& surfels = made->surfels;
+        const Surfels surfels = bakedSurfels(scene);
         ASSERT_EQ(surfels.lightPoints.size(), surfels.size() * kLightPoints);
         const auto error = [&](const std::vector<glm::vec3>& direct) {
             double flux = 0, area = 0;
@@ -89,10 +94,7 @@ TEST(LightPoints, StripsOfSunLightAFloorByTheirShare) {
 
 TEST(LightPoints, LieOnTheSurfaceAroundTheSurfel) {
     const Scene scene = partedHall(0.1f, 400);
-    const TraceScene trace(scene);
-    const Result<Bake> made = bake(trace);
-    ASSERT_TRUE(made) << made.error().message;
-    const Surfels& s = made->surfels;
+    const Surfels s = bakedSurfels(scene);
     ASSERT_EQ(s.lightNormals.size(), s.lightPoints.size());
     std::size_t away = 0;
     for (std::size_t k = 0; k < s.lightPoints.size(); ++k) {
@@ -116,10 +118,7 @@ TEST(LightPoints, LieUnderAPlateAsOftenAsItCoversTheFloor) {
     scene.bake.surfels = 200;
     scene.bake.lightmapCaches = 4000;
     scene.bake.rays = 256;
-    const TraceScene trace(scene);
-    const Result<Bake> made = bake(trace);
-    ASSERT_TRUE(made) << made.error().message;
-    const Surfels& s = made->surfels;
+    const Surfels s = bakedSurfels(scene);
     double covered = 0, all = 0;
     for (std::size_t k = 0; k < s.lightPoints.size(); ++k) {
         const std::size_t surfel = k / kLightPoints;
@@ -142,10 +141,7 @@ TEST(LightPoints, HaveTheNormalsOfTheirOwnPlaces) {
     scene.bake.surfels = 300;
     scene.bake.lightmapCaches = 2000;
     scene.bake.rays = 256;
-    const TraceScene trace(scene);
-    const Result<Bake> made = bake(trace);
-    ASSERT_TRUE(made) << made.error().message;
-    const Surfels& s = made->surfels;
+    const Surfels s = bakedSurfels(scene);
     std::size_t onBall = 0;
     for (std::size_t k = 0; k < s.lightPoints.size(); ++k)
         if (s.instance[k / kLightPoints] == 0) {
@@ -160,10 +156,7 @@ TEST(LightPoints, HaveTheNormalsOfTheirOwnPlaces) {
 TEST(LightPoints, LieOnOneSideOfAWall) {
     for (const float wall : {0.f, 0.01f}) {
         const Scene scene = partedHall(wall, 400);
-        const TraceScene trace(scene);
-        const Result<Bake> made = bake(trace);
-        ASSERT_TRUE(made) << made.error().message;
-        const Surfels& s = made->surfels;
+        const Surfels s = bakedSurfels(scene);
         const std::vector<glm::vec3> direct = directLight(scene, s);
         for (std::size_t i = 0; i < s.size(); ++i)
             if (s.position[i].x < 3.69f) {

@@ -69,8 +69,8 @@ TEST(LinkHarmonics, OfASampleWithAConeAreTheCones) {
         EXPECT_NEAR(c[i], 0.25f * g[int(std::sqrt(i))] * y[i], 1e-6f) << i;
 }
 
-// Two faces of a gable roof: light from the zenith meets both at 45 degrees, light along the
-// ridge's side only one.
+// The two faces of a gable roof. Light from the zenith meets both at 45 degrees, and light from the
+// side meets one of them.
 TEST(IrradianceAxis, IsTheMeanOfSeveralNormals) {
     const float a = std::sqrt(0.5f);
     const std::vector<glm::vec3> roof = {{a, a, 0}, {-a, a, 0}};

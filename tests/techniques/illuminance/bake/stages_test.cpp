@@ -116,9 +116,10 @@ TEST(Stages, TheHashOfABakesInputsHasEverySettingThatABakeDependsOnAndNoOther) {
 }
 
 /// About the number of rays that find where direct light falls on surfels, again whenever other
-/// rays meet them: one for each candidate, and three to see that no wall hides a chosen one.
+/// rays meet them: one for each candidate, two to raise the surfel's place, and two to see that no
+/// wall hides a chosen point.
 std::uint64_t lightPointRaysOf(const Bake& made) {
-    return std::uint64_t(kLightCandidates + 3 * kLightPoints) * made.surfels.size();
+    return std::uint64_t(kLightCandidates + 2 + 2 * kLightPoints) * made.surfels.size();
 }
 
 TEST(Stages, OtherRaysTraceEverything) {

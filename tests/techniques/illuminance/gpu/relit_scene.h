@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/lighting/direct_irradiance.h"
 #include "engine/techniques/illuminance/gpu/gpu_relight.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "tests/gpu/test_device.h"
 #include "tests/trace/simple_scene.h"
@@ -34,8 +34,7 @@ inline std::vector<glm::vec3> radiosityOf(const Relighter& relighter) {
 inline SurfelValues surfelValues(const Bake& bake, const Scene& scene, const TraceScene& trace) {
     SurfelValues out;
     DirectIrradiance light;
-    updateDirectIrradiance(bake.surfels.litAt(), bake.surfels.litNormals(), scene, trace, light,
-                           bake.surfels.litAtEach());
+    updateDirectIrradiance(bake.surfels, scene, trace, light);
     out.direct = light.irradiance;
     surfelMaterials(bake.surfels, scene, out.albedo, out.emitted);
     out.sky = skyRadiosity(bake.tree, scene.sky);

@@ -59,6 +59,17 @@ struct LitPoint {
     std::uint32_t order = 0; ///< along a Morton curve
 };
 
+/// Heights above the surface at which walls are looked for: closely above it, where a segment
+/// passes below what covers one of its ends, and higher up, where it passes over steps [patches'
+/// width].
+constexpr std::array<float, 2> kHeights = {0.05f, 0.5f};
+
+/// A surfel's place, and that place raised by each of kHeights.
+struct Middle {
+    LitPoint place;
+    std::array<glm::vec3, kHeights.size()> raised;
+};
+
 /// Chooses the light points of one surfel after another. `rays` counts those traced.
 struct Finder {
     const TraceScene& trace;
@@ -68,7 +79,7 @@ struct Finder {
 
     LitPoint pointOf(const CacheRay& of, const LitPoint& place, std::uint32_t s);
     glm::vec3 raised(const LitPoint& point, std::uint32_t s, float height);
-    bool isTogether(const LitPoint& point, const LitPoint& place, std::uint32_t s);
+    bool isTogether(const LitPoint& point, const Middle& middle, std::uint32_t s);
     std::array<LitPoint, kLightPoints> find(const CandidateRays& chosen, std::uint32_t s);
 };
 
@@ -93,24 +104,22 @@ LitPoint Finder::pointOf(const CacheRay& of, const LitPoint& place, std::uint32_
     return point;
 }
 
-/// `height`: in patches' width, or half of what is free above the point.
+/// Raises a point by `height` [patches' width], or by half of what is free above it.
 glm::vec3 Finder::raised(const LitPoint& point, std::uint32_t s, float height) {
     ++rays;
     return raise(trace, {point.position, point.normal}, height * std::sqrt(surfels.area[s]))
         .position;
 }
 
-/// Whether no wall stands between the point and the surfel's place: a segment closely above the
-/// surface leads below what covers one of them, a higher one across steps of the surface.
-bool Finder::isTogether(const LitPoint& point, const LitPoint& place, std::uint32_t s) {
+/// Whether no wall stands between the point and the surfel's place.
+bool Finder::isTogether(const LitPoint& point, const Middle& middle, std::uint32_t s) {
     constexpr float kAlike = 0.5f; // cosine of 60 degrees
-    for (const float height : {0.05f, 0.5f}) {
+    for (std::size_t k = 0; k < kHeights.size(); ++k) {
         ++rays;
-        if (clearAlong(trace, raised(point, s, height), raised(place, s, height),
-                       [&](const Hit& hit) {
-                           return hit.instance == surfels.instance[s] &&
-                                  std::abs(glm::dot(hit.geometricNormal, place.normal)) > kAlike;
-                       }))
+        if (clearAlong(trace, raised(point, s, kHeights[k]), middle.raised[k], [&](const Hit& hit) {
+                return hit.instance == surfels.instance[s] &&
+                       std::abs(glm::dot(hit.geometricNormal, middle.place.normal)) > kAlike;
+            }))
             return true;
     }
     return false;
@@ -120,7 +129,10 @@ bool Finder::isTogether(const LitPoint& point, const LitPoint& place, std::uint3
 /// behind a wall, the next one in this fourth.
 std::array<LitPoint, kLightPoints> Finder::find(const CandidateRays& chosen, std::uint32_t s) {
     constexpr std::uint32_t kStratum = kLightCandidates / kLightPoints;
-    const LitPoint place{surfels.position[s], vertexNormal(trace.scene(), surfels, s)};
+    Middle middle{{surfels.position[s], vertexNormal(trace.scene(), surfels, s)}, {}};
+    const LitPoint& place = middle.place;
+    for (std::size_t k = 0; k < kHeights.size(); ++k)
+        middle.raised[k] = raised(place, s, kHeights[k]);
     std::array<LitPoint, kLightCandidates> found;
     std::ranges::transform(chosen, found.begin(),
                            [&](const CacheRay& of) { return pointOf(of, place, s); });
@@ -131,7 +143,7 @@ std::array<LitPoint, kLightPoints> Finder::find(const CandidateRays& chosen, std
         const std::uint32_t first = mixBits(s * kLightPoints + k);
         for (std::uint32_t i = 0; i < kStratum; ++i) {
             const LitPoint& point = found[k * kStratum + (first + i) % kStratum];
-            if (!isTogether(point, place, s))
+            if (!isTogether(point, middle, s))
                 continue;
             result[k] = point;
             break;

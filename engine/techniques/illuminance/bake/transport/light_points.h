@@ -22,13 +22,14 @@ struct LightPoints {
 /// chosen with probability in proportion to what they bring to the caches. The mean over them is an
 /// unbiased estimate of the direct light that the caches see on the patch. A mean over the patch's
 /// area is not what they see: half of them may look at the shaded strip under a moulding that
-/// covers a tenth of it. Points that a wall parts from the surfel's own place do not count; surfels
-/// without others have their own place.
+/// covers a tenth of it. Points that a wall separates from the surfel's place do not count; a
+/// surfel without others has its place alone.
 ///
-/// kLightCandidates rays are chosen by systematic sampling and traced again, because hits keep no
-/// positions. Ordered along a curve through space, every fourth of their points is taken at random
-/// (stratified sampling), so that an edge of a shadow adds little noise. `hits`:
-/// from traceHits(); `surfels` with the triangles' normals. Meaningless when cancelled.
+/// kLightCandidates of the rays are chosen by systematic sampling and traced again, since
+/// GatherHits stores no positions. Their points are sorted along a Morton curve, and a random one
+/// is taken of every four in turn (stratified sampling), so that an edge of a shadow adds little
+/// noise. `hits`: from traceHits(); `surfels` with the triangles' normals. Meaningless when
+/// cancelled.
 LightPoints findLightPoints(const TraceScene& trace, const Surfels& surfels,
                             const RayGatherer& gatherer, const Caches& caches,
                             const CachePoints& points, const GatherHits& hits,
