@@ -10,6 +10,7 @@
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
+#include "engine/techniques/illuminance/bake/transport/cut_worth.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
 #include "engine/techniques/illuminance/bake/transport/training_light.h"
@@ -141,9 +142,8 @@ std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const
                  training = detail ? surfels * sizeof(float) *
                                          (2 * TrainingLight::kCount + TracedTraining::kCount)
                                    : 0,
-                 worth = detail ? caches * e.leaves * sizeof(float) : 0,
-                 links = double(p.bytes.links),
-                 packed = links + caches * (e.links * sizeof(float) + sizeof(PackedLinks));
+                 worth = detail ? caches * e.leaves * (sizeof(float) + sizeof(Representative)) : 0,
+                 links = double(p.bytes.links), packed = links + caches * sizeof(PackedLinks);
     // The worth of refinements reuses the memory of the looks. A stage is stored as an archive that
     // is then compressed into a string that grows by doubling; so is the bake, part by part.
     const double trace = before + looks + hits + (stored ? 4 : 1) * aimed,

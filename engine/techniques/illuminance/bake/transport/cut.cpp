@@ -94,20 +94,21 @@ public:
     /// After look(): number of visible leaves.
     std::uint32_t leaves() const { return m_seen.leaves(); }
 
-    /// After look(): worth of each refinement.
-    const std::vector<float>& weigh() {
+    /// After look(): worth and representative of each inner node.
+    const CutChoices& weigh() {
         if (in.settings.criterion == CutCriterion::SolidAngle)
             m_worth.bySolidAngle(m_seen);
         else
             m_worth.byDetail(m_seen, in.training);
-        return m_worth.worth();
+        return m_worth.choices();
     }
 
     /// After look(): applies the refinements worth more than `bound`, at most the best `maxLinks` -
     /// 1 of them.
-    PackedLinks link(const Caches& caches, std::uint32_t cache, const std::vector<float>& worth,
+    PackedLinks link(const Caches& caches, std::uint32_t cache, const CutChoices& choices,
                      float bound, std::uint32_t maxLinks) {
-        chooseRefined(worth, bound, maxLinks);
+        chooseRefined(choices.worth, bound, maxLinks);
+        findRead(choices.representative);
         m_cones.clear();
         put(m_seen.size() - 1);
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
@@ -116,14 +117,32 @@ public:
         std::sort(m_cones.begin(), m_cones.end(), [&](const Cone& a, const Cone& b) {
             return std::pair(in.sky[a.node], a.node) < std::pair(in.sky[b.node], b.node);
         });
-        PackedLinks packed = in.settings.storage == LinkStorage::Sh ? projectSamples(caches, cache)
-                                                                    : packOwnCones(caches, cache);
-        for (const Cone& cone : m_cones)
-            packed.irradiance.push_back(cone.irradiance);
-        return packed;
+        return in.settings.storage == LinkStorage::Sh ? projectSamples(caches, cache)
+                                                      : packOwnCones(caches, cache);
+    }
+
+    /// After link(): calls visit(node, irradiance at a radiosity of 1) for what each link reads, as
+    /// weighByLinks() wants it: a link to a representative does not read the mean of its cluster,
+    /// so it counts as a link to each sender that was seen.
+    template <class Visit>
+    void forEachRead(const Visit& visit) {
+        m_place.assign(m_seen.size(), Place::AboveLinks);
+        for (std::uint32_t i = m_seen.size(); i-- > 0;) { // children come before their parents
+            Place& place = m_place[i];
+            if (place == Place::AboveLinks && !m_refined[i])
+                place = m_read[i] == m_seen.node[i] ? Place::OfCluster : Place::Represented;
+            if (place == Place::OfCluster || (place == Place::Represented && i < m_seen.leaves()))
+                visit(m_seen.node[i], m_seen.sight[i].irradiance);
+            if (i >= m_seen.leaves())
+                for (const int side : {0, 1})
+                    m_place[m_seen.child(i, side)] =
+                        place == Place::OfCluster ? Place::BelowCluster : place;
+        }
     }
 
 private:
+    enum class Place : std::uint8_t { AboveLinks, OfCluster, BelowCluster, Represented };
+
     /// Of a surface cache, for the mean irradiance of its points that are not buried: where a texel
     /// covers a fold or a column, they face different ways.
     IrradianceAxis axisOf(std::uint32_t cache) {
@@ -223,7 +242,7 @@ private:
         m_linkAbove.assign(m_seen.size(), kNone);
         for (std::uint32_t i = m_seen.size(); i-- > 0;) { // children come before their parents
             if (m_linkAbove[i] == kNone && !m_refined[i])
-                m_linkAbove[i] = m_linkOf[m_seen.node[i]];
+                m_linkAbove[i] = m_linkOf[m_read[i]];
             if (i < m_seen.leaves())
                 m_linkOf[m_seen.node[i]] = m_linkAbove[i];
             else
@@ -246,9 +265,20 @@ private:
             m_refined[m_seen.leaves() + ~m_order[k].second] = true;
     }
 
+    /// Fills m_read.
+    void findRead(const std::vector<Representative>& representative) {
+        m_read = m_seen.node;
+        for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
+            if (const Representative by = representative[i - m_seen.leaves()];
+                by != Representative::Own)
+                m_read[i] = m_read[m_seen.child(i, by == Representative::Right)];
+    }
+
+    /// Links node `i` unless it is refined.
     void put(std::uint32_t i) {
-        if (!m_refined[i])
-            m_cones.push_back(makeCone(m_seen.node[i], m_seen.sight[i]));
+        if (m_refined[i])
+            return;
+        m_cones.push_back(makeCone(m_read[i], m_seen.sight[i]));
     }
 
     const LinkInput& in;
@@ -256,12 +286,51 @@ private:
     CutWorth m_worth;
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
+    std::vector<std::uint32_t>
+        m_read; ///< per node of m_seen, node of the ClusterTree that it reads
     std::vector<Cone> m_cones;
+    std::vector<Place> m_place;       ///< per node of m_seen, for forEachRead()
     std::vector<glm::vec3> m_normals; ///< of one cache's points
     // For LinkStorage::Sh only:
     std::vector<float> m_harmonics;         ///< bands^2 for each of m_cones
     std::vector<std::uint32_t> m_linkOf;    ///< per node of the ClusterTree
     std::vector<std::uint32_t> m_linkAbove; ///< per node of m_seen
+};
+
+/// What links read, per node, summed over all caches. The sums are fixed-point numbers, so they do
+/// not depend on the order of the caches.
+class ReadSums {
+public:
+    ReadSums(std::uint32_t nodes, const CachePoints& points, std::uint32_t caches)
+        : m_nodes(nodes), m_sums(std::vector<std::int64_t>(nodes, 0)) {
+        double all = 1;
+        for (std::uint32_t c = 0; c < caches; ++c)
+            all += double(points.weightOf(c));
+        constexpr double kMaxIrradiance = 16; // of one cache at a radiosity of 1; about 2 occurs
+        m_scale = 0x1p62 / (kMaxIrradiance * all);
+    }
+
+    void add(CacheLinker& linker, float weight) {
+        std::vector<std::int64_t>& sums = m_sums.local();
+        linker.forEachRead([&](std::uint32_t node, float irradiance) {
+            sums[node] += std::llround(double(weight) * double(irradiance) * m_scale);
+        });
+    }
+
+    std::vector<double> sum() const {
+        std::vector<std::int64_t> sum(m_nodes, 0);
+        for (const std::vector<std::int64_t>& s : m_sums)
+            std::transform(sum.begin(), sum.end(), s.begin(), sum.begin(), std::plus<>());
+        std::vector<double> result(m_nodes);
+        std::transform(sum.begin(), sum.end(), result.begin(),
+                       [&](std::int64_t k) { return double(k) / m_scale; });
+        return result;
+    }
+
+private:
+    std::uint32_t m_nodes;
+    tbb::enumerable_thread_specific<std::vector<std::int64_t>> m_sums;
+    double m_scale = 1;
 };
 
 /// Histogram of the worth of all caches' refinements, in steps of less than 1 % of the worth: bins
@@ -284,15 +353,15 @@ float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// Fills `worth` per cache with CacheLinker::weigh(), times the root of the cache's weight, since
-/// worth is an error that is not squared, and finds the bound on the worth that gives
+/// Fills `choices` per cache with CacheLinker::weigh(), the worth times the root of the cache's
+/// weight, since it is an error that is not squared, and finds the bound on the worth that gives
 /// all caches together as many links as n_L each would. Returns std::nullopt when cancelled. What a
 /// cache saw is not stored: it would take 24 bytes a leaf, more than anything else in a bake, and
 /// looking again is as fast as reading it back.
 std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& linkers,
                                  const Caches& caches, const CachePoints& points,
                                  const CutSettings& settings, const Progress& progress,
-                                 std::vector<std::vector<float>>& worth) {
+                                 std::vector<CutChoices>& choices) {
     constexpr std::size_t kSteps = 1 << 15;
     tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
     std::atomic<std::uint64_t> budget = 0;
@@ -304,9 +373,9 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
                 if (!linker.look(caches, std::uint32_t(c)))
                     continue;
                 budget += std::min(linker.leaves(), settings.links) - 1;
-                worth[c] = linker.weigh();
+                choices[c] = linker.weigh();
                 const float weight = std::sqrt(points.weightOf(c));
-                for (float& w : worth[c]) {
+                for (float& w : choices[c].worth) {
                     w *= weight;
                     ++histogram[stepOf(w)];
                 }
@@ -386,17 +455,20 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                           unturnedRays(hits.rays, true)};
     tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
     const bool shared = settings.criterion == CutCriterion::Detail;
-    std::vector<std::vector<float>> worth(shared ? caches.size() : 0);
+    std::vector<CutChoices> choices(shared ? caches.size() : 0);
     float bound = -1;
     std::uint32_t maxLinks = settings.links;
     if (shared) {
-        const auto found = sharedBound(linkers, caches, points, settings, progress, worth);
+        const auto found = sharedBound(linkers, caches, points, settings, progress, choices);
         if (!found)
             return false;
         bound = *found;
         maxLinks *= kMaxOfBudget;
     }
     std::vector<PackedLinks> links(caches.size());
+    std::optional<ReadSums> reads;
+    if (linked)
+        reads.emplace(tree.size(), points, caches.size());
     const bool done =
         parallelRanges(caches.size(), 8, progress, "cut", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
@@ -405,21 +477,18 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                 if (!linker.look(caches, c))
                     continue;
                 links[c] =
-                    linker.link(caches, c, shared ? worth[c] : linker.weigh(), bound, maxLinks);
+                    linker.link(caches, c, shared ? choices[c] : linker.weigh(), bound, maxLinks);
+                if (reads)
+                    reads->add(linker, points.weightOf(c));
                 if (shared)
-                    worth[c] = {};
+                    choices[c] = {};
             }
         });
     if (!done)
         return false;
     joinLinks(links, caches);
-    if (linked) {
-        linked->assign(tree.size(), 0);
-        for (std::uint32_t c = 0; c < links.size(); ++c)
-            for (std::uint32_t k = 0; k < links[c].irradiance.size(); ++k)
-                (*linked)[linkWeight(caches, c, caches.linkBegin[c] + k).node] +=
-                    double(points.weightOf(c)) * double(links[c].irradiance[k]);
-    }
+    if (linked)
+        *linked = reads->sum();
     return true;
 }
 

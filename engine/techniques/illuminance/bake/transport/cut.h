@@ -34,13 +34,14 @@ struct CutSettings {
 };
 
 /// Fills the links of `caches`, in the settings' storage: for each valid cache, nodes of the tree
-/// that together cover all it saw. A cache whose points all lie in walls is invalid and gets none.
+/// that together stand for all it saw, none below another. A cache whose points all lie in walls is invalid and gets none.
 /// Traces no ray. Returns false when cancelled. `training` is read for Detail only.
 ///
 /// SolidAngle, the paper's criterion: each cache refines its node of the largest visible solid
 /// angle, up to n_L links. Detail: of the refinements of all caches, those that lower the error of
 /// irradiance most per link are made (CutWorth::byDetail), with as many links in total as
-/// SolidAngle has. Hard caches get more of them, up to 16 n_L, and easy ones fewer.
+/// SolidAngle has. Hard caches get more of them, up to 16 n_L, and easy ones fewer. A link reads
+/// the cluster of what it stands for, or a representative below it (CutWorth::byDetail).
 ///
 /// Rtp stores the cone of a node's rays: their sum of weights and mean direction. Sh stores the
 /// harmonics of the rays themselves, which are more accurate (`limn bench links`).
@@ -48,7 +49,8 @@ struct CutSettings {
 /// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
 /// irradiance of its rays at the surface's own normals, as a mean over the cache's points, under
 /// any light. `linked`, if not null, receives per node of the tree what a radiosity of 1 brings
-/// through all links to it, summed.
+/// through all links to it, summed; links to representatives count as links to the senders that
+/// they stand for.
 bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace limn {
@@ -34,17 +35,14 @@ struct Received {
     const float* radiosity;
 };
 
-/// Fills brought[t] with what two senders bring; returns the mean square of its difference to what
-/// one link to both brings. Uses eight sums, so that SIMD can compute them at once.
-float bringBoth(const Received& a, const Received& b, const Received& link, const float* weight,
-                float* brought) {
+/// The weighted mean square of the difference between what senders bring and what one link brings
+/// in their place. Uses eight sums, so that SIMD can compute them at once.
+float errorOf(const Received& link, const float* brought, const float* weight) {
     std::array<float, 8> sums{};
     static_assert(kLightings % sums.size() == 0);
     for (std::size_t t = 0; t < kLightings; t += sums.size())
         for (std::size_t k = 0; k < sums.size(); ++k) {
-            const float truth = a.share * a.radiosity[t + k] + b.share * b.radiosity[t + k];
-            const float d = truth - link.share * link.radiosity[t + k];
-            brought[t + k] = truth;
+            const float d = brought[t + k] - link.share * link.radiosity[t + k];
             sums[k] += d * d * weight[t + k];
         }
     float sum = 0;
@@ -53,12 +51,23 @@ float bringBoth(const Received& a, const Received& b, const Received& link, cons
     return sum / kLightings;
 }
 
+/// Expected squared error of a link by the prior, less what all links to the same senders share.
+/// The senders' radiosities B_k count as independent with variance kPrior / 2, so that the mean
+/// square of the difference of two is kPrior. The cache sees shares s_k of them, with the sum
+/// `share`; the link reads a mean whose weights have the sum of squares `squares`, of senders that
+/// bring `seen` of the share. If all these weights are equal, they are `squares`, too, and the
+/// variance of sum(s_k B_k) - share * mean is kPrior / 2 * sum(s_k^2) plus what is returned.
+float priorError(float share, float seen, float squares) {
+    return kPrior / 2 * share * (share - 2 * seen) * squares;
+}
+
 } // namespace
 
 void CutWorth::bySolidAngle(const VisibleTree& seen) {
-    m_worth.clear();
+    m_choices.worth.clear();
     for (std::uint32_t i = seen.leaves(); i < seen.size(); ++i)
-        m_worth.push_back(seen.sight[i].weight);
+        m_choices.worth.push_back(seen.sight[i].weight);
+    m_choices.representative.assign(m_choices.worth.size(), Representative::Own);
 }
 
 void CutWorth::weighLightings(const VisibleTree& seen, const TrainingLight& training) {
@@ -83,15 +92,20 @@ void CutWorth::byDetail(const VisibleTree& seen, const TrainingLight& training) 
     weighLightings(seen, training);
     measureGains(seen, training);
     joinGroups(seen);
-    m_worth.resize(m_groups.size());
+    std::vector<float>& worth = m_choices.worth;
+    worth.resize(m_groups.size());
     for (std::size_t i = m_groups.size(); i-- > 0;) // a group comes before the one that took it in
-        m_worth[i] = m_groups[i].joined != kNone ? m_worth[m_groups[i].joined]
-                                                 : std::max(m_groups[i].worth(), 0.f);
+        worth[i] = m_groups[i].joined != kNone ? worth[m_groups[i].joined]
+                                               : std::max(m_groups[i].worth(), 0.f);
 }
 
 void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& training) {
     m_error.assign(seen.size(), 0);
     m_groups.assign(seen.size() - seen.leaves(), Group{});
+    m_choices.representative.assign(m_groups.size(), Representative::Own);
+    m_read.clear();
+    for (std::uint32_t i = 0; i < seen.size(); ++i)
+        m_read.push_back({seen.node[i], seen.sight[i].irradiance});
     // Inner nodes come in post-order, so what the right inner child brought lies on top of the
     // stack.
     std::size_t depth = 0;
@@ -118,8 +132,9 @@ void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& traini
         const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
         const Received right = received(r), left = received(l);
         std::array<float, kLightings> brought;
-        m_error[i] = bringBoth(left, right, {seen.sight[i].irradiance, training.row(seen.node[i])},
-                               m_weight.data(), brought.data());
+        for (std::size_t t = 0; t < kLightings; ++t)
+            brought[t] = left.share * left.radiosity[t] + right.share * right.radiosity[t];
+        chooseRepresentative(seen, training, i, brought.data());
         if (m_brought.size() < (depth + 1) * kLightings)
             m_brought.resize((depth + 1) * kLightings);
         std::copy(brought.begin(), brought.end(), m_brought.data() + depth++ * kLightings);
@@ -127,6 +142,28 @@ void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& traini
             m_error[i] - m_error[l] - m_error[r] +
             kPrior * m_weight[kLightings] * seen.sight[l].irradiance * seen.sight[r].irradiance;
     }
+}
+
+/// Fills m_error and m_read of inner node `i`, whose senders bring `brought`.
+void CutWorth::chooseRepresentative(const VisibleTree& seen, const TrainingLight& training,
+                                    std::uint32_t i, const float* brought) {
+    const float share = seen.sight[i].irradiance;
+    float least = std::numeric_limits<float>::infinity();
+    const auto consider = [&](Representative by, const Read& read) {
+        const float error = errorOf({share, training.row(read.node)}, brought, m_weight.data());
+        const float expected =
+            error +
+            m_weight[kLightings] * priorError(share, read.seen, training.squaredWeights[read.node]);
+        if (!(expected < least))
+            return;
+        least = expected;
+        m_error[i] = error;
+        m_read[i] = read;
+        m_choices.representative[i - seen.leaves()] = by;
+    };
+    consider(Representative::Own, {seen.node[i], share});
+    consider(Representative::Left, m_read[seen.child(i, 0)]);
+    consider(Representative::Right, m_read[seen.child(i, 1)]);
 }
 
 /// A group takes in the best group below it for as long as that is worth more than itself.

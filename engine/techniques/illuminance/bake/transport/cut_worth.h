@@ -9,12 +9,23 @@
 
 namespace limn {
 
+/// Whose radiosity a link to an inner node of a VisibleTree reads: that of its own cluster, or that
+/// of the node which its left or right child reads.
+enum class Representative : std::uint8_t { Own, Left, Right };
+
+/// What CutWorth finds of the inner nodes of a VisibleTree, in their order.
+struct CutChoices {
+    std::vector<float> worth; ///< of refining the node; >= 0
+    std::vector<Representative> representative;
+};
+
 /// Computes the worth of each refinement of a cache's cut; a refinement replaces a node's link by
 /// links to its two children. A worth never exceeds the parent's, so the refinements above any
 /// bound form a cut. The object reuses its working space from cache to cache.
 class CutWorth {
 public:
-    /// The paper's criterion: the visible solid angle / pi of the node. Jendersie, Kuri, Grosch.
+    /// The paper's criterion: the visible solid angle / pi of the node. Each node reads its own
+    /// cluster. Jendersie, Kuri, Grosch.
     /// Real-Time Global Illumination Using Precomputed Illuminance Composition with Chrominance
     /// Compression. 2016
     void bySolidAngle(const VisibleTree& seen);
@@ -28,10 +39,15 @@ public:
     /// gives the cut of least error for its number of links, and the same bound for all caches
     /// gives the least error for all their links. Chou, Lookabaugh, Gray. Optimal Pruning with
     /// Applications to Tree-Structured Source Coding and Modeling. 1989
+    ///
+    /// A cluster holds senders that the cache does not see, such as the sunlit front of a column
+    /// seen from behind. A link therefore reads a node below its cluster where that comes nearer to
+    /// what was seen: a representative, as in Walter, Fernandez, Arbree, Bala, Donikian, Greenberg.
+    /// Lightcuts: A Scalable Approach to Illumination. 2005. There it is drawn by intensity; here
+    /// it has the least expected error of irradiance, over the training lightings and the prior.
     void byDetail(const VisibleTree& seen, const TrainingLight& training);
 
-    /// Per inner node of the VisibleTree, in its order; >= 0.
-    const std::vector<float>& worth() const { return m_worth; }
+    const CutChoices& choices() const { return m_choices; }
 
 private:
     static constexpr std::uint32_t kNone = ~0U;
@@ -48,14 +64,23 @@ private:
 
     void weighLightings(const VisibleTree& seen, const TrainingLight& training);
     void measureGains(const VisibleTree& seen, const TrainingLight& training);
+    void chooseRepresentative(const VisibleTree& seen, const TrainingLight& training,
+                              std::uint32_t node, const float* brought);
     void joinGroups(const VisibleTree& seen);
     std::uint32_t rankOf(std::uint32_t heap) const;
     std::uint32_t merge(std::uint32_t a, std::uint32_t b);
 
-    std::vector<float> m_worth;
+    /// The node that a link reads, and what the cache sees of it.
+    struct Read {
+        std::uint32_t node; ///< of the ClusterTree
+        float seen;         ///< irradiance at a radiosity of 1
+    };
+
+    CutChoices m_choices;
     std::vector<float> m_weight;  ///< of squared errors, per lighting and, last, of the prior
     std::vector<float> m_brought; ///< what senders of nodes truly bring in each lighting; a stack
     std::vector<float> m_error;   ///< squared, of one link to the node
+    std::vector<Read> m_read;     ///< per node
     std::vector<Group> m_groups;
 };
 

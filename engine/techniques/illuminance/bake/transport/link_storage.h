@@ -25,7 +25,6 @@ struct PackedLinks {
     std::vector<Link> links;
     std::vector<std::uint32_t> shNode;
     std::vector<std::uint16_t> shCoefficients;
-    std::vector<float> irradiance; ///< of each link, at unit radiosity
 };
 
 /// Packs a cache's links for LinkStorage::Rtp.

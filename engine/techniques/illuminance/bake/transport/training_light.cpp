@@ -159,6 +159,9 @@ void pull(const ClusterTree& tree, TrainingLight& out) {
         const float w = tree.leftWeight[k];
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
             to[t] = r[t] + (l[t] - r[t]) * w;
+        out.squaredWeights[tree.leaves() + k] =
+            w * w * out.squaredWeights[tree.left[k]] +
+            (1 - w) * (1 - w) * out.squaredWeights[tree.right[k]];
     }
 }
 
@@ -204,6 +207,7 @@ TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const Cl
                             const std::vector<float>& seen, const TracedTraining& traced) {
     TrainingLight result;
     result.radiosity.assign(std::size_t(tree.size()) * TrainingLight::kCount, 0);
+    result.squaredWeights.assign(tree.size(), 1);
     lightSurfels(scene, surfels, traced, result);
     lightSky(tree, result);
     normalise(seen, result);
