@@ -160,7 +160,7 @@ Brought broughtBy(const VisibleTree& seen, const TrainingLight& training) {
     return brought;
 }
 
-/// Weighted mean square of what a link to node `n` that reads `node` is wrong by.
+/// Weighted mean squared error of the link to node `n` of `seen` if it reads `node`.
 template <class Weight>
 double errorOf(const VisibleTree& seen, const TrainingLight& training, const Brought& brought,
                const Weight& weight, std::uint32_t n, std::uint32_t node) {

@@ -121,9 +121,9 @@ public:
                                                       : packOwnCones(caches, cache);
     }
 
-    /// After link(): calls visit(node, irradiance at a radiosity of 1) for what each link reads, as
-    /// weighByLinks() wants it: a link to a representative does not read the mean of its cluster,
-    /// so it counts as a link to each sender that was seen.
+    /// After link(): calls visit(node, irradiance at a radiosity of 1) for each cluster whose mean
+    /// a link reads, for weighByLinks(). A link to a representative reads no cluster's mean; it
+    /// counts as one link to each of the senders that the cache saw.
     template <class Visit>
     void forEachRead(const Visit& visit) {
         m_place.assign(m_seen.size(), Place::AboveLinks);
@@ -274,11 +274,9 @@ private:
                 m_read[i] = m_read[m_seen.child(i, by == Representative::Right)];
     }
 
-    /// Links node `i` unless it is refined.
     void put(std::uint32_t i) {
-        if (m_refined[i])
-            return;
-        m_cones.push_back(makeCone(m_read[i], m_seen.sight[i]));
+        if (!m_refined[i])
+            m_cones.push_back(makeCone(m_read[i], m_seen.sight[i]));
     }
 
     const LinkInput& in;
@@ -286,8 +284,7 @@ private:
     CutWorth m_worth;
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
-    std::vector<std::uint32_t>
-        m_read; ///< per node of m_seen, node of the ClusterTree that it reads
+    std::vector<std::uint32_t> m_read; ///< per node of m_seen, the ClusterTree's node to link
     std::vector<Cone> m_cones;
     std::vector<Place> m_place;       ///< per node of m_seen, for forEachRead()
     std::vector<glm::vec3> m_normals; ///< of one cache's points

@@ -34,8 +34,9 @@ struct CutSettings {
 };
 
 /// Fills the links of `caches`, in the settings' storage: for each valid cache, nodes of the tree
-/// that together stand for all it saw, none below another. A cache whose points all lie in walls is invalid and gets none.
-/// Traces no ray. Returns false when cancelled. `training` is read for Detail only.
+/// that together stand for all it saw, none below another. A cache whose points all lie in walls is
+/// invalid and gets none. Traces no ray. Returns false when cancelled. `training` is read for
+/// Detail only.
 ///
 /// SolidAngle, the paper's criterion: each cache refines its node of the largest visible solid
 /// angle, up to n_L links. Detail: of the refinements of all caches, those that lower the error of

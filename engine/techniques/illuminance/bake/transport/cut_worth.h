@@ -9,11 +9,11 @@
 
 namespace limn {
 
-/// Whose radiosity a link to an inner node of a VisibleTree reads: that of its own cluster, or that
-/// of the node which its left or right child reads.
+/// Whose radiosity the link to an inner node of a VisibleTree reads: its own cluster's, or that
+/// which the link to its left or right child would read.
 enum class Representative : std::uint8_t { Own, Left, Right };
 
-/// What CutWorth finds of the inner nodes of a VisibleTree, in their order.
+/// Result of CutWorth: one element for each inner node of a VisibleTree, in its order.
 struct CutChoices {
     std::vector<float> worth; ///< of refining the node; >= 0
     std::vector<Representative> representative;
