@@ -160,81 +160,84 @@ Brought broughtBy(const VisibleTree& seen, const TrainingLight& training) {
     return brought;
 }
 
-/// Weighted mean squared error of the link to node `n` of `seen` if it reads `node`.
-template <class Weight>
-double errorOf(const VisibleTree& seen, const TrainingLight& training, const Brought& brought,
-               const Weight& weight, std::uint32_t n, std::uint32_t node) {
-    double sum = 0;
-    for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
-        const double d =
-            brought[n][t] - double(seen.sight[n].irradiance) * double(training.row(node)[t]);
-        sum += weight[t] * d * d;
-    }
-    return sum / TrainingLight::kCount;
-}
+/// What CutWorth finds for a random cache, and errors of its links by the definition, in doubles.
+struct Weighed {
+    const VisibleTree& seen;
+    const TrainingLight& training;
+    const CutChoices& choices;
+    std::array<double, TrainingLight::kCount + 1> weight = errorWeights(seen, training);
+    Brought brought = broughtBy(seen, training);
 
-TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
+    /// Weighted mean squared error of the link to node `n` of `seen` if it reads `node`.
+    double errorOf(std::uint32_t n, std::uint32_t node) const {
+        double sum = 0;
+        for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
+            const double d =
+                brought[n][t] - double(seen.sight[n].irradiance) * double(training.row(node)[t]);
+            sum += weight[t] * d * d;
+        }
+        return sum / TrainingLight::kCount;
+    }
+};
+
+template <class Visit>
+void forEachWeighed(unsigned seed, const Visit& visit) {
     const Fixture& f = fixture();
     const SenderOrder order(f.tree);
     VisibleTree seen(order);
     CutWorth worth;
-    std::mt19937 rng(5);
+    std::mt19937 rng(seed);
     for (int i = 0; i < 30; ++i) {
         look(rng, f.tree, 80, seen);
         worth.byDetail(seen, f.training);
-        const auto weight = errorWeights(seen, f.training);
-        // Gains by the definition, in doubles.
-        const Brought brought = broughtBy(seen, f.training);
+        visit(Weighed{seen, f.training, worth.choices()});
+    }
+}
+
+TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
+    forEachWeighed(5, [](const Weighed& w) {
+        const VisibleTree& seen = w.seen;
         std::vector<double> error, gain(seen.size());
         for (std::uint32_t n = 0; n < seen.size(); ++n)
-            error.push_back(errorOf(seen, f.training, brought, weight, n,
-                                    readOf(seen, worth.choices(), n).node));
+            error.push_back(w.errorOf(n, readOf(seen, w.choices, n).node));
         double all = 0;
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
             gain[n] = error[n] - error[l] - error[r] +
-                      0.03 * weight.back() * double(seen.sight[l].irradiance) *
+                      0.03 * w.weight.back() * double(seen.sight[l].irradiance) *
                           double(seen.sight[r].irradiance);
             all += std::abs(gain[n]);
         }
-        for (const float bound : worth.choices().worth) {
+        for (const float bound : w.choices.worth) {
             double reached = 0;
             for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n)
-                if (worth.choices().worth[n - seen.leaves()] > bound)
+                if (w.choices.worth[n - seen.leaves()] > bound)
                     reached += gain[n] - double(bound);
             EXPECT_NEAR(reached, bestCut(seen, gain, seen.size() - 1, double(bound)), 1e-5 * all);
         }
-    }
+    });
 }
 
 TEST(CutWorth, ALinkReadsTheNodeOfLeastExpectedError) {
-    const Fixture& f = fixture();
-    const SenderOrder order(f.tree);
-    VisibleTree seen(order);
-    CutWorth worth;
-    std::mt19937 rng(7);
     int represented = 0;
-    for (int i = 0; i < 30; ++i) {
-        look(rng, f.tree, 80, seen);
-        worth.byDetail(seen, f.training);
-        const auto weight = errorWeights(seen, f.training);
-        const Brought brought = broughtBy(seen, f.training);
+    forEachWeighed(7, [&](const Weighed& w) {
+        const VisibleTree& seen = w.seen;
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const auto expected = [&](Representative by) {
-                const Read read = readOf(seen, worth.choices(), n, by);
+                const Read read = readOf(seen, w.choices, n, by);
                 const auto share = double(seen.sight[n].irradiance);
-                return errorOf(seen, f.training, brought, weight, n, read.node) +
-                       weight.back() * 0.03 / 2 * share * (share - 2 * read.seen) *
-                           double(f.training.squaredWeights[read.node]);
+                return w.errorOf(n, read.node) + w.weight.back() * 0.03 / 2 * share *
+                                                     (share - 2 * read.seen) *
+                                                     double(w.training.squaredWeights[read.node]);
             };
             const double own = expected(Representative::Own), left = expected(Representative::Left),
                          right = expected(Representative::Right);
-            const Representative by = worth.choices().representative[n - seen.leaves()];
+            const Representative by = w.choices.representative[n - seen.leaves()];
             represented += by != Representative::Own;
             const double scale = std::abs(own) + std::abs(left) + std::abs(right);
             EXPECT_NEAR(expected(by), std::min({own, left, right}), 1e-5 * scale);
         }
-    }
+    });
     EXPECT_GT(represented, 100); // of some two thousand
 }
 
