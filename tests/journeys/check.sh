@@ -8,10 +8,10 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 .ci/install build test
-.ci/build release limn journeys editor_ui_undo_law_test editor_ui_technique_soak_test app_device_soak_test
+.ci/build release limn journeys editor_ui_tests app_tests
 if [ $# -eq 0 ]; then
-    for soak in editor_ui_undo_law editor_ui_technique_soak app_device_soak; do
-        "build/release/${soak}_test" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED*' --gtest_brief
+    for program in editor_ui_tests app_tests; do
+        "build/release/$program" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*' --gtest_brief
     done
 fi
 build/release/journeys --gtest_filter="${1:-*}"
