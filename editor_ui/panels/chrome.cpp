@@ -138,17 +138,20 @@ static void toolButton(EditorState& state, const char* id, const char* label, Im
 
 constexpr float kToolGap = 2; // between the buttons of the tools [px]
 
-/// Widths of the lists above the picture [em], which a narrow window shrinks by one factor.
+/// Widths of the fields above the picture [em]. A narrow window shrinks the lists by one factor,
+/// for their names may end in an ellipsis; the exposure is a number and keeps its width for longer.
 struct BarWidths {
     float technique = 12, view = 7, overlay = 9, exposure = 8;
 
     /// `left`: width that they share [px].
     static BarWidths within(float left) {
         constexpr BarWidths kFull;
-        constexpr float kSum = kFull.technique + kFull.view + kFull.overlay + kFull.exposure;
-        const float em =
-            ImGui::GetFontSize() * std::clamp(left / (kSum * ImGui::GetFontSize()), 0.3f, 1.f);
-        return {kFull.technique * em, kFull.view * em, kFull.overlay * em, kFull.exposure * em};
+        constexpr float kLists = kFull.technique + kFull.view + kFull.overlay;
+        const float font = ImGui::GetFontSize();
+        const float exposure =
+            std::clamp(0.35f * left, 0.3f * kFull.exposure * font, kFull.exposure * font);
+        const float em = font * std::clamp((left - exposure) / (kLists * font), 0.3f, 1.f);
+        return {kFull.technique * em, kFull.view * em, kFull.overlay * em, exposure};
     }
 };
 

@@ -85,8 +85,13 @@ static std::string errorText(const Comparison& c) {
         c.nrmse, c.nrmseNoise, c.nrmseMost, 100 * c.bias, 100 * c.biasNoise, c.flip);
 }
 
-static const char* shownText(Compare mode) {
-    switch (mode) {
+/// What the right side shows: the picture alone until there is a reference of it.
+static const char* shownText(const CompareState& compare) {
+    const bool there = compare.mode == Compare::Reference ? compare.reference.samples > 0
+                                                          : compare.reference.error.has_value();
+    if (!there)
+        return "Waiting for the reference";
+    switch (compare.mode) {
     case Compare::Off:
     case Compare::Reference:
     case Compare::Technique:
@@ -122,7 +127,7 @@ void compareOverlay(const EditorState& state) {
         footLabel(view, compare.techniqueText, color::kDim, kFoot);
         return;
     }
-    sideLabels(view, x, "Limn", shownText(compare.mode));
+    sideLabels(view, x, "Limn", shownText(compare));
     const float above = footLabel(view, referenceText(compare.reference), color::kDim, kFoot);
     if (compare.reference.error)
         footLabel(view, errorText(*compare.reference.error), IM_COL32_WHITE, above);

@@ -78,12 +78,13 @@ TEST(StartScreen, IsGoneWhileSomethingIsOpenOrBeingOpened) {
     EXPECT_TRUE(windowNamed("start"));
 }
 
-/// The right edge of the backgrounds of all labels in the picture [px]; 0: there is no label.
-float rightEndOfLabels() {
+/// The right edge of the backgrounds of all labels in the picture, or of those that reach above
+/// `bottom` [px]; 0: there is no label.
+float rightEndOfLabels(float bottom = 1e9f) {
     float end = 0;
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
         for (const ImDrawVert& v : window->DrawList->VtxBuffer)
-            if (window->Active && v.col == color::kGround)
+            if (window->Active && v.col == color::kGround && v.pos.y < bottom)
                 end = std::max(end, v.pos.x);
     return end;
 }
@@ -106,6 +107,26 @@ TEST(CompareOverlay, ItsTextStaysInANarrowPicture) {
             EXPECT_LE(rightEndOfLabels(), edge) << scale << ", " << split;
         }
     }
+}
+
+TEST(CompareOverlay, SaysThatItWaitsUntilThereIsAReference) {
+    HeadlessUi ui(1600, 900);
+    EditorState state = fullEditor();
+    state.view.showLights = false;
+    const auto labels = [&](Compare mode) {
+        state.compare.mode = mode;
+        ui.frames(state);
+        ui.frames(state);
+        return rightEndOfLabels(state.view.origin.y + 40);
+    };
+    const float waiting = labels(Compare::Reference);
+    EXPECT_EQ(labels(Compare::SquaredError), waiting);
+    EXPECT_EQ(labels(Compare::Flip), waiting);
+    state.compare.reference.samples = 4; // a reference, but no error of it yet
+    EXPECT_EQ(labels(Compare::Difference), waiting);
+    EXPECT_NE(labels(Compare::Reference), waiting);
+    state.compare.reference.error = Comparison{};
+    EXPECT_NE(labels(Compare::SquaredError), waiting);
 }
 
 TEST(HelpSheet, OpensByItsKeyAndEscClosesIt) {
