@@ -169,9 +169,13 @@ DrawnImages RenderWorker::readImages() {
     return images;
 }
 
+bool worthRefining(std::uint32_t samples, double sampleMs) {
+    return samples < kSamplesPerPixel && samples * sampleMs <= kMaxRefineMs;
+}
+
 bool RenderWorker::refining() const {
     const bool drawnOver = shown.overlay.kind || shown.options.inspection != Inspection::None;
-    return m_samples > 0 && m_samples < kSamplesPerPixel && !shown.moving && !drawnOver &&
+    return m_samples > 0 && worthRefining(m_samples, m_pictureMs) && !shown.moving && !drawnOver &&
            !bouncing();
 }
 

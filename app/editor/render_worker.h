@@ -15,6 +15,11 @@ struct DrawnImages {
     std::optional<float> metered;                ///< empty unless PictureRequest::meter
 };
 
+/// Whether a picture that stands still gets twice its `samples` of each pixel, of which one takes
+/// `sampleMs` [ms]: not where that would keep a slow device busy for longer than kMaxRefineMs.
+bool worthRefining(std::uint32_t samples, double sampleMs);
+constexpr double kMaxRefineMs = 20'000;
+
 /// What RenderJob's thread draws with. No other thread uses it.
 class RenderWorker {
 public:
@@ -29,8 +34,8 @@ public:
     bool bouncing() const { return shown.relight && m_driver.lighting() && !m_driver.done(); }
 
     /// True if the picture shown stands still and is not yet the mean of as many samples of each
-    /// pixel as it will be. Pictures with an overlay or an inspection are not refined, because what
-    /// is drawn over them would tremble.
+    /// pixel as it will be (worthRefining()). Pictures with an overlay or an inspection are not
+    /// refined, because what is drawn over them would tremble.
     bool refining() const;
 
     /// Whether refined pictures have light from near surfaces (ViewportOptions::nearRays): on all

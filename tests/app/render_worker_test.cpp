@@ -141,6 +141,14 @@ TEST_F(RenderWorkerTest, RefinesAPictureThatStandsStill) {
     EXPECT_TRUE(worker.refining());
 }
 
+TEST(WorthRefining, EndsAtSixteenSamplesOrWhereTheNextWouldTakeTwentySeconds) {
+    EXPECT_TRUE(worthRefining(1, 20'000));
+    EXPECT_FALSE(worthRefining(1, 55'000)) << "500 lights on a software rasteriser";
+    EXPECT_TRUE(worthRefining(8, 2'400));
+    EXPECT_FALSE(worthRefining(8, 2'600));
+    EXPECT_FALSE(worthRefining(16, 0));
+}
+
 TEST_F(RenderWorkerTest, WhatComesIntoViewIsRightInTheNextPicture) {
     const std::atomic<bool> hurry = true; // a few bounces a picture
     RenderWorker turned(false), still(false);
