@@ -56,7 +56,7 @@ MarchedRay marchProbe(const MarchedMaps& maps, std::uint32_t probe, glm::vec3 or
 
 /// Marches a ray through the maps of the eight probes about its origin: first the nearest's; where
 /// it passes behind what a probe i sees, it goes on in the map of probe (i + 3) mod 8. Where no
-/// probe knows more, the result is Unknown and names the nearest. Probes in solids are passed over.
+/// probe knows more, the result is Unknown and names the nearest. Probes in solids are skipped.
 /// Arguments as of marchProbe().
 MarchedRay marchRay(const MarchedMaps& maps, glm::vec3 origin, glm::vec3 direction);
 

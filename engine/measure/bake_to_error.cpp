@@ -17,7 +17,8 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kFinestTexels = 1U << 22, kFinestSurfels = 1U << 20, kFinestLinks = 1024;
+constexpr std::uint32_t kFinestTexels = 1U << 22, kFinestSurfels = 1U << 20, kFinestLinks = 1024,
+                        kFinestRays = 4096;
 constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< of the points
 constexpr std::uint32_t kPaths = 64;               ///< of a point, in each reference
 
@@ -121,7 +122,7 @@ BakeSettings finerSettings(const BakeSettings& settings) {
         return settings;
     s.surfels = times(s.surfels, std::exp2(0.75), kFinestSurfels);
     s.links = times(s.links, std::exp2(0.25), kFinestLinks);
-    s.rays = std::max(s.rays, 256U);
+    s.rays = times(s.rays, std::exp2(0.75), kFinestRays);
     return s;
 }
 

@@ -31,8 +31,8 @@ struct ErrorGoal {
 /// Why the error of `made` exceeds `error`; empty if it does not.
 std::string shortfall(const MeasuredBake& made, double error);
 
-/// Settings with twice as many texels, and with more surfels and links in the proportion of the
-/// presets. Equal to `settings` where none are finer.
+/// Settings with twice as many texels, and with more surfels, links and rays in the proportion of
+/// the presets. Equal to `settings` where none are finer.
 BakeSettings finerSettings(const BakeSettings& settings);
 
 /// Bakes with the scene's settings, then with ever finer ones until the error in the scene's light

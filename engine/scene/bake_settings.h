@@ -94,6 +94,6 @@ struct BakePreset {
 };
 inline constexpr std::array<BakePreset, 3> kBakePresets = {{{"draft", 16384, 64, 128, 10000},
                                                             {"medium", 32768, 64, 256, 36000},
-                                                            {"high", 131072, 128, 256, 160000}}};
+                                                            {"high", 131072, 128, 1024, 160000}}};
 
 } // namespace limn

@@ -99,6 +99,7 @@ TEST(FinerSettings, LeadThroughTheCountsOfThePresets) {
     EXPECT_EQ(s.lightmapCaches, high.lightmapCaches);
     EXPECT_NEAR(double(s.surfels), high.surfels, 0.01 * high.surfels);
     EXPECT_NEAR(double(s.links), high.links, 1);
+    EXPECT_NEAR(double(s.rays), high.rays, 0.01 * high.rays);
     for (int i = 0; i < 40; ++i)
         s = finerSettings(s);
     EXPECT_EQ(finerSettings(s), s);
