@@ -7,6 +7,7 @@
 
 #include "engine/explain/explain_pixel.h"
 #include "engine/math/luminance.h"
+#include "engine/scene/surface/reflection_lobe.h"
 
 #include <array>
 #include <chrono>
@@ -150,6 +151,7 @@ Exit runExplain(const ExplainCommand& options) {
                                  .y = options.pick[1],
                                  .light = PixelLight(unit),
                                  .nearRays = kNearRays};
+    reflectionTable(); // a process makes it once, the editor with its first picture
     const Clock::time_point start = Clock::now();
     const PixelExplanation e = explainPixel(*lit, question, {.rows = options.rows});
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
