@@ -201,6 +201,7 @@ TEST_F(TroubleJourney, FiveThousandObjectsAreLitSelectedAndMoved) {
     ASSERT_TRUE(waitFor([](const auto& s) { return s["selection"].size() > 5000; }));
     settle(30);
     shot("2-all-selected");
+    fmt::print("selecting all: {}\n", statistics()["longest_frame_since_idle"].dump());
     screen->key("Escape");
     select("Block 2525");
     screen->key("f");
