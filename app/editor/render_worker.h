@@ -15,8 +15,8 @@ struct DrawnImages {
     std::optional<float> metered;                ///< empty unless PictureRequest::meter
 };
 
-/// Whether a picture that stands still gets twice its `samples` of each pixel, of which one takes
-/// `sampleMs` [ms]: not where that would keep a slow device busy for longer than kMaxRefineMs.
+/// Whether a picture that stands still is refined from `samples` samples of each pixel to twice as
+/// many, given the time of one [ms]. It is not where that would take longer than kMaxRefineMs.
 bool worthRefining(std::uint32_t samples, double sampleMs);
 constexpr double kMaxRefineMs = 20'000;
 
@@ -35,7 +35,7 @@ public:
 
     /// True if the picture shown stands still and is not yet the mean of as many samples of each
     /// pixel as it will be (worthRefining()). Pictures with an overlay or an inspection are not
-    /// refined, because what is drawn over them would tremble.
+    /// refined, because what is drawn over them would jitter.
     bool refining() const;
 
     /// Whether refined pictures have light from near surfaces (ViewportOptions::nearRays): on all

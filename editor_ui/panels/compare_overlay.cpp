@@ -85,7 +85,7 @@ static std::string errorText(const Comparison& c) {
         c.nrmse, c.nrmseNoise, c.nrmseMost, 100 * c.bias, 100 * c.biasNoise, c.flip);
 }
 
-/// What the right side shows: the picture alone until there is a reference of it.
+/// Name of what the right side shows. Until there is a reference, it shows the picture itself.
 static const char* shownText(const CompareState& compare) {
     const bool there = compare.mode == Compare::Reference ? compare.reference.samples > 0
                                                           : compare.reference.error.has_value();

@@ -9,8 +9,8 @@
 
 namespace limn {
 
-/// Whose radiosity the link to an inner node of a VisibleTree reads: its own cluster's, or that
-/// which the link to its left or right child would read.
+/// Node whose radiosity the link to an inner node of a VisibleTree reads: its own cluster, or the
+/// node that the link to its left or right child would read.
 enum class Representative : std::uint8_t { Own, Left, Right };
 
 /// Result of CutWorth: one element for each inner node of a VisibleTree, in its order.
