@@ -14,6 +14,7 @@
 #include "engine/stages/stage_archive.h"
 #include "engine/stages/stage_clock.h"
 #include "engine/stages/stage_keys.h"
+#include "engine/techniques/illuminance/bake/bake_defect.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/receivers/fill_invalid.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
@@ -340,6 +341,9 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.counts = countOf(scene, result, run.rays);
     result.seconds = std::move(run.clock.seconds);
     result.keptStages = std::move(run.clock.keptStages);
+    // Kept stages whose contents were changed may each be within their ranges and not fit together.
+    if (store && !bakeDefect(result, &scene).empty())
+        return bake(trace, progress, nullptr, settings, memory);
     return std::move(result);
 }
 

@@ -23,9 +23,10 @@ namespace fs = std::filesystem;
 Scene smallRoom(float blockAt) {
     Scene scene =
         stagedRoom({.low = glm::translate(glm::mat4(1), glm::vec3(blockAt, 0, 1)), .wall = true});
-    scene.bake.surfels = 700;
+    scene.bake.surfels = 300;
     scene.bake.texelsPerMetre = 0;
-    scene.bake.lightmapCaches = 400;
+    scene.bake.lightmapCaches = 150;
+    scene.bake.rays = 32;
     scene.bake.links = 12;
     scene.bake.grid = {2, 2, 2};
     return scene;
