@@ -4,6 +4,7 @@
 
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sampling.h"
+#include "tests/core/sweep.h"
 #include "tests/techniques/illuminance/bake/house_on_ground.h"
 #include "tests/techniques/illuminance/relight/relit.h"
 
@@ -44,6 +45,8 @@ double groundLight(const Relit& lit, float x, float z, float scale) {
 // texels, and .84 at 2 000.
 TEST(FineTexels, KeepTheSkyOutOfAClosedHouse) {
     for (const auto& [scale, texels] : {std::pair(1.f, 1000U), {0.01f, 2000U}, {300.f, 12000U}}) {
+        if (kSanitized && texels != 1000)
+            continue;
         const Relit lit(house(scale, texels));
         double inside = 0, outside = 0;
         constexpr int kPlaces = 400;
@@ -89,6 +92,8 @@ TEST(FineTexels, LieWhereTheirLookupsAre) {
 
 TEST(FineTexels, DoNotExceedTheTexelsAskedFor) {
     for (const std::uint32_t texels : {500U, 3000U, 12000U}) {
+        if (kSanitized && texels > 500)
+            continue;
         const Relit lit(house(1, texels));
         // A twentieth more are surfels' own.
         EXPECT_LT(lit.caches.lightmapCount, 1.05 * texels + 10) << texels;

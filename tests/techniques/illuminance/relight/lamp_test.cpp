@@ -3,6 +3,7 @@
 #include "engine/field/sample_field.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/light/rectangle_light.h"
+#include "tests/core/sweep.h"
 #include "tests/techniques/illuminance/relight/relit.h"
 #include "tests/trace/simple_scene.h"
 
@@ -185,6 +186,8 @@ Mesh flatLamp() {
 // Its rim has a hundredth of its area, so one surfel stands for half a metre of it. Caches that
 // aimed at the middles of such surfels had an rms error of .41 at 2 cm.
 TEST(Lamps, TheRimOfAFlatLampLightsWhatIsBesideIt) {
+    if (kSanitized)
+        GTEST_SKIP() << kSweepSkipped;
     for (const float away : {0.02f, 0.05f, 0.15f}) {
         SceneBuilder b = lampScene();
         const Mesh lamp = flatLamp();

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace limn {
+
+/// Whether the tests run with AddressSanitizer or ThreadSanitizer, which make most of them five to
+/// ten times as slow. Tests that measure an error over many bakes, pictures or seeds measure fewer
+/// of them there: the other ones would run the same code again.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+/// Says why a test was skipped with the sanitizers.
+inline constexpr const char* kSweepSkipped = "measures an error, which needs no sanitizers";
+
+} // namespace limn
