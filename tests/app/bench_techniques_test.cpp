@@ -7,6 +7,7 @@
 #include "engine/lightmap/atlas.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/app/command_line.h"
+#include "tests/core/sweep.h"
 #include "tests/trace/simple_scene.h"
 
 #include <cmath>
@@ -328,6 +329,8 @@ TEST_F(CommandLine, BenchTechniquesSkipsWhatDoesNotFitIntoItsTime) {
 }
 
 TEST_F(CommandLine, BenchTechniquesMeasuresWhatIsAskedAndWritesAPage) {
+    if (limn::kSanitized)
+        GTEST_SKIP() << limn::kSweepSkipped;
     const nlohmann::json result =
         json("bench techniques generated:2 --technique ambient,probes --width 16 --height 12 "
              "--relight cpu --spp 8 --runs 1 --json -o " +

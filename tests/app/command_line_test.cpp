@@ -2,7 +2,6 @@
 // The contract that scripts rely on: exit codes, one line for a failure, one JSON object on stdout.
 #include "engine/scene/bake_settings.h"
 #include "tests/app/command_line.h"
-#include "tests/core/source_path.h"
 
 #include <cmath>
 #include <cstdio>
@@ -352,39 +351,6 @@ TEST_F(CommandLine, RenderWritesTheFramesOfAnAnimationEachAsAPictureOfItsTime) {
     expectRefusal("render signs --frames 2 --overlay surfels -o " + path("walk.png"), "--frames");
     EXPECT_EQ(limn("render signs --frames 0 -o " + path("walk.png")).exit, 2);
     EXPECT_EQ(limn("render signs --frames 2 --fps 0 -o " + path("walk.png")).exit, 2);
-}
-
-TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) {
-    struct View {
-        const char *scene, *lens;
-    };
-    const std::string sponza = limn::sourcePath("../shared/scenes/sponza-crytek/Sponza.gltf");
-    std::vector<View> views = {{"cornell", " --eye 0,1,1 --target 0.8,0.4,-0.5 --fov 30"},
-                               {"atrium", " --eye 0,1.7,0 --target -3,2,1 --fov 60"}};
-    if (fs::exists(sponza))
-        views.push_back({sponza.c_str(), " --eye 0,6,4.5 --target -10,6,4"});
-    const std::string bake = path("some.limnbake"), few = path("few.exr"), all = path("all.exr");
-    for (std::string baked; const View& view : views) {
-        if (baked != view.scene)
-            json(std::string("bake ") + view.scene + " -o " + bake +
-                 " --surfels 3000 --links 32 --rays 64 --lightmap 3000 --bands 4 --json");
-        baked = view.scene;
-        for (const char* device :
-             {"auto --relight cpu", "auto --relight gpu", "cpu --relight cpu"}) {
-            if (baked == sponza && device != std::string("auto --relight cpu"))
-                continue; // takes long
-            const std::string render = std::string("render ") + view.scene + view.lens +
-                                       " --light 'sun dir=-0.4,-1,-0.3 lux=20' --bake " + bake +
-                                       " --device " + device +
-                                       " --near-rays 0 --width 160 --height 100 --json -o ";
-            const nlohmann::json with = json(render + few),
-                                 without = json(render + all + " --all-caches");
-            EXPECT_EQ(without["relight"]["caches_unseen"], 0);
-            EXPECT_EQ(with["relight"]["bounces"], without["relight"]["bounces"]);
-            EXPECT_GT(with["relight"]["caches_unseen"], 300);
-            EXPECT_TRUE(contents(few) == contents(all)) << view.scene << view.lens << device;
-        }
-    }
 }
 
 TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {

@@ -13,6 +13,6 @@ inline constexpr bool kSanitized = false;
 #endif
 
 /// Says why a test was skipped with the sanitizers.
-inline constexpr const char* kSweepSkipped = "measures an error, which needs no sanitizers";
+inline constexpr const char* kSweepSkipped = "a measurement, whose code other tests run as well";
 
 } // namespace limn
