@@ -19,7 +19,7 @@ if(LIMN_SANITIZE)
   target_compile_options(limn_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                          -fno-omit-frame-pointer)
   # A pointer that is null or out of its object ends in AddressSanitizer's report where it is read. To check each pointer
-  # as well takes two fifths of the compiler's time and half of the tests'; the fuzz targets do.
+  # as well takes two fifths of the compiler's time; the fuzz targets do.
   if(NOT LIMN_FUZZ)
     target_compile_options(limn_options INTERFACE -fno-sanitize=null,alignment,pointer-overflow,object-size)
   endif()
