@@ -18,21 +18,21 @@ endif()
 if(LIMN_SANITIZE)
   target_compile_options(limn_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                          -fno-omit-frame-pointer)
-  # A pointer that is null or out of its object ends in AddressSanitizer's report where it is read. To check each pointer
-  # as well takes two fifths of the compiler's time; the fuzz targets do.
+  # AddressSanitizer reports a null pointer, or one out of its object, where it is read. Checking each pointer before that takes
+  # two fifths of the compiler's time. The fuzz targets do, so that they alone report misaligned reads, and overflows of
+  # pointers that are not read.
   if(NOT LIMN_FUZZ)
     target_compile_options(limn_options INTERFACE -fno-sanitize=null,alignment,pointer-overflow,object-size)
   endif()
-  # In code that is watched, GCC takes strings and optionals for memory that is unused or too small. Release builds warn of what is
-  # real.
+  # GCC warns falsely of strings and optionals in instrumented code. Release builds keep these warnings.
   foreach(warning maybe-uninitialized array-bounds stringop-overflow restrict)
     target_compile_options(limn_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-${warning}>)
   endforeach()
   target_link_options(limn_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# Options of sources whose small loops GCC unrolls or vectorises at -O3 only. AddressSanitizer would mark where the life of each
-# vector in an unrolled loop begins and ends, which takes minutes for each source.
+# Options of sources whose small loops GCC unrolls or vectorises at -O3 only. With AddressSanitizer, unrolled loops and checks for
+# use after scope of each vector in them would take GCC minutes for each source.
 set(LIMN_KERNEL_OPTIONS -O3)
 if(LIMN_SANITIZE)
   set(LIMN_KERNEL_OPTIONS -O1 -fno-sanitize-address-use-after-scope)
@@ -59,7 +59,8 @@ function(limn_room name)
   set_property(GLOBAL APPEND PROPERTY LIMN_JOINED ${name})
 endfunction()
 
-# Many tests start programs with a cache folder of their own. Lavapipe would compile the same shaders in each, for five seconds.
+# Many tests start programs with a cache folder of their own. Without a shared shader cache, Lavapipe compiles the same shaders
+# in each of them, which takes five seconds.
 set(LIMN_TEST_ENVIRONMENT LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0
     TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/shader-cache)
 

@@ -341,7 +341,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.counts = countOf(scene, result, run.rays);
     result.seconds = std::move(run.clock.seconds);
     result.keptStages = std::move(run.clock.keptStages);
-    // Kept stages whose contents were changed may each be within their ranges and not fit together.
+    // Stages that were changed in the store may pass their own checks and still not fit together.
     if (store && !bakeDefect(result, &scene).empty())
         return bake(trace, progress, nullptr, settings, memory);
     return std::move(result);

@@ -33,7 +33,9 @@ TEST(Oracles, AreMetByThirtyHostileScenes) {
                                      << ", at most " << j.limit << ": " << result.note;
         }
     }
-    for (std::size_t k = 0; k < oracles.size() && !kSanitized; ++k)
+    if (kSanitized)
+        return; // six scenes need not have something for each oracle to judge
+    for (std::size_t k = 0; k < oracles.size(); ++k)
         EXPECT_GT(judged[k], 0) << oracles[k].name << " was never judged";
 }
 
