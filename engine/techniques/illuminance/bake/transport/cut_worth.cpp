@@ -2,8 +2,8 @@
 #include "engine/techniques/illuminance/bake/transport/cut_worth.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace limn {
@@ -29,28 +29,6 @@ constexpr float kPrior = 0.03f;
 /// links, because its links led to clusters that had surfels in both rooms.
 constexpr float kDarkest = 0.01f;
 
-/// Radiosities as one cache receives them: share * radiosity[t].
-struct Received {
-    float share;
-    const float* radiosity;
-};
-
-/// The weighted mean square of the difference between what senders bring and what one link brings
-/// in their place. Uses eight sums, so that SIMD can compute them at once.
-float errorOf(const Received& link, const float* brought, const float* weight) {
-    std::array<float, 8> sums{};
-    static_assert(kLightings % sums.size() == 0);
-    for (std::size_t t = 0; t < kLightings; t += sums.size())
-        for (std::size_t k = 0; k < sums.size(); ++k) {
-            const float d = brought[t + k] - link.share * link.radiosity[t + k];
-            sums[k] += d * d * weight[t + k];
-        }
-    float sum = 0;
-    for (const float s : sums)
-        sum += s;
-    return sum / kLightings;
-}
-
 /// Expected squared error of a link by the prior, less what all links to the same senders share.
 /// The senders' radiosities B_k count as independent with variance kPrior / 2, so that the mean
 /// square of the difference of two is kPrior. The cache sees shares s_k of them, with the sum
@@ -71,15 +49,11 @@ void CutWorth::bySolidAngle(const VisibleTree& seen) {
 }
 
 void CutWorth::weighLightings(const VisibleTree& seen, const TrainingLight& training) {
-    std::array<float, kLightings> E{};
+    const LightingRow E = receivedFrom(training, std::span(seen.node).first(seen.leaves()),
+                                       std::span(seen.sight).first(seen.leaves()));
     float share = 0;
-    for (std::uint32_t i = 0; i < seen.leaves(); ++i) {
-        const float* row = training.row(seen.node[i]);
-        const float s = seen.sight[i].irradiance;
-        for (std::uint32_t t = 0; t < kLightings; ++t)
-            E[t] += s * row[t];
-        share += s;
-    }
+    for (std::uint32_t i = 0; i < seen.leaves(); ++i)
+        share += seen.sight[i].irradiance;
     m_weight.resize(kLightings + 1);
     for (std::uint32_t t = 0; t < kLightings; ++t) {
         const float usual = TrainingLight::strength(t), relative = E[t] / usual;
@@ -131,26 +105,29 @@ void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& traini
         }
         const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
         const Received right = received(r), left = received(l);
-        std::array<float, kLightings> brought;
-        for (std::size_t t = 0; t < kLightings; ++t)
-            brought[t] = left.share * left.radiosity[t] + right.share * right.radiosity[t];
-        chooseRepresentative(seen, training, i, brought.data());
+        LightingRow brought;
+        const auto errors = linkErrors(left, right, seen.sight[i].irradiance,
+                                       {training.row(seen.node[i]), training.row(m_read[l].node),
+                                        training.row(m_read[r].node)},
+                                       m_weight.data(), brought.data());
+        chooseRepresentative(seen, training, i, errors);
         if (m_brought.size() < (depth + 1) * kLightings)
             m_brought.resize((depth + 1) * kLightings);
-        std::copy(brought.begin(), brought.end(), m_brought.data() + depth++ * kLightings);
+        std::ranges::copy(brought, m_brought.data() + depth++ * kLightings);
         m_groups[i - seen.leaves()].gain =
             m_error[i] - m_error[l] - m_error[r] +
             kPrior * m_weight[kLightings] * seen.sight[l].irradiance * seen.sight[r].irradiance;
     }
 }
 
-/// Fills m_error and m_read of inner node `i`, whose senders bring `brought`.
+/// Fills m_error and m_read of inner node `i`. `errors`: of each Representative.
 void CutWorth::chooseRepresentative(const VisibleTree& seen, const TrainingLight& training,
-                                    std::uint32_t i, const float* brought) {
+                                    std::uint32_t i,
+                                    const std::array<float, kLinkCandidates>& errors) {
     const float share = seen.sight[i].irradiance;
     float least = std::numeric_limits<float>::infinity();
     const auto consider = [&](Representative by, const Read& read) {
-        const float error = errorOf({share, training.row(read.node)}, brought, m_weight.data());
+        const float error = errors[std::size_t(by)];
         const float expected =
             error +
             m_weight[kLightings] * priorError(share, read.seen, training.squaredWeights[read.node]);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/techniques/illuminance/bake/transport/lighting_rows.h"
 #include "engine/techniques/illuminance/bake/transport/training_light.h"
 #include "engine/techniques/illuminance/bake/transport/visible_tree.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -65,7 +67,7 @@ private:
     void weighLightings(const VisibleTree& seen, const TrainingLight& training);
     void measureGains(const VisibleTree& seen, const TrainingLight& training);
     void chooseRepresentative(const VisibleTree& seen, const TrainingLight& training,
-                              std::uint32_t node, const float* brought);
+                              std::uint32_t node, const std::array<float, kLinkCandidates>& errors);
     void joinGroups(const VisibleTree& seen);
     std::uint32_t rankOf(std::uint32_t heap) const;
     std::uint32_t merge(std::uint32_t a, std::uint32_t b);
