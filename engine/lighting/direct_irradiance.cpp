@@ -9,6 +9,7 @@
 #include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
@@ -55,39 +56,82 @@ float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>&
     return sum;
 }
 
-float pointShare(const TraceScene& trace, const Light& light, glm::vec3 p, glm::vec3 n,
-                 std::uint64_t& rays) {
-    const LightSample sample = sampleLight(light, p);
-    const float cosTheta = glm::dot(n, sample.toLight);
-    if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
-        return 0;
-    ++rays;
-    const Ray ray{trace.clearOf(p, n), sample.toLight, 0, sample.distance - trace.epsilonAt(p)};
-    return trace.occluded(ray) ? 0 : sample.irradiance.x * cosTheta;
-}
+/// The light of a point, a spot or a sun at many positions. Shadow rays are traced several at once,
+/// since neighbours are lit from about the same direction.
+class PointShares {
+public:
+    PointShares(const TraceScene& trace, const Light& light, std::uint32_t each,
+                std::span<float> share)
+        : m_trace(trace), m_light(light), m_each(each), m_share(share) {}
+
+    /// Adds position `at` with its normal to the mean of its point.
+    void add(std::size_t at, glm::vec3 p, glm::vec3 n) {
+        const LightSample sample = sampleLight(m_light, p);
+        const float cosTheta = glm::dot(n, sample.toLight);
+        if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
+            return;
+        m_rays[m_count] = {m_trace.clearOf(p, n), sample.toLight, 0,
+                           sample.distance - m_trace.epsilonAt(p)};
+        m_point[m_count] = at / m_each;
+        m_open[m_count] = sample.irradiance.x * cosTheta / float(m_each);
+        if (++m_count == m_rays.size())
+            flush();
+    }
+
+    /// Traces the rays that wait.
+    void flush() {
+        const std::uint32_t hidden = m_trace.occludedTogether({m_rays.data(), m_count});
+        for (std::size_t k = 0; k < m_count; ++k)
+            if (!(hidden >> k & 1))
+                m_share[m_point[k]] += m_open[k];
+        m_traced += m_count;
+        m_count = 0;
+    }
+
+    std::uint64_t traced() const { return m_traced; }
+
+private:
+    const TraceScene& m_trace;
+    const Light& m_light;
+    std::uint32_t m_each;
+    std::span<float> m_share;
+    std::size_t m_count = 0; ///< rays that wait
+    std::uint64_t m_traced = 0;
+    std::array<Ray, TraceScene::kTogether> m_rays;
+    std::array<std::size_t, TraceScene::kTogether> m_point;
+    std::array<float, TraceScene::kTogether> m_open; ///< what each adds where it is not occluded
+};
 
 // Returns the shadow rays traced.
 std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                          std::uint32_t each, const TraceScene& trace,
                          DirectIrradiance::PerLight& out) {
+    // The same points are traced together for any number of threads, because rays may hit edges
+    // otherwise in other company.
+    constexpr std::size_t kBlock = 256;
     const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
-    out.share.resize(positions.size() / each);
+    const std::size_t points = positions.size() / each;
+    out.share.assign(points, 0);
     const std::uint32_t samples = std::max(DirectIrradiance::kRectanglePoints / each, 1U);
     std::atomic<std::uint64_t> rays = 0;
-    parallelRanges(out.share.size(), 256, [&](std::size_t begin, std::size_t end) {
+    const auto lightBlock = [&](std::size_t begin, std::size_t end) {
         std::uint64_t mine = 0;
-        for (std::size_t s = begin; s < end; ++s) {
-            float sum = 0;
-            for (std::uint32_t k = 0; k < each; ++k) {
-                const std::uint32_t at = std::uint32_t(s) * each + k;
-                const glm::vec3 p = positions[at], n = normals[at];
-                sum += rectangles.empty()
-                           ? pointShare(trace, out.light, p, n, mine)
-                           : rectangleShare(trace, rectangles, p, n, at, samples, mine);
-            }
-            out.share[s] = sum / float(each);
+        PointShares shares(trace, out.light, each, out.share);
+        for (std::size_t at = begin * each; at < end * each; ++at) {
+            if (rectangles.empty())
+                shares.add(at, positions[at], normals[at]);
+            else
+                out.share[at / each] +=
+                    rectangleShare(trace, rectangles, positions[at], normals[at], std::uint32_t(at),
+                                   samples, mine) /
+                    float(each);
         }
-        rays += mine;
+        shares.flush();
+        rays += mine + shares.traced();
+    };
+    parallelRanges((points + kBlock - 1) / kBlock, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b)
+            lightBlock(b * kBlock, std::min((b + 1) * kBlock, points));
     });
     return rays;
 }

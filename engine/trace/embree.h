@@ -80,4 +80,22 @@ inline void embreeOccluded(RTCScene scene, RTCRay& ray) {
 #endif
 }
 
+/// Occlusion of up to eight rays that run alike; valid: -1 for those to trace, else 0.
+inline void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
+#if RTC_VERSION_MAJOR >= 4
+    EmbreeContext context;
+    rtcInitRayQueryContext(&context);
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.context = &context;
+    rtcOccluded8(valid, scene, &rays, &arguments);
+#else
+    EmbreeContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &context, &rays);
+#endif
+}
+
 } // namespace limn

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -415,6 +416,41 @@ bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
     if (!m_impl->traceable(ray)) // tFar < 0 would be taken for Embree's answer
         return false;
     return meets(m_impl->fixed, TraceMask::Static) || meets(m_impl->moving, TraceMask::Dynamic);
+}
+
+std::uint32_t TraceScene::occludedTogether(std::span<const Ray> rays, TraceMask mask) const {
+    assert(rays.size() <= kTogether);
+    RTCRay8 all{};
+    alignas(32) std::array<int, kTogether> valid{};
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const Ray& ray = rays[k];
+        if (!m_impl->traceable(ray))
+            continue;
+        all.org_x[k] = ray.origin.x;
+        all.org_y[k] = ray.origin.y;
+        all.org_z[k] = ray.origin.z;
+        all.dir_x[k] = ray.direction.x;
+        all.dir_y[k] = ray.direction.y;
+        all.dir_z[k] = ray.direction.z;
+        all.tnear[k] = ray.tNear;
+        all.tfar[k] = ray.tFar;
+        all.mask[k] = ~0u;
+        valid[k] = -1;
+    }
+    std::uint32_t met = 0;
+    const auto trace = [&](const std::shared_ptr<const Trees>& trees, TraceMask which) {
+        if (!trees || !asks(mask, which))
+            return;
+        embreeOccluded(trees->top, valid.data(), all);
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            if (valid[k] != 0 && all.tfar[k] < 0) {
+                met |= 1U << k;
+                valid[k] = 0;
+            }
+    };
+    trace(m_impl->fixed, TraceMask::Static);
+    trace(m_impl->moving, TraceMask::Dynamic);
+    return met;
 }
 
 bool TraceScene::blocked(glm::vec3 from, glm::vec3 to, TraceMask mask) const {
