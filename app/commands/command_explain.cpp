@@ -150,7 +150,8 @@ Exit runExplain(const ExplainCommand& options) {
                                  .x = options.pick[0],
                                  .y = options.pick[1],
                                  .light = PixelLight(unit),
-                                 .nearRays = kNearRays};
+                                 .samples = kFileSamples.perPixel,
+                                 .nearRays = kFileSamples.nearRays};
     reflectionTable(); // a process makes it once, the editor with its first picture
     const Clock::time_point start = Clock::now();
     const PixelExplanation e = explainPixel(*lit, question, {.rows = options.rows});

@@ -37,8 +37,8 @@ struct RenderCommand {
     std::string bake, output, view = "lit", inspection = "none", tonemap = "aces", device = "auto",
                               relight = "auto";
     float exposureEv = 0;
-    std::uint32_t samplesPerPixel = kSamplesPerPixel;
-    std::uint32_t nearRays = kNearRays;
+    std::uint32_t samplesPerPixel = kFileSamples.perPixel;
+    std::uint32_t nearRays = kFileSamples.nearRays;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
     GivenSettings relighting; ///< instead of the document's

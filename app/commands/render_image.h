@@ -31,11 +31,11 @@ struct RenderRequest {
     std::uint32_t width = 1280, height = 720;
     Tonemap tonemap = Tonemap::Aces;
     float exposureEv = 0;
-    std::uint32_t samplesPerPixel = kSamplesPerPixel; ///< box filter; at least 1
-    std::uint32_t nearRays = kNearRays;               ///< of each sample; 0: none
-    Inspection inspection = Inspection::None;         ///< of RenderedImage::picture
-    bool tonemapped = false;                          ///< RenderedImage::picture is wanted too
-    std::shared_ptr<const LightmapLayout> layout;     ///< of the light; null: there is none
+    std::uint32_t samplesPerPixel = kFileSamples.perPixel; ///< box filter; at least 1
+    std::uint32_t nearRays = kFileSamples.nearRays;        ///< of each sample; 0: none
+    Inspection inspection = Inspection::None;              ///< of RenderedImage::picture
+    bool tonemapped = false;                               ///< RenderedImage::picture is wanted too
+    std::shared_ptr<const LightmapLayout> layout;          ///< of the light; null: there is none
     /// Computes the light on the CPU; `marched` as LightingInput::marched. Empty: no indirect
     /// light.
     std::function<CpuLight(bool marched)> relight;

@@ -170,7 +170,7 @@ DrawnImages RenderWorker::readImages() {
 }
 
 bool worthRefining(std::uint32_t samples, double sampleMs) {
-    return samples < kSamplesPerPixel && samples * sampleMs <= kMaxRefineMs;
+    return samples < kScreenSamples.perPixel && samples * sampleMs <= kMaxRefineMs;
 }
 
 bool RenderWorker::refining() const {
@@ -180,10 +180,10 @@ bool RenderWorker::refining() const {
 }
 
 std::optional<DrawnImages> RenderWorker::refine(const std::atomic<bool>& hurry) {
-    const std::uint32_t wanted = std::min(2 * std::bit_floor(m_samples), kSamplesPerPixel);
+    const std::uint32_t wanted = std::min(2 * std::bit_floor(m_samples), kScreenSamples.perPixel);
     if (m_samples == 1 && showsNearLight()) { // the first sample, which was to be fast, has none
         ViewportOptions near = shown.options;
-        near.nearRays = kNearRays;
+        near.nearRays = kScreenSamples.nearRays;
         viewport.render(near);
     }
     while (m_samples < wanted) {

@@ -24,13 +24,15 @@ void explainAt(EditorState& state, glm::vec2 mouse) {
     const Picture picture = state.view.picture();
     const glm::uvec2 size(picture.size);
     const glm::uvec2 pixel(glm::clamp(mouse - picture.origin, glm::vec2(0), picture.size - 1.f));
-    state.explain.pick = {.question = {.camera = picture.camera,
-                                       .width = size.x,
-                                       .height = size.y,
-                                       .x = std::min(pixel.x, size.x - 1),
-                                       .y = std::min(pixel.y, size.y - 1),
-                                       .nearRays = state.frame.nearLight ? kNearRays : 0},
-                          .point = hit.position};
+    state.explain.pick = {
+        .question = {.camera = picture.camera,
+                     .width = size.x,
+                     .height = size.y,
+                     .x = std::min(pixel.x, size.x - 1),
+                     .y = std::min(pixel.y, size.y - 1),
+                     .samples = kScreenSamples.perPixel,
+                     .nearRays = state.frame.nearLight ? kScreenSamples.nearRays : 0},
+        .point = hit.position};
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include "engine/lighting/converged_light.h"
 #include "engine/lighting/explanation.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/view.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +22,8 @@ struct PixelQuestion {
     std::uint32_t width = 1280, height = 720; ///< of the picture [pixels]
     std::uint32_t x = 0, y = 0;               ///< of the pixel; (0, 0) is the upper left
     PixelLight light = PixelLight::Radiance;
-    std::uint32_t samples = 16, seed = 1, nearRays = 0; ///< as FieldRenderOptions
+    std::uint32_t samples = kScreenSamples.perPixel, seed = 1,
+                  nearRays = 0; ///< as FieldRenderOptions
 
     bool operator==(const PixelQuestion&) const = default;
 };

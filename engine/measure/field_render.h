@@ -21,7 +21,8 @@ struct FieldRenderOptions {
     View view = View::Lit;
     Camera camera;
     std::uint32_t width = 1280, height = 720;
-    std::uint32_t samplesPerPixel = kSamplesPerPixel; ///< box filter; Owen-scrambled Sobol points
+    std::uint32_t samplesPerPixel =
+        kScreenSamples.perPixel; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
     /// Rays of each sample that look for near surfaces (near_light.h); 0: light is the field's.
     std::uint32_t nearRays = 0;

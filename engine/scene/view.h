@@ -16,12 +16,18 @@ namespace limn {
 /// emission + specular; the background is the sky. In every other view the background is 0.
 enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Normals };
 
-/// Samples per pixel of finished pictures, unless one asks for others.
-inline constexpr std::uint32_t kSamplesPerPixel = 16;
+/// How finely pictures are sampled that are meant to be right rather than fast.
+struct PictureSamples {
+    std::uint32_t perPixel;
+    std::uint32_t nearRays; ///< of each sample, which look for near surfaces
+};
 
-/// Number of rays of each of these samples that look for near surfaces by default, where pictures
-/// are meant to be right rather than fast.
-inline constexpr std::uint32_t kNearRays = 4;
+/// Of pictures in files, unless one asks for others. With 16 samples, the rim of a bright lamp is
+/// wrong by more than its bounced light.
+inline constexpr PictureSamples kFileSamples{.perPixel = 64, .nearRays = 1};
+
+/// Of what an editor shows at rest: as many near rays, with fewer samples to draw.
+inline constexpr PictureSamples kScreenSamples{.perPixel = 16, .nearRays = 4};
 
 /// What is drawn over a picture, which fades beneath it, to find faults: the edges of all
 /// triangles, or pixels with a NaN or Inf.
