@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/render_image.h"
 
+#include "app/commands/progress_line.h"
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
 #include "engine/techniques/device/device_table.h"
@@ -99,8 +100,12 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     options.exposureEv = request.exposureEv;
     options.inspection = request.inspection;
     viewport.render(options);
-    for (std::uint32_t n = 1; n < request.samplesPerPixel; ++n)
+    const Progress progress = progressOnStderr();
+    for (std::uint32_t n = 1; n < request.samplesPerPixel; ++n) {
+        progress.at("samples", float(n) / float(request.samplesPerPixel));
         viewport.refine();
+    }
+    endProgressLine();
     result.device = properties.deviceName;
     result.linear = viewport.readLinear();
     if (request.tonemapped)

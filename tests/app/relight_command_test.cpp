@@ -35,6 +35,8 @@ TEST_F(CommandLine, RenderTakesSeveralSamplesOfAPixelOnEitherDevice) {
     EXPECT_EQ(json(start + "--device cpu --spp 256 -o " + truth)["samples_per_pixel"], 256);
     EXPECT_EQ(json(start + "--spp 1 -o " + one)["samples_per_pixel"], 1);
     EXPECT_EQ(json(start + "-o " + many)["samples_per_pixel"], 64);
+    const std::string told = limn(start + "-o " + many).err;
+    EXPECT_NE(told.find("samples"), std::string::npos) << "how far it is: " << told;
     const auto error = [&](const std::string& image) {
         return json("compare " + image + " " + truth + " --json")["nrmse"].get<double>();
     };
