@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "engine/core/parallel.h"
 #include "engine/trace/trace_scene.h"
+
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
