@@ -99,8 +99,9 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     options.tonemap = request.tonemap;
     options.exposureEv = request.exposureEv;
     options.inspection = request.inspection;
-    viewport.render(options);
     const Progress progress = progressOnStderr();
+    progress.at("samples", 0);
+    viewport.render(options);
     for (std::uint32_t n = 1; n < request.samplesPerPixel; ++n) {
         progress.at("samples", float(n) / float(request.samplesPerPixel));
         viewport.refine();

@@ -56,8 +56,8 @@ float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>&
     return sum;
 }
 
-/// The light of a point, a spot or a sun at many positions. Shadow rays are traced several at once,
-/// since neighbours are lit from about the same direction.
+/// Adds up the light of a point light, a spot or a sun at many positions. Shadow rays are traced
+/// several at once, since light reaches neighbours from about the same direction.
 class PointShares {
 public:
     PointShares(const TraceScene& trace, const Light& light, std::uint32_t each,
@@ -106,8 +106,8 @@ private:
 std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                          std::uint32_t each, const TraceScene& trace,
                          DirectIrradiance::PerLight& out) {
-    // The same points are traced together for any number of threads, because rays may hit edges
-    // otherwise in other company.
+    // A ray that grazes an edge may depend on those traced with it. Blocks are the same for any
+    // number of threads, and so are the rays that are traced together.
     constexpr std::size_t kBlock = 256;
     const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
     const std::size_t points = positions.size() / each;
@@ -115,23 +115,23 @@ std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const g
     const std::uint32_t samples = std::max(DirectIrradiance::kRectanglePoints / each, 1U);
     std::atomic<std::uint64_t> rays = 0;
     const auto lightBlock = [&](std::size_t begin, std::size_t end) {
-        std::uint64_t mine = 0;
-        PointShares shares(trace, out.light, each, out.share);
-        for (std::size_t at = begin * each; at < end * each; ++at) {
-            if (rectangles.empty())
+        if (rectangles.empty()) {
+            PointShares shares(trace, out.light, each, out.share);
+            for (std::size_t at = begin * each; at < end * each; ++at)
                 shares.add(at, positions[at], normals[at]);
-            else
-                out.share[at / each] +=
-                    rectangleShare(trace, rectangles, positions[at], normals[at], std::uint32_t(at),
-                                   samples, mine) /
-                    float(each);
+            shares.flush();
+            return shares.traced();
         }
-        shares.flush();
-        rays += mine + shares.traced();
+        std::uint64_t mine = 0;
+        for (std::size_t at = begin * each; at < end * each; ++at)
+            out.share[at / each] += rectangleShare(trace, rectangles, positions[at], normals[at],
+                                                   std::uint32_t(at), samples, mine) /
+                                    float(each);
+        return mine;
     };
     parallelRanges((points + kBlock - 1) / kBlock, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
-            lightBlock(b * kBlock, std::min((b + 1) * kBlock, points));
+            rays += lightBlock(b * kBlock, std::min((b + 1) * kBlock, points));
     });
     return rays;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compiled once for each kind of vector unit; the best one is chosen when the program runs. Each
-// adds in the same order and rounds every product, so that a bake does not depend on the machine.
+// Compiled once for each kind of vector unit; the best one is chosen when the program runs. All of
+// them add in the same order, without fused multiply-add, so that a bake does not depend on the
+// machine.
 #include "engine/techniques/illuminance/bake/transport/lighting_rows.h"
 
 #include "engine/core/vector_targets.h"

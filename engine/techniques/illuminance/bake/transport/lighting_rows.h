@@ -25,12 +25,13 @@ struct Received {
 LightingRow receivedFrom(const TrainingLight& training, std::span<const std::uint32_t> node,
                          std::span<const Sight> sight);
 
-/// Candidates for the radiosities that one link reads for two senders.
+/// Number of nodes whose radiosity a link to two senders might read.
 inline constexpr std::size_t kLinkCandidates = 3;
 
-/// Writes what two senders bring together to `brought`, and returns for each candidate the mean
-/// square of what it differs from `share` times that candidate, weighted per lighting. The same for
-/// all vector units.
+/// Errors of one link in place of two senders. Writes the irradiance that the two bring in each
+/// lighting to `brought`. A link that reads a candidate brings `share` times its radiosity instead:
+/// returns the mean square of the difference over the lightings, each times its `weight`. The
+/// result has the same bits on every vector unit.
 std::array<float, kLinkCandidates>
 linkErrors(const Received& left, const Received& right, float share,
            const std::array<const float*, kLinkCandidates>& candidates, const float* weight,
