@@ -4,7 +4,7 @@
 #include "engine/reference/sky_light.h"
 
 #include "engine/core/parallel.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/trace/masked.h"
 
 #include <gtest/gtest.h>
 
@@ -342,12 +342,8 @@ TEST(Reference, LitIsDirectPlusIndirectPlusOwnEmissionPlusReflection) {
 
 TEST(Reference, AMaskedLeafShadesWhereItsTexelsAreOpaque) {
     SceneBuilder b;
-    b.assets->images.push_back({"mask", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
-    Material m = lambert(glm::vec3(0.5f));
-    m.alphaMode = AlphaMode::Mask;
-    m.baseColorTexture.image = 0;
-    m.baseColorTexture.nearest = true;
-    b.addMaterial(m);
+    b.addMaterial(
+        masked(b, {"mask", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}}, glm::vec3(0.5f)));
     b.add(quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}));
     b.scene.lights = {sun({0, -1, 0}, 7)};
     const TraceScene trace(b.build());

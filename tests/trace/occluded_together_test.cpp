@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/trace/trace_scene.h"
 
-#include "tests/trace/simple_scene.h"
+#include "tests/trace/masked.h"
 
 #include <gtest/gtest.h>
 
@@ -22,12 +22,7 @@ namespace {
 Scene furnishedRoom() {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f)));
-    b.assets->images.push_back({"mask", 2, 1, {0, 0, 0, 0, 9, 9, 9, 255}});
-    Material pane = lambert(glm::vec3(1));
-    pane.alphaMode = AlphaMode::Mask;
-    pane.baseColorTexture.image = 0;
-    pane.baseColorTexture.nearest = true;
-    b.addMaterial(pane);
+    b.addMaterial(masked(b, {"mask", 2, 1, {0, 0, 0, 0, 9, 9, 9, 255}}, glm::vec3(1)));
     b.add(box(glm::vec3(-4), glm::vec3(4), true));
     b.add(sphere(1, 3, false), glm::translate(glm::mat4(1), {1, 1, 0}));
     b.add(box({-2, -2, -1}, {-1, 0, 1}, false), glm::mat4(1), true);

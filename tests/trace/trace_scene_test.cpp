@@ -3,7 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
-#include "tests/trace/simple_scene.h"
+#include "tests/trace/masked.h"
 
 #include <gtest/gtest.h>
 
@@ -324,12 +324,8 @@ INSTANTIATE_TEST_SUITE_P(StaticAndDynamic, TraceSceneInstances, testing::Bool())
 TEST_P(TraceSceneInstances, RaysPassThroughMaskedTexelsOnly) {
     SceneBuilder b;
     // 2 x 2 texels, row 0 at v = 0: opaque only at u > 0.5, v < 0.5.
-    b.assets->images.push_back({"mask", 2, 2, {0, 0, 0, 0, 9, 9, 9, 255, 0, 0, 0, 0, 0, 0, 0, 0}});
-    Material m = lambert(glm::vec3(1));
-    m.alphaMode = AlphaMode::Mask;
-    m.baseColorTexture.image = 0;
-    m.baseColorTexture.nearest = true;
-    b.addMaterial(m);
+    b.addMaterial(masked(b, {"mask", 2, 2, {0, 0, 0, 0, 9, 9, 9, 255, 0, 0, 0, 0, 0, 0, 0, 0}},
+                         glm::vec3(1)));
     b.addMaterial(lambert(glm::vec3(1)));
     b.add(quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), glm::mat4(1), GetParam());
     b.add(quad({0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 1));

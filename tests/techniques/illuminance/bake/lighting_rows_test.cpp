@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/transport/lighting_rows.h"
 
-#include "engine/core/vector_targets.h"
+#include "tests/core/vector_units.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
-
-#include <hwy/targets.h>
 
 namespace limn::lighting_rows_test {
 namespace {
@@ -31,18 +29,14 @@ struct Rows {
     }
 };
 
-/// Calls `body` with the kernels of each kind of vector unit that runs here.
+/// Calls `body` once for each vector unit that this machine has.
 template <class Body>
 void forEachVectorUnit(const Body& body) {
-    const std::int64_t kinds = hwy::SupportedTargets() & HWY_TARGETS;
-    ASSERT_NE(kinds, 0);
-    for (std::int64_t rest = kinds; rest != 0; rest &= rest - 1) {
-        hwy::SetSupportedTargetsForTest(rest & -rest);
-        hwy::GetChosenTarget().DeInit();
+    ASSERT_NE(vectorUnitsHere(), 0);
+    for (std::int64_t rest = vectorUnitsHere(); rest != 0; rest &= rest - 1) {
+        const OnlyVectorUnit only(rest & -rest);
         body();
     }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
 }
 
 TEST(LightingRows, WhatIsReceivedIsTheSumOfWhatIsSeen) {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Links to what sends no light: skipped without loss, and counted.
 #include "engine/core/parallel.h"
-#include "engine/core/vector_targets.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
+#include "tests/core/vector_units.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/techniques/illuminance/relight/relit.h"
 
 #include <algorithm>
 #include <iterator>
 #include <random>
-
-#include <hwy/targets.h>
 
 namespace limn::dark_links_test {
 namespace {
@@ -90,22 +88,10 @@ struct Vectors {
 };
 constexpr Vectors kVectors[] = {{HWY_AVX3, 16}, {HWY_AVX2, 8}, {HWY_SCALAR, 1}};
 
-/// For as long as it lives, nothing but vectors of that kind.
-struct OnlyVectors {
-    explicit OnlyVectors(std::int64_t kind) { use(kind); }
-    ~OnlyVectors() { use(0); }
-
-    static void use(std::int64_t kind) {
-        hwy::SetSupportedTargetsForTest(kind);
-        hwy::GetChosenTarget().DeInit();
-    }
-};
-
 std::vector<Vectors> vectorsHere() {
-    const std::int64_t kinds = hwy::SupportedTargets() & HWY_TARGETS; // run and compiled here
     std::vector<Vectors> here;
     std::ranges::copy_if(kVectors, std::back_inserter(here),
-                         [&](const Vectors& v) { return (kinds & v.kind) != 0; });
+                         [&](const Vectors& v) { return (vectorUnitsHere() & v.kind) != 0; });
     return here;
 }
 
@@ -130,7 +116,7 @@ TEST(DarkLinks, AreSkippedByWholeVectorsWithoutAnyLoss) {
     for (std::uint32_t bands = 2; bands <= 8; ++bands) {
         const auto baked = bakeOf(TraceScene(litHall(LinkStorage::Rtp, bands)));
         for (const Vectors& vectors : vectorsHere()) {
-            const OnlyVectors only(vectors.kind);
+            const OnlyVectorUnit only(vectors.kind);
             for (int chroma = 1; chroma <= int(bands); ++chroma)
                 expectSkipped(*baked, {int(bands), chroma}, vectors.lanes);
         }
