@@ -2,19 +2,22 @@
 #include "engine/field/field_reading.h"
 
 #include "engine/math/hemisphere_radiance.h"
+#include "engine/math/horizon.h"
 
 #include <algorithm>
 #include <span>
 
 namespace limn {
 
-/// Adds the sum of `ofCoefficients` times the field's coefficients, where `value` of that is above
-/// 0.
-static void addSum(const FieldPoint& at, std::span<const float> ofCoefficients, glm::vec3 value,
+/// Adds the sum of `ofCoefficients` times the coefficients of the light above the surface, where
+/// `value` of that is above 0. Changes `ofCoefficients`.
+static void addSum(const FieldPoint& at, std::span<float> ofCoefficients, glm::vec3 value,
                    glm::vec3 weight, FieldReading& reading) {
     for (int k = 0; k < 3; ++k)
         weight[k] = value[k] > 0 ? weight[k] : 0;
     const FieldLookup lookup = lookUp(at);
+    if (at.field.continues && !lookup.grid)
+        weighCut(at.surfaceNormal(), ofCoefficients.data());
     for (std::size_t k = 0; k < lookup.count; ++k) {
         auto entry = std::ranges::find_if(reading.entries, [&](const FieldReading::Entry& e) {
             return e.grid == lookup.grid && e.index == lookup.index[k];

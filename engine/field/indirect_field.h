@@ -29,6 +29,9 @@ struct IndirectField {
     /// Texels outside charts are never read by a bilinear lookup; they hold 0 or the light of
     /// surfels' own caches.
     std::vector<glm::vec4> lightmap;
+    /// The lightmap's light continues below the surfaces of its texels (engine/math/horizon.h), and
+    /// lookups cut it off at the surface that they light.
+    bool continues = false;
 
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;      ///< cell c's centre is lower + (c + 0.5) / gridSize * size

@@ -5,6 +5,7 @@
 #include "engine/field/grid_depth.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/hemisphere_radiance.h"
+#include "engine/math/horizon.h"
 #include "engine/math/lobe.h"
 
 #include <algorithm>
@@ -67,7 +68,8 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3
 
 namespace {
 
-/// The first bands^2 coefficients at a surface point; the others are 0.
+/// The first bands^2 coefficients of the light above a surface point; the others are 0. At least 2
+/// bands.
 Coefficients sampleField(const FieldPoint& at, int bands) {
     const FieldLookup lookup = lookUp(at);
     const IndirectField& field = at.field;
@@ -77,6 +79,8 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
     for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
         for (std::size_t k = 0; k < lookup.count; ++k)
             c[i] += glm::vec3(values[i * stride + lookup.index[k]]) * lookup.weight[k];
+    if (field.continues && !lookup.grid && lookup.count > 0)
+        cutBelow(at.surfaceNormal(), c.data());
     return c;
 }
 
@@ -85,10 +89,11 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
 bool IndirectField::operator==(const IndirectField& o) const {
     const bool sameDepth =
         gridDepth && o.gridDepth ? *gridDepth == *o.gridDepth : gridDepth == o.gridDepth;
-    return sameDepth && gridMoments == o.gridMoments && marched == o.marched && bands == o.bands &&
-           chroma() == o.chroma() && lightmapWidth == o.lightmapWidth &&
-           lightmapHeight == o.lightmapHeight && lightmap == o.lightmap && gridSize == o.gridSize &&
-           gridBounds == o.gridBounds && grid == o.grid && version == o.version;
+    return sameDepth && continues == o.continues && gridMoments == o.gridMoments &&
+           marched == o.marched && bands == o.bands && chroma() == o.chroma() &&
+           lightmapWidth == o.lightmapWidth && lightmapHeight == o.lightmapHeight &&
+           lightmap == o.lightmap && gridSize == o.gridSize && gridBounds == o.gridBounds &&
+           grid == o.grid && version == o.version;
 }
 
 FieldLookup lookUp(const FieldPoint& at) {

@@ -20,8 +20,11 @@ struct FieldPoint {
     std::uint32_t instance, triangle;
     float u, v; ///< barycentrics of the triangle
     glm::vec3 position;
-    glm::vec3 normal;  ///< unit, of the side that is looked up
-    bool back = false; ///< whether that side is the back of a two-sided surface
+    glm::vec3 normal;     ///< unit, of the side that is looked up
+    bool back = false;    ///< whether that side is the back of a two-sided surface
+    glm::vec3 surface{0}; ///< unit geometric normal of that side; 0: that is `normal`
+
+    glm::vec3 surfaceNormal() const { return surface == glm::vec3(0) ? normal : surface; }
 };
 
 /// The texels or cells that a lookup blends.

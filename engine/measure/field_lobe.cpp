@@ -14,8 +14,8 @@ namespace limn {
 
 FieldPoint fieldPoint(const IndirectField& field, const LightmapLayout& layout, const Scene& scene,
                       const Hit& hit, const SurfacePoint& p) {
-    return {field, layout, scene,      hit.instance, hit.triangle,
-            hit.u, hit.v,  p.position, p.normal,     !hit.frontFace};
+    return {field, layout,     scene,    hit.instance,   hit.triangle,     hit.u,
+            hit.v, p.position, p.normal, !hit.frontFace, p.geometricNormal};
 }
 
 static ReflectionLobe lobeOf(const GlossyPoint& g) {

@@ -54,6 +54,7 @@ std::shared_ptr<GpuField> createWrittenField(gpu::Device& device, const WrittenF
                     .name = "grid cells"}};
     field->gridDepth = desc.gridDepth;
     field->marched = desc.marched;
+    field->continues = desc.continues;
     gpu::clearBuffers(device, {field->grid.handle});
     clear(device, field->lightmap);
     return field;
@@ -77,6 +78,7 @@ IndirectField readField(gpu::Device& device, const GpuField& field) {
     out.chromaBands = field.chroma;
     out.lightmapWidth = field.lightmap.width;
     out.lightmapHeight = field.lightmap.height;
+    out.continues = field.continues;
     out.gridSize = field.gridSize;
     out.gridBounds = field.gridBounds;
     const std::uint32_t layers = fieldLayers(field.bands, field.chroma);

@@ -28,6 +28,8 @@ struct GpuField {
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;
 
+    bool continues = false; ///< as IndirectField::continues
+
     bool hasGrid() const { return gridSize.x > 0; }
 };
 
@@ -44,6 +46,7 @@ struct WrittenFieldDesc {
     Bounds gridBounds;
     std::shared_ptr<const gpu::Buffer> gridDepth;  ///< as GpuField::gridDepth
     std::shared_ptr<const GpuMarchedMaps> marched; ///< as GpuField::marched
+    bool continues = false;                        ///< as IndirectField::continues
 };
 
 /// Creates a black field whose lightmap is a storage image and whose grid is a storage buffer.

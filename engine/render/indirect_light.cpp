@@ -81,6 +81,7 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
                                 "grid");
     out->bands = field.bands;
     out->chroma = field.chroma();
+    out->continues = field.continues;
     out->gridSize = any ? field.gridSize : glm::uvec3(0);
     out->gridBounds = field.gridBounds;
     const std::span<const std::byte> maps = cellMapsOf(field);
@@ -133,6 +134,7 @@ void describeField(const GpuField& field, GeometryView& view) {
 
 void describeField(const GpuField& field, shared::GpuFrame& frame) {
     frame.fieldUnit = 1 / field.scale;
+    frame.cutBelow = field.continues ? 1.f : 0.f;
     if (!field.hasGrid())
         return;
     const glm::vec3 size = glm::max(field.gridBounds.size(), glm::vec3(1e-20f));

@@ -65,17 +65,45 @@ void fill(limnrt_scene& s, std::uint32_t begin, std::uint32_t end, std::size_t c
     }
 }
 
+/// Lets the light of the lightmap's caches [begin, end), whose second band is in colour, continue
+/// below their surfaces with an even radiance, as docs/transport-format.md says. `grey`: the second
+/// band is to be grey.
+void continueBelow(limnrt_scene& s, std::uint32_t begin, std::uint32_t end, bool grey) {
+    constexpr float kC0 = 1.41047396f, kC1 = -0.977205024f;       // 5 / (2 sqrt(pi)), -sqrt(3 / pi)
+    constexpr float kBelow0 = 1.77245385f, kBelow1 = 1.53499006f; // sqrt(pi), sqrt(3 pi) / 2
+    for (std::uint32_t c = begin; c < end; ++c) {
+        const float* n = s.view.cacheNormal + 3 * std::size_t(c);
+        F4* sh = s.sh + c * s.coefficients();
+        const F4 below =
+            sh[0] * splat(kC0) +
+            (sh[3] * splat(n[0]) + sh[1] * splat(n[1]) + sh[2] * splat(n[2])) * splat(kC1);
+        sh[0] += below * splat(kBelow0);
+        sh[1] -= below * splat(kBelow1 * n[1]);
+        sh[2] -= below * splat(kBelow1 * n[2]);
+        sh[3] -= below * splat(kBelow1 * n[0]);
+        for (int i = 1; grey && i < 4; ++i)
+            sh[i] = F4{1, 1, 1, 0} * splat(lumaOf(sh[i]));
+    }
+}
+
 /// Lights the caches [begin, end) of which `read` has the value `which`; 2: all.
 void gatherSome(limnrt_scene& s, Bands bands, std::uint32_t begin, std::uint32_t end, int which) {
-    const Gather gather{s.view,          s.radiosity,  s.blackSky ? s.endBeforeSky : s.linkEnd,
-                        bands.luma,      bands.chroma, s.sh,
+    const bool lightmap = begin < s.view.dims.lightmapCaches;
+    const Gather gather{s.view,
+                        s.radiosity,
+                        s.blackSky ? s.endBeforeSky : s.linkEnd,
+                        bands.luma,
+                        lightmap ? std::max(bands.chroma, 2U) : bands.chroma,
+                        s.sh,
                         s.coefficients()};
     for (std::uint32_t first = begin; first < end;) {
         std::uint32_t last = which == 2 ? end : first;
         while (last < end && s.read[last] == which)
             ++last;
-        if (first < last)
+        if (first < last) {
             gatherCaches(gather, first, last);
+            continueBelow(s, first, std::min(last, s.view.dims.lightmapCaches), bands.chroma < 2);
+        }
         first = last == first ? first + 1 : last;
     }
 }

@@ -3,6 +3,7 @@
 // links are distributed over the lanes. From band kChromaBands on the light is grey, and only its luma is summed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/horizon.h"
 #include "shaders/shared/relight.glsl"
 #include "shaders/shared/sh_bands.glsl"
 
@@ -114,6 +115,21 @@ void addLanes(float sums[kSums]) {
     }
 }
 
+/// The sum of coefficient i, in the colours in which links are summed.
+vec3 totalOf(int i) {
+    return i < kColoured
+               ? vec3(total[i], total[kCoefficients + i], total[kCoefficients + kColoured + i])
+               : vec3(total[i], 0, 0);
+}
+
+/// What is added to coefficient i < 4 so that light continues below the surface: addBelow() of engine/math/horizon.h.
+vec3 belowSurface(int i, vec3 n) {
+    vec3 below = HORIZON_C0 * totalOf(0) + HORIZON_C1 * (n.y * totalOf(1) + n.z * totalOf(2) + n.x * totalOf(3));
+    if (kChromaBands < 2)
+        below.yz = vec2(0);
+    return below * (i == 0 ? BELOW_C0 : -BELOW_C1 * (i == 1 ? n.y : i == 2 ? n.z : n.x));
+}
+
 void main() {
     const uint k = range.begin + groupIndex();
     if (k >= range.end)
@@ -123,10 +139,11 @@ void main() {
     float sums[kSums];
     sumLinks(cache, sums);
     addLanes(sums);
-    for (uint i = gl_LocalInvocationIndex; i < kCoefficients; i += kLanes) {
-        vec3 v = vec3(total[i], 0, 0);
-        if (i < kColoured)
-            v.yz = vec2(total[kCoefficients + i], total[kCoefficients + kColoured + i]);
+    const bool ofSurface = dot(cache.normal, cache.normal) > 0.0;
+    for (int i = int(gl_LocalInvocationIndex); i < kCoefficients; i += int(kLanes)) {
+        vec3 v = totalOf(i);
+        if (ofSurface && i < 4)
+            v += belowSurface(i, cache.normal);
         sh[c * kCoefficients + i] = vec4((kAllColoured ? v : toRgb(v)) * cache.scale, 0);
     }
 }

@@ -30,7 +30,8 @@ struct GpuFrame {
     vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m
     vec2 pixelSize; vec2 lookupSize;   // 1 / picture's size in pixels; texels of the lightmap, 0: no snaps
     vec3 background; float fieldUnit;  // nits, where no surface is; what the field's halfs count
-    uint gridWeights; uint marchedSide; uint pad0, pad1; // GRID_* of grid_lookup.h; texels along a map's side, 0: none
+    uint gridWeights; uint marchedSide; // GRID_* of grid_lookup.h; texels along a map's side, 0: none
+    float cutBelow; uint pad; // 1: the lightmap's light continues below surfaces (engine/math/horizon.h); 0: it does not
 };
 
 /// Push constants of the geometry passes.

@@ -51,8 +51,8 @@ struct GpuSurfel {
 /// An inner node of the tree of senders.
 struct GpuInnerNode { uint node, left, right; float leftWeight; };
 
-/// A cache's links are [linkBegin, linkEnd); their values are divided by `scale`.
-struct GpuCache { uint linkBegin, linkEnd; float scale; uint texel; };
+/// A cache's links are [linkBegin, linkEnd); their values are divided by `scale`. The normal is unit; 0 in the grid.
+struct GpuCache { uint linkBegin, linkEnd; float scale; uint texel; vec3 normal; float pad; };
 
 /// An invalid cache and its sources [begin, end).
 struct GpuFill { uint cache, begin, end, pad; };
@@ -69,7 +69,7 @@ struct GpuRelightRange {
 #ifdef __cplusplus
 static_assert(sizeof(GpuSurfel) == 64);
 static_assert(sizeof(GpuInnerNode) == 16);
-static_assert(sizeof(GpuCache) == 16);
+static_assert(sizeof(GpuCache) == 32);
 static_assert(sizeof(GpuFill) == 16);
 static_assert(sizeof(GpuRelightRange) == 20);
 } // namespace limn::shared

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light that surfaces receive from spherical harmonics of radiance with kBands bands: sums of the coefficients times
 // the weights computed here. Needs kPi of specular.glsl, and sh_bands.glsl.
+#include "shaders/shared/horizon.h"
 
 /// Weights of irradiance [W m^-2] on a plane facing n. Only the first three bands have weights other than 0.
 void irradianceWeights(vec3 n, out float w[kCoefficients]) {
@@ -9,6 +10,28 @@ void irradianceWeights(vec3 n, out float w[kCoefficients]) {
     [[unroll]] for (int l = 0; l < kBands; ++l)
         [[unroll]] for (int i = l * l; i < (l + 1) * (l + 1); ++i)
             w[i] *= l < 3 ? A[l < 3 ? l : 0] : 0.0;
+}
+
+/// First four coefficients of light of radiance 1 below a surface with unit normal n.
+vec4 belowSurface(vec3 n) {
+    return vec4(BELOW_C0, -BELOW_C1 * n.yzx);
+}
+
+/// Weights of the first four coefficients in the radiance with which light continues below: horizonRadiance() of
+/// engine/math/horizon.h.
+vec4 horizonRadiance(vec3 n) {
+    return vec4(HORIZON_C0, HORIZON_C1 * n.yzx);
+}
+
+/// Changes weights of light above a surface with unit normal n into those of light that continues below it: weighCut()
+/// of engine/math/horizon.h.
+void weighCut(vec3 n, inout float w[kCoefficients]) {
+    const vec4 ofBelow = belowSurface(n), from = horizonRadiance(n);
+    float below = 0.0;
+    [[unroll]] for (int i = 0; i < 4; ++i)
+        below -= ofBelow[i] * w[i] / HORIZON_GAIN;
+    [[unroll]] for (int i = 0; i < 4; ++i)
+        w[i] += below * from[i];
 }
 
 /// s_l w_l: windowedFactors() of engine/math/lobe.h.

@@ -101,10 +101,14 @@ FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid)
     const bool lightmapRead = (kFeatures & FEATURE_LIGHTMAP) != 0 && !fromGrid,
                gridRead = (kFeatures & FEATURE_GRID) != 0 && fromGrid;
     // Loops instead of branches, because software rasterisers evaluate branches that no pixel of a block takes.
-    for (int once = 0; once < int(lightmapRead); ++once)
-        sums = readLightmap(s.lightmapUv, irradiance, lobe);
     for (int once = 0; once < int(gridRead); ++once)
         sums = readGrid(s.position, s.detailNormal, irradiance, lobe);
+    for (int once = 0; once < int(lightmapRead && frame.cutBelow > 0.0); ++once) {
+        weighCut(s.geometricNormal, irradiance);
+        weighCut(s.geometricNormal, lobe);
+    }
+    for (int once = 0; once < int(lightmapRead); ++once)
+        sums = readLightmap(s.lightmapUv, irradiance, lobe);
     return FieldSums(max(sums.irradiance, 0.0) * frame.fieldUnit, max(sums.lobe, 0.0) * frame.fieldUnit);
 }
 

@@ -50,6 +50,17 @@ void readCoefficients(vec2 uv, out vec3 c[kCoefficients]) {
     }
 }
 
+/// The same of the light above a surface with unit normal n: cutBelow() of engine/math/horizon.h.
+void readAbove(vec3 n, vec2 uv, out vec3 c[kCoefficients]) {
+    readCoefficients(uv, c);
+    const vec4 ofBelow = belowSurface(n), from = horizonRadiance(n);
+    vec3 below = vec3(0);
+    [[unroll]] for (int i = 0; i < 4; ++i)
+        below -= c[i] * (from[i] * frame.cutBelow / HORIZON_GAIN);
+    [[unroll]] for (int i = 0; i < 4; ++i)
+        c[i] += ofBelow[i] * below;
+}
+
 vec3 weightedSum(vec3 c[kCoefficients], float w[kCoefficients]) {
     vec3 sum = vec3(0);
     [[unroll]] for (int i = 0; i < kCoefficients; ++i)
@@ -169,7 +180,7 @@ PackedSurface metSurface(NearHit hit, vec3 position) {
 vec3 metRadiance(NearHit hit, vec3 position, float u) {
     const PackedSurface s = metSurface(hit, position);
     vec3 c[kCoefficients];
-    readCoefficients(s.lightmapUv, c);
+    readAbove(s.geometricNormal, s.lightmapUv, c);
     float w[kCoefficients];
     irradianceWeights(s.detailNormal, w);
     return s.albedo / kPi * (weightedSum(c, w) + pickedLight(s, u));
@@ -200,7 +211,7 @@ void main() {
     const PackedSurface s = seenSurface(depth);
     const uint rays = depth > 0.0 && s.nearReach > 0.0 ? near.rays : 0u;
     vec3 sum = vec3(0), c[kCoefficients];
-    readCoefficients(s.lightmapUv, c);
+    readAbove(s.geometricNormal, s.lightmapUv, c);
     // Positions come from depths, which are rounded in proportion to the distance.
     const float clear = max(1e-3 * s.nearReach, 4e-6 * (length(s.position) + length(frame.eye - s.position)));
     const vec3 origin = s.position + clear * s.geometricNormal;

@@ -55,6 +55,12 @@ def harmonics(x, y, z):
     return (0.2820948, 0.4886025 * y, 0.4886025 * z, 0.4886025 * x, 1.0925484 * x * y, 1.0925484 * y * z,
             0.3153916 * (3 * z * z - 1), 1.0925484 * x * z, 0.5462742 * (x * x - y * y))
 
+def continued(c, n):
+    """Light above the plane of normal n, with what continues below it."""
+    r = 5 / (2 * math.sqrt(math.pi)) * c[0] - math.sqrt(3 / math.pi) * (n[0] * c[3] + n[1] * c[1] + n[2] * c[2])
+    below = math.sqrt(3 * math.pi) / 2 * r
+    return [c[0] + math.sqrt(math.pi) * r, c[1] - below * n[1], c[2] - below * n[2], c[3] - below * n[0], *c[4:]]
+
 class Transport:
     def __init__(self, data):
         s = sections(data)
@@ -87,6 +93,7 @@ class Transport:
     def read_links(self, s, words):
         """Per lightmap cache: node and what a radiosity of 1 there adds to the nine coefficients."""
         begin, exponent, result = words("LBEG"), words("LEXP", "b"), []
+        normal = list(struct.iter_unpack("<3f", s["CNRM"]))
         all_links = list(struct.iter_unpack("<Ihhee", s["LINK"]))
         for c in range(self.dims[4]):
             result.append([])
@@ -98,7 +105,8 @@ class Transport:
                 transport = t * 2.0 ** -exponent[c]
                 g1, g2 = (2 - u) / 2, (2 - u) * 3 * (1 - u) / 6
                 factors = (1, g1, g1, g1, g2, g2, g2, g2, g2)
-                result[-1].append((node, [transport * g * v for g, v in zip(factors, harmonics(*unit((x, y, z))))]))
+                light = [transport * g * v for g, v in zip(factors, harmonics(*unit((x, y, z))))]
+                result[-1].append((node, continued(light, normal[c])))
         return result
 
     def epsilon(self, p):

@@ -40,8 +40,8 @@ static std::vector<glm::vec4> packLightPoints(const Surfels& surfels) {
 std::vector<GpuCache> packCaches(const Caches& caches, LinkEnds ends) {
     std::vector<GpuCache> out(caches.size());
     for (std::size_t c = 0; c < out.size(); ++c)
-        out[c] = {caches.linkBegin[c], ends[c], std::ldexp(1.f, -caches.linkExponent[c]),
-                  caches.texel[c]};
+        out[c] = {caches.linkBegin[c], ends[c],          std::ldexp(1.f, -caches.linkExponent[c]),
+                  caches.texel[c],     caches.normal[c], 0};
     return out;
 }
 
@@ -137,7 +137,8 @@ void makeRelitField(gpu::Device& device, const Bake& bake, std::uint32_t bands,
                                                 .chroma = chroma,
                                                 .gridSize = bake.gridSize,
                                                 .gridBounds = bake.gridBounds,
-                                                .gridDepth = buffers.gridDepth});
+                                                .gridDepth = buffers.gridDepth,
+                                                .continues = true});
     gpu::clearBuffers(device, {buffers.sh.handle});
 }
 

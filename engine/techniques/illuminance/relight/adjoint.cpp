@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/cone.h"
+#include "engine/math/horizon.h"
 #include "engine/math/packing.h"
 #include "engine/math/sh_basis.h"
 #include "engine/techniques/illuminance/relight/caches/weigh_links.h"
@@ -15,6 +16,11 @@
 namespace limn {
 
 namespace {
+
+/// Weights of colours of which each has the luma of all.
+glm::vec3 greyWeight(glm::vec3 w) {
+    return glm::vec3(0.25f, 0.5f, 0.25f) * (w.x + w.y + w.z); // toYCoCg()
+}
 
 /// Parts into which caches are split. Each part sums its weights on its own, so that sums do not
 /// depend on the number of threads.
@@ -60,7 +66,19 @@ void addLinks(const RelightState& s, std::uint32_t c, const glm::vec3* weight,
     }
 }
 
-/// The same for a cache that surfels read.
+/// Changes weights of a cache's light, as surfels and lookups read it, into those of the light that
+/// its links bring: the reverse of continueCaches().
+void weighLinked(const Caches& caches, std::uint32_t c, int chroma, glm::vec3* weight) {
+    if (c >= caches.lightmapCount)
+        return;
+    const glm::vec3 n = caches.normal[c];
+    glm::vec3 below = weightOfBelow(n, weight);
+    if (chroma < 2)
+        below = greyWeight(below);
+    addHorizonWeight(n, below, weight);
+}
+
+/// The same as addLinks() for a cache that surfels read.
 void addInnerLinks(const RelightState& s, std::uint32_t c, const glm::vec3* weight,
                    std::vector<glm::vec3>& nodes) {
     if (s.links.shNode.empty())
@@ -94,19 +112,18 @@ std::vector<CacheWeight> validCaches(const Caches& caches, std::span<const Cache
 }
 
 void weighGrey(int bands, int chroma, std::span<glm::vec3> coefficients) {
-    const glm::vec3 luma(0.25f, 0.5f, 0.25f); // toYCoCg()
-    for (int i = chroma * chroma; i < bands * bands; ++i) {
-        glm::vec3& c = coefficients[std::size_t(i)];
-        c = luma * (c.x + c.y + c.z);
-    }
+    for (int i = chroma * chroma; i < bands * bands; ++i)
+        coefficients[std::size_t(i)] = greyWeight(coefficients[std::size_t(i)]);
 }
 
 std::vector<glm::vec3> linkedNodes(const RelightState& state,
                                    std::span<const CacheWeight> weights) {
     std::vector<glm::vec3> nodes(state.radiosity.size(), glm::vec3(0));
     withBands(state.bands, [&]<int Bands>() {
-        for (const CacheWeight& w : weights)
+        for (CacheWeight w : weights) {
+            weighLinked(state.bake.caches, w.cache, state.inner.chroma, w.coefficient.data());
             addLinks<Bands>(state, w.cache, w.coefficient.data(), nodes);
+        }
     });
     return nodes;
 }
@@ -174,6 +191,7 @@ std::vector<glm::vec3> BounceAdjoint::operator()(std::span<const glm::vec3> irra
                         weight[i] += w * m_factors[reader.surfel][i];
                 }
                 weighGrey(state.inner.luma, state.inner.chroma, weight);
+                weighLinked(state.bake.caches, std::uint32_t(c), state.inner.chroma, weight);
                 addInnerLinks(state, std::uint32_t(c), weight, mine);
             }
         }

@@ -91,6 +91,7 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     s.radiosity.assign(s.bake->tree.size(), glm::vec4(0));
     s.field.lightmapWidth = s.bake->lightmap.width;
     s.field.lightmapHeight = s.bake->lightmap.height;
+    s.field.continues = true;
     s.field.gridBounds = s.bake->gridBounds;
     const int most = int(s.bake->settings.bands);
     s.setBands(lit == LitBands::All ? most : std::min(most, kIrradianceBands));
@@ -189,6 +190,7 @@ void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<g
                     runs, out, occluded.halfs.empty() ? halfs : occluded.halfs);
     links.links += counts.links;
     links.skipped += counts.skipped;
+    continueCaches(caches, in, runs, out);
     fillInvalidCaches(caches, in.luma, runs, out);
 }
 

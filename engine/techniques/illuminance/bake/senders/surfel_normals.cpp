@@ -42,8 +42,11 @@ glm::vec3 vertexNormal(const Scene& scene, const Surfels& surfels, std::uint32_t
 
 void shade(const Scene& scene, Surfels& surfels) {
     parallelRanges(surfels.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (auto s = std::uint32_t(begin); s < end; ++s)
+        for (auto s = std::uint32_t(begin); s < end; ++s) {
+            const glm::vec3 surface = surfels.normal[s];
             surfels.normal[s] = vertexNormal(scene, surfels, s);
+            surfels.cacheWeight[s] *= (1 + glm::dot(surface, surfels.normal[s])) / 2;
+        }
     });
 }
 

@@ -16,7 +16,8 @@ glm::vec3 vertexNormal(const Scene& scene, const Surfels& surfels, std::uint32_t
 
 /// Sets each surfel's normal to its vertexNormal(), as the last step of a bake. The viewport and
 /// the reference light surfaces by these normals. With the triangles' normals, a room of boxes
-/// whose faces share vertices was a fourth too bright.
+/// whose faces share vertices was a fourth too bright. Lessens cacheWeight by what the triangle's
+/// plane hides of even light above the new normal, since the light of caches continues below it.
 void shade(const Scene& scene, Surfels& surfels);
 
 } // namespace limn

@@ -145,7 +145,7 @@ private:
 
     /// Of a surface cache, for the mean irradiance of its points that are not buried: where a texel
     /// covers a fold or a column, they face different ways.
-    IrradianceAxis axisOf(std::uint32_t cache) {
+    IrradianceAxis axisOf(const Caches& caches, std::uint32_t cache) {
         const std::uint32_t first = in.points.begin[cache],
                             count = in.points.begin[cache + 1] - first;
         const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * in.hits.rays;
@@ -153,7 +153,7 @@ private:
         for (std::uint32_t k = 0; k < count && k < in.hits.rays; ++k)
             if (sender[k] != GatherHits::kLeftOut) // ray k is the first of point k
                 m_normals.push_back(in.points.normal[first + k]);
-        return {std::min(in.settings.bands, kIrradianceBands), m_normals};
+        return {std::min(in.settings.bands, kIrradianceBands), m_normals, caches.normal[cache]};
     }
 
     /// Calls visit(sender, Sight of the sample, u of the cone that it stands for) for rays and
@@ -204,7 +204,8 @@ private:
 
     PackedLinks packOwnCones(const Caches& caches, std::uint32_t cache) {
         if (caches.kind[cache] == CacheKind::Hemisphere)
-            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), axisOf(cache), m_cones);
+            matchIrradiance(std::min(in.settings.bands, kIrradianceBands), axisOf(caches, cache),
+                            m_cones);
         return packCones(m_cones);
     }
 
@@ -219,7 +220,7 @@ private:
                          m_harmonics.data() + m_linkOf[sender] * stride);
         });
         if (caches.kind[cache] == CacheKind::Hemisphere) {
-            const IrradianceAxis axis = axisOf(cache);
+            const IrradianceAxis axis = axisOf(caches, cache);
             for (std::size_t k = 0; k < m_cones.size(); ++k) {
                 float* own = m_harmonics.data() + k * stride;
                 const float gain = axis.gainTo(m_cones[k].irradiance, own);

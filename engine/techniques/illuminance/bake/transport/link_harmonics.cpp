@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/bake/transport/link_harmonics.h"
 
 #include "engine/math/cone.h"
+#include "engine/math/horizon.h"
 #include "engine/math/sh_basis.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ void addHarmonics(int bands, glm::vec3 direction, float u, float transport, floa
     });
 }
 
-IrradianceAxis::IrradianceAxis(int bands, std::span<const glm::vec3> normals)
+IrradianceAxis::IrradianceAxis(int bands, std::span<const glm::vec3> normals, glm::vec3 plane)
     : m_count(bands * bands), m_axis{} {
     const auto factors = irradianceFactors();
     for (const glm::vec3 normal : normals) {
@@ -32,6 +33,7 @@ IrradianceAxis::IrradianceAxis(int bands, std::span<const glm::vec3> normals)
             for (; i < (l + 1) * (l + 1); ++i)
                 m_axis[i] += factors[std::size_t(l)] * y[i] / float(normals.size());
     }
+    weighContinued(plane, m_axis);
 }
 
 float IrradianceAxis::irradiance(const float* coefficients) const {

@@ -18,14 +18,15 @@ namespace limn {
 void addHarmonics(int bands, glm::vec3 direction, float u, float transport, float* coefficients);
 
 /// Mean irradiance of surfaces of some unit normals as a linear function of SH coefficients: sum_i
-/// a_i c_i, where a_i is the mean of A_l Y_i(normal). The series is too short to be exact for one
-/// link.
+/// a_i c_i, where a_i is the mean of A_l Y_i(normal). The coefficients are of light above the plane
+/// with unit normal `plane`, below which it continues (engine/math/horizon.h). The series is too
+/// short to be exact for one link.
 class IrradianceAxis {
 public:
     static constexpr float kMaxGain = 2; ///< for the near-zero series along the surface
 
     /// bands in [2, kIrradianceBands]; at least one normal.
-    IrradianceAxis(int bands, std::span<const glm::vec3> normals);
+    IrradianceAxis(int bands, std::span<const glm::vec3> normals, glm::vec3 plane);
 
     /// Irradiance of unscaled coefficients.
     float irradiance(const float* coefficients) const;

@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/bake/transport/surfel_gain.h"
 
 #include "engine/core/parallel.h"
+#include "engine/math/horizon.h"
 #include "engine/math/sh.h"
 #include "engine/math/sh_basis.h"
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
@@ -15,7 +16,7 @@ namespace {
 
 using IrradianceSh = std::array<float, kIrradianceBands * kIrradianceBands>;
 
-/// The SH of a valid cache c when every node has a radiosity of 1.
+/// The SH of a valid cache c when every node has a radiosity of 1, below its surface too.
 IrradianceSh sumOfLinks(const Caches& caches, std::uint32_t c, int bands) {
     IrradianceSh sum{}, link{};
     for (std::uint32_t k = caches.linkBegin[c]; k < caches.linkBegin[c + 1]; ++k) {
@@ -23,6 +24,7 @@ IrradianceSh sumOfLinks(const Caches& caches, std::uint32_t c, int bands) {
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += link[i];
     }
+    continueBelow(caches.normal[c], sum.data());
     return sum;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 
 #include "engine/core/parallel.h"
+#include "engine/math/horizon.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 
 #include <algorithm>
@@ -66,6 +67,20 @@ LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<gl
     for (const CacheRun& run : runs)
         links += caches.linkBegin[run.end] - caches.linkBegin[run.begin];
     return {links, skipped};
+}
+
+void continueCaches(const Caches& caches, LightBands bands, const CacheRuns& runs,
+                    std::vector<glm::vec3>& sh) {
+    const auto coefficients = std::size_t(bands.luma * bands.luma);
+    forEachCache(runs, [&](std::size_t c) {
+        if (c >= caches.lightmapCount)
+            return;
+        glm::vec3* of = sh.data() + c * coefficients;
+        glm::vec3 below = horizonRadiance(caches.normal[c], of);
+        if (bands.chroma < 2)
+            below = glm::vec3(toYCoCg(below).y);
+        addBelow(caches.normal[c], below, of);
+    });
 }
 
 std::vector<std::uint16_t> firstHalfs(const Caches& caches, int bands) {
