@@ -30,62 +30,61 @@ inline constexpr auto kBelowC1 = float(BELOW_C1);
 /// Computed from harmonics that continue already, R comes out as that many times itself.
 inline constexpr auto kHorizonGain = float(HORIZON_GAIN);
 
-/// The value of R for coefficients `c` of light above the plane with unit normal `n`. T: float for
-/// one colour, glm::vec3 for three.
+/// A linear function of the first four coefficients that is symmetric about n: first c0 + second
+/// n.(c3, c1, c2).
+struct AboutNormal {
+    float first, second;
+};
+/// R of light above the plane.
+inline constexpr AboutNormal kHorizonOf{kHorizonC0, kHorizonC1};
+/// The coefficients of light of radiance 1 below the plane.
+inline constexpr AboutNormal kLightBelow{kBelowC0, -kBelowC1};
+
+/// The function's value for coefficients `c`. T: float for one colour, glm::vec3 for three.
 template <class T>
-T horizonRadiance(glm::vec3 n, const T* c) {
-    return c[0] * kHorizonC0 + (c[3] * n.x + c[1] * n.y + c[2] * n.z) * kHorizonC1;
+T valueAbout(glm::vec3 n, AboutNormal of, const T* c) {
+    return c[0] * of.first + (c[3] * n.x + c[1] * n.y + c[2] * n.z) * of.second;
 }
 
-/// Adds the radiance `r` below the plane to `c`, which has at least 4 coefficients.
+/// Adds the function's factors, times `amount`, to the first four of `c`.
 template <class T>
-void addBelow(glm::vec3 n, T r, T* c) {
-    c[0] += r * kBelowC0;
-    r *= kBelowC1;
-    c[1] -= r * n.y;
-    c[2] -= r * n.z;
-    c[3] -= r * n.x;
+void addAbout(glm::vec3 n, AboutNormal of, T amount, T* c) {
+    c[0] += amount * of.first;
+    amount *= of.second;
+    c[1] += amount * n.y;
+    c[2] += amount * n.z;
+    c[3] += amount * n.x;
+}
+
+/// Radiance R with which light of coefficients `c` continues below the plane with unit normal `n`.
+template <class T>
+T horizonRadiance(glm::vec3 n, const T* c) {
+    return valueAbout(n, kHorizonOf, c);
 }
 
 /// Lets light continue below the plane with unit normal `n`.
 template <class T>
 void continueBelow(glm::vec3 n, T* c) {
-    addBelow(n, horizonRadiance(n, c), c);
+    addAbout(n, kLightBelow, horizonRadiance(n, c), c);
 }
 
 /// Reverse of continueBelow(): cuts light off at the plane with unit normal `n`.
 template <class T>
 void cutBelow(glm::vec3 n, T* c) {
-    addBelow(n, horizonRadiance(n, c) * (-1 / kHorizonGain), c);
+    addAbout(n, kLightBelow, horizonRadiance(n, c) * (-1 / kHorizonGain), c);
 }
 
-/// Weight of R in sums of coefficients times `w`.
-template <class T>
-T weightOfBelow(glm::vec3 n, const T* w) {
-    return w[0] * kBelowC0 - (w[3] * n.x + w[1] * n.y + w[2] * n.z) * kBelowC1;
-}
-
-/// Adds weight `s` of R to the weights of the coefficients from which it is computed.
-template <class T>
-void addHorizonWeight(glm::vec3 n, T s, T* w) {
-    w[0] += s * kHorizonC0;
-    s *= kHorizonC1;
-    w[1] += s * n.y;
-    w[2] += s * n.z;
-    w[3] += s * n.x;
-}
-
-/// Changes weights of coefficients that continueBelow() has changed into those of the coefficients
-/// before, of which the sum is the same.
+/// Transpose of continueBelow(): turns weights of coefficients after it into weights of those
+/// before it. The weighted sums are the same.
 template <class T>
 void weighContinued(glm::vec3 n, T* w) {
-    addHorizonWeight(n, weightOfBelow(n, w), w);
+    addAbout(n, kHorizonOf, valueAbout(n, kLightBelow, w), w);
 }
 
-/// The same for cutBelow().
+/// Transpose of cutBelow(), in the same sense.
 template <class T>
 void weighCut(glm::vec3 n, T* w) {
-    addHorizonWeight(n, weightOfBelow(n, w) * (-1 / kHorizonGain), w);
+    addAbout(n, kHorizonOf, valueAbout(n, kLightBelow, w) * (-1 / kHorizonGain), w);
 }
 
 } // namespace limn

@@ -122,11 +122,9 @@ vec3 totalOf(int i) {
                : vec3(total[i], 0, 0);
 }
 
-/// What is added to coefficient i < 4 so that light continues below the surface: addBelow() of engine/math/horizon.h.
+/// What is added to coefficient i < 4 so that light continues below the surface: continueBelow() of engine/math/horizon.h.
 vec3 belowSurface(int i, vec3 n) {
-    vec3 below = HORIZON_C0 * totalOf(0) + HORIZON_C1 * (n.y * totalOf(1) + n.z * totalOf(2) + n.x * totalOf(3));
-    if (kChromaBands < 2)
-        below.yz = vec2(0);
+    const vec3 below = HORIZON_C0 * totalOf(0) + HORIZON_C1 * (n.y * totalOf(1) + n.z * totalOf(2) + n.x * totalOf(3));
     return below * (i == 0 ? BELOW_C0 : -BELOW_C1 * (i == 1 ? n.y : i == 2 ? n.z : n.x));
 }
 

@@ -175,7 +175,7 @@ Irradiances Chain::gathered(const Bake& bake, const std::vector<glm::vec4>& leav
     const std::vector<std::uint32_t> ends = allLinks(bake.caches);
     lightCaches(bake.caches, ends, radiosity, {bands, bands}, all, sh,
                 firstHalfs(bake.caches, bands));
-    continueCaches(bake.caches, {bands, bands}, all, sh);
+    continueCaches(bake.caches, bands, all, sh);
     fillInvalidCaches(bake.caches, bands, all, sh);
     IndirectField field;
     field.continues = true;

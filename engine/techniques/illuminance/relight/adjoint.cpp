@@ -17,11 +17,6 @@ namespace limn {
 
 namespace {
 
-/// Weights of colours of which each has the luma of all.
-glm::vec3 greyWeight(glm::vec3 w) {
-    return glm::vec3(0.25f, 0.5f, 0.25f) * (w.x + w.y + w.z); // toYCoCg()
-}
-
 /// Parts into which caches are split. Each part sums its weights on its own, so that sums do not
 /// depend on the number of threads.
 constexpr std::size_t kParts = 16;
@@ -66,16 +61,11 @@ void addLinks(const RelightState& s, std::uint32_t c, const glm::vec3* weight,
     }
 }
 
-/// Changes weights of a cache's light, as surfels and lookups read it, into those of the light that
-/// its links bring: the reverse of continueCaches().
-void weighLinked(const Caches& caches, std::uint32_t c, int chroma, glm::vec3* weight) {
-    if (c >= caches.lightmapCount)
-        return;
-    const glm::vec3 n = caches.normal[c];
-    glm::vec3 below = weightOfBelow(n, weight);
-    if (chroma < 2)
-        below = greyWeight(below);
-    addHorizonWeight(n, below, weight);
+/// Transpose of continueCaches() for one cache: turns weights of its light into weights of what its
+/// links bring.
+void weighLinked(const Caches& caches, std::uint32_t c, glm::vec3* weight) {
+    if (c < caches.lightmapCount)
+        weighContinued(caches.normal[c], weight);
 }
 
 /// The same as addLinks() for a cache that surfels read.
@@ -112,8 +102,11 @@ std::vector<CacheWeight> validCaches(const Caches& caches, std::span<const Cache
 }
 
 void weighGrey(int bands, int chroma, std::span<glm::vec3> coefficients) {
-    for (int i = chroma * chroma; i < bands * bands; ++i)
-        coefficients[std::size_t(i)] = greyWeight(coefficients[std::size_t(i)]);
+    const glm::vec3 luma(0.25f, 0.5f, 0.25f); // toYCoCg()
+    for (int i = chroma * chroma; i < bands * bands; ++i) {
+        glm::vec3& c = coefficients[std::size_t(i)];
+        c = luma * (c.x + c.y + c.z);
+    }
 }
 
 std::vector<glm::vec3> linkedNodes(const RelightState& state,
@@ -121,7 +114,7 @@ std::vector<glm::vec3> linkedNodes(const RelightState& state,
     std::vector<glm::vec3> nodes(state.radiosity.size(), glm::vec3(0));
     withBands(state.bands, [&]<int Bands>() {
         for (CacheWeight w : weights) {
-            weighLinked(state.bake.caches, w.cache, state.inner.chroma, w.coefficient.data());
+            weighLinked(state.bake.caches, w.cache, w.coefficient.data());
             addLinks<Bands>(state, w.cache, w.coefficient.data(), nodes);
         }
     });
@@ -191,7 +184,7 @@ std::vector<glm::vec3> BounceAdjoint::operator()(std::span<const glm::vec3> irra
                         weight[i] += w * m_factors[reader.surfel][i];
                 }
                 weighGrey(state.inner.luma, state.inner.chroma, weight);
-                weighLinked(state.bake.caches, std::uint32_t(c), state.inner.chroma, weight);
+                weighLinked(state.bake.caches, std::uint32_t(c), weight);
                 addInnerLinks(state, std::uint32_t(c), weight, mine);
             }
         }

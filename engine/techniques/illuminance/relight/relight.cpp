@@ -190,7 +190,7 @@ void Relighter::State::light(LightBands in, const CacheRuns& runs, std::vector<g
                     runs, out, occluded.halfs.empty() ? halfs : occluded.halfs);
     links.links += counts.links;
     links.skipped += counts.skipped;
-    continueCaches(caches, in, runs, out);
+    continueCaches(caches, in.luma, runs, out);
     fillInvalidCaches(caches, in.luma, runs, out);
 }
 

@@ -69,17 +69,12 @@ LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<gl
     return {links, skipped};
 }
 
-void continueCaches(const Caches& caches, LightBands bands, const CacheRuns& runs,
+void continueCaches(const Caches& caches, int bands, const CacheRuns& runs,
                     std::vector<glm::vec3>& sh) {
-    const auto coefficients = std::size_t(bands.luma * bands.luma);
+    const auto coefficients = std::size_t(bands * bands);
     forEachCache(runs, [&](std::size_t c) {
-        if (c >= caches.lightmapCount)
-            return;
-        glm::vec3* of = sh.data() + c * coefficients;
-        glm::vec3 below = horizonRadiance(caches.normal[c], of);
-        if (bands.chroma < 2)
-            below = glm::vec3(toYCoCg(below).y);
-        addBelow(caches.normal[c], below, of);
+        if (c < caches.lightmapCount)
+            continueBelow(caches.normal[c], sh.data() + c * coefficients);
     });
 }
 

@@ -38,9 +38,9 @@ LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<gl
                        LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh,
                        LinkHalfs halfs = {});
 
-/// Lets the light of the lightmap's caches among those of the runs, of `bands`, continue below
-/// their surfaces (engine/math/horizon.h): in grey where only the first band is in colour.
-void continueCaches(const Caches& caches, LightBands bands, const CacheRuns& runs,
+/// Lets the light of the lightmap's caches in `runs` continue below their surfaces
+/// (engine/math/horizon.h). Two of the `bands` at least are in colour.
+void continueCaches(const Caches& caches, int bands, const CacheRuns& runs,
                     std::vector<glm::vec3>& sh);
 
 /// The first bands^2 halfs of each link of LinkStorage::Sh, packed without the others, because
