@@ -29,7 +29,8 @@ enum class Stage : std::uint32_t {
     SparseTransport,
     SparseCompression,
     LampTexels,
-    LightPoints
+    LightPoints,
+    SkySights
 };
 
 /// Key of a content; `inputs` is the hash of everything that it is computed from.

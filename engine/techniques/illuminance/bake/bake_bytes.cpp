@@ -137,8 +137,10 @@ std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const
                  points = caches * AtlasTexel::kMaxPoints * kPerPoint;
     const double before = atlas + points + kPerSurfel * surfels;
     const bool detail = s.cut == CutCriterion::Detail;
+    // A room with windows came to 11, a courtyard to 7; others have none.
+    constexpr double kSkySights = 12;
     const double hits = caches * s.rays * sizeof(RawHit),
-                 aimed = caches * e.aimed * sizeof(AimedSample),
+                 aimed = caches * (e.aimed * sizeof(AimedSample) + kSkySights * sizeof(SkySight)),
                  training = detail ? surfels * sizeof(float) *
                                          (2 * TrainingLight::kCount + TracedTraining::kCount)
                                    : 0,

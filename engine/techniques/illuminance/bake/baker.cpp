@@ -24,6 +24,7 @@
 #include "engine/techniques/illuminance/bake/transport/cut.h"
 #include "engine/techniques/illuminance/bake/transport/light_points.h"
 #include "engine/techniques/illuminance/bake/transport/rooms.h"
+#include "engine/techniques/illuminance/bake/transport/sky_sights.h"
 #include "engine/techniques/illuminance/bake/transport/surfel_gain.h"
 #include "engine/techniques/illuminance/bake/transport/trace_record.h"
 #include "engine/techniques/illuminance/bake/transport/trace_stage.h"
@@ -159,6 +160,42 @@ void lightPointsStage(BakeRun& run, const GatherHits& hits, const TraceReport& t
     surfels.lightNormals = std::move(found.normal);
 }
 
+/// Looks for the sky through windows.
+void skySightsStage(BakeRun& run, GatherHits& hits, const TraceReport& traced) {
+    const std::size_t surfels = run.set.surfels.size();
+    const Caches& caches = run.bake.caches;
+    const SkyInput input{
+        run.trace,        surfels, caches,
+        run.points,       hits,    {run.placed.atlas.layout.width, run.placed.atlas.layout.height},
+        run.bake.gridSize};
+    // Which caches are neighbours depends on where their texels lie.
+    const std::uint64_t inputs =
+        hashValue(input.grid, hashValue(input.lightmap, hashVector(caches.texel, traced.key)));
+    const auto areSights = [&](const SkySights& s) {
+        for (std::size_t c = 0; c < caches.size(); ++c)
+            for (std::uint32_t k = s.begin[c]; k < s.begin[c + 1]; ++k) {
+                const SkySight& sky = s.all[k];
+                if (sky.sender < surfels || sky.sender >= surfels + kSkyCells ||
+                    sky.point < run.points.begin[c] || sky.point >= run.points.begin[c + 1] ||
+                    !(sky.transport >= 0 && sky.transport <= 4))
+                    return false;
+            }
+        return true;
+    };
+    SkySights found = keptOrMade<SkySights>(
+        run.store, stageKey(Stage::SkySights, inputs), run.progress,
+        [&](auto& a, auto& s) {
+            a("begin", s.begin, rule::offsets(caches.size(), s.all.size()));
+            a("all", s.all, rule::holds("out of range", [&](const auto&) { return areSights(s); }));
+        },
+        [&] {
+            SkySights made = lookForSky(input, run.progress);
+            run.rays += made.rays;
+            return made;
+        });
+    takeSkySights(std::move(found), surfels, hits);
+}
+
 /// Traces the training lights' shadow rays, again only near what moved.
 TracedTraining trainingStage(const BakeRun& run, TraceReport& traced) {
     const Surfels& surfels = run.set.surfels;
@@ -271,6 +308,8 @@ Result<TraceReport> traceCaches(BakeRun& run, GatherHits& hits) {
     bake.gridDepth = std::move(traced->gridDepth);
     run.rays += traced->rays;
     lightPointsStage(run, hits, *traced);
+    if (run.scene.bake.linker == Linker::Gather && !run.progress.cancelled())
+        skySightsStage(run, hits, *traced);
     if (run.progress.cancelled())
         return cancelled();
     run.clock.finish("trace");

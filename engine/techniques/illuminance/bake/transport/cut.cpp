@@ -8,6 +8,7 @@
 #include "engine/techniques/illuminance/bake/transport/link_harmonics.h"
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
 #include "engine/techniques/illuminance/bake/transport/seen_hits.h"
+#include "engine/techniques/illuminance/bake/transport/sky_sights.h"
 #include "engine/techniques/illuminance/bake/transport/visible_tree.h"
 
 #include <algorithm>
@@ -156,13 +157,16 @@ private:
         return {std::min(in.settings.bands, kIrradianceBands), m_normals, caches.normal[cache]};
     }
 
-    /// Calls visit(sender, Sight of the sample, u of the cone that it stands for) for rays and
-    /// aimed samples.
+    /// Calls visit(sender, Sight of the sample, u of the cone that it stands for) for rays, aimed
+    /// samples and sky sights.
     template <class Visit>
     void forEachSample(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         forEachRay(caches, cache, visit);
         for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
             visitAimed(caches.kind[cache], in.hits.aimed[k], visit);
+        forEachSkySight(
+            in.hits, in.points, caches, cache,
+            [&](std::uint32_t sender, const Sight& sight) { visit(sender, sight, 0.f); });
     }
 
     template <class Visit>
@@ -397,13 +401,17 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
                    [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
                        seen[sender] += weight;
                    });
-    for (std::uint32_t c = 0; c < caches.size(); ++c)
+    for (std::uint32_t c = 0; c < caches.size(); ++c) {
+        forEachSkySight(hits, points, caches, c, [&](std::uint32_t sender, const Sight& sight) {
+            seen[sender] += double(points.weightOf(c)) * double(sight.irradiance);
+        });
         for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
             const CacheKind kind = caches.kind[c];
             const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
             seen[hits.aimed[k].sender] += double(points.weightOf(c)) *
                                           double(v.transport * irradianceShare(kind, v.cosTheta));
         }
+    }
     return {seen.begin(), seen.end()};
 }
 

@@ -4,6 +4,7 @@
 #include "engine/math/sampling.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/senders/owner_tables.h"
+#include "engine/techniques/illuminance/bake/transport/gather_hits.h"
 #include "engine/trace/trace_scene.h"
 
 #include <array>
@@ -11,13 +12,6 @@
 #include <vector>
 
 namespace limn {
-
-/// A sender visible from one of a cache's points, found by a ray aimed at it.
-struct AimedSample {
-    std::uint32_t sender; ///< leaf of the ClusterTree
-    std::uint32_t point;  ///< of CachePoints
-    float scale = 1;      ///< senders that it stands for, itself included [1]
-};
 
 /// How a sender would appear from a point without occlusion.
 struct SenderView {
@@ -31,22 +25,6 @@ struct SenderView {
 /// contact. A point of a Hemisphere cache sees nothing behind it.
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
                   const AimedSample& sample);
-
-/// What every ray of every cache met: sender[cache * rays + r] is a leaf of the ClusterTree or one
-/// of the marks below. Ray r of a cache runs along CacheRays[r], so directions need not be stored.
-/// aimed[aimedBegin[c] … aimedBegin[c + 1]) belong to cache c.
-struct GatherHits {
-    static constexpr std::uint32_t kBackFace =
-        ~0U; ///< the back of a one-sided surface: carries nothing
-    static constexpr std::uint32_t kAimed = ~0U - 1; ///< a lamp: left to the cache's aimed samples
-    static constexpr std::uint32_t kLeftOut =
-        ~0U - 2; ///< started in a wall: not a ray of this cache
-    static constexpr std::uint32_t kFirstMark = kLeftOut;
-    std::uint32_t rays = 0;
-    std::vector<std::uint32_t> sender;
-    std::vector<std::uint32_t> aimedBegin;
-    std::vector<AimedSample> aimed;
-};
 
 /// The rays of a cache, which depend only on its kind, its points with their seed, and the number
 /// of rays. Local z is the point's normal (world z for Grid).
