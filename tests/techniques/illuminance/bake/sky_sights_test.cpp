@@ -3,6 +3,7 @@
 #include "engine/techniques/illuminance/bake/transport/seen_hits.h"
 #include "engine/techniques/illuminance/bake/transport/sky_sights.h"
 #include "tests/techniques/illuminance/bake/traced_room.h"
+#include "tests/techniques/illuminance/bake/window_room.h"
 
 #include <gtest/gtest.h>
 
@@ -18,27 +19,6 @@ namespace {
 using namespace simple;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-
-/// A room of 4 x 3 x 4 m with a window of `width` x 1 m in the middle of its wall at x = 0; without
-/// width the wall is closed.
-Scene roomWithWindow(float width) {
-    SceneBuilder b;
-    b.addMaterial(lambert(glm::vec3(0.5f)));
-    const float low = 2 - width / 2, high = 2 + width / 2;
-    b.add(quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}));
-    b.add(quad({0, 3, 0}, {4, 0, 0}, {0, 0, 4}));
-    b.add(quad({4, 0, 0}, {0, 0, 4}, {0, 3, 0}));
-    b.add(quad({0, 0, 0}, {4, 0, 0}, {0, 3, 0}));
-    b.add(quad({0, 0, 4}, {0, 3, 0}, {4, 0, 0}));
-    b.add(quad({0, 0, 0}, {0, 1, 0}, {0, 0, 4}));
-    b.add(quad({0, 2, 0}, {0, 1, 0}, {0, 0, 4}));
-    b.add(quad({0, 1, 0}, {0, 1, 0}, {0, 0, low}));
-    if (width > 0)
-        b.add(quad({0, 1, high}, {0, 1, 0}, {0, 0, 4 - high}));
-    else
-        b.add(quad({0, 1, low}, {0, 1, 0}, {0, 0, 4 - low}));
-    return b.build();
-}
 
 LightRectangle window(float width) {
     return {{0, 1.5f, 2}, {0, 0, width / 2}, {0, 0.5f, 0}, {1, 0, 0}, width};
