@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/bake/transport/seen_hits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +138,7 @@ private:
     void sumRays(std::uint32_t i, CacheDeviations& result) {
         const std::uint32_t count = m_reference.rays;
         const std::uint32_t* sender = m_reference.sender.data() + std::size_t(i) * count;
-        const auto kept =
-            count - std::uint32_t(std::count(sender, sender + count, GatherHits::kLeftOut));
+        const std::uint32_t kept = keptRays({sender, count});
         const CacheRays rays = raysOf(m_reference.caches, m_reference.points, i, count);
         const float weight = rays.local.solidAngle() / std::numbers::pi_v<float> * float(count) /
                              float(std::max(kept, 1U));

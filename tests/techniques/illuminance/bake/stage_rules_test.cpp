@@ -64,7 +64,7 @@ protected:
             store.put(other, other == key ? bytes : kept);
         return baked(scene, &store);
     }
-    /// Each stage is overwritten at a few places; the bakes are those of right stages.
+    /// Overwrites each stage at a few places. The bake must equal that from intact stages.
     void expectMadeAgain(const Scene& scene);
 
     TemporaryFolder m_folder;

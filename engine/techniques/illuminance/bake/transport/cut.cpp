@@ -147,13 +147,10 @@ private:
     /// Of a surface cache, for the mean irradiance of its points that are not buried: where a texel
     /// covers a fold or a column, they face different ways.
     IrradianceAxis axisOf(const Caches& caches, std::uint32_t cache) {
-        const std::uint32_t first = in.points.begin[cache],
-                            count = in.points.begin[cache + 1] - first;
-        const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * in.hits.rays;
         m_normals.clear();
-        for (std::uint32_t k = 0; k < count && k < in.hits.rays; ++k)
-            if (sender[k] != GatherHits::kLeftOut) // ray k is the first of point k
-                m_normals.push_back(in.points.normal[first + k]);
+        forEachOpenPoint(in.points, cache, in.hits.sendersOf(cache), [&](std::uint32_t point) {
+            m_normals.push_back(in.points.normal[point]);
+        });
         return {std::min(in.settings.bands, kIrradianceBands), m_normals, caches.normal[cache]};
     }
 
@@ -172,9 +169,8 @@ private:
     template <class Visit>
     void forEachRay(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         const std::uint32_t count = in.hits.rays;
-        const std::uint32_t* sender = in.hits.sender.data() + std::size_t(cache) * count;
-        const auto kept =
-            count - std::uint32_t(std::count(sender, sender + count, GatherHits::kLeftOut));
+        const std::span<const std::uint32_t> sender = in.hits.sendersOf(cache);
+        const std::uint32_t kept = keptRays(sender);
         if (kept == 0)
             return;
         const CacheRays rays = raysOf(caches, in.points, cache, count);

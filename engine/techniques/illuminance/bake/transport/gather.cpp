@@ -5,6 +5,7 @@
 #include "engine/core/process_memory.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/bake/transport/seen_hits.h"
 
 #include <algorithm>
 #include <atomic>
@@ -79,9 +80,8 @@ struct Finisher {
              std::uint32_t(std::count_if(sender, sender + rays, met)) * 8 >= rays))
             return 0;
         std::vector<std::uint32_t> open; // points that are not buried
-        for (std::uint32_t k = 0; k < points.begin[cache + 1] - points.begin[cache]; ++k)
-            if (sender[k] != GatherHits::kLeftOut)
-                open.push_back(points.begin[cache] + k);
+        forEachOpenPoint(points, cache, {sender, rays},
+                         [&](std::uint32_t point) { open.push_back(point); });
         if (open.empty())
             return 0;
         std::uint32_t traced = 0;

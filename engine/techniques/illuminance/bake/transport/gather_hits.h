@@ -3,7 +3,9 @@
 
 #include "engine/math/packing.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace limn {
@@ -47,6 +49,11 @@ struct GatherHits {
     std::vector<std::uint32_t> aimedBegin;
     std::vector<AimedSample> aimed;
     SkySights sky;
+
+    /// What a cache's rays met.
+    std::span<const std::uint32_t> sendersOf(std::uint32_t cache) const {
+        return {sender.data() + std::size_t(cache) * rays, rays};
+    }
 };
 
 } // namespace limn

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace limn {
 
@@ -12,6 +13,23 @@ namespace limn {
 /// grid, half the mean over all normals that see it.
 inline float irradianceShare(CacheKind kind, float cosTheta) {
     return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
+}
+
+/// Number of a cache's rays that count: all but those left out. `senders`: what its rays met.
+inline std::uint32_t keptRays(std::span<const std::uint32_t> senders) {
+    return std::uint32_t(senders.size()) -
+           std::uint32_t(std::ranges::count(senders, GatherHits::kLeftOut));
+}
+
+/// Calls visit(point) for each of a cache's points that has rays and does not lie in a wall.
+/// `senders`: what the cache's rays met.
+template <class Visit>
+void forEachOpenPoint(const CachePoints& points, std::uint32_t cache,
+                      std::span<const std::uint32_t> senders, const Visit& visit) {
+    const std::uint32_t first = points.begin[cache], count = points.begin[cache + 1] - first;
+    for (std::uint32_t k = 0; k < count && k < senders.size(); ++k)
+        if (senders[k] != GatherHits::kLeftOut) // ray k is the first of point k
+            visit(first + k);
 }
 
 /// Calls visit(cache, ray, sender, weight) for every ray that met a sender, cache after cache.
@@ -24,9 +42,8 @@ void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Cac
         const CacheKind kind = caches.kind[c];
         const bool sphere = kind != CacheKind::Hemisphere;
         const DirectionSet rays(hits.rays, sphere, 0); // the rotation changes no height
-        const std::uint32_t* sender = hits.sender.data() + std::size_t(c) * hits.rays;
-        const auto kept =
-            hits.rays - std::uint32_t(std::count(sender, sender + hits.rays, GatherHits::kLeftOut));
+        const std::span<const std::uint32_t> sender = hits.sendersOf(c);
+        const std::uint32_t kept = keptRays(sender);
         const auto weight = double(points.weightOf(c));
         for (std::uint32_t r = 0; r < hits.rays; ++r)
             if (sender[r] < GatherHits::kFirstMark)

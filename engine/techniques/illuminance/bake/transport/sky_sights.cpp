@@ -83,11 +83,7 @@ private:
     std::vector<std::uint32_t> m_open; ///< points of the cache that are not in a wall
     std::uint64_t m_traced = 0;
 
-    std::span<const std::uint32_t> sendersOf(std::uint32_t cache) const {
-        return {in.hits.sender.data() + std::size_t(cache) * in.hits.rays, in.hits.rays};
-    }
     void findGuides(std::uint32_t cache);
-    void findOpen(std::uint32_t cache);
     glm::vec3 aimed(std::uint32_t cache, std::uint32_t k, float solidAngle) const;
 };
 
@@ -96,7 +92,7 @@ void SkyFinder::findGuides(std::uint32_t cache) {
     std::uint64_t looked = 0;
     m_neighbours.each(cache, [&](std::uint32_t other) {
         looked += in.hits.rays;
-        const std::span<const std::uint32_t> senders = sendersOf(other);
+        const std::span<const std::uint32_t> senders = in.hits.sendersOf(other);
         if (std::ranges::none_of(senders, [&](std::uint32_t s) { return isSky(s, in.surfels); }))
             return;
         const CacheRays rays = raysOf(in.caches, in.points, other, in.hits.rays);
@@ -106,14 +102,6 @@ void SkyFinder::findGuides(std::uint32_t cache) {
     });
     if (m_guides.size() * kSeldom >= looked)
         m_guides.clear();
-}
-
-void SkyFinder::findOpen(std::uint32_t cache) {
-    m_open.clear();
-    const std::uint32_t first = in.points.begin[cache], count = in.points.begin[cache + 1] - first;
-    for (std::uint32_t k = 0; k < std::min(count, in.hits.rays); ++k)
-        if (sendersOf(cache)[k] != GatherHits::kLeftOut) // ray k is the first of point k
-            m_open.push_back(first + k);
 }
 
 /// Direction of ray k of those aimed: within a cone of `solidAngle` around a guide. The guides take
@@ -132,15 +120,16 @@ glm::vec3 SkyFinder::aimed(std::uint32_t cache, std::uint32_t k, float solidAngl
 void SkyFinder::find(std::uint32_t cache, std::vector<SkySight>& found) {
     found.clear();
     findGuides(cache);
-    findOpen(cache);
+    const std::span<const std::uint32_t> senders = in.hits.sendersOf(cache);
+    m_open.clear();
+    forEachOpenPoint(in.points, cache, senders,
+                     [&](std::uint32_t point) { m_open.push_back(point); });
     if (m_guides.empty() || m_open.empty())
         return;
-    const std::span<const std::uint32_t> senders = sendersOf(cache);
     const CacheRays rays = raysOf(in.caches, in.points, cache, in.hits.rays);
     const float ofRay = rays.local.solidAngle(), minCosine = 1 - ofRay / (2 * kPi);
-    const auto leftOut = std::ranges::count(senders, GatherHits::kLeftOut);
     // Rays per solid angle: the cache's own, and those around each guide.
-    const float own = float(in.hits.rays - std::uint32_t(leftOut)) / (float(in.hits.rays) * ofRay),
+    const float own = float(keptRays(senders)) / (float(in.hits.rays) * ofRay),
                 guided = float(kSkyRays) / (float(m_guides.size()) * ofRay);
     const auto add = [&](std::uint32_t sender, std::uint32_t point, glm::vec3 d) {
         const auto near = std::ranges::count_if(

@@ -22,13 +22,14 @@ struct SkyInput {
     glm::uvec3 grid;        ///< its number of cells
 };
 
-/// Looks for the sky that caches see through windows. Chance decides how many rays of a cache pass
-/// a window, if its neighbours see the sky with less than an eighth of their rays: with 256 rays, a
-/// window of a hundredth of the hemisphere is found by 2.6 +- 1.6 of them. Such a cache aims
-/// kSkyRays more rays around the directions in which its neighbours saw the sky. Each ray that
-/// meets the sky, of either kind, counts with the inverse of the density of both, so that the sum
-/// is unbiased, and a bad guess costs nothing but its rays. The hits of the cache itself are no
-/// guide: a window would then be measured well where it was found, and be missing elsewhere.
+/// Looks for the sky that caches see through windows. Where the neighbours of a cache see the sky
+/// with less than an eighth of their rays, chance decides how many of its own rays pass a window:
+/// with 256 rays, a window of a hundredth of the hemisphere is found by 2.6 +- 1.6 of them. Such a
+/// cache aims kSkyRays more rays around the directions in which its neighbours saw the sky. Every
+/// ray that meets the sky, aimed or not, counts with the inverse of the density of both kinds of
+/// rays. The sum is thus unbiased, and a bad guess costs nothing but its rays. The cache's own hits
+/// do not guide it: a window would then be measured well where it was found, and be missing
+/// elsewhere.
 ///
 /// Veach, Guibas. Optimally Combining Sampling Techniques for Monte Carlo Rendering. 1995: the
 /// balance heuristic.
