@@ -74,11 +74,8 @@ static void pickObject(EditorState& state, ObjectId node) {
             const auto [a, b, c] = mesh.triangle(t);
             const glm::vec3 centre =
                 (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.f;
-            const Hit hit{.instance = i,
-                          .triangle = std::uint32_t(t),
-                          .u = 1 / 3.f,
-                          .v = 1 / 3.f,
-                          .position = instance.toWorld * glm::vec4(centre, 1)};
+            const Hit hit{{.instance = i, .triangle = std::uint32_t(t), .u = 1 / 3.f, .v = 1 / 3.f},
+                          instance.toWorld * glm::vec4(centre, 1)};
             if (const auto number = overlay.source->pickAt(scene, hit)) {
                 pickNumber(overlay, *number);
                 return;

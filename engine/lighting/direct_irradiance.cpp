@@ -6,10 +6,10 @@
 #include "engine/math/sampling.h"
 #include "engine/scene/light/light_parts.h"
 #include "engine/scene/light/unit_light.h"
+#include "engine/trace/rays_together.h"
 #include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
@@ -59,10 +59,20 @@ float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>&
 /// Adds up the light of a point light, a spot or a sun at many positions. Shadow rays are traced
 /// several at once, since light reaches neighbours from about the same direction.
 class PointShares {
+    /// What a ray adds to a point where it is not occluded.
+    struct Share {
+        std::size_t point;
+        float light;
+    };
+    auto open() const {
+        return [this](const Share& s) { m_share[s.point] += s.light; };
+    }
+
 public:
     PointShares(const TraceScene& trace, const Light& light, std::uint32_t each,
                 std::span<float> share)
-        : m_trace(trace), m_light(light), m_each(each), m_share(share) {}
+        : m_trace(trace), m_light(light), m_each(each), m_share(share),
+          m_rays(trace, TraceMask::All) {}
 
     /// Adds position `at` with its normal to the mean of its point.
     void add(std::size_t at, glm::vec3 p, glm::vec3 n) {
@@ -70,36 +80,22 @@ public:
         const float cosTheta = glm::dot(n, sample.toLight);
         if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
             return;
-        m_rays[m_count] = {m_trace.clearOf(p, n), sample.toLight, 0,
-                           sample.distance - m_trace.epsilonAt(p)};
-        m_point[m_count] = at / m_each;
-        m_open[m_count] = sample.irradiance.x * cosTheta / float(m_each);
-        if (++m_count == m_rays.size())
-            flush();
+        m_rays.add(
+            {m_trace.clearOf(p, n), sample.toLight, 0, sample.distance - m_trace.epsilonAt(p)},
+            {at / m_each, sample.irradiance.x * cosTheta / float(m_each)}, open());
     }
 
     /// Traces the rays that wait.
-    void flush() {
-        const std::uint32_t hidden = m_trace.occludedTogether({m_rays.data(), m_count});
-        for (std::size_t k = 0; k < m_count; ++k)
-            if (!(hidden >> k & 1))
-                m_share[m_point[k]] += m_open[k];
-        m_traced += m_count;
-        m_count = 0;
-    }
+    void flush() { m_rays.flush(open()); }
 
-    std::uint64_t traced() const { return m_traced; }
+    std::uint64_t traced() const { return m_rays.traced(); }
 
 private:
     const TraceScene& m_trace;
     const Light& m_light;
     std::uint32_t m_each;
     std::span<float> m_share;
-    std::size_t m_count = 0; ///< rays that wait
-    std::uint64_t m_traced = 0;
-    std::array<Ray, TraceScene::kTogether> m_rays;
-    std::array<std::size_t, TraceScene::kTogether> m_point;
-    std::array<float, TraceScene::kTogether> m_open; ///< what each adds where it is not occluded
+    RaysTogether<Share> m_rays;
 };
 
 // Returns the shadow rays traced.

@@ -83,6 +83,14 @@ bool invertsWell(const glm::mat4& m) {
 
 } // namespace
 
+Ray rayBetween(glm::vec3 from, glm::vec3 to) {
+    const glm::vec3 way = to - from;
+    const float distance = glm::length(way);
+    if (!(distance > 0))
+        return {from, glm::vec3(0, 0, 1), 0, -1};
+    return {from, way / distance, 0, distance};
+}
+
 /// Acceleration structures over the static instances, or the dynamic ones.
 struct TraceScene::Trees {
     std::shared_ptr<const Assets> assets; ///< Embree reads their vertices
@@ -125,6 +133,8 @@ struct TraceScene::Impl {
     mutable std::atomic<std::uint64_t> badRays = 0;
 
     bool traceable(const Ray& ray) const;
+    RTCRayHit intersect(const Ray& ray, TraceMask mask) const;
+    glm::vec3 normalOf(const RTCRayHit& rh) const;
 
     Impl(const Scene& s, const std::vector<bool>* only, const Impl* before);
     MeshKey keyOf(const Instance& instance) const;
@@ -366,23 +376,55 @@ std::uint64_t TraceScene::badRays() const {
     return m_impl->badRays;
 }
 
-// Position and normal are computed from the triangle itself: the position is exact to a few
-// roundings of the vertices, however long the ray.
-Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
-    if (!m_impl->traceable(ray))
-        return {};
+/// Closest hit of Embree among the surfaces that `mask` selects.
+RTCRayHit TraceScene::Impl::intersect(const Ray& ray, TraceMask mask) const {
     RTCRayHit rh = unhit(ray);
-    if (m_impl->fixed && asks(mask, TraceMask::Static))
-        embreeIntersect(m_impl->fixed->top, rh);
-    if (m_impl->moving && asks(mask, TraceMask::Dynamic)) {
+    if (!traceable(ray))
+        return rh;
+    if (fixed && asks(mask, TraceMask::Static))
+        embreeIntersect(fixed->top, rh);
+    if (moving && asks(mask, TraceMask::Dynamic)) {
         RTCRayHit other = unhit(ray);
         other.ray.tfar = rh.ray.tfar * (1 + 0x1p-20f); // as far as that and a little
-        embreeIntersect(m_impl->moving->top, other);
+        embreeIntersect(moving->top, other);
         // Of equally distant hits, that of the lowest instance, as within a tree.
         if (met(other) && (!met(rh) || other.ray.tfar < rh.ray.tfar ||
                            (other.ray.tfar == rh.ray.tfar && instanceOf(other) < instanceOf(rh))))
             rh = other;
     }
+    return rh;
+}
+
+/// Unnormalised normal of the triangle that was hit, in the world.
+glm::vec3 TraceScene::Impl::normalOf(const RTCRayHit& rh) const {
+    const std::uint32_t instance = instanceOf(rh);
+    const HitFrame& frame = frames[instance];
+    if (frame.inWorld) // so are Embree's vertices
+        return glm::vec3(rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z) * frame.winding;
+    const Mesh& mesh = scene.meshOf(scene.instances[instance]);
+    const std::array<std::uint32_t, 3> k = mesh.triangle(rh.hit.primID);
+    const glm::mat3 linear(frame.toWorld);
+    const glm::vec3 a = mesh.positions[k[0]];
+    return glm::cross(linear * (mesh.positions[k[1]] - a), linear * (mesh.positions[k[2]] - a)) *
+           frame.winding;
+}
+
+SurfaceHit TraceScene::closestSurface(const Ray& ray, TraceMask mask) const {
+    const RTCRayHit rh = m_impl->intersect(ray, mask);
+    if (!met(rh))
+        return {};
+    return {.instance = instanceOf(rh),
+            .triangle = rh.hit.primID,
+            .u = rh.hit.u,
+            .v = rh.hit.v,
+            .t = rh.ray.tfar,
+            .frontFace = glm::dot(m_impl->normalOf(rh), ray.direction) < 0};
+}
+
+// Position and normal are computed from the triangle itself: the position is exact to a few
+// roundings of the vertices, however long the ray.
+Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
+    const RTCRayHit rh = m_impl->intersect(ray, mask);
     Hit hit;
     if (!met(rh))
         return hit;
@@ -454,9 +496,7 @@ std::uint32_t TraceScene::occludedTogether(std::span<const Ray> rays, TraceMask 
 }
 
 bool TraceScene::blocked(glm::vec3 from, glm::vec3 to, TraceMask mask) const {
-    const glm::vec3 way = to - from;
-    const float distance = glm::length(way);
-    return distance > 0 && occluded({from, way / distance, 0, distance}, mask);
+    return occluded(rayBetween(from, to), mask);
 }
 
 // The error of a hit's position is a few 2^-24 of its coordinates; the matrix of an instance and

@@ -318,6 +318,50 @@ TEST(TraceScene, AMovedDynamicObjectIsMetAsInASceneOfItsOwn) {
     }
 }
 
+TEST(TraceScene, ASurfaceWithoutItsPlaceIsTheSameSurface) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    const glm::mat4 at = glm::translate(glm::mat4(1), glm::vec3(3, 0, 0));
+    const glm::mat4 mirrored = glm::scale(glm::mat4(1), glm::vec3(-1, 2, 1));
+    b.add(box(glm::vec3(-6), glm::vec3(6), true));
+    b.add(sphere(1, 2, false));
+    b.add(sphere(0.7f, 2, false), at * mirrored);
+    b.add(sphere(0.5f, 2, false), glm::inverse(at), true);
+    b.add(sphere(0.3f, 2, false), glm::translate(mirrored, glm::vec3(0, 2, 0)), true);
+    const TraceScene trace(b.build());
+    Random random(5);
+    std::uint32_t backs = 0, fronts = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Ray ray{3.f * random.cube(), random.direction()};
+        const Hit hit = trace.closestHit(ray);
+        const SurfaceHit surface = trace.closestSurface(ray);
+        ASSERT_EQ(surface.instance, hit.instance);
+        EXPECT_EQ(surface.triangle, hit.triangle);
+        EXPECT_EQ(surface.u, hit.u);
+        EXPECT_EQ(surface.v, hit.v);
+        EXPECT_EQ(surface.t, hit.t);
+        if (std::abs(glm::dot(hit.geometricNormal, ray.direction)) > 1e-4f) {
+            EXPECT_EQ(surface.frontFace, hit.frontFace);
+        }
+        (hit.frontFace ? fronts : backs) += hit.instance > 0 ? 1 : 0;
+    }
+    EXPECT_GT(backs, 100u) << "rays start within the spheres, too";
+    EXPECT_GT(fronts, 500u);
+}
+
+TEST(TraceScene, AStretchBetweenEqualPointsMeetsNothing) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+    const TraceScene trace(b.build());
+    EXPECT_TRUE(trace.blocked({0, 0, 1}, {0, 0, -1}));
+    EXPECT_FALSE(trace.blocked({0, 0, 1}, {0, 0, 0.5f}));
+    const Ray none = rayBetween(glm::vec3(0), glm::vec3(0));
+    EXPECT_FALSE(trace.occluded(none));
+    EXPECT_EQ(trace.occludedTogether({&none, 1}), 0u);
+    EXPECT_EQ(trace.badRays(), 0u);
+}
+
 class TraceSceneInstances : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(StaticAndDynamic, TraceSceneInstances, testing::Bool());
 
