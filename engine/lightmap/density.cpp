@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lightmap/density.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel.h"
 #include "engine/lightmap/chart_places.h"
 #include "engine/lightmap/texel_points.h"
@@ -72,9 +73,7 @@ private:
     void look(Probe& probe, Met* met) const;
     double nearness(std::uint32_t probe, float nearest) const;
     void findDetail(float nearest);
-    int classAt(double nearness) const {
-        return densityClass(std::max(detailOf(nearness), 1e-30), m_result.centre);
-    }
+    int classAt(double nearness) const { return densityClass(nearness, m_classes); }
     template <class Visit>
     void forArrived(const Visit& visit) const;
     int usualClass(const Chart& chart) const;
@@ -97,6 +96,7 @@ private:
     std::vector<Probe> m_probes;
     std::uint32_t m_rays = 0; ///< per probe
     std::vector<Met> m_met;
+    DensityClassBounds m_classes = densityClassBounds(1); ///< in terms of nearness
     BakeDensity m_result;
 };
 
@@ -172,8 +172,8 @@ void DensityFinder::look(Probe& probe, Met* met) const {
         const glm::vec3 d = directions[r];
         const float z2 = directions.height(r), flat = std::max(d.x * d.x + d.y * d.y, 1e-12f);
         const glm::vec2 disc = glm::vec2(d.x, d.y) * std::sqrt((1 - z2) / flat);
-        const Hit hit =
-            m_trace.closestHit({from, toWorld * glm::vec3(disc, std::sqrt(z2))}, TraceMask::Static);
+        const SurfaceHit hit = m_trace.closestSurface(
+            {from, toWorld * glm::vec3(disc, std::sqrt(z2))}, TraceMask::Static);
         if (!hit)
             continue;
         const Instance& other = m_scene.instances[hit.instance];
@@ -314,6 +314,9 @@ void DensityFinder::chooseDensities() {
         if (!(sum > 0)) // nothing is near anything
             return;
         m_result.centre = squares / sum;
+        m_classes = densityClassBounds(m_result.centre);
+        for (double& bound : m_classes)
+            bound = nearnessOf(bound);
         for (Chart& c : m_all)
             c.usual = usualClass(c);
         const std::vector<double> near = nearWorth();
@@ -360,6 +363,7 @@ BakeDensity DensityFinder::run(const Progress& progress) {
         return {};
     const double rays = std::min(m_texels * kRaysPerTexel, kMaxRays);
     m_rays = std::uint32_t(std::clamp(rays / double(m_probes.size()), 8.0, 64.0));
+    reserveLarge(m_met, m_probes.size() * m_rays);
     m_met.resize(m_probes.size() * m_rays);
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     if (!parallelRanges(m_probes.size(), 16, quiet, "charts",
@@ -381,6 +385,10 @@ BakeDensity DensityFinder::run(const Progress& progress) {
 
 double detailOf(double nearness) {
     return std::cbrt(std::pow(nearness, 4));
+}
+
+double nearnessOf(double detail) {
+    return std::pow(detail, 0.75);
 }
 
 BakeDensity findDensity(const TraceScene& trace, const std::vector<MeshCharts>& charts,

@@ -40,6 +40,9 @@ struct BakeDensity {
 /// Relative number of texels per area that a place needs, where R is size / nearness.
 double detailOf(double nearness);
 
+/// Its inverse.
+double nearnessOf(double detail);
+
 /// Computes densities by tracing rays from points all over the static surfaces.
 ///
 /// Irradiance varies over distances like R, the harmonic mean of the distances to what is seen

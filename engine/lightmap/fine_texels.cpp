@@ -58,8 +58,8 @@ public:
             const std::size_t quarter =
                 (t.at.x > kFineCells / 2 ? 1U : 0U) + (t.at.y > kFineCells / 2 ? 2U : 0U);
             for (std::uint32_t r = 0; r < kRaysPerTexel; ++r) {
-                const Hit hit =
-                    m_trace.closestHit({from, toWorld * directions[r]}, TraceMask::Static);
+                const SurfaceHit hit =
+                    m_trace.closestSurface({from, toWorld * directions[r]}, TraceMask::Static);
                 sum[quarter] += hit ? 1 / std::max(double(hit.t), double(m_density.nearest)) : 0;
                 ++rays[quarter];
             }

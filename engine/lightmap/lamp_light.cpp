@@ -4,6 +4,7 @@
 #include "engine/math/sampling.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/trace/rays_together.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,8 +83,53 @@ bool LampLight::isNear(glm::vec3 point, float reach, std::uint32_t instance) con
            });
 }
 
-LampIrradiance LampLight::at(const WorldPoint& point, float reach, std::uint32_t samples,
-                             std::uint32_t turn, std::uint32_t seed) const {
+LampPoints LampLight::pointsOnLamps(std::uint32_t samples, std::uint32_t seed) const {
+    const Scene& scene = m_trace.scene();
+    const float first = unitFloat(mixBits(seed + 1)), second = unitFloat(mixBits(seed + 2));
+    const std::uint32_t points = kPointsPerDirection * samples;
+    LampPoints result{samples, {}};
+    for (std::uint32_t r = 0; r < points; ++r) {
+        const double choice = (r + double(first)) / points * m_triangles.back().below;
+        const auto emitter =
+            std::min(std::ranges::lower_bound(m_triangles, choice, {}, &Emitter::below) -
+                         m_triangles.begin(),
+                     std::ptrdiff_t(m_triangles.size()) - 1);
+        const Emitter& e = m_triangles[std::size_t(emitter)];
+        const auto shifted = [](float x, float by) { return x + by - std::floor(x + by); };
+        const glm::vec2 square(shifted(radicalInverse(r, 2), second),
+                               shifted(radicalInverse(r, 3), first));
+        const WorldPoint at =
+            worldPoint(scene, scene.instances[e.instance], {e.triangle, sampleTriangle(square)});
+        result.all.push_back({std::uint32_t(emitter), at});
+    }
+    return result;
+}
+
+double LampLight::fromLamps(const WorldPoint& point, const LampPoints& lamps) const {
+    const glm::vec3 from = m_trace.clearOf(point.position, point.normal);
+    double sum = 0;
+    RaysTogether<double> rays(m_trace, TraceMask::Static);
+    const auto open = [&](double light) { sum += light; };
+    for (const auto& [emitter, lamp] : lamps.all) {
+        const glm::vec3 away = lamp.position - from;
+        const float t = glm::length(away);
+        if (!(t > 0))
+            continue;
+        const glm::vec3 direction = away / t;
+        const double light = weighted(m_triangles[emitter], lamp.normal, direction, t,
+                                      double(glm::dot(direction, point.normal)), lamps.samples);
+        if (!(light > 0))
+            continue;
+        const glm::vec3 facing = glm::dot(lamp.normal, direction) > 0 ? -lamp.normal : lamp.normal;
+        rays.add(rayBetween(from, m_trace.clearOf(lamp.position, facing)), light, open);
+    }
+    rays.flush(open);
+    return sum;
+}
+
+LampIrradiance LampLight::at(const WorldPoint& point, float reach, std::uint32_t turn,
+                             const LampPoints& lamps) const {
+    const std::uint32_t samples = lamps.samples;
     const Scene& scene = m_trace.scene();
     const glm::vec3 from = m_trace.clearOf(point.position, point.normal);
     const glm::mat3 toWorld = basisAround(point.normal);
@@ -108,30 +154,7 @@ LampIrradiance LampLight::at(const WorldPoint& point, float reach, std::uint32_t
             sum += weighted(m_triangles[m_first[hit.instance] + hit.triangle], hit.geometricNormal,
                             direction, hit.t, double(cosine), samples);
     }
-    const float first = unitFloat(mixBits(seed + 1)), second = unitFloat(mixBits(seed + 2));
-    const std::uint32_t points = kPointsPerDirection * samples;
-    for (std::uint32_t r = 0; r < points; ++r) {
-        const double choice = (r + double(first)) / points * m_triangles.back().below;
-        const Emitter& e =
-            *std::min(std::ranges::lower_bound(m_triangles, choice, {}, &Emitter::below),
-                      m_triangles.end() - 1);
-        const auto shifted = [](float x, float by) { return x + by - std::floor(x + by); };
-        const glm::vec2 square(shifted(radicalInverse(r, 2), second),
-                               shifted(radicalInverse(r, 3), first));
-        const WorldPoint lamp =
-            worldPoint(scene, scene.instances[e.instance], {e.triangle, sampleTriangle(square)});
-        const glm::vec3 away = lamp.position - from;
-        const float t = glm::length(away);
-        if (!(t > 0))
-            continue;
-        const glm::vec3 direction = away / t;
-        const double light = weighted(e, lamp.normal, direction, t,
-                                      double(glm::dot(direction, point.normal)), samples);
-        const glm::vec3 facing = glm::dot(lamp.normal, direction) > 0 ? -lamp.normal : lamp.normal;
-        if (light > 0 &&
-            !m_trace.blocked(from, m_trace.clearOf(lamp.position, facing), TraceMask::Static))
-            sum += light;
-    }
+    sum += fromLamps(point, lamps);
     return {sum, double(open) / samples};
 }
 

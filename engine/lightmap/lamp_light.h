@@ -23,6 +23,16 @@ constexpr std::uint32_t raysOf(std::uint32_t samples) {
     return 3 * samples;
 }
 
+/// Points on lamps that an estimate looks at, twice as many as directions.
+struct LampPoints {
+    struct OnLamp {
+        std::uint32_t emitter; ///< LampLight's own number
+        WorldPoint at;
+    };
+    std::uint32_t samples; ///< number of directions
+    std::vector<OnLamp> all;
+};
+
 /// Light that arrives directly from static emissive surfaces, where every instance that emits sends
 /// the same flux, whatever its area and emission: how much a material emits must not change what is
 /// precomputed.
@@ -41,11 +51,13 @@ public:
     /// Whether nothing emits.
     bool none() const { return m_triangles.empty(); }
 
-    /// Irradiance of the side that the point's normal shows, from `samples` directions, which
-    /// `turn` rotates, and twice as many points on lamps, which `seed` chooses. Traces up to
-    /// raysOf(samples) rays. Thread-safe.
-    LampIrradiance at(const WorldPoint& point, float reach, std::uint32_t samples,
-                      std::uint32_t turn, std::uint32_t seed) const;
+    /// Points on lamps, which `seed` chooses, for estimates with `samples` directions.
+    LampPoints pointsOnLamps(std::uint32_t samples, std::uint32_t seed) const;
+
+    /// Irradiance of the side that the point's normal shows, from directions, which `turn` rotates,
+    /// and from points on lamps. Traces up to raysOf(lamps.samples) rays. Thread-safe.
+    LampIrradiance at(const WorldPoint& point, float reach, std::uint32_t turn,
+                      const LampPoints& lamps) const;
 
     /// Whether the bounding box of some triangle of a lamp other than `instance` is within `reach`
     /// [m] of a point. Traces no ray. Lamps of more than 256 triangles, and all where there are
@@ -65,6 +77,7 @@ private:
         Bounds bounds;
     };
 
+    double fromLamps(const WorldPoint& point, const LampPoints& lamps) const;
     double weighted(const Emitter& emitter, glm::vec3 normal, glm::vec3 direction, float t,
                     double cosine, std::uint32_t samples) const;
 

@@ -84,8 +84,8 @@ public:
 
 private:
     TexelLight cornersAt(std::uint32_t place, std::uint32_t width) const;
-    LampIrradiance lightAt(const AtlasTexel& owner, const MeshPoint& point, std::uint32_t samples,
-                           std::uint32_t estimate) const;
+    LampIrradiance lightAt(const AtlasTexel& owner, const MeshPoint& point, std::uint32_t estimate,
+                           const LampPoints& lamps) const;
     SquareEstimate error(const AtlasTexel& owner, const std::vector<LocalTexel>& texels,
                          std::uint32_t samples, std::uint32_t points);
 
@@ -100,16 +100,17 @@ private:
 /// Estimates the light of the atlas' texels from number `from` on.
 void LampTexels::look(const Atlas& atlas, std::size_t from, const Progress& progress) {
     m_at.resize(std::size_t(atlas.layout.width) * atlas.layout.height);
+    // The same places of lamps for all texels, since differences matter.
+    const LampPoints lamps = m_light.pointsOnLamps(kRoughSamples, 0);
     std::vector<double> mean(atlas.texels.size() - from);
     parallelRanges(mean.size(), 64, progress, "charts", [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const AtlasTexel& t = atlas.texels[from + i];
             TexelLight& light = m_at[t.texel];
             for (std::uint32_t k = 0; k < t.count; ++k) {
-                // The same places of lamps for all texels, since differences matter.
                 const WorldPoint p = texelPoint(m_trace.scene(), t, k);
                 const LampIrradiance e =
-                    m_light.at(p, t.width, kRoughSamples, seedOf(m_trace.scene(), t) + k, 0);
+                    m_light.at(p, t.width, seedOf(m_trace.scene(), t) + k, lamps);
                 mean[i] += e.value / t.count;
                 if (e.open > 0)
                     light.add({e.value, e.value, m_light.isNear(p.position, t.width, t.instance)});
@@ -141,15 +142,14 @@ bool LampTexels::mayVary(std::uint32_t place, std::uint32_t width, const AtlasTe
     return range >= 0 && (all.nearLamp || 4 * range * range * areaOf(owner) > least());
 }
 
-/// An estimate of the light at a point of a block. All points of a block see the same places of
-/// lamps, so that only what differs between them appears as a difference.
+/// An estimate of the light at a point of a block.
 LampIrradiance LampTexels::lightAt(const AtlasTexel& owner, const MeshPoint& point,
-                                   std::uint32_t samples, std::uint32_t estimate) const {
+                                   std::uint32_t estimate, const LampPoints& lamps) const {
     AtlasTexel one = owner;
     one.points[0] = point;
     const Scene& scene = m_trace.scene();
-    return m_light.at(texelPoint(scene, one, 0), owner.width / float(kFineCells), samples,
-                      seedOf(scene, one) + estimate, seedOf(scene, owner) + 3 * estimate);
+    return m_light.at(texelPoint(scene, one, 0), owner.width / float(kFineCells),
+                      seedOf(scene, one) + estimate, lamps);
 }
 
 /// Estimates the squared difference [m^-4] between the light at points of a block and that between
@@ -158,6 +158,11 @@ LampIrradiance LampTexels::lightAt(const AtlasTexel& owner, const MeshPoint& poi
 SquareEstimate LampTexels::error(const AtlasTexel& owner, const std::vector<LocalTexel>& texels,
                                  std::uint32_t samples, std::uint32_t points) {
     using Pair = std::array<double, 2>;
+    // All points of a block see the same places of lamps, so that only what differs between them
+    // appears as a difference.
+    const std::uint32_t seed = seedOf(m_trace.scene(), owner);
+    const std::array<LampPoints, 2> lamps = {m_light.pointsOnLamps(samples, seed),
+                                             m_light.pointsOnLamps(samples, seed + 3)};
     std::array<std::array<OpenMean, 4>, 2> corner{};
     std::uint64_t looks = 0;
     for (const LocalTexel& t : texels)
@@ -165,7 +170,7 @@ SquareEstimate LampTexels::error(const AtlasTexel& owner, const std::vector<Loca
             for (std::uint32_t i = 0; i < t.count; ++i)
                 for (std::uint32_t k = 0; k < 2; ++k, ++looks)
                     corner[k][t.at.x / kFineCells + 2 * (t.at.y / kFineCells)].add(
-                        lightAt(owner, t.points[i], samples, k));
+                        lightAt(owner, t.points[i], k, lamps[k]));
     SquareEstimate result;
     for (const LocalTexel& t : texels) {
         const glm::dvec2 f = glm::dvec2(t.at) / double(kFineCells);
@@ -182,8 +187,8 @@ SquareEstimate LampTexels::error(const AtlasTexel& owner, const std::vector<Loca
             continue;
         for (std::uint32_t i = 0; i < std::min(points, t.count); ++i, looks += 2) {
             const MeshPoint& point = t.points[i * (t.count - 1)];
-            const LampIrradiance a = lightAt(owner, point, samples, 0),
-                                 b = lightAt(owner, point, samples, 1);
+            const LampIrradiance a = lightAt(owner, point, 0, lamps[0]),
+                                 b = lightAt(owner, point, 1, lamps[1]);
             if (a.open > 0 && b.open > 0)
                 result.add((a.value - read[0] / weights[0]) * (b.value - read[1] / weights[1]));
         }

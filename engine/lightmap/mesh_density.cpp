@@ -102,11 +102,18 @@ float surfelClass(double value, double centre) {
 
 } // namespace
 
-int densityClass(double value, double centre) {
-    const double exact = std::log2(value / rounded(centre)) / 4;
+DensityClassBounds densityClassBounds(double centre) {
     constexpr double kUp = 0.5, kDown = 0.1;
-    return int(std::clamp(std::floor(exact + (exact > 0 ? kUp : 1 - kDown)),
-                          double(kMinDensityClass), double(kMaxDensityClass)));
+    const double middle = rounded(centre);
+    DensityClassBounds result;
+    for (int k = kMinDensityClass + 1; k <= kMaxDensityClass; ++k)
+        result[std::size_t(k - kMinDensityClass - 1)] =
+            middle * std::exp2(4 * (k > 0 ? k - kUp : k - 1 + kDown));
+    return result;
+}
+
+int densityClass(double value, double centre) {
+    return densityClass(value, densityClassBounds(centre));
 }
 
 std::vector<MeshDensity> surfelDensities(const Scene& scene, std::span<const MeshCharts> charts,

@@ -5,6 +5,7 @@
 #include "engine/scene/mesh/triangle_geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -83,5 +84,17 @@ inline constexpr int kMinDensityClass = -3, kMaxDensityClass = 2;
 /// below 1 unless the value is hardly larger. Both > 0. The centre is rounded, so that small
 /// changes of it do not change any exponent.
 int densityClass(double value, double centre);
+
+/// The least values of all classes but the lowest, in ascending order.
+using DensityClassBounds = std::array<double, kMaxDensityClass - kMinDensityClass>;
+DensityClassBounds densityClassBounds(double centre);
+
+/// The class of a value that is given by bounds in ascending order.
+inline int densityClass(double value, const DensityClassBounds& bounds) {
+    int result = kMinDensityClass;
+    for (const double bound : bounds)
+        result += value >= bound ? 1 : 0;
+    return result;
+}
 
 } // namespace limn

@@ -30,7 +30,8 @@ Outlook SideFinder::look(const WorldPoint& point, float reach, std::uint32_t see
     const glm::vec3 from = trace.clearOf(point.position, point.normal);
     Outlook result;
     for (std::uint32_t i = 0; i < kProbesPerPoint; ++i) {
-        const Hit hit = trace.closestHit({from, toWorld * directions[i]}, TraceMask::Static);
+        const SurfaceHit hit =
+            trace.closestSurface({from, toWorld * directions[i]}, TraceMask::Static);
         const bool inSolid =
             hit && !hit.frontFace &&
             !isTwoSided(trace.scene().materialOf(trace.scene().instances[hit.instance]));

@@ -259,4 +259,19 @@ TEST(Density, TexelsFollowTheirFactors) {
 }
 
 } // namespace
+TEST(Density, ClassesArePowersOfSixteenAndRoundUpBelowTheCentre) {
+    EXPECT_EQ(densityClass(1, 1), 0);
+    EXPECT_EQ(densityClass(3.9, 1), 0);
+    EXPECT_EQ(densityClass(4.1, 1), 1) << "from 16^(1/2) on";
+    EXPECT_EQ(densityClass(1e9, 1), kMaxDensityClass);
+    const double little = std::pow(16., 0.1);
+    EXPECT_EQ(densityClass(little / 16 * 1.01, 1), 0);
+    EXPECT_EQ(densityClass(little / 16 * 0.99, 1), -1);
+    EXPECT_EQ(densityClass(1e-30, 1), kMinDensityClass);
+    EXPECT_EQ(densityClass(0, 1), kMinDensityClass);
+    EXPECT_EQ(densityClass(64, 64), 0);
+    for (const double nearness : {0.01, 1., 7.3})
+        EXPECT_NEAR(nearnessOf(detailOf(nearness)) / nearness, 1, 1e-12);
+}
+
 } // namespace limn::density_test

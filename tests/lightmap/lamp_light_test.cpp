@@ -35,7 +35,7 @@ Mesh flatLamp() {
 double meanIrradiance(const LampLight& light, const WorldPoint& point) {
     double sum = 0;
     for (std::uint32_t s = 0; s < kSeeds; ++s)
-        sum += light.at(point, 0.01f, kSamples, s, 5 * s).value;
+        sum += light.at(point, 0.01f, s, light.pointsOnLamps(kSamples, 5 * s)).value;
     return sum / kSeeds;
 }
 
@@ -87,8 +87,9 @@ TEST(LampLight, PointsInAGapAreNotOpen) {
     b.add(flatLamp());
     const TraceScene trace(b.build());
     const LampLight light(trace);
-    EXPECT_EQ(light.at({{0, 0.001f, 0}, {0, -1, 0}}, 0.01f, kSamples, 1, 1).open, 0);
-    EXPECT_GT(light.at({{0.6f, 0.001f, 0}, {0, -1, 0}}, 0.01f, kSamples, 1, 1).open, 0.8);
+    const LampPoints lamps = light.pointsOnLamps(kSamples, 1);
+    EXPECT_EQ(light.at({{0, 0.001f, 0}, {0, -1, 0}}, 0.01f, 1, lamps).open, 0);
+    EXPECT_GT(light.at({{0.6f, 0.001f, 0}, {0, -1, 0}}, 0.01f, 1, lamps).open, 0.8);
     EXPECT_TRUE(light.isNear({0.505f, 0, 0}, 0.01f, ~0U));
     EXPECT_FALSE(light.isNear({0.515f, 0, 0}, 0.01f, ~0U));
     EXPECT_FALSE(light.isNear({0.505f, 0, 0}, 0.01f, 1)) << "the lamp itself";

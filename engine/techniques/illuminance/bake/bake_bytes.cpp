@@ -80,7 +80,8 @@ struct Expected {
 std::uint64_t targetsOf(const Scene& scene) {
     const std::uint64_t surfels = scene.bake.surfels;
     return scene.bake.linker == Linker::Gather
-               ? std::min<std::uint64_t>(expectedLampSurfels(scene, scene.bake.surfels), kMaxAimed)
+               ? std::min<std::uint64_t>(expectedLampSurfels(scene, scene.bake.surfels),
+                                         maxLampsAimed(scene.bake.rays))
                : surfels + kSkyCells;
 }
 

@@ -37,7 +37,7 @@ SkySights sightsOf(const TracedRoom& room) {
 /// Irradiance from a sky of radiosity 1 on each of the room's lightmap caches.
 std::vector<double> skyIrradiance(const TracedRoom& room) {
     std::vector<double> sum(room.caches.lightmapCount);
-    forEachSeenHit(room.hits, room.points, room.caches,
+    forEachSeenHit(room.hits, room.points, room.caches, 0, std::uint32_t(room.caches.size()),
                    [&](std::uint32_t c, std::uint32_t, std::uint32_t sender, double weight) {
                        if (c < sum.size() && isSky(room, sender))
                            sum[c] += weight;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel.h"
 #include "engine/lightmap/texel_sides.h"
 #include "engine/math/sampling.h"
@@ -68,6 +69,7 @@ struct Sight {
 };
 
 bool Sight::look(const Progress& progress) {
+    reserveLarge(sightings, std::size_t(caches.lightmapCount) * rays);
     sightings.resize(std::size_t(caches.lightmapCount) * rays);
     sky.resize(caches.lightmapCount);
     const RayGatherer gatherer(trace, set, caches, points, rays, owners);
@@ -79,7 +81,7 @@ bool Sight::look(const Progress& progress) {
                 float open = 0;
                 for (std::uint32_t r = 0; r < rays; ++r) {
                     const Ray ray = gatherer.ray(directions, std::uint32_t(c), r);
-                    const Hit hit = trace.closestHit(ray, TraceMask::Static);
+                    const SurfaceHit hit = trace.closestSurface(ray, TraceMask::Static);
                     const RawHit met = gatherer.credit(hit, ray.direction);
                     if (!hit)
                         open += directions.local.height(r);

@@ -418,22 +418,27 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     m_owner.resize(cells);
 }
 
+std::size_t SurfelOwners::trianglesPerTask(const Mesh& mesh) const {
+    return std::clamp<std::size_t>(64 * mesh.triangleCount() / std::max(cells(), 1U), 1, 64);
+}
+
 SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
     : m_frontCount(surfels.frontCount) {
     sizeBlocks(mesh, surfels);
     const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);
     const NearestPoint nearest(points, std::span(surfels.normal.data(), surfels.frontCount),
                                std::sqrt(std::max(surfels.area, 1e-30f)));
-    parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
-        for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
-            const glm::vec3 normal = triangleNormal(mesh, t);
-            forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
-                if (uv.x + uv.y > 1)
-                    uv /= uv.x + uv.y;
-                m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
-            });
-        }
-    });
+    parallelRanges(mesh.triangleCount(), trianglesPerTask(mesh),
+                   [&](std::size_t begin, std::size_t end) {
+                       for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
+                           const glm::vec3 normal = triangleNormal(mesh, t);
+                           forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
+                               if (uv.x + uv.y > 1)
+                                   uv /= uv.x + uv.y;
+                               m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
+                           });
+                       }
+                   });
 }
 
 } // namespace limn

@@ -84,6 +84,9 @@ public:
     }
     std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
 
+    /// Number of triangles with about 64 cells, or 64 if the triangles are smaller.
+    std::size_t trianglesPerTask(const Mesh& mesh) const;
+
     /// Calls visit(cell, uv of its middle, share of the triangle's area) for the cells that meet a
     /// triangle; the shares sum to 1.
     template <class Visit>

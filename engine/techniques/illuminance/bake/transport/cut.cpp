@@ -392,23 +392,29 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
 std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
                                 const CachePoints& points, const Caches& caches,
                                 const ClusterTree& tree) {
-    std::vector<double> seen(tree.leaves());
-    forEachSeenHit(hits, points, caches,
-                   [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
-                       seen[sender] += weight;
-                   });
-    for (std::uint32_t c = 0; c < caches.size(); ++c) {
-        forEachSkySight(hits, points, caches, c, [&](std::uint32_t sender, const Sight& sight) {
-            seen[sender] += double(points.weightOf(c)) * double(sight.irradiance);
+    const SumsOfSenders sums = sumOverCaches(
+        std::uint32_t(caches.size()), tree.leaves(),
+        [&](std::uint32_t begin, std::uint32_t end, std::span<double> seen) {
+            forEachSeenHit(hits, points, caches, begin, end,
+                           [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
+                               seen[sender] += weight;
+                           });
+            for (std::uint32_t c = begin; c < end; ++c) {
+                const CacheKind kind = caches.kind[c];
+                const auto weight = double(points.weightOf(c));
+                forEachSkySight(hits, points, caches, c,
+                                [&](std::uint32_t sender, const Sight& sight) {
+                                    seen[sender] += weight * double(sight.irradiance);
+                                });
+                for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
+                    const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
+                    seen[hits.aimed[k].sender] +=
+                        weight * double(v.transport * irradianceShare(kind, v.cosTheta));
+                }
+            }
         });
-        for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
-            const CacheKind kind = caches.kind[c];
-            const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
-            seen[hits.aimed[k].sender] += double(points.weightOf(c)) *
-                                          double(v.transport * irradianceShare(kind, v.cosTheta));
-        }
-    }
-    return {seen.begin(), seen.end()};
+    const std::span<const double> all = sums.before(SumsOfSenders::kParts);
+    return {all.begin(), all.end()};
 }
 
 void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {

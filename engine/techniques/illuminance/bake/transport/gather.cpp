@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/transport/gather.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/transport/seen_hits.h"
+#include "engine/trace/rays_together.h"
 
 #include <algorithm>
 #include <atomic>
@@ -84,14 +86,11 @@ struct Finisher {
                          [&](std::uint32_t point) { open.push_back(point); });
         if (open.empty())
             return 0;
-        std::uint32_t traced = 0;
         const auto replaced = [&](std::uint32_t s) { return met(s) && isFar(s, open[0]); };
         std::replace_if(sender, sender + rays, replaced, GatherHits::kAimed);
         if (aimedAlready)
             return 0;
-        for (const AimedSample& sample : chooseSamples(cache, open))
-            traced += aim(caches.kind[cache], sample, aimed) ? 1 : 0;
-        return traced;
+        return aim(caches.kind[cache], chooseSamples(cache, rays, open), aimed);
     }
 
 private:
@@ -104,16 +103,17 @@ private:
         return glm::dot(way, way) >= from * from;
     }
 
-    /// One sample of each target that is far. From more than kMaxAimed emissive ones, systematic
-    /// sampling chooses kMaxAimed with probability in proportion to their unoccluded transport;
-    /// each sample is scaled by the inverse of its probability, so the sum is unbiased.
-    std::vector<AimedSample> chooseSamples(std::uint32_t cache,
+    /// One sample of each target that is far. From more than maxLampsAimed(rays) emissive ones,
+    /// systematic sampling chooses as many with probability in proportion to their unoccluded
+    /// transport; each sample is scaled by the inverse of its probability, so the sum is unbiased.
+    std::vector<AimedSample> chooseSamples(std::uint32_t cache, std::uint32_t rays,
                                            const std::vector<std::uint32_t>& open) const {
+        const std::uint32_t most = maxLampsAimed(rays);
         std::vector<AimedSample> all;
         for (std::size_t i = 0; i < targets.size(); ++i)
             if (isFar(targets[i], open[0]))
                 all.push_back({targets[i], open[i % open.size()]});
-        if (linker == Linker::FormFactor || all.size() <= kMaxAimed)
+        if (linker == Linker::FormFactor || all.size() <= most)
             return all;
         std::vector<double> worth;
         double sum = 0;
@@ -121,11 +121,11 @@ private:
             worth.push_back(
                 sum += double(viewOf(set.surfels, points, caches.kind[cache], sample).transport));
         std::vector<AimedSample> chosen;
-        const double step = sum / kMaxAimed,
+        const double step = sum / most,
                      start = double(unitFloat(mixBits(points.seed[cache] + 1))) * step;
-        for (std::size_t i = 0, k = 0; k < kMaxAimed && i < all.size(); ++i) {
+        for (std::size_t i = 0, k = 0; k < most && i < all.size(); ++i) {
             std::uint32_t hits = 0;
-            for (; k < kMaxAimed && start + double(k) * step < worth[i]; ++k)
+            for (; k < most && start + double(k) * step < worth[i]; ++k)
                 ++hits;
             const double own = worth[i] - (i > 0 ? worth[i - 1] : 0);
             if (hits > 0 && own > 0)
@@ -134,21 +134,28 @@ private:
         return chosen;
     }
 
-    /// Returns false where the two do not face each other; no ray is traced then.
-    bool aim(CacheKind kind, const AimedSample& sample, std::vector<AimedSample>& aimed) const {
-        const SenderView view = viewOf(set.surfels, points, kind, sample);
-        if (!(view.transport > 0))
-            return false;
+    /// Adds the samples that are in sight. Returns the number of rays traced: none where sender and
+    /// point do not face each other.
+    std::uint32_t aim(CacheKind kind, const std::vector<AimedSample>& samples,
+                      std::vector<AimedSample>& aimed) const {
+        RaysTogether<AimedSample> rays(trace, TraceMask::Static);
+        const auto open = [&](const AimedSample& sample) { aimed.push_back(sample); };
+        for (const AimedSample& sample : samples) {
+            const SenderView view = viewOf(set.surfels, points, kind, sample);
+            if (view.transport > 0)
+                rays.add(rayTo(sample, view.direction), sample, open);
+        }
+        rays.flush(open);
+        return std::uint32_t(rays.traced());
+    }
+
+    /// The ray of a sample whose sender lies along `direction`.
+    Ray rayTo(const AimedSample& sample, glm::vec3 direction) const {
         const glm::vec3 from = startOf(trace, points, sample.point);
         const std::uint32_t s = sample.sender;
-        const bool hidden =
-            s >= set.surfels.size()
-                ? trace.occluded({from, view.direction}, TraceMask::Static)
-                : trace.blocked(from, trace.clearOf(set.surfels.position[s], set.surfels.normal[s]),
-                                TraceMask::Static);
-        if (!hidden)
-            aimed.push_back(sample);
-        return true;
+        if (s >= set.surfels.size())
+            return {from, direction};
+        return rayBetween(from, trace.clearOf(set.surfels.position[s], set.surfels.normal[s]));
     }
 };
 
@@ -168,7 +175,7 @@ void joinAimed(std::vector<std::vector<AimedSample>>& aimed, GatherHits& hits) {
     for (const std::vector<AimedSample>& a : aimed)
         all += a.size();
     hits.aimed.clear();
-    hits.aimed.reserve(all);
+    reserveLarge(hits.aimed, all);
     hits.aimedBegin = {0};
     constexpr std::size_t kParts = 8;
     std::size_t next = all / kParts;
@@ -217,41 +224,65 @@ Ray RayGatherer::ray(const CacheRays& directions, std::uint32_t cache, std::uint
     return {startOf(m_trace, m_points, m_points.begin[cache] + k), directions[r]};
 }
 
-RawHit RayGatherer::credit(const Hit& hit, glm::vec3 direction) const {
+RayGatherer::Place RayGatherer::placeOf(const SurfaceHit& hit, glm::vec3 direction) const {
     if (!hit)
-        return std::uint32_t(m_set.surfels.size()) + skyCellOf(direction);
+        return {~0U, skyCellOf(direction), false, false};
     const Scene& scene = m_trace.scene();
     const Instance& instance = scene.instances[hit.instance];
-    const bool back = !hit.frontFace, passes = back && !isTwoSided(scene.materialOf(instance));
-    const std::uint32_t surfel =
-        m_owners.at(hit.instance, hit.triangle, hit.u, hit.v, back && !passes);
-    return passes ? surfel | kBack : surfel;
+    const bool twoSided = isTwoSided(scene.materialOf(instance));
+    return {hit.instance, m_owners.of(instance.mesh).cellAt(hit.triangle, hit.u, hit.v),
+            !hit.frontFace && twoSided, !hit.frontFace && !twoSided};
+}
+
+RawHit RayGatherer::resolve(const Place& place) const {
+    if (place.instance == ~0U)
+        return std::uint32_t(m_set.surfels.size()) + place.cell;
+    const std::uint32_t surfel = m_owners.ofCell(place.instance, place.cell, place.back);
+    return place.passed ? surfel | kBack : surfel;
+}
+
+void RayGatherer::traceSome(std::uint32_t cache, const CacheRays& rays,
+                            std::span<const std::uint32_t> which, RawHit* hits) const {
+    std::array<Place, kProbes> met;
+    std::array<glm::vec3, AtlasTexel::kMaxPoints> from;
+    for (std::uint32_t k = 0; k < rays.points; ++k)
+        from[k] = startOf(m_trace, m_points, m_points.begin[cache] + k);
+    for (std::size_t done = 0; done < which.size();) {
+        const auto some = which.subspan(done, std::min(met.size(), which.size() - done));
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            const glm::vec3 direction = rays[some[i]];
+            met[i] = placeOf(
+                m_trace.closestSurface({from[some[i] % rays.points], direction}, TraceMask::Static),
+                direction);
+        }
+        // The owners lie far apart in memory. Asked for together, they arrive together.
+        for (std::size_t i = 0; i < some.size(); ++i)
+            hits[some[i]] = resolve(met[i]);
+        done += some.size();
+    }
 }
 
 std::uint32_t RayGatherer::traceCache(std::uint32_t cache, RawHit* out) const {
     std::fill_n(out, m_rays, kUntraced);
-    std::uint32_t probes = 0;
-    if (m_rays >= 2 * kProbes) {
-        const CacheRays rays = directions(cache);
-        for (; probes < kProbes; ++probes) {
-            const std::uint32_t r = probeRay(probes, m_rays);
-            out[r] = trace(ray(rays, cache, r));
-        }
-    }
-    return probes + traceRest(cache, out);
+    if (m_rays < 2 * kProbes)
+        return traceRest(cache, out);
+    std::array<std::uint32_t, kProbes> probes;
+    for (std::uint32_t k = 0; k < kProbes; ++k)
+        probes[k] = probeRay(k, m_rays);
+    traceSome(cache, directions(cache), probes, out);
+    return kProbes + traceRest(cache, out);
 }
 
 std::uint32_t RayGatherer::traceRest(std::uint32_t cache, RawHit* hits) const {
     if (isBuried(hits, m_rays))
         return 0;
-    std::uint32_t traced = 0;
-    const CacheRays rays = directions(cache);
+    std::vector<std::uint32_t> rest;
+    rest.reserve(m_rays);
     for (std::uint32_t r = 0; r < m_rays; ++r)
-        if (hits[r] == kUntraced) {
-            hits[r] = trace(ray(rays, cache, r));
-            ++traced;
-        }
-    return traced;
+        if (hits[r] == kUntraced)
+            rest.push_back(r);
+    traceSome(cache, directions(cache), rest, hits);
+    return std::uint32_t(rest.size());
 }
 
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
@@ -278,9 +309,10 @@ SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind k
     return kind == CacheKind::Hemisphere && !(view.cosTheta > 0) ? SenderView{} : view;
 }
 
-std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker) {
+std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker,
+                       std::uint32_t rays) {
     const auto targets = std::uint32_t(aimTargets(scene, set, linker).size());
-    return linker == Linker::Gather ? std::min(targets, kMaxAimed) : targets;
+    return linker == Linker::Gather ? std::min(targets, maxLampsAimed(rays)) : targets;
 }
 
 bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,

@@ -31,26 +31,44 @@ using CandidateRays = std::array<CacheRay, kLightCandidates>;
 /// weights, one ray several times where there are few.
 std::vector<CandidateRays> chooseRays(const GatherHits& hits, const CachePoints& points,
                                       const Caches& caches, std::size_t surfels) {
-    std::vector<double> all(surfels), sum(surfels);
-    std::vector<std::uint32_t> found(surfels);
+    const SumsOfSenders sums = sumOverCaches(
+        std::uint32_t(caches.size()), std::uint32_t(surfels),
+        [&](std::uint32_t begin, std::uint32_t end, std::span<double> sum) {
+            forEachSeenHit(hits, points, caches, begin, end,
+                           [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
+                               if (sender < surfels)
+                                   sum[sender] += weight;
+                           });
+        });
+    const std::span<const double> all = sums.before(SumsOfSenders::kParts);
     std::vector<CandidateRays> chosen(surfels);
-    forEachSeenHit(hits, points, caches,
-                   [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
-                       if (sender < surfels)
-                           all[sender] += weight;
-                   });
-    forEachSeenHit(hits, points, caches,
-                   [&](std::uint32_t c, std::uint32_t r, std::uint32_t sender, double weight) {
-                       if (sender >= surfels)
-                           return;
-                       sum[sender] += weight;
-                       const auto shift = double(unitFloat(mixBits(sender)));
-                       std::uint32_t& k = found[sender];
-                       for (; k < kLightCandidates &&
-                              (double(k) + shift) * all[sender] < sum[sender] * kLightCandidates;
-                            ++k)
-                           chosen[sender][k] = {c, r};
-                   });
+    const auto choose = [&](std::uint32_t part) {
+        const std::span<const double> before = sums.before(part);
+        std::vector<double> sum(before.begin(), before.end());
+        std::vector<std::uint32_t> found(surfels);
+        std::vector<float> shift(surfels);
+        const auto isChosen = [&](std::uint32_t sender, std::uint32_t k) {
+            return k < kLightCandidates && (double(k) + double(shift[sender])) * all[sender] <
+                                               sum[sender] * kLightCandidates;
+        };
+        for (std::uint32_t s = 0; s < surfels; ++s) {
+            shift[s] = unitFloat(mixBits(s));
+            while (isChosen(s, found[s])) // by the parts before
+                ++found[s];
+        }
+        forEachSeenHit(hits, points, caches, sums.begin(part), sums.begin(part + 1),
+                       [&](std::uint32_t c, std::uint32_t r, std::uint32_t sender, double weight) {
+                           if (sender >= surfels)
+                               return;
+                           sum[sender] += weight;
+                           for (; isChosen(sender, found[sender]); ++found[sender])
+                               chosen[sender][found[sender]] = {c, r};
+                       });
+    };
+    parallelRanges(SumsOfSenders::kParts, 1, [&](std::size_t first, std::size_t last) {
+        for (auto part = std::uint32_t(first); part < last; ++part)
+            choose(part);
+    });
     return chosen;
 }
 

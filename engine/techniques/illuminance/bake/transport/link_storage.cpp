@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/transport/link_storage.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/math/cone.h"
 #include "engine/math/packing.h"
 #include "engine/math/sh.h"
@@ -56,7 +57,7 @@ void joinLinks(std::span<const PackedLinks> packed, Caches& caches) {
         for (const PackedLinks& p : packed)
             size += (p.*part).size();
         to.clear();
-        to.reserve(size);
+        reserveLarge(to, size);
         for (const PackedLinks& p : packed)
             to.insert(to.end(), (p.*part).begin(), (p.*part).end());
     };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/parallel.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 namespace limn {
 
@@ -32,13 +35,14 @@ void forEachOpenPoint(const CachePoints& points, std::uint32_t cache,
             visit(first + k);
 }
 
-/// Calls visit(cache, ray, sender, weight) for every ray that met a sender, cache after cache.
-/// `weight`: the irradiance that a radiosity of 1 there brings to the cache by this ray, times
-/// CachePoints::weight. Rays that are left to aimed samples are not among them.
+/// Calls visit(cache, ray, sender, weight) for every ray of the caches [begin, end) that met a
+/// sender, cache after cache. `weight`: the irradiance that a radiosity of 1 there brings to the
+/// cache by this ray, times CachePoints::weight. Rays that are left to aimed samples are not among
+/// them.
 template <class Visit>
 void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Caches& caches,
-                    const Visit& visit) {
-    for (std::uint32_t c = 0; c < caches.size(); ++c) {
+                    std::uint32_t begin, std::uint32_t end, const Visit& visit) {
+    for (std::uint32_t c = begin; c < end; ++c) {
         const CacheKind kind = caches.kind[c];
         const bool sphere = kind != CacheKind::Hemisphere;
         const DirectionSet rays(hits.rays, sphere, 0); // the rotation changes no height
@@ -51,6 +55,40 @@ void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Cac
                       weight * double((sphere ? 4.f : 2.f) / float(kept) *
                                       irradianceShare(kind, rays.height(r))));
     }
+}
+
+/// Sums over all caches per sender: sum[k * senders + s] is that of the caches before part k of
+/// `parts` equal parts of them, or of all where k is `parts`.
+struct SumsOfSenders {
+    static constexpr std::uint32_t kParts = 16;
+    std::uint32_t senders, caches;
+    std::vector<double> sum;
+
+    std::uint32_t begin(std::uint32_t part) const {
+        return std::uint32_t(std::uint64_t(caches) * part / kParts);
+    }
+    std::span<const double> before(std::uint32_t part) const {
+        return {sum.data() + std::size_t(part) * senders, senders};
+    }
+};
+
+/// Sums what add(begin, end, sum) adds to the senders of the caches [begin, end). The parts run in
+/// parallel, and the result does not depend on the number of threads.
+template <class Add>
+SumsOfSenders sumOverCaches(std::uint32_t caches, std::uint32_t senders, const Add& add) {
+    constexpr std::uint32_t kParts = SumsOfSenders::kParts;
+    SumsOfSenders result{senders, caches, {}};
+    result.sum.assign(std::size_t(kParts + 1) * senders, 0);
+    const auto of = [&](std::uint32_t part) {
+        return std::span(result.sum).subspan(std::size_t(part) * senders, senders);
+    };
+    parallelRanges(kParts, 1, [&](std::size_t first, std::size_t last) {
+        for (auto k = std::uint32_t(first); k < last; ++k)
+            add(result.begin(k), result.begin(k + 1), of(k + 1));
+    });
+    for (std::uint32_t k = 1; k <= kParts; ++k)
+        std::ranges::transform(of(k - 1), of(k), of(k).begin(), std::plus<>());
+    return result;
 }
 
 } // namespace limn

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/transport/sky_sights.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel.h"
 #include "engine/math/packing.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/transport/seen_hits.h"
+#include "engine/trace/rays_together.h"
 
 #include <algorithm>
 #include <array>
@@ -70,8 +72,9 @@ private:
 /// Looks for the sky from one cache after another.
 class SkyFinder {
 public:
-    SkyFinder(const SkyInput& input, const Neighbours& neighbours)
-        : in(input), m_neighbours(neighbours) {}
+    SkyFinder(const SkyInput& input, const Neighbours& neighbours,
+              const std::vector<std::uint32_t>& skyRays)
+        : in(input), m_neighbours(neighbours), m_skyRays(skyRays) {}
 
     void find(std::uint32_t cache, std::vector<SkySight>& found);
     std::uint64_t traced() const { return m_traced; } ///< number of rays
@@ -79,6 +82,7 @@ public:
 private:
     const SkyInput& in;
     const Neighbours& m_neighbours;
+    const std::vector<std::uint32_t>& m_skyRays; ///< per cache: rays that see the sky
     std::vector<glm::vec3> m_guides;   ///< unit; directions in which the neighbours see the sky
     std::vector<std::uint32_t> m_open; ///< points of the cache that are not in a wall
     std::uint64_t m_traced = 0;
@@ -89,19 +93,34 @@ private:
 
 void SkyFinder::findGuides(std::uint32_t cache) {
     m_guides.clear();
-    std::uint64_t looked = 0;
+    std::uint64_t looked = 0, seen = 0;
     m_neighbours.each(cache, [&](std::uint32_t other) {
         looked += in.hits.rays;
-        const std::span<const std::uint32_t> senders = in.hits.sendersOf(other);
-        if (std::ranges::none_of(senders, [&](std::uint32_t s) { return isSky(s, in.surfels); }))
+        seen += m_skyRays[other];
+    });
+    if (seen * kSeldom >= looked)
+        return;
+    m_neighbours.each(cache, [&](std::uint32_t other) {
+        if (m_skyRays[other] == 0)
             return;
+        const std::span<const std::uint32_t> senders = in.hits.sendersOf(other);
         const CacheRays rays = raysOf(in.caches, in.points, other, in.hits.rays);
         for (std::uint32_t r = 0; r < in.hits.rays; ++r)
             if (isSky(senders[r], in.surfels))
                 m_guides.push_back(rays[r]);
     });
-    if (m_guides.size() * kSeldom >= looked)
-        m_guides.clear();
+}
+
+/// Number of rays of each cache that see the sky.
+std::vector<std::uint32_t> countSkyRays(const SkyInput& in) {
+    std::vector<std::uint32_t> result(in.caches.size());
+    parallelRanges(result.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            result[c] = std::uint32_t(
+                std::ranges::count_if(in.hits.sendersOf(std::uint32_t(c)),
+                                      [&](std::uint32_t s) { return isSky(s, in.surfels); }));
+    });
+    return result;
 }
 
 /// Direction of ray k of those aimed: within a cone of `solidAngle` around a guide. The guides take
@@ -139,39 +158,35 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkySight>& found) {
     for (std::uint32_t r = 0; r < in.hits.rays; ++r)
         if (isSky(senders[r], in.surfels))
             add(senders[r], in.points.begin[cache] + r % rays.points, rays[r]);
-    std::array<Ray, TraceScene::kTogether> together;
-    std::array<std::uint32_t, TraceScene::kTogether> from{}; // points of these rays
-    std::uint32_t waiting = 0;
+    struct Aimed {
+        std::uint32_t point;
+        glm::vec3 direction;
+    };
+    RaysTogether<Aimed> aims(in.trace, TraceMask::Static);
+    const auto open = [&](const Aimed& a) {
+        add(std::uint32_t(in.surfels) + skyCellOf(a.direction), a.point, a.direction);
+    };
     const bool hemisphere = in.caches.kind[cache] == CacheKind::Hemisphere;
     for (std::uint32_t k = 0; k < kSkyRays; ++k) {
         const std::uint32_t point = m_open[k % m_open.size()];
         const glm::vec3 normal = in.points.normal[point], d = aimed(cache, k, ofRay);
-        if (!hemisphere || glm::dot(d, normal) > 0) {
-            together[waiting] = {in.trace.clearOf(in.points.position[point], normal), d};
-            from[waiting++] = point;
-        }
-        if (waiting < together.size() && k + 1 < kSkyRays)
-            continue;
-        const std::uint32_t hidden =
-            in.trace.occludedTogether({together.data(), waiting}, TraceMask::Static);
-        for (std::uint32_t i = 0; i < waiting; ++i)
-            if ((hidden >> i & 1) == 0)
-                add(std::uint32_t(in.surfels) + skyCellOf(together[i].direction), from[i],
-                    together[i].direction);
-        m_traced += waiting;
-        waiting = 0;
+        if (!hemisphere || glm::dot(d, normal) > 0)
+            aims.add({in.trace.clearOf(in.points.position[point], normal), d}, {point, d}, open);
     }
+    aims.flush(open);
+    m_traced += aims.traced();
 }
 
 } // namespace
 
 SkySights lookForSky(const SkyInput& in, const Progress& progress) {
     const Neighbours neighbours(in);
+    const std::vector<std::uint32_t> skyRays = countSkyRays(in);
     std::vector<std::vector<SkySight>> seen(in.caches.size());
     std::atomic<std::uint64_t> rays = 0;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     parallelRanges(seen.size(), 16, quiet, "trace", [&](std::size_t begin, std::size_t end) {
-        SkyFinder finder(in, neighbours);
+        SkyFinder finder(in, neighbours, skyRays);
         std::vector<SkySight> found;
         for (std::size_t c = begin; c < end; ++c) {
             finder.find(std::uint32_t(c), found);
@@ -183,7 +198,7 @@ SkySights lookForSky(const SkyInput& in, const Progress& progress) {
     result.begin.push_back(0);
     for (const std::vector<SkySight>& s : seen)
         result.begin.push_back(result.begin.back() + std::uint32_t(s.size()));
-    result.all.reserve(result.begin.back());
+    reserveLarge(result.all, result.begin.back());
     for (const std::vector<SkySight>& s : seen)
         result.all.insert(result.all.end(), s.begin(), s.end());
     result.rays = rays;

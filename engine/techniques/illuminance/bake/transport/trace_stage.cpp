@@ -4,6 +4,7 @@
 #include "engine/core/archive.h"
 #include "engine/core/field_rule.h"
 #include "engine/core/hash.h"
+#include "engine/core/large_pages.h"
 #include "engine/core/memory_budget.h"
 #include "engine/core/parallel.h"
 #include "engine/scene/mesh/input_hash.h"
@@ -382,7 +383,7 @@ void Tracing::keepRecord(bool changed) {
 
 /// Turns the raw hits into those that the cut needs, aimed rays included.
 bool Tracing::finish() {
-    const bool aims = maxAimed(in.trace.scene(), in.set, in.linker) > 0;
+    const bool aims = maxAimed(in.trace.scene(), in.set, in.linker, in.rays) > 0;
     const std::uint64_t key = aimedKey(in, m_key);
     if (aims && m_store)
         if (const std::optional<std::string> bytes = m_store->find(key))
@@ -428,6 +429,7 @@ Result<TraceReport> Tracing::run() {
     m_report.key = m_key;
     m_progress.at("trace", 0);
     m_hits.rays = in.rays;
+    reserveLarge(m_hits.sender, in.caches.size() * in.rays);
     m_hits.sender.resize(in.caches.size() * in.rays);
     m_hits.aimedBegin.clear();
     m_record.blocks.resize(m_done.size());
@@ -463,7 +465,7 @@ Result<TraceReport> Tracing::run() {
 Result<TraceReport> traceHits(const TraceInput& in, const Progress& progress, StageStore* store,
                               GatherHits& hits) {
     const std::uint64_t caches = in.caches.size(),
-                        aimed = maxAimed(in.trace.scene(), in.set, in.linker),
+                        aimed = maxAimed(in.trace.scene(), in.set, in.linker, in.rays),
                         bytes = caches * (in.rays * sizeof(RawHit) + aimed * sizeof(AimedSample)),
                         most = halfOfMemory();
     if (bytes > most)

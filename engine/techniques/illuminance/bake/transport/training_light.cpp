@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/transport/training_light.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 
@@ -148,8 +149,11 @@ void normalise(const std::vector<float>& seen, TrainingLight& out) {
         scale[t] =
             squares[t] > 0 ? float(std::sqrt(total / squares[t])) * TrainingLight::strength(t) : 0;
     }
-    for (std::size_t i = 0; i < seen.size() * TrainingLight::kCount; ++i)
-        out.radiosity[i] *= scale[i % TrainingLight::kCount];
+    for (std::size_t leaf = 0; leaf < seen.size(); ++leaf) {
+        float* row = out.radiosity.data() + leaf * TrainingLight::kCount;
+        for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
+            row[t] *= scale[t];
+    }
 }
 
 void pull(const ClusterTree& tree, TrainingLight& out) {
@@ -187,6 +191,7 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
         trainer.lights.push_back(lamp);
         result.lamps.push_back(lamp.position);
     }
+    reserveLarge(result.irradiance, values);
     result.irradiance.resize(values);
     std::atomic<std::uint64_t> rays = kLamps;
     const bool done = parallelRanges(surfels.size(), 256, progress, "training",
@@ -200,12 +205,15 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                                      });
     result.position = surfels.position;
     result.rays = rays;
-    return done ? result : TracedTraining{};
+    if (!done)
+        return {};
+    return result;
 }
 
 TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,
                             const std::vector<float>& seen, const TracedTraining& traced) {
     TrainingLight result;
+    reserveLarge(result.radiosity, std::size_t(tree.size()) * TrainingLight::kCount);
     result.radiosity.assign(std::size_t(tree.size()) * TrainingLight::kCount, 0);
     result.squaredWeights.assign(tree.size(), 1);
     lightSurfels(scene, surfels, traced, result);
