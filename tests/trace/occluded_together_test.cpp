@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/trace/trace_scene.h"
+#include "engine/trace/rays_together.h"
 
 #include "tests/trace/masked.h"
 
@@ -78,6 +78,26 @@ TEST(OccludedTogether, AnEmptySceneHidesNothing) {
     const TraceScene trace(SceneBuilder().build());
     EXPECT_EQ(trace.occludedTogether(raysIn(8, 3)), 0u);
     EXPECT_EQ(trace.occludedTogether({}), 0u);
+}
+
+TEST(OccludedTogether, RaysAreAllTracedInTheirOrder) {
+    const TraceScene trace(furnishedRoom());
+    const std::vector<Ray> all = raysIn(8 * TraceScene::kTogether + 3, 3);
+    std::vector<std::size_t> expected, found;
+    const auto open = [&](std::size_t k) { found.push_back(k); };
+    RaysTogether<std::size_t> rays(trace, TraceMask::Static);
+    rays.flush(open);
+    EXPECT_EQ(rays.traced(), 0u);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!trace.occluded(all[k], TraceMask::Static))
+            expected.push_back(k);
+        rays.add(all[k], k, open);
+    }
+    rays.flush(open);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(rays.traced(), all.size());
+    EXPECT_LT(expected.size(), all.size());
+    EXPECT_GT(expected.size(), 10u);
 }
 
 } // namespace
