@@ -67,8 +67,8 @@ public:
     /// badRays().
     Hit closestHit(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// The same without its place, which costs as much as a tenth of the ray. Whether a ray that
-    /// runs along a triangle meets its front is subject to rounding, and may differ between both.
+    /// The same without its place in the world, which takes less time. Whether a ray that runs
+    /// along a triangle meets its front is subject to rounding, and may differ between both.
     SurfaceHit closestSurface(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
     /// Whether anything opaque lies in (tNear, tFar). Bad rays are handled as by closestHit().
