@@ -18,4 +18,11 @@ void reserveLarge(std::vector<T>& array, std::size_t size) {
     preferLargePages(array.data(), size * sizeof(T));
 }
 
+/// The same, and resizes it.
+template <class T>
+void resizeLarge(std::vector<T>& array, std::size_t size) {
+    reserveLarge(array, size);
+    array.resize(size);
+}
+
 } // namespace limn

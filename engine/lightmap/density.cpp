@@ -363,8 +363,7 @@ BakeDensity DensityFinder::run(const Progress& progress) {
         return {};
     const double rays = std::min(m_texels * kRaysPerTexel, kMaxRays);
     m_rays = std::uint32_t(std::clamp(rays / double(m_probes.size()), 8.0, 64.0));
-    reserveLarge(m_met, m_probes.size() * m_rays);
-    m_met.resize(m_probes.size() * m_rays);
+    resizeLarge(m_met, m_probes.size() * m_rays);
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     if (!parallelRanges(m_probes.size(), 16, quiet, "charts",
                         [&](std::size_t begin, std::size_t end) {

@@ -134,7 +134,14 @@ struct TraceScene::Impl {
 
     bool traceable(const Ray& ray) const;
     RTCRayHit intersect(const Ray& ray, TraceMask mask) const;
-    glm::vec3 normalOf(const RTCRayHit& rh) const;
+    /// First corner of the triangle that was hit, and its edges to the others, in the mesh's space.
+    struct Corner {
+        glm::vec3 at, toSecond, toThird;
+    };
+    Corner cornerOf(const RTCRayHit& rh) const;
+    /// Normal of that triangle in the world, not of unit length.
+    glm::vec3 normalOf(const RTCRayHit& rh, const Corner& corner) const;
+    glm::vec3 roughNormalOf(const RTCRayHit& rh) const;
 
     Impl(const Scene& s, const std::vector<bool>* only, const Impl* before);
     MeshKey keyOf(const Instance& instance) const;
@@ -395,18 +402,24 @@ RTCRayHit TraceScene::Impl::intersect(const Ray& ray, TraceMask mask) const {
     return rh;
 }
 
-/// Unnormalised normal of the triangle that was hit, in the world.
-glm::vec3 TraceScene::Impl::normalOf(const RTCRayHit& rh) const {
-    const std::uint32_t instance = instanceOf(rh);
-    const HitFrame& frame = frames[instance];
-    if (frame.inWorld) // so are Embree's vertices
-        return glm::vec3(rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z) * frame.winding;
-    const Mesh& mesh = scene.meshOf(scene.instances[instance]);
+TraceScene::Impl::Corner TraceScene::Impl::cornerOf(const RTCRayHit& rh) const {
+    const Mesh& mesh = scene.meshOf(scene.instances[instanceOf(rh)]);
     const std::array<std::uint32_t, 3> k = mesh.triangle(rh.hit.primID);
-    const glm::mat3 linear(frame.toWorld);
     const glm::vec3 a = mesh.positions[k[0]];
-    return glm::cross(linear * (mesh.positions[k[1]] - a), linear * (mesh.positions[k[2]] - a)) *
-           frame.winding;
+    return {a, mesh.positions[k[1]] - a, mesh.positions[k[2]] - a};
+}
+
+glm::vec3 TraceScene::Impl::normalOf(const RTCRayHit& rh, const Corner& corner) const {
+    const HitFrame& frame = frames[instanceOf(rh)];
+    const glm::mat3 linear(frame.toWorld);
+    return glm::cross(linear * corner.toSecond, linear * corner.toThird) * frame.winding;
+}
+
+/// The same up to rounding. Does not read the vertices where Embree has them in world space.
+glm::vec3 TraceScene::Impl::roughNormalOf(const RTCRayHit& rh) const {
+    const HitFrame& frame = frames[instanceOf(rh)];
+    return frame.inWorld ? glm::vec3(rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z) * frame.winding
+                         : normalOf(rh, cornerOf(rh));
 }
 
 SurfaceHit TraceScene::closestSurface(const Ray& ray, TraceMask mask) const {
@@ -418,7 +431,7 @@ SurfaceHit TraceScene::closestSurface(const Ray& ray, TraceMask mask) const {
             .u = rh.hit.u,
             .v = rh.hit.v,
             .t = rh.ray.tfar,
-            .frontFace = glm::dot(m_impl->normalOf(rh), ray.direction) < 0};
+            .frontFace = glm::dot(m_impl->roughNormalOf(rh), ray.direction) < 0};
 }
 
 // Position and normal are computed from the triangle itself: the position is exact to a few
@@ -433,14 +446,11 @@ Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
     hit.u = rh.hit.u;
     hit.v = rh.hit.v;
     hit.t = rh.ray.tfar;
-    const HitFrame& frame = m_impl->frames[hit.instance];
-    const Mesh& mesh = m_impl->scene.meshOf(m_impl->scene.instances[hit.instance]);
-    const std::array<std::uint32_t, 3> k = mesh.triangle(hit.triangle);
-    const glm::vec3 a = mesh.positions[k[0]];
-    const glm::mat3 linear(frame.toWorld);
-    const glm::vec3 e1 = mesh.positions[k[1]] - a, e2 = mesh.positions[k[2]] - a;
-    hit.position = glm::vec3(frame.toWorld * glm::vec4(a + hit.u * e1 + hit.v * e2, 1));
-    const glm::vec3 n = glm::cross(linear * e1, linear * e2) * frame.winding;
+    const Impl::Corner corner = m_impl->cornerOf(rh);
+    hit.position =
+        glm::vec3(m_impl->frames[hit.instance].toWorld *
+                  glm::vec4(corner.at + hit.u * corner.toSecond + hit.v * corner.toThird, 1));
+    const glm::vec3 n = m_impl->normalOf(rh, corner);
     const float length = glm::length(n);
     hit.geometricNormal = length > 0 ? n / length : -ray.direction;
     hit.frontFace = glm::dot(hit.geometricNormal, ray.direction) < 0;

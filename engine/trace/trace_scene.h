@@ -18,7 +18,7 @@ struct Ray {
     float tFar = std::numeric_limits<float>::infinity();
 };
 
-/// The stretch between two points; one that meets nothing where they coincide.
+/// The ray from one point to another, where it ends. It meets nothing where both coincide.
 Ray rayBetween(glm::vec3 from, glm::vec3 to);
 
 /// Closest surface along a ray. Rays pass through alpha-masked texels.

@@ -69,8 +69,7 @@ struct Sight {
 };
 
 bool Sight::look(const Progress& progress) {
-    reserveLarge(sightings, std::size_t(caches.lightmapCount) * rays);
-    sightings.resize(std::size_t(caches.lightmapCount) * rays);
+    resizeLarge(sightings, std::size_t(caches.lightmapCount) * rays);
     sky.resize(caches.lightmapCount);
     const RayGatherer gatherer(trace, set, caches, points, rays, owners);
     return parallelRanges(

@@ -123,24 +123,19 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
     // Cells that no place lies in stay with the first surfel of their side.
     std::fill(result.begin() + owners.cells(), result.end(), patches.surfels().frontCount);
     std::atomic<bool> differs = false;
-    parallelRanges(
-        mesh.triangleCount(), owners.trianglesPerTask(mesh),
-        [&](std::size_t begin, std::size_t end) {
-            for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
-                for (std::uint32_t side = 0; side < sides; ++side) {
-                    const std::uint32_t first = side * patches.surfels().frontCount;
-                    owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
-                        const auto size = float(std::sqrt(share / 2)); // smaller where it is cut
-                        const std::uint32_t near = owners.front(cell),
-                                            own = patches.ownerOf({t, uv * 0.999f}, size, near,
-                                                                  side == 1);
-                        result[side * owners.cells() + cell] = own;
-                        if (own != first + near)
-                            differs = true;
-                    });
-                }
-            }
-        });
+    owners.forTriangles(mesh, progress, [&](std::uint32_t t) {
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const std::uint32_t first = side * patches.surfels().frontCount;
+            owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
+                const auto size = float(std::sqrt(share / 2)); // smaller where it is cut
+                const std::uint32_t near = owners.front(cell),
+                                    own = patches.ownerOf({t, uv * 0.999f}, size, near, side == 1);
+                result[side * owners.cells() + cell] = own;
+                if (own != first + near)
+                    differs = true;
+            });
+        }
+    });
     return differs ? std::move(result) : std::vector<std::uint32_t>();
 }
 
@@ -166,16 +161,12 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
     PatchSides result;
     result.owner.resize(scene.instances.size());
     std::atomic<std::uint64_t> rays = 0;
-    const auto mayBeCut = [&](std::uint32_t i) { // whether it has two surfels that walls may part
-        return set.instanceBegin[i] < set.instanceBegin[i + 1] &&
-               set.meshes[scene.instances[i].mesh].frontCount >= 2;
-    };
     parallelRanges(scene.instances.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (auto i = std::uint32_t(begin); i < end && !progress.cancelled(); ++i) {
-            if (!mayBeCut(i))
-                continue;
             const std::uint32_t mesh = scene.instances[i].mesh;
             const MeshSurfels& surfels = set.meshes[mesh];
+            if (set.instanceBegin[i] == set.instanceBegin[i + 1] || surfels.frontCount < 2)
+                continue;
             const NearestPoint nearest(std::span(surfels.position.data(), surfels.frontCount),
                                        std::span(surfels.normal.data(), surfels.frontCount),
                                        std::sqrt(std::max(surfels.area, 1e-30f)));

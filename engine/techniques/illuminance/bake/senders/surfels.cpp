@@ -418,8 +418,14 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     m_owner.resize(cells);
 }
 
-std::size_t SurfelOwners::trianglesPerTask(const Mesh& mesh) const {
-    return std::clamp<std::size_t>(64 * mesh.triangleCount() / std::max(cells(), 1U), 1, 64);
+void SurfelOwners::forTriangles(const Mesh& mesh, const Progress& progress,
+                                const std::function<void(std::uint32_t)>& visit) const {
+    const std::size_t count = mesh.triangleCount(),
+                      grain = std::clamp<std::size_t>(64 * count / std::max(cells(), 1U), 1, 64);
+    parallelRanges(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t)
+            visit(t);
+    });
 }
 
 SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
@@ -428,17 +434,14 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const P
     const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);
     const NearestPoint nearest(points, std::span(surfels.normal.data(), surfels.frontCount),
                                std::sqrt(std::max(surfels.area, 1e-30f)));
-    parallelRanges(mesh.triangleCount(), trianglesPerTask(mesh),
-                   [&](std::size_t begin, std::size_t end) {
-                       for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t) {
-                           const glm::vec3 normal = triangleNormal(mesh, t);
-                           forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
-                               if (uv.x + uv.y > 1)
-                                   uv /= uv.x + uv.y;
-                               m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
-                           });
-                       }
-                   });
+    forTriangles(mesh, progress, [&](std::uint32_t t) {
+        const glm::vec3 normal = triangleNormal(mesh, t);
+        forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
+            if (uv.x + uv.y > 1)
+                uv /= uv.x + uv.y;
+            m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
+        });
+    });
 }
 
 } // namespace limn

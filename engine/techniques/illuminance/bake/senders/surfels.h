@@ -5,13 +5,13 @@
 #include "engine/techniques/illuminance/bake/bake.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace limn {
 
 class StageStore;
-
 /// Sample points of one mesh in object space, front sides first; a two-sided mesh repeats them with
 /// the normal reversed.
 struct MeshSurfels {
@@ -83,9 +83,9 @@ public:
         return block.begin + std::min(j, last(at, side, n, i)) * n + i;
     }
     std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
-
-    /// Number of triangles with about 64 cells, or 64 if the triangles are smaller.
-    std::size_t trianglesPerTask(const Mesh& mesh) const;
+    /// Calls visit(triangle) for all triangles of the mesh, in parallel, unless cancelled.
+    void forTriangles(const Mesh& mesh, const Progress& progress,
+                      const std::function<void(std::uint32_t)>& visit) const;
 
     /// Calls visit(cell, uv of its middle, share of the triangle's area) for the cells that meet a
     /// triangle; the shares sum to 1.

@@ -131,9 +131,10 @@ bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& cac
 /// rule is off by about 1 / 16.
 inline constexpr float kAimedFrom = 4;
 
-/// Maximum number of emissive surfels that a cache of `rays` rays aims at. More aimed rays would
-/// take longer than the others and remove less noise than those leave: with 512, 128 and 64 for 256
-/// rays, the nRMSE was .0170, .0173 and .0184 in Cornell, .177, .179 and .182 in another box.
+/// Maximum number of emissive surfels that a cache of `rays` rays aims at. Aiming at more takes
+/// longer, and hardly lowers the error, which is mostly noise of the other rays: with 512, 128 and
+/// 64 for 256 rays, the nRMSE was .0170, .0173 and .0184 in Cornell, .177, .179 and .182 in another
+/// box.
 constexpr std::uint32_t maxLampsAimed(std::uint32_t rays) {
     return std::clamp(rays / 2, 64U, 512U);
 }

@@ -57,8 +57,8 @@ void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Cac
     }
 }
 
-/// Sums over all caches per sender: sum[k * senders + s] is that of the caches before part k of
-/// `parts` equal parts of them, or of all where k is `parts`.
+/// Sums over caches per sender. The caches are divided into kParts equal parts; sum[k * senders +
+/// s] is that of all caches before part k, and of all caches where k is kParts.
 struct SumsOfSenders {
     static constexpr std::uint32_t kParts = 16;
     std::uint32_t senders, caches;

@@ -429,8 +429,7 @@ Result<TraceReport> Tracing::run() {
     m_report.key = m_key;
     m_progress.at("trace", 0);
     m_hits.rays = in.rays;
-    reserveLarge(m_hits.sender, in.caches.size() * in.rays);
-    m_hits.sender.resize(in.caches.size() * in.rays);
+    resizeLarge(m_hits.sender, in.caches.size() * in.rays);
     m_hits.aimedBegin.clear();
     m_record.blocks.resize(m_done.size());
     if (m_store) {

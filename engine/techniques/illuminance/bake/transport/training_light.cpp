@@ -191,8 +191,7 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
         trainer.lights.push_back(lamp);
         result.lamps.push_back(lamp.position);
     }
-    reserveLarge(result.irradiance, values);
-    result.irradiance.resize(values);
+    resizeLarge(result.irradiance, values);
     std::atomic<std::uint64_t> rays = kLamps;
     const bool done = parallelRanges(surfels.size(), 256, progress, "training",
                                      [&](std::size_t begin, std::size_t end) {
@@ -213,8 +212,7 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
 TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,
                             const std::vector<float>& seen, const TracedTraining& traced) {
     TrainingLight result;
-    reserveLarge(result.radiosity, std::size_t(tree.size()) * TrainingLight::kCount);
-    result.radiosity.assign(std::size_t(tree.size()) * TrainingLight::kCount, 0);
+    resizeLarge(result.radiosity, std::size_t(tree.size()) * TrainingLight::kCount);
     result.squaredWeights.assign(tree.size(), 1);
     lightSurfels(scene, surfels, traced, result);
     lightSky(tree, result);
