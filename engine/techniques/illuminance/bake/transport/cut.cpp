@@ -159,8 +159,7 @@ private:
     template <class Visit>
     void forEachSample(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         forEachRay(caches, cache, visit);
-        for (std::uint32_t k = in.hits.aimedBegin[cache]; k < in.hits.aimedBegin[cache + 1]; ++k)
-            visitAimed(caches.kind[cache], in.hits.aimed[k], visit);
+        forEachAimedSight(in.surfels, in.hits, in.points, caches, cache, visit);
         forEachSkySight(
             in.hits, in.points, caches, cache,
             [&](std::uint32_t sender, const Sight& sight) { visit(sender, sight, 0.f); });
@@ -189,17 +188,6 @@ private:
                       0.f);
             k = k + 1 == rays.points ? 0 : k + 1;
         }
-    }
-
-    /// Visits an aimed sample. Its ray meets the middle of a sender and stands for the sender's
-    /// solid angle: pi transport / scale = 2 pi u.
-    template <class Visit>
-    void visitAimed(CacheKind kind, const AimedSample& sample, const Visit& visit) const {
-        const SenderView v = viewOf(in.surfels, in.points, kind, sample);
-        visit(sample.sender,
-              Sight{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
-                    v.direction * v.transport},
-              v.transport / (2 * sample.scale));
     }
 
     PackedLinks packOwnCones(const Caches& caches, std::uint32_t cache) {
@@ -400,17 +388,12 @@ std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
                                seen[sender] += weight;
                            });
             for (std::uint32_t c = begin; c < end; ++c) {
-                const CacheKind kind = caches.kind[c];
                 const auto weight = double(points.weightOf(c));
-                forEachSkySight(hits, points, caches, c,
-                                [&](std::uint32_t sender, const Sight& sight) {
-                                    seen[sender] += weight * double(sight.irradiance);
-                                });
-                for (std::uint32_t k = hits.aimedBegin[c]; k < hits.aimedBegin[c + 1]; ++k) {
-                    const SenderView v = viewOf(surfels, points, kind, hits.aimed[k]);
-                    seen[hits.aimed[k].sender] +=
-                        weight * double(v.transport * irradianceShare(kind, v.cosTheta));
-                }
+                const auto add = [&](std::uint32_t sender, const Sight& sight, float = 0) {
+                    seen[sender] += weight * double(sight.irradiance);
+                };
+                forEachSkySight(hits, points, caches, c, add);
+                forEachAimedSight(surfels, hits, points, caches, c, add);
             }
         });
     const std::span<const double> all = sums.before(SumsOfSenders::kParts);

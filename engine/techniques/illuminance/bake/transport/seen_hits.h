@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
+#include "engine/techniques/illuminance/bake/transport/visible_tree.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -54,6 +55,22 @@ void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Cac
                 visit(c, r, sender[r],
                       weight * double((sphere ? 4.f : 2.f) / float(kept) *
                                       irradianceShare(kind, rays.height(r))));
+    }
+}
+
+/// Calls visit(sender, Sight, u) for each of a cache's aimed samples. Its ray meets the middle of a
+/// sender and stands for a cone of the sender's solid angle: pi transport / scale = 2 pi u.
+template <class Visit>
+void forEachAimedSight(const Surfels& surfels, const GatherHits& hits, const CachePoints& points,
+                       const Caches& caches, std::uint32_t cache, const Visit& visit) {
+    const CacheKind kind = caches.kind[cache];
+    for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k) {
+        const AimedSample& sample = hits.aimed[k];
+        const SenderView v = viewOf(surfels, points, kind, sample);
+        visit(sample.sender,
+              Sight{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
+                    v.direction * v.transport},
+              v.transport / (2 * sample.scale));
     }
 }
 
