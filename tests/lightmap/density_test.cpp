@@ -5,6 +5,7 @@
 #include "engine/gallery/gallery.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/charts.h"
+#include "engine/techniques/illuminance/bake/senders/surfel_owners.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 #include "tests/trace/simple_scene.h"
 

@@ -86,6 +86,13 @@ PatchSides patchSidesStage(BakeRun& run) {
         run.store, key, run.progress,
         [&](auto& a, auto& s) {
             a("changed", s.changed, rule::noneOr(set.surfels.size()));
+            a.each("parts", s.parts, rule::noneOr(run.scene.instances.size()), [&](auto& of) {
+                const auto i = std::uint32_t(&of - s.parts.data());
+                a("parts", of,
+                  rule::holds("not whole cells",
+                              [](const auto& p) { return p.size() % SurfelOwners::kParts == 0; }),
+                  rule::below(set.instanceBegin[i + 1] - set.instanceBegin[i]));
+            });
             a.each("owner", s.owner, rule::noneOr(run.scene.instances.size()), [&](auto& of) {
                 const auto i = std::uint32_t(&of - s.owner.data());
                 a("owner", of,
@@ -93,7 +100,13 @@ PatchSides patchSidesStage(BakeRun& run) {
                               [&](const auto& cells) {
                                   return cells.empty() || cells.size() == owners.cellsOf(i);
                               }),
-                  rule::below(set.instanceBegin[i + 1] - set.instanceBegin[i]));
+                  rule::each("of another instance", [&, i](std::size_t, std::uint32_t own) {
+                      return own & PatchSides::kSplit
+                                 ? i < s.parts.size() &&
+                                       (own & ~PatchSides::kSplit) <
+                                           s.parts[i].size() / SurfelOwners::kParts
+                                 : own < set.instanceBegin[i + 1] - set.instanceBegin[i];
+                  }));
             });
         },
         [&] {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <random>
 #include <vector>
 
@@ -18,9 +19,10 @@ namespace {
 
 constexpr float kWall = 3.7f;
 
-/// Of random points of the hall that lie further than a surfel's table has cells from the wall:
-/// how many belong to surfels beyond it.
-int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owners, float wall) {
+/// Of random points of the hall whose distance from the wall is at least `from` times the width of
+/// a cell of the table, and less than `to` times: how many belong to surfels beyond the wall.
+int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owners, float wall,
+               float from = 1, float to = 1e6f) {
     std::mt19937 rng(2);
     std::uniform_real_distribution<float> unit(0, 1);
     const Mesh& mesh = scene.assets->meshes[0];
@@ -35,8 +37,8 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
         const auto t = std::uint32_t(rng() % mesh.triangleCount());
         const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
         const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x,
-                    cell = 8 / side[t];
-        if (x > kWall - cell && x < kWall + wall + cell)
+                    cells = std::max(kWall - x, x - kWall - wall) * side[t] / 8;
+        if (cells < from || cells >= to)
             continue;
         const std::uint32_t owner = owners.at(0, t, uv.x, uv.y, false);
         EXPECT_EQ(set.surfels.instance[owner], 0U);
@@ -56,6 +58,39 @@ TEST(PatchSides, PatchesEndAtWalls) {
         EXPECT_GT(sides.rays, 0U);
         owners.part(sides);
         EXPECT_EQ(beyondWall(scene, set, owners, wall), 0) << wall;
+    }
+}
+
+/// The same without splitting cells: all parts belong to the owner of one in the middle.
+PatchSides withWholeCells(PatchSides sides) {
+    for (std::size_t i = 0; i < sides.owner.size(); ++i)
+        for (std::uint32_t& owner : sides.owner[i])
+            if (owner & PatchSides::kSplit) {
+                constexpr std::uint32_t kMiddle =
+                    SurfelOwners::kParts / 2 + SurfelOwners::kAcross / 2;
+                owner =
+                    sides.parts[i][(owner & ~PatchSides::kSplit) * SurfelOwners::kParts + kMiddle];
+            }
+    return sides;
+}
+
+// A solid of 1 cm and a sheet. Points nearer to the wall than half a part may lie beyond it.
+TEST(PatchSides, CellsThatAWallCrossesAreSplit) {
+    for (const float wall : {0.f, 0.01f}) {
+        const Scene scene = partedHall(wall, 500);
+        const TraceScene trace(scene);
+        const SurfelSet set = placeSurfels(scene, 500);
+        OwnerTables owners(scene, set);
+        const PatchSides sides = findPatchSides(trace, set, owners, {});
+        owners.part(withWholeCells(sides));
+        const int whole = beyondWall(scene, set, owners, wall, 0);
+        owners.part(sides);
+        const int split = beyondWall(scene, set, owners, wall, 0);
+        std::printf("wall %g m: %d points beyond it with whole cells, %d with parts\n",
+                    double(wall), whole, split);
+        EXPECT_GT(whole, 50);
+        EXPECT_LT(split, whole / 2);
+        EXPECT_EQ(beyondWall(scene, set, owners, wall, 0.75f / SurfelOwners::kAcross), 0);
     }
 }
 
@@ -134,10 +169,15 @@ TEST(PatchSides, SayWhichSurfelsTheyChange) {
     const PatchSides sides = findPatchSides(trace, set, owners, {});
     ASSERT_EQ(sides.changed.size(), set.surfels.size());
     ASSERT_EQ(sides.owner[0].size(), owners.of(0).cells());
+    OwnerTables parted(scene, set);
+    parted.part(sides);
     std::vector<bool> changed(set.surfels.size());
     for (std::uint32_t c = 0; c < owners.of(0).cells(); ++c)
-        if (sides.owner[0][c] != owners.of(0).front(c))
-            changed[sides.owner[0][c]] = changed[owners.of(0).front(c)] = true;
+        for (std::uint32_t part = 0; part < SurfelOwners::kParts; ++part) {
+            const std::uint32_t own = parted.ofCell(0, {c, part}, false);
+            if (own != owners.of(0).front(c))
+                changed[own] = changed[owners.of(0).front(c)] = true;
+        }
     for (std::uint32_t s = 0; s < set.instanceBegin[1]; ++s)
         EXPECT_EQ(sides.changed[s] != 0, changed[s]) << s;
 }
@@ -163,6 +203,7 @@ TEST(PatchSides, AreNoneWithoutWallsAndAlikeForAnyNumberOfThreads) {
     };
     const PatchSides one = found(1), two = found(2);
     EXPECT_EQ(one.owner, two.owner);
+    EXPECT_EQ(one.parts, two.parts);
     EXPECT_EQ(one.changed, two.changed);
     EXPECT_EQ(one.rays, two.rays);
 }

@@ -3,6 +3,7 @@
 #include "engine/scene/mesh/mesh_topology.h"
 #include "engine/techniques/illuminance/bake/senders/relaxation.h"
 #include "engine/techniques/illuminance/bake/senders/surface_walk.h"
+#include "engine/techniques/illuminance/bake/senders/surfel_owners.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 #include "engine/techniques/illuminance/bake/surfel_spacing.h"
 #include "tests/trace/simple_scene.h"

@@ -45,8 +45,13 @@ static void forOwnedCells(const Scene& scene, const OwnerTables& owners, std::ui
     for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
         const auto area = double(triangleWorldArea(scene, placed, t));
         owners.of(placed.mesh).forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
-            for (std::uint32_t back = 0; back < sides; ++back)
-                visit(owners.ofCell(instance, cell, back != 0), t, uv, share * area);
+            for (std::uint32_t back = 0; back < sides; ++back) {
+                const std::uint32_t parts =
+                    owners.isSplit(instance, cell, back != 0) ? SurfelOwners::kParts : 1;
+                for (std::uint32_t part = 0; part < parts; ++part)
+                    visit(owners.ofCell(instance, {cell, part}, back != 0), t, uv,
+                          share * area / parts);
+            }
         });
     }
 }

@@ -4,7 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/bake/senders/patch_sides.h"
-#include "engine/techniques/illuminance/bake/senders/surfels.h"
+#include "engine/techniques/illuminance/bake/senders/surfel_owners.h"
 
 #include <cstdint>
 #include <mutex>
@@ -45,13 +45,25 @@ public:
         return std::uint64_t(of(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
     }
 
-    /// The surfel of the scene that stands for a cell of an instance's mesh.
-    std::uint32_t ofCell(std::uint32_t instance, std::uint32_t cell, bool back) const {
+    /// The surfel of the scene that stands for a place in the table of an instance's mesh.
+    std::uint32_t ofCell(std::uint32_t instance, SurfelOwners::Place place, bool back) const {
         const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
         const std::uint32_t first = m_set.instanceBegin[instance];
         if (m_sides.owner.empty() || m_sides.owner[instance].empty())
-            return first + owners.front(cell) + (back ? owners.frontCount() : 0);
-        return first + m_sides.owner[instance][cell + (back ? owners.cells() : 0)];
+            return first + owners.front(place.cell) + (back ? owners.frontCount() : 0);
+        const std::uint32_t own = m_sides.owner[instance][place.cell + (back ? owners.cells() : 0)];
+        if (!(own & PatchSides::kSplit))
+            return first + own;
+        const std::size_t cell = own & ~PatchSides::kSplit;
+        return first + m_sides.parts[instance][cell * SurfelOwners::kParts + place.part];
+    }
+
+    /// Whether a wall crosses a cell, so that its parts may have different owners.
+    bool isSplit(std::uint32_t instance, std::uint32_t cell, bool back) const {
+        if (m_sides.owner.empty() || m_sides.owner[instance].empty())
+            return false;
+        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+        return m_sides.owner[instance][cell + (back ? owners.cells() : 0)] & PatchSides::kSplit;
     }
 
     /// The surfel of the scene that stands for a point; `back` only on two-sided instances.

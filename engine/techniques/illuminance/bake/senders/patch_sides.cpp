@@ -13,7 +13,10 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <optional>
+#include <span>
 
 #include <glm/geometric.hpp>
 
@@ -44,6 +47,9 @@ struct Patches {
     bool together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
     std::uint32_t ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
                           bool back) const;
+    std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& raisedPoint,
+                          std::uint32_t nearestOwner, bool back) const;
+    std::uint32_t ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell, bool back) const;
 };
 
 void Patches::raiseSurfels() {
@@ -94,10 +100,17 @@ bool Patches::together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t 
 
 std::uint32_t Patches::ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
                                bool back) const {
+    const std::uint32_t first = back ? surfels().frontCount : 0;
+    return ownerAt(middle, raisedCell(middle, size, back, heightOf(first + nearestOwner)),
+                   nearestOwner, back);
+}
+
+/// The owner of a point: `nearestOwner`, a front, or another surfel near it.
+std::uint32_t Patches::ownerAt(const MeshPoint& middle, const RaisedPoint& cell,
+                               std::uint32_t nearestOwner, bool back) const {
     constexpr std::size_t kCompared = 8;
     const Scene& scene = trace.scene();
     const std::uint32_t first = back ? surfels().frontCount : 0;
-    const RaisedPoint cell = raisedCell(middle, size, back, heightOf(first + nearestOwner));
     const glm::vec3 normal = worldPoint(scene, scene.instances[instance], middle).normal;
     if (together(cell, normal, first + nearestOwner))
         return first + nearestOwner;
@@ -110,6 +123,101 @@ std::uint32_t Patches::ownerOf(const MeshPoint& middle, float size, std::uint32_
         if (near[k].point != nearestOwner && together(cell, normal, first + near[k].point))
             return first + near[k].point;
     return first + nearestOwner;
+}
+
+/// The owner of a part of a cell: that of the cell, unless a wall stands between the two.
+std::uint32_t Patches::ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell,
+                                   bool back) const {
+    const Scene& scene = trace.scene();
+    WorldPoint p = worldPoint(scene, scene.instances[instance], point);
+    if (back)
+        p.normal = -p.normal;
+    ++rays;
+    const RaisedPoint raisedPoint = raise(trace, p, heightOf(ownerOfCell));
+    if (raisedPoint.covered)
+        return ownerOfCell;
+    return ownerAt(point, raisedPoint, ownerOfCell - (back ? surfels().frontCount : 0), back);
+}
+
+/// Whether a wall may cross a cell: a cell beside it on the triangle has an owner that stands
+/// behind a wall. `pairs` keeps what is known of owners.
+bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owner,
+                  std::uint32_t triangle, std::uint32_t cell, glm::vec2 uv, float side,
+                  std::map<std::pair<std::uint32_t, std::uint32_t>, bool>& pairs) {
+    const SurfelOwners& owners = patches.owners;
+    const std::uint32_t back = cell / owners.cells(), own = owner[cell];
+    const Surfels& s = patches.set.surfels;
+    const std::uint32_t first = patches.set.instanceBegin[patches.instance];
+    for (const glm::vec2 step :
+         {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
+        const glm::vec2 at = uv + side * step;
+        if (!(at.x > 0 && at.y > 0 && at.x + at.y < 1))
+            continue;
+        const std::uint32_t beside =
+            owner[owners.cellAt(triangle, at.x, at.y).cell + back * owners.cells()];
+        if (beside == own)
+            continue;
+        const auto [pair, isNew] = pairs.try_emplace(std::minmax(own, beside));
+        if (isNew)
+            pair->second =
+                patches.together({patches.raised[pair->first.first], false},
+                                 s.normal[first + pair->first.first], pair->first.second);
+        if (!pair->second)
+            return true;
+    }
+    return false;
+}
+
+/// Splits the cells that a wall crosses. `owner`: from partedOwners(). Returns PatchSides::parts of
+/// the instance.
+std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& progress,
+                                      std::vector<std::uint32_t>& owner) {
+    constexpr std::uint32_t kAcross = SurfelOwners::kAcross, kParts = SurfelOwners::kParts;
+    const Scene& scene = patches.trace.scene();
+    const Instance& instance = scene.instances[patches.instance];
+    const SurfelOwners& owners = patches.owners;
+    if (owner.empty())
+        return {};
+    using Parts = std::array<std::uint32_t, kParts>;
+    std::map<std::uint32_t, Parts> found; // by cell
+    std::mutex mutex;
+    const auto split = [&](std::uint32_t t, std::uint32_t cell, glm::vec2 uv, float side) {
+        const std::uint32_t own = owner[cell];
+        const auto ownerAt = [&](glm::vec2 offset) {
+            const glm::vec2 at = uv + offset * side;
+            return at.x + at.y < 1 ? patches.ownerOfPart({t, at}, own, cell >= owners.cells())
+                                   : own;
+        };
+        constexpr float kToCorner = 0.45f; // [cells]
+        bool crossed = false;
+        for (const float x : {-kToCorner, kToCorner})
+            for (const float y : {-kToCorner, kToCorner})
+                crossed = crossed || ownerAt({x, y}) != own;
+        if (!crossed)
+            return;
+        Parts parts;
+        for (std::uint32_t k = 0; k < kParts; ++k)
+            parts[k] = ownerAt(
+                (glm::vec2(float(k % kAcross), float(k / kAcross)) + 0.5f) / float(kAcross) - 0.5f);
+        const std::lock_guard lock(mutex);
+        found.emplace(cell, parts);
+    };
+    owners.forTriangles(scene.meshOf(instance), progress, [&](std::uint32_t t) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, bool> pairs;
+        owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
+            const bool cut = uv.x + uv.y > 0.9999f;
+            const auto side = float(std::sqrt(cut ? share : share / 2));
+            for (; cell < owner.size(); cell += owners.cells())
+                if (mayBeCrossed(patches, owner, t, cell, uv, side, pairs))
+                    split(t, cell, uv, side);
+        });
+    });
+    std::vector<std::uint32_t> result;
+    for (const auto& [cell, parts] : found) {
+        owner[cell] = PatchSides::kSplit | std::uint32_t(result.size() / kParts);
+        result.insert(result.end(), parts.begin(), parts.end());
+    }
+    return result;
 }
 
 /// Owners of all cells, fronts first; empty where no wall splits any patch.
@@ -141,15 +249,25 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
 
 /// Adds the reassigned cells of an instance to the hashes of their old and new surfels.
 void noteChanges(const SurfelOwners& owners, const MeshSurfels& surfels, std::uint32_t first,
-                 const std::vector<std::uint32_t>& parted, std::vector<std::uint64_t>& changed) {
+                 const std::vector<std::uint32_t>& parted, std::span<const std::uint32_t> parts,
+                 std::vector<std::uint64_t>& changed) {
+    constexpr std::uint32_t kParts = SurfelOwners::kParts;
     for (std::uint32_t c = 0; c < parted.size(); ++c) {
         const bool back = c >= owners.cells();
         const std::uint32_t before =
             owners.front(back ? c - owners.cells() : c) + (back ? surfels.frontCount : 0);
         if (parted[c] == before)
             continue;
-        for (const std::uint32_t s : {before, parted[c]})
-            changed[first + s] = hashValue(c, hashValue(parted[c], changed[first + s] + 1));
+        const bool split = parted[c] & PatchSides::kSplit;
+        const std::span<const std::uint32_t> own =
+            split ? parts.subspan(std::size_t(parted[c] & ~PatchSides::kSplit) * kParts, kParts)
+                  : std::span(&parted[c], 1);
+        std::uint64_t hash = hashValue(c, 1);
+        for (const std::uint32_t s : own)
+            hash = hashValue(s, hash);
+        changed[first + before] = hashValue(hash, changed[first + before]);
+        for (const std::uint32_t s : own)
+            changed[first + s] = hashValue(hash, changed[first + s]);
     }
 }
 
@@ -160,6 +278,7 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
     const Scene& scene = trace.scene();
     PatchSides result;
     result.owner.resize(scene.instances.size());
+    result.parts.resize(scene.instances.size());
     std::atomic<std::uint64_t> rays = 0;
     parallelRanges(scene.instances.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (auto i = std::uint32_t(begin); i < end && !progress.cancelled(); ++i) {
@@ -173,6 +292,7 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
             Patches patches{trace, set, owners.of(mesh), i, nearest, rays};
             patches.raiseSurfels();
             result.owner[i] = partedOwners(patches, progress);
+            result.parts[i] = splitCells(patches, progress, result.owner[i]);
         }
     });
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -181,7 +301,7 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
         const std::uint32_t mesh = scene.instances[i].mesh;
         result.changed.resize(set.surfels.size());
         noteChanges(owners.of(mesh), set.meshes[mesh], set.instanceBegin[i], result.owner[i],
-                    result.changed);
+                    result.parts[i], result.changed);
     }
     result.rays = rays;
     return result;

@@ -5,7 +5,6 @@
 #include "engine/techniques/illuminance/bake/bake.h"
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,6 +25,9 @@ struct MeshSurfels {
 
     std::size_t size() const { return position.size(); }
 };
+
+/// A mesh's area times its density, summed over the density's cells [object space].
+double summedWorth(const Mesh& mesh, const MeshDensity& density);
 
 /// Places `count` >= 1 points in proportion to area times density. Point i starts in the cell at (i
 /// + 1/2)/count of the mesh's sum of those, so that the share of small triangles carries over to
@@ -55,96 +57,5 @@ SurfelSet placeSurfels(const Scene& scene, std::uint32_t target,
 
 /// Approximate number of `target` surfels on emissive surfaces if all others were equally dense.
 std::uint64_t expectedLampSurfels(const Scene& scene, std::uint32_t target);
-
-/// Finds the surfel that stands for a point of a mesh, from tables of triangle cells that hold the
-/// nearest surfel of like normal.
-class SurfelOwners {
-public:
-    SurfelOwners() = default;
-    /// Meaningless when cancelled.
-    SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress = {});
-
-    /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
-    /// ones.
-    std::uint32_t at(std::uint32_t triangle, float u, float v, bool back) const {
-        return m_owner[cellAt(triangle, u, v)] + (back ? m_frontCount : 0);
-    }
-
-    /// The table's cell at barycentrics (u, v) of a triangle, < cells().
-    std::uint32_t cellAt(std::uint32_t triangle, float u, float v) const {
-        const glm::uvec2 at = m_density.cellAt(triangle, {u, v});
-        const auto side = float(m_density.side(triangle));
-        const Block& block = m_blocks[blockOf(triangle, at)];
-        const std::uint32_t n = block.resolution;
-        const auto along = [n](float x) { // rounding may leave [0, 1)
-            return std::min(std::uint32_t(std::max(x * float(n), 0.f)), n - 1);
-        };
-        const std::uint32_t i = along(u * side - float(at.x)), j = along(v * side - float(at.y));
-        return block.begin + std::min(j, last(at, side, n, i)) * n + i;
-    }
-    std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
-    /// Calls visit(triangle) for all triangles of the mesh, in parallel, unless cancelled.
-    void forTriangles(const Mesh& mesh, const Progress& progress,
-                      const std::function<void(std::uint32_t)>& visit) const;
-
-    /// Calls visit(cell, uv of its middle, share of the triangle's area) for the cells that meet a
-    /// triangle; the shares sum to 1.
-    template <class Visit>
-    void forCellsOf(std::uint32_t triangle, const Visit& visit) const {
-        const std::uint32_t side = m_density.side(triangle);
-        forCells(side, [&](glm::uvec2 at) {
-            const Block& block = m_blocks[blockOf(triangle, at)];
-            const std::uint32_t n = block.resolution;
-            const double square = 2 / (double(side) * side * n * n);
-            for (std::uint32_t j = 0; j < n; ++j)
-                for (std::uint32_t i = 0; i < n && j <= last(at, float(side), n, i); ++i) {
-                    const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
-                    const bool cut = at.x + at.y + 1 == side && i + j + 1 == n;
-                    visit(block.begin + j * n + i, (glm::vec2(at) + middle) / float(side),
-                          cut ? square / 2 : square);
-                }
-        });
-    }
-    std::uint32_t frontCount() const { return m_frontCount; }
-    /// The surfel on the front of a cell.
-    std::uint32_t front(std::uint32_t cell) const { return m_owner[cell]; }
-
-    /// Lists the tables for an archive.
-    template <class A, class T>
-    static void fields(A& a, T& o, const Mesh& mesh, const MeshSurfels& surfels) {
-        a("frontCount", o.m_frontCount, rule::holds("of other surfels", [&](std::uint32_t n) {
-              return n == surfels.frontCount;
-          }));
-        const bool uniform = surfels.density.uniform();
-        partFields(a, o.m_density, mesh, o.m_blocks.size());
-        a("blocks", o.m_blocks,
-          rule::count(uniform ? mesh.triangleCount() : surfels.density.density.size()),
-          rule::holds("out of range", [&](const auto&) { return o.blocksLieWithin(mesh); }));
-        a("owner", o.m_owner, rule::below(surfels.frontCount));
-    }
-
-private:
-    /// The cells in one cell of the density.
-    struct Block {
-        std::uint32_t begin;
-        std::uint32_t resolution; ///< cells along u and v
-    };
-
-    std::uint32_t blockOf(std::uint32_t triangle, glm::uvec2 at) const {
-        return m_density.uniform() ? triangle : m_density.cell(triangle, at);
-    }
-    /// The last cell of column i that meets the triangle.
-    static std::uint32_t last(glm::uvec2 at, float side, std::uint32_t n, std::uint32_t i) {
-        return float(at.x + at.y + 1) < side ? n - 1 : n - 1 - i;
-    }
-    /// Whether the blocks that are read lie within m_owner.
-    bool blocksLieWithin(const Mesh& mesh) const;
-    void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);
-
-    std::uint32_t m_frontCount = 0;
-    MeshDensity m_density;       ///< without its densities: only how triangles are divided
-    std::vector<Block> m_blocks; ///< per cell of the density, or triangle where that is uniform
-    std::vector<std::uint32_t> m_owner; ///< front surfel per cell
-};
 
 } // namespace limn

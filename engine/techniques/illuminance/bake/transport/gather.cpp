@@ -226,7 +226,7 @@ Ray RayGatherer::ray(const CacheRays& directions, std::uint32_t cache, std::uint
 
 RayGatherer::Place RayGatherer::placeOf(const SurfaceHit& hit, glm::vec3 direction) const {
     if (!hit)
-        return {~0U, skyCellOf(direction), false, false};
+        return {~0U, {skyCellOf(direction), 0}, false, false};
     const Scene& scene = m_trace.scene();
     const Instance& instance = scene.instances[hit.instance];
     const bool twoSided = isTwoSided(scene.materialOf(instance));
@@ -236,8 +236,8 @@ RayGatherer::Place RayGatherer::placeOf(const SurfaceHit& hit, glm::vec3 directi
 
 RawHit RayGatherer::resolve(const Place& place) const {
     if (place.instance == ~0U)
-        return std::uint32_t(m_set.surfels.size()) + place.cell;
-    const std::uint32_t surfel = m_owners.ofCell(place.instance, place.cell, place.back);
+        return std::uint32_t(m_set.surfels.size()) + place.at.cell;
+    const std::uint32_t surfel = m_owners.ofCell(place.instance, place.at, place.back);
     return place.passed ? surfel | kBack : surfel;
 }
 

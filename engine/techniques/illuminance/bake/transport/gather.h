@@ -89,7 +89,7 @@ private:
     /// What a ray met: a cell of an instance's SurfelOwners, or part of the sky.
     struct Place {
         std::uint32_t instance; ///< ~0: the sky
-        std::uint32_t cell;     ///< or the sky's
+        SurfelOwners::Place at; ///< or the sky's cell
         bool back;              ///< of a surface with two sides
         bool passed;            ///< the back of a surface with one
     };

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/senders/surfel_owners.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/nearest_point.h"
+#include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/techniques/illuminance/bake/surfel_spacing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
+    bool within = true;
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        forCells(m_density.side(t), [&](glm::uvec2 at) {
+            const Block& block = m_blocks[blockOf(t, at)];
+            const std::uint64_t n = block.resolution, end = block.begin + n * n;
+            within = within && n > 0 && n < (1U << 16) && end <= m_owner.size();
+        });
+    return within;
+}
+
+void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
+    // Cells of a third of the surfels' spacing: the border between two owners is off by a sixth of
+    // it at most.
+    constexpr float kCellsPerSpacing = 3, kMaxCells = 1024;
+    const MeshDensity& density = surfels.density;
+    const double worth = summedWorth(mesh, density) / surfels.frontCount; // of a surfel
+    m_density = {density.level, density.begin, {}};
+    m_blocks.resize(density.uniform() ? mesh.triangleCount() : density.density.size());
+    // Needle-shaped triangles have long sides and almost no area. Their cells must not outnumber
+    // all others.
+    const double maxInAll = 256.0 * double(surfels.frontCount) + 4.0 * double(mesh.triangleCount());
+    double inAll = 0;
+    const auto forBlocks = [&](const auto& visit) {
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+            forCells(density.side(t), [&](glm::uvec2 at) { visit(t, at); });
+    };
+    forBlocks([&](std::uint32_t t, glm::uvec2 at) {
+        const auto [a, b, c] = mesh.triangle(t);
+        const float longest = std::max(glm::length(mesh.positions[b] - mesh.positions[a]),
+                                       glm::length(mesh.positions[c] - mesh.positions[a])),
+                    area = float(worth / double(density.density[density.cell(t, at)])),
+                    spacing = std::sqrt(std::max(area, 1e-30f)) * float(density.side(t));
+        const float n =
+            std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMaxCells);
+        m_blocks[blockOf(t, at)].resolution = std::uint32_t(n);
+        inAll += double(n) * double(n);
+    });
+    std::uint32_t cells = 0;
+    forBlocks([&](std::uint32_t t, glm::uvec2 at) {
+        Block& block = m_blocks[blockOf(t, at)];
+        if (inAll > maxInAll)
+            block.resolution =
+                std::uint32_t(std::max(1.0, block.resolution * std::sqrt(maxInAll / inAll)));
+        block.begin = cells;
+        cells += block.resolution * block.resolution;
+    });
+    m_owner.resize(cells);
+}
+
+void SurfelOwners::forTriangles(const Mesh& mesh, const Progress& progress,
+                                const std::function<void(std::uint32_t)>& visit) const {
+    const std::size_t count = mesh.triangleCount(),
+                      grain = std::clamp<std::size_t>(64 * count / std::max(cells(), 1U), 1, 64);
+    parallelRanges(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (auto t = std::uint32_t(begin); t < end && !progress.cancelled(); ++t)
+            visit(t);
+    });
+}
+
+SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
+    : m_frontCount(surfels.frontCount) {
+    sizeBlocks(mesh, surfels);
+    const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);
+    const NearestPoint nearest(points, std::span(surfels.normal.data(), surfels.frontCount),
+                               std::sqrt(std::max(surfels.area, 1e-30f)));
+    forTriangles(mesh, progress, [&](std::uint32_t t) {
+        const glm::vec3 normal = triangleNormal(mesh, t);
+        forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
+            if (uv.x + uv.y > 1)
+                uv /= uv.x + uv.y;
+            m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
+        });
+    });
+}
+
+} // namespace limn
