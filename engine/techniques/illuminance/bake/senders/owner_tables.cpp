@@ -44,13 +44,13 @@ static void forOwnedCells(const Scene& scene, const OwnerTables& owners, std::ui
     const std::uint32_t sides = isTwoSided(scene.materialOf(placed)) ? 2 : 1;
     for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
         const auto area = double(triangleWorldArea(scene, placed, t));
-        owners.of(placed.mesh).forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
+        owners.of(placed.mesh).forCellsOf(t, [&](const SurfelOwners::Cell& c) {
             for (std::uint32_t back = 0; back < sides; ++back) {
                 const std::uint32_t parts =
-                    owners.isSplit(instance, cell, back != 0) ? SurfelOwners::kParts : 1;
+                    owners.isSplit(instance, c.index, back != 0) ? SurfelOwners::kParts : 1;
                 for (std::uint32_t part = 0; part < parts; ++part)
-                    visit(owners.ofCell(instance, {cell, part}, back != 0), t, uv,
-                          share * area / parts);
+                    visit(owners.ofCell(instance, {c.index, part}, back != 0), t, c.middle,
+                          c.share * area / parts);
             }
         });
     }

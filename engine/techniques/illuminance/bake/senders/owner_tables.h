@@ -47,11 +47,8 @@ public:
 
     /// The surfel of the scene that stands for a place in the table of an instance's mesh.
     std::uint32_t ofCell(std::uint32_t instance, SurfelOwners::Place place, bool back) const {
-        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
-        const std::uint32_t first = m_set.instanceBegin[instance];
-        if (m_sides.owner.empty() || m_sides.owner[instance].empty())
-            return first + owners.front(place.cell) + (back ? owners.frontCount() : 0);
-        const std::uint32_t own = m_sides.owner[instance][place.cell + (back ? owners.cells() : 0)];
+        const std::uint32_t first = m_set.instanceBegin[instance],
+                            own = entry(instance, place.cell, back);
         if (!(own & PatchSides::kSplit))
             return first + own;
         const std::size_t cell = own & ~PatchSides::kSplit;
@@ -60,10 +57,7 @@ public:
 
     /// Whether a wall crosses a cell, so that its parts may have different owners.
     bool isSplit(std::uint32_t instance, std::uint32_t cell, bool back) const {
-        if (m_sides.owner.empty() || m_sides.owner[instance].empty())
-            return false;
-        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
-        return m_sides.owner[instance][cell + (back ? owners.cells() : 0)] & PatchSides::kSplit;
+        return (entry(instance, cell, back) & PatchSides::kSplit) != 0;
     }
 
     /// The surfel of the scene that stands for a point; `back` only on two-sided instances.
@@ -74,6 +68,14 @@ public:
     }
 
 private:
+    /// As PatchSides::owner.
+    std::uint32_t entry(std::uint32_t instance, std::uint32_t cell, bool back) const {
+        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+        if (m_sides.owner.empty() || m_sides.owner[instance].empty())
+            return owners.front(cell) + (back ? owners.frontCount() : 0);
+        return m_sides.owner[instance][cell + (back ? owners.cells() : 0)];
+    }
+
     struct Lazy {
         std::once_flag once;
         SurfelOwners owners;

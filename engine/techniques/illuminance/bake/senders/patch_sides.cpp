@@ -24,7 +24,8 @@ namespace limn {
 
 namespace {
 
-constexpr float kHeight = 0.25f; ///< above the surface at which segments run [spacings]
+constexpr float kHeight = 0.25f;   ///< above the surface at which segments run [spacings]
+constexpr float kToCorner = 0.45f; ///< from a cell's middle, along u and v [cells]
 
 /// The patches of one instance.
 struct Patches {
@@ -43,11 +44,12 @@ struct Patches {
         return kHeight * std::sqrt(set.surfels.area[set.instanceBegin[instance] + surfel]);
     }
     void raiseSurfels();
+    RaisedPoint raisedPoint(const MeshPoint& point, bool back, float height) const;
     RaisedPoint raisedCell(const MeshPoint& middle, float size, bool back, float height) const;
     bool together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
     std::uint32_t ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
                           bool back) const;
-    std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& raisedPoint,
+    std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& from,
                           std::uint32_t nearestOwner, bool back) const;
     std::uint32_t ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell, bool back) const;
 };
@@ -65,23 +67,26 @@ void Patches::raiseSurfels() {
     rays += raised.size();
 }
 
+RaisedPoint Patches::raisedPoint(const MeshPoint& point, bool back, float height) const {
+    const Scene& scene = trace.scene();
+    WorldPoint p = worldPoint(scene, scene.instances[instance], point);
+    if (back)
+        p.normal = -p.normal;
+    ++rays;
+    return raise(trace, p, height);
+}
+
 /// A place of a cell: its middle or, where that is covered, one closer to the corners that is not.
 RaisedPoint Patches::raisedCell(const MeshPoint& middle, float size, bool back,
                                 float height) const {
     constexpr std::array<glm::vec2, 5> kPlaces = {glm::vec2(0), glm::vec2(-1), glm::vec2(1, -1),
                                                   glm::vec2(-1, 1), glm::vec2(1)};
-    constexpr float kToCorner = 0.45f; // [cells]
-    const Scene& scene = trace.scene();
     std::optional<RaisedPoint> first;
     for (const glm::vec2 place : kPlaces) {
         const glm::vec2 uv = middle.barycentric + place * (kToCorner * size);
         if (uv.x + uv.y > 1)
             continue;
-        WorldPoint p = worldPoint(scene, scene.instances[instance], {middle.triangle, uv});
-        if (back)
-            p.normal = -p.normal;
-        ++rays;
-        const RaisedPoint point = raise(trace, p, height);
+        const RaisedPoint point = raisedPoint({middle.triangle, uv}, back, height);
         if (!point.covered)
             return point;
         if (!first)
@@ -105,22 +110,24 @@ std::uint32_t Patches::ownerOf(const MeshPoint& middle, float size, std::uint32_
                    nearestOwner, back);
 }
 
-/// The owner of a point: `nearestOwner`, a front, or another surfel near it.
-std::uint32_t Patches::ownerAt(const MeshPoint& middle, const RaisedPoint& cell,
+/// The surfel on the same side of all walls as a point, which is raised to `from`: the nearest one,
+/// or one of a few others, or the nearest again where all are behind walls. `nearestOwner` is the
+/// index of the nearest among the fronts, on either side of the surface.
+std::uint32_t Patches::ownerAt(const MeshPoint& point, const RaisedPoint& from,
                                std::uint32_t nearestOwner, bool back) const {
     constexpr std::size_t kCompared = 8;
     const Scene& scene = trace.scene();
     const std::uint32_t first = back ? surfels().frontCount : 0;
-    const glm::vec3 normal = worldPoint(scene, scene.instances[instance], middle).normal;
-    if (together(cell, normal, first + nearestOwner))
+    const glm::vec3 normal = worldPoint(scene, scene.instances[instance], point).normal;
+    if (together(from, normal, first + nearestOwner))
         return first + nearestOwner;
     const Mesh& mesh = scene.meshOf(scene.instances[instance]);
     std::array<NearestPoint::Near, kCompared> near;
     const std::size_t count =
-        nearest.findSome(trianglePoint(mesh, middle.triangle, middle.barycentric),
-                         triangleNormal(mesh, middle.triangle), near);
+        nearest.findSome(trianglePoint(mesh, point.triangle, point.barycentric),
+                         triangleNormal(mesh, point.triangle), near);
     for (std::size_t k = 0; k < count; ++k)
-        if (near[k].point != nearestOwner && together(cell, normal, first + near[k].point))
+        if (near[k].point != nearestOwner && together(from, normal, first + near[k].point))
             return first + near[k].point;
     return first + nearestOwner;
 }
@@ -128,33 +135,58 @@ std::uint32_t Patches::ownerAt(const MeshPoint& middle, const RaisedPoint& cell,
 /// The owner of a part of a cell: that of the cell, unless a wall stands between the two.
 std::uint32_t Patches::ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell,
                                    bool back) const {
-    const Scene& scene = trace.scene();
-    WorldPoint p = worldPoint(scene, scene.instances[instance], point);
-    if (back)
-        p.normal = -p.normal;
-    ++rays;
-    const RaisedPoint raisedPoint = raise(trace, p, heightOf(ownerOfCell));
-    if (raisedPoint.covered)
+    const RaisedPoint from = raisedPoint(point, back, heightOf(ownerOfCell));
+    if (from.covered)
         return ownerOfCell;
-    return ownerAt(point, raisedPoint, ownerOfCell - (back ? surfels().frontCount : 0), back);
+    return ownerAt(point, from, ownerOfCell - (back ? surfels().frontCount : 0), back);
 }
 
-/// Whether a wall may cross a cell: a cell beside it on the triangle has an owner that stands
-/// behind a wall. `pairs` keeps what is known of owners.
-bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owner,
-                  std::uint32_t triangle, std::uint32_t cell, glm::vec2 uv, float side,
-                  std::map<std::pair<std::uint32_t, std::uint32_t>, bool>& pairs) {
+/// Owners of all cells, fronts first; empty where no wall splits any patch.
+std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& progress) {
+    const Scene& scene = patches.trace.scene();
+    const Instance& instance = scene.instances[patches.instance];
+    const Mesh& mesh = scene.meshOf(instance);
     const SurfelOwners& owners = patches.owners;
-    const std::uint32_t back = cell / owners.cells(), own = owner[cell];
+    const std::uint32_t sides = isTwoSided(scene.materialOf(instance)) ? 2 : 1;
+    std::vector<std::uint32_t> result(std::size_t(owners.cells()) * sides);
+    // Cells that no place lies in stay with the first surfel of their side.
+    std::fill(result.begin() + owners.cells(), result.end(), patches.surfels().frontCount);
+    std::atomic<bool> differs = false;
+    owners.forTriangles(mesh, progress, [&](std::uint32_t t) {
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const std::uint32_t first = side * patches.surfels().frontCount;
+            owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
+                const auto size = float(std::sqrt(cell.share / 2)); // smaller where it is cut
+                const std::uint32_t near = owners.front(cell.index),
+                                    own = patches.ownerOf({t, cell.middle * 0.999f}, size, near,
+                                                          side == 1);
+                result[side * owners.cells() + cell.index] = own;
+                if (own != first + near)
+                    differs = true;
+            });
+        }
+    });
+    return differs ? std::move(result) : std::vector<std::uint32_t>();
+}
+
+/// By two indices into MeshSurfels, the smaller one first: whether no wall stands between them.
+using PairsTogether = std::map<std::pair<std::uint32_t, std::uint32_t>, bool>;
+
+/// Whether a wall may cross a cell: a wall stands between its owner and that of a cell beside it on
+/// the triangle. Answers for pairs of owners are kept in `pairs`.
+bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owner,
+                  std::uint32_t triangle, const SurfelOwners::Cell& cell, bool back,
+                  PairsTogether& pairs) {
+    const SurfelOwners& owners = patches.owners;
+    const std::uint32_t side = back ? owners.cells() : 0, own = owner[side + cell.index];
     const Surfels& s = patches.set.surfels;
     const std::uint32_t first = patches.set.instanceBegin[patches.instance];
     for (const glm::vec2 step :
          {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
-        const glm::vec2 at = uv + side * step;
+        const glm::vec2 at = cell.middle + cell.side * step;
         if (!(at.x > 0 && at.y > 0 && at.x + at.y < 1))
             continue;
-        const std::uint32_t beside =
-            owner[owners.cellAt(triangle, at.x, at.y).cell + back * owners.cells()];
+        const std::uint32_t beside = owner[side + owners.cellAt(triangle, at.x, at.y).cell];
         if (beside == own)
             continue;
         const auto [pair, isNew] = pairs.try_emplace(std::minmax(own, beside));
@@ -178,17 +210,16 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
     const SurfelOwners& owners = patches.owners;
     if (owner.empty())
         return {};
+    const bool twoSided = isTwoSided(scene.materialOf(instance));
     using Parts = std::array<std::uint32_t, kParts>;
-    std::map<std::uint32_t, Parts> found; // by cell
+    std::map<std::uint32_t, Parts> found; // by index into `owner`
     std::mutex mutex;
-    const auto split = [&](std::uint32_t t, std::uint32_t cell, glm::vec2 uv, float side) {
-        const std::uint32_t own = owner[cell];
-        const auto ownerAt = [&](glm::vec2 offset) {
-            const glm::vec2 at = uv + offset * side;
-            return at.x + at.y < 1 ? patches.ownerOfPart({t, at}, own, cell >= owners.cells())
-                                   : own;
+    const auto split = [&](std::uint32_t t, const SurfelOwners::Cell& cell, bool back) {
+        const std::uint32_t at = cell.index + (back ? owners.cells() : 0), own = owner[at];
+        const auto ownerAt = [&](glm::vec2 offset) { // [cells] from the middle
+            const glm::vec2 uv = cell.middle + offset * cell.side;
+            return uv.x + uv.y < 1 ? patches.ownerOfPart({t, uv}, own, back) : own;
         };
-        constexpr float kToCorner = 0.45f; // [cells]
         bool crossed = false;
         for (const float x : {-kToCorner, kToCorner})
             for (const float y : {-kToCorner, kToCorner})
@@ -200,16 +231,14 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
             parts[k] = ownerAt(
                 (glm::vec2(float(k % kAcross), float(k / kAcross)) + 0.5f) / float(kAcross) - 0.5f);
         const std::lock_guard lock(mutex);
-        found.emplace(cell, parts);
+        found.emplace(at, parts);
     };
     owners.forTriangles(scene.meshOf(instance), progress, [&](std::uint32_t t) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, bool> pairs;
-        owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
-            const bool cut = uv.x + uv.y > 0.9999f;
-            const auto side = float(std::sqrt(cut ? share : share / 2));
-            for (; cell < owner.size(); cell += owners.cells())
-                if (mayBeCrossed(patches, owner, t, cell, uv, side, pairs))
-                    split(t, cell, uv, side);
+        PairsTogether pairs;
+        owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
+            for (const bool back : {false, true})
+                if ((!back || twoSided) && mayBeCrossed(patches, owner, t, cell, back, pairs))
+                    split(t, cell, back);
         });
     });
     std::vector<std::uint32_t> result;
@@ -218,33 +247,6 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
         result.insert(result.end(), parts.begin(), parts.end());
     }
     return result;
-}
-
-/// Owners of all cells, fronts first; empty where no wall splits any patch.
-std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& progress) {
-    const Scene& scene = patches.trace.scene();
-    const Instance& instance = scene.instances[patches.instance];
-    const Mesh& mesh = scene.meshOf(instance);
-    const SurfelOwners& owners = patches.owners;
-    const std::uint32_t sides = isTwoSided(scene.materialOf(instance)) ? 2 : 1;
-    std::vector<std::uint32_t> result(std::size_t(owners.cells()) * sides);
-    // Cells that no place lies in stay with the first surfel of their side.
-    std::fill(result.begin() + owners.cells(), result.end(), patches.surfels().frontCount);
-    std::atomic<bool> differs = false;
-    owners.forTriangles(mesh, progress, [&](std::uint32_t t) {
-        for (std::uint32_t side = 0; side < sides; ++side) {
-            const std::uint32_t first = side * patches.surfels().frontCount;
-            owners.forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double share) {
-                const auto size = float(std::sqrt(share / 2)); // smaller where it is cut
-                const std::uint32_t near = owners.front(cell),
-                                    own = patches.ownerOf({t, uv * 0.999f}, size, near, side == 1);
-                result[side * owners.cells() + cell] = own;
-                if (own != first + near)
-                    differs = true;
-            });
-        }
-    });
-    return differs ? std::move(result) : std::vector<std::uint32_t>();
 }
 
 /// Adds the reassigned cells of an instance to the hashes of their old and new surfels.

@@ -17,10 +17,10 @@ struct PatchSides {
     /// Per instance, empty where no wall cuts a patch: for each cell of its mesh's SurfelOwners,
     /// the index into MeshSurfels of the surfel on the front; on two-sided instances then, for each
     /// cell, of that on the back.
-    /// A cell that a wall crosses has kSplit plus a number instead: each of its parts has an owner.
+    /// For a cell that a wall crosses, kSplit + n instead: its owners are the n-th in `parts`.
     std::vector<std::vector<std::uint32_t>> owner;
     static constexpr std::uint32_t kSplit = 1U << 31;
-    /// Per instance, SurfelOwners::kParts owners for each split cell.
+    /// Per instance, the owners of the SurfelOwners::kParts parts of each split cell.
     std::vector<std::vector<std::uint32_t>> parts;
     /// Per surfel of the scene, 0 or a hash of the cells that it lost or gained; empty: all 0.
     std::vector<std::uint64_t> changed;

@@ -82,10 +82,11 @@ SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const P
                                std::sqrt(std::max(surfels.area, 1e-30f)));
     forTriangles(mesh, progress, [&](std::uint32_t t) {
         const glm::vec3 normal = triangleNormal(mesh, t);
-        forCellsOf(t, [&](std::uint32_t cell, glm::vec2 uv, double) {
+        forCellsOf(t, [&](const Cell& cell) {
+            glm::vec2 uv = cell.middle;
             if (uv.x + uv.y > 1)
                 uv /= uv.x + uv.y;
-            m_owner[cell] = nearest.find(trianglePoint(mesh, t, uv), normal);
+            m_owner[cell.index] = nearest.find(trianglePoint(mesh, t, uv), normal);
         });
     });
 }

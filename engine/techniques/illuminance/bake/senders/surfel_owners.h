@@ -2,9 +2,11 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/lightmap/density_fields.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -48,8 +50,13 @@ public:
     void forTriangles(const Mesh& mesh, const Progress& progress,
                       const std::function<void(std::uint32_t)>& visit) const;
 
-    /// Calls visit(cell, uv of its middle, share of the triangle's area) for the cells that meet a
-    /// triangle; the shares sum to 1.
+    struct Cell {
+        std::uint32_t index;
+        glm::vec2 middle; ///< (u, v)
+        float side;       ///< along u and v, of the whole cell
+        double share; ///< of the triangle's area, where the triangle cuts it less than the whole
+    };
+    /// Calls visit(Cell) for the cells that meet a triangle; the shares sum to 1.
     template <class Visit>
     void forCellsOf(std::uint32_t triangle, const Visit& visit) const {
         const std::uint32_t side = m_density.side(triangle);
@@ -57,12 +64,13 @@ public:
             const Block& block = m_blocks[blockOf(triangle, at)];
             const std::uint32_t n = block.resolution;
             const double square = 2 / (double(side) * side * n * n);
+            const auto width = float(std::sqrt(square / 2));
             for (std::uint32_t j = 0; j < n; ++j)
                 for (std::uint32_t i = 0; i < n && j <= last(at, float(side), n, i); ++i) {
                     const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
                     const bool cut = at.x + at.y + 1 == side && i + j + 1 == n;
-                    visit(block.begin + j * n + i, (glm::vec2(at) + middle) / float(side),
-                          cut ? square / 2 : square);
+                    visit(Cell{block.begin + j * n + i, (glm::vec2(at) + middle) / float(side),
+                               width, cut ? square / 2 : square});
                 }
         });
     }

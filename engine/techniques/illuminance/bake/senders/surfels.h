@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/lightmap/density_fields.h"
+#include "engine/lightmap/mesh_density.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 
 #include <cstdint>
