@@ -218,24 +218,13 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
                                 const std::vector<ShadowSlot>& shadowSlots, glm::vec2 point) {
     writeLightTable(device, slot.lights, lights, shadowSlots, shadows.views());
     GpuFrame frame{};
-    frame.eye = options.camera.eye;
     frame.lightCount = slot.lights.count;
     frame.normalBias = ShadowMaps::kNormalBias;
     frame.lightBias = ShadowMaps::kLightBias;
     describeField(*indirect.field, frame);
-    const float aspect = float(options.width) / float(options.height);
-    frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
-    frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
-    frame.rayUp = rayDirection(options.camera, aspect, 0, 1) - frame.rayCentre;
-    const glm::vec2 shift = 2.f * point / glm::vec2(options.width, options.height);
-    frame.rayCentre += shift.x * frame.rayRight - shift.y * frame.rayUp;
+    describePixels(options, scene.bounds, point, device.properties.limits.subPixelPrecisionBits,
+                   frame);
     frame.lookupSize = scene.lookupSize;
-    frame.pixelSize = 1.f / glm::vec2(options.width, options.height);
-    // Depth is (a + b / distance) with a, b of the projection's third row.
-    const DepthRange range = depthRange(options, scene.bounds);
-    const glm::mat4 projection = projectionMatrix(options.camera, aspect, range.zFar, range.zNear);
-    frame.depthOffset = projection[2][2];
-    frame.depthScale = projection[3][2];
     if (options.view == View::Lit)
         frame.background = sky.colour();
     std::memcpy(slot.frame.mapped, &frame, sizeof frame);

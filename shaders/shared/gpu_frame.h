@@ -31,7 +31,8 @@ struct GpuFrame {
     vec2 pixelSize; vec2 lookupSize;   // 1 / picture's size in pixels; texels of the lightmap, 0: no snaps
     vec3 background; float fieldUnit;  // nits, where no surface is; what the field's halfs count
     uint gridWeights; uint marchedSide; // GRID_* of grid_lookup.h; texels along a map's side, 0: none
-    float cutBelow; uint pad; // 1: the lightmap's light continues below surfaces (engine/math/horizon.h); 0: it does not
+    float cutBelow; // 1: the lightmap's light continues below surfaces (engine/math/horizon.h); 0: it does not
+    float positionError; // m per m of depth, of engine/render/position_error.h
 };
 
 /// Push constants of the geometry passes.

@@ -212,8 +212,9 @@ void main() {
     const uint rays = depth > 0.0 && s.nearReach > 0.0 ? near.rays : 0u;
     vec3 sum = vec3(0), c[kCoefficients];
     readAbove(s.geometricNormal, s.lightmapUv, c);
-    // Positions come from depths, which are rounded in proportion to the distance.
-    const float clear = max(1e-3 * s.nearReach, 4e-6 * (length(s.position) + length(frame.eye - s.position)));
+    // A ray must not meet its own surface: what is read in a pixel belongs to a point beside it, and is rounded, too.
+    const float far = length(frame.eye - s.position);
+    const float clear = max(1e-3 * s.nearReach, 4e-6 * (length(s.position) + far) + frame.positionError * far);
     const vec3 origin = s.position + clear * s.geometricNormal;
     for (uint k = 0; k < rays; ++k)
         sum += nearCorrection(s, c, origin, pixelPoint(uvec2(gl_FragCoord.xy), near.first + k));

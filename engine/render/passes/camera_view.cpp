@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/passes/camera_view.h"
 
+#include "engine/render/position_error.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <glm/ext/matrix_transform.hpp>
 
 namespace limn::render {
+
+namespace {
+
+struct DepthRange {
+    float zNear = 0, zFar = 0; ///< [m]
+};
 
 // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
 DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
@@ -15,6 +23,8 @@ DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
     const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f);
     return {zFar * 1e-5f, zFar};
 }
+
+} // namespace
 
 GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
     const DepthRange range = depthRange(options, bounds);
@@ -45,6 +55,25 @@ GeometryView throughPoint(GeometryView view, glm::vec2 point, std::uint32_t widt
     const glm::vec2 shift = glm::vec2(-2, 2) * point / glm::vec2(width, height);
     view.toClip = glm::translate(glm::mat4(1), glm::vec3(shift, 0)) * view.toClip;
     return view;
+}
+
+void describePixels(const ViewportOptions& options, const Bounds& bounds, glm::vec2 point,
+                    std::uint32_t subPixelBits, shared::GpuFrame& frame) {
+    const glm::vec2 size(options.width, options.height);
+    const float aspect = size.x / size.y;
+    frame.eye = options.camera.eye;
+    frame.rayCentre = rayDirection(options.camera, aspect, 0, 0);
+    frame.rayRight = rayDirection(options.camera, aspect, 1, 0) - frame.rayCentre;
+    frame.rayUp = rayDirection(options.camera, aspect, 0, 1) - frame.rayCentre;
+    const glm::vec2 shift = 2.f * point / size;
+    frame.rayCentre += shift.x * frame.rayRight - shift.y * frame.rayUp;
+    frame.pixelSize = 1.f / size;
+    frame.positionError = positionError(frame.rayRight, frame.rayUp, frame.pixelSize, subPixelBits);
+    // Depth is (a + b / distance) with a, b of the projection's third row.
+    const DepthRange range = depthRange(options, bounds);
+    const glm::mat4 projection = projectionMatrix(options.camera, aspect, range.zFar, range.zNear);
+    frame.depthOffset = projection[2][2];
+    frame.depthScale = projection[3][2];
 }
 
 ShadowCamera shadowCamera(const ViewportOptions& options, const GeometryView& view,

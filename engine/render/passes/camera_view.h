@@ -4,17 +4,11 @@
 #include "engine/render/passes/geometry_passes.h"
 #include "engine/render/shadows/shadow_cascades.h"
 #include "engine/render/viewport.h"
+#include "shaders/shared/gpu_frame.h"
 
 #include <cstdint>
 
 namespace limn::render {
-
-struct DepthRange {
-    float zNear = 0, zFar = 0; ///< [m]
-};
-
-/// Depth range around the scene as the camera sees it.
-DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds);
 
 /// The view of a picture. `grid`: instances without lightmap read the grid.
 GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid);
@@ -30,6 +24,12 @@ glm::vec2 samplePoint(std::uint32_t number);
 /// `height` pixels.
 GeometryView throughPoint(GeometryView view, glm::vec2 point, std::uint32_t width,
                           std::uint32_t height);
+
+/// Sets what shaders compute positions from: the eye, rays through pixels with `point` in their
+/// middles, depths, and how exact positions are where vertices have 2^`subPixelBits` places a
+/// pixel.
+void describePixels(const ViewportOptions& options, const Bounds& bounds, glm::vec2 point,
+                    std::uint32_t subPixelBits, shared::GpuFrame& frame);
 
 /// Result of nearestInSight() for the last frame that needed it.
 struct NearestSeen {
