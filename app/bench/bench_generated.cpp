@@ -94,6 +94,8 @@ ImageF drawn(const Measured& m, const Camera& camera, const IndirectField& field
     options.camera = camera;
     options.width = m.view.width;
     options.height = m.view.height;
+    options.samplesPerPixel = kFileSamples.perPixel; // as limn render draws
+    options.nearRays = kFileSamples.nearRays;
     return renderField(m.trace, field, layout, options);
 }
 

@@ -230,18 +230,19 @@ glm::vec2 snappedUv(const LightmapLayout& layout, glm::vec2 base, glm::vec2 f, s
 
 AtlasLookup lookupAt(const LightmapLayout& layout, glm::vec2 uv) {
     const glm::vec2 size(float(layout.width), float(layout.height));
-    const auto at = [&](glm::vec2 p) {
-        AtlasLookup l{glm::floor(p), p - glm::floor(p), 0, false};
+    const auto at = [&](glm::vec2 p, float width) {
+        AtlasLookup l{glm::floor(p), p - glm::floor(p), 0, false, width};
         l.inside = l.base.x >= 0 && l.base.y >= 0 && l.base.x < size.x && l.base.y < size.y;
         if (l.inside && !layout.snaps.empty())
             l.snaps = layout.snaps[std::size_t(l.base.y) * layout.width + std::size_t(l.base.x)];
         return l;
     };
-    AtlasLookup l = at(uv * size - 0.5f);
+    AtlasLookup l = at(uv * size - 0.5f, 1);
     for (int level = 0; level < kFineLevels && (l.snaps & kFineLookup); ++level) {
         const std::uint32_t block = l.snaps & ~kFineLookup;
         l = at(glm::vec2(float(block % layout.width), float(block / layout.width)) +
-               l.f * float(kFineCells));
+                   l.f * float(kFineCells),
+               l.width / float(kFineCells));
     }
     return l;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lightmap/near_reach.h"
 
+#include "engine/lightmap/atlas.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 
 #include <algorithm>
@@ -61,6 +62,12 @@ std::vector<float> nearReaches(const Scene& scene, const LightmapLayout& layout)
         reaches[i] = float(std::sqrt(std::min(own, kMaxTexel * mean)) / 2);
     }
     return reaches;
+}
+
+float nearReachAt(const LightmapLayout& layout, float reach, std::uint32_t instance,
+                  std::uint32_t mesh, std::uint32_t triangle, float u, float v, bool back) {
+    return reach *
+           lookupAt(layout, unsnappedUv(layout, instance, mesh, triangle, u, v, back)).width;
 }
 
 } // namespace limn

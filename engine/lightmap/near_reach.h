@@ -4,6 +4,7 @@
 #include "engine/lightmap/lightmap_layout.h"
 #include "engine/scene/scene.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace limn {
@@ -12,6 +13,11 @@ namespace limn {
 /// much for its texels: half their mean width [m], which is taken to be at most twice the scene's.
 /// 0 for instances without a lightmap.
 std::vector<float> nearReaches(const Scene& scene, const LightmapLayout& layout);
+
+/// That distance at a point of an instance: its `reach`, or less as far as finer texels replace
+/// those of the atlas.
+float nearReachAt(const LightmapLayout& layout, float reach, std::uint32_t instance,
+                  std::uint32_t mesh, std::uint32_t triangle, float u, float v, bool back);
 
 /// Weight with which a surface at distance `t` counts as near, for `reach` > 0: 1 up to half the
 /// reach, then falling linearly to 0 at the reach.

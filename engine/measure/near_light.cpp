@@ -22,9 +22,12 @@ NearLight nearLight(const TraceScene& trace, const IndirectField& field,
 std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
                                           const SurfacePoint& p, const Sampler& sampler) {
     std::vector<NearSurface> found;
-    const float reach = near.rays > 0 ? near.reach[hit.instance] : 0;
-    if (!(reach > 0))
+    const float most = near.rays > 0 ? near.reach[hit.instance] : 0;
+    if (!(most > 0))
         return found;
+    const float reach = nearReachAt(near.layout, most, hit.instance,
+                                    near.trace.scene().instances[hit.instance].mesh, hit.triangle,
+                                    hit.u, hit.v, !hit.frontFace);
     const glm::vec3 origin = rayOrigin(near.trace, p);
     for (std::uint32_t k = 0; k < near.rays; ++k) {
         const Sampler own{sampler.seed, sampler.index * near.rays + k};

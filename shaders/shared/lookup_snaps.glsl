@@ -8,18 +8,20 @@ const uint kFineLookup = 1u << 31;
 const float kFineCells = 4.0;
 const int kFineLevels = 5;
 
-/// snapLookup() of engine/lightmap/atlas.h.
-vec2 snapLookup(vec2 uv) {
+/// snapLookup() of engine/lightmap/atlas.h. `width` is that of the texels, where those of the atlas are 1.
+vec2 snapLookup(vec2 uv, out float width) {
+    width = 1.0;
     vec2 p = uv * frame.lookupSize - 0.5, base = floor(p);
     if (any(lessThan(base, vec2(0))) || any(greaterThanEqual(base, frame.lookupSize)))
         return uv; // without snaps lookupSize is 0
-    const uint width = uint(frame.lookupSize.x);
-    uint rows = lookupSnaps[uint(base.y) * width + uint(base.x)];
+    const uint row = uint(frame.lookupSize.x);
+    uint rows = lookupSnaps[uint(base.y) * row + uint(base.x)];
     for (int level = 0; level < kFineLevels && (rows & kFineLookup) != 0u; ++level) {
         const uint block = rows & ~kFineLookup;
-        p = vec2(block % width, block / width) + (p - base) * kFineCells;
+        p = vec2(block % row, block / row) + (p - base) * kFineCells;
         base = floor(p);
-        rows = lookupSnaps[uint(base.y) * width + uint(base.x)];
+        rows = lookupSnaps[uint(base.y) * row + uint(base.x)];
+        width /= kFineCells;
     }
     vec2 f = p - base;
     const uvec2 cell = min(uvec2(f * 8.0), uvec2(7));

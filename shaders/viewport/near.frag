@@ -171,8 +171,9 @@ PackedSurface metSurface(NearHit hit, vec3 position) {
     s.detailNormal = dot(n, s.geometricNormal) > 0.0 ? normalize(n) : s.geometricNormal;
     const vec3 root = unpackUnorm4x8(t.albedo).rgb;
     s.albedo = root * root;
+    float width;
     s.lightmapUv = snapLookup(weights.x * t.uv0 + weights.y * t.uv1 + weights.z * t.uv2 +
-                              vec2(0, hit.front ? 0.0 : t.backOffset));
+                              vec2(0, hit.front ? 0.0 : t.backOffset), width);
     return s;
 }
 

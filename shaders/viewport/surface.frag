@@ -25,7 +25,8 @@ vec3 unlit(Surface s) {
 
 void main() {
     const Surface s = readSurface(baseColor());
-    outReceiver = vec4(snapLookup(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset)),
+    float width;
+    outReceiver = vec4(snapLookup(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset), width),
                        s.metallic, s.roughness);
     if (isBlackBack()) { // opposite normals, so that no light reaches both sides
         outEmitted = vec4(0);
@@ -36,5 +37,5 @@ void main() {
     const float read = float(kBands) + (has(FEATURE_MARCHED) ? 0.5 : 0.0);
     const float bands = has(FEATURE_LIGHTMAP) ? read : has(FEATURE_GRID) ? -read : 0.0;
     outEmitted = vec4(unlit(s), bands);
-    outSurface = packSurface(s.baseColor, s.detailNormal, s.geometricNormal, draw.nearReach);
+    outSurface = packSurface(s.baseColor, s.detailNormal, s.geometricNormal, draw.nearReach * width);
 }

@@ -45,6 +45,17 @@ TEST(NearReach, IsZeroWithoutALightmapAndBoundedWhereChartsCoverNoTexel) {
     EXPECT_EQ(nearReaches(scene, {}), std::vector<float>(2, 0));
 }
 
+TEST(NearReach, IsAFourthWhereTexelsAreFiner) {
+    TwoPlates plates(plateAbove(1));
+    plates.refineMiddle();
+    const float reach = nearReaches(plates.builder.build(), *plates.layout)[0];
+    const auto at = [&](float u, float v) {
+        return nearReachAt(*plates.layout, reach, 0, 0, 0, u, v, false);
+    };
+    EXPECT_NEAR(at(0.2f, 0.4f), TwoPlates::kReach / 4, 1e-5f); // 0.4 m left of the middle
+    EXPECT_NEAR(at(0.1f, 0.1f), TwoPlates::kReach, 1e-5f);
+}
+
 TEST(NearReach, WeightsFadeToTheEnd) {
     EXPECT_EQ(nearWeight(0, 2), 1);
     EXPECT_EQ(nearWeight(1, 2), 1);
@@ -70,6 +81,14 @@ TEST(NearLight, WhatTheFieldSaidArrivesFromThereGoes) {
     plates.setField(0, {0, 1, 0}, radiance);
     const glm::vec3 E = correctionAt(plates, plates.builder.build(), {0.3f, 0, -0.2f});
     EXPECT_LT(glm::length(E + 7.f / 8 * kPi * radiance), 0.005f * glm::length(E));
+}
+
+TEST(NearLight, FinerTexelsNeedItFromNearerOnly) {
+    TwoPlates plates(plateAbove(TwoPlates::kReach / 2));
+    plates.refineMiddle();
+    plates.setField(0, {0, 1, 0}, glm::vec3(1));
+    EXPECT_EQ(correctionAt(plates, plates.builder.build(), {0.3f, 0, -0.2f}, 64), glm::vec3(0));
+    EXPECT_LT(correctionAt(plates, plates.builder.build(), {0.3f, 0, -0.8f}, 64).x, -0.5f);
 }
 
 // In a furnace each surface sends what the field says arrives from everywhere.

@@ -51,15 +51,27 @@ struct TwoPlates {
     void setField(std::uint32_t plate, glm::vec3 n, glm::vec3 radiance) {
         const float pi = glm::pi<float>();
         const glm::vec3 first = pi * std::sqrt(3 / (4 * pi)) * glm::vec3(n.y, n.z, n.x);
-        for (std::uint32_t y = 0; y < 4; ++y)
-            for (std::uint32_t x = 4 * plate; x < 4 * plate + 4; ++x) {
-                const auto coefficient = [&](std::uint32_t i) -> glm::vec4& {
-                    return field.lightmap[i * 32 + y * 8 + x];
-                };
-                coefficient(0) = glm::vec4(std::sqrt(pi) * radiance, 0);
-                for (std::uint32_t i = 0; i < 3; ++i)
-                    coefficient(1 + i) = glm::vec4(first[int(i)] * radiance, 0);
-            }
+        const std::uint32_t texels = field.lightmapWidth * field.lightmapHeight;
+        for (std::uint32_t t = 0; t < texels; ++t) {
+            const bool ofPlate = t / 8 < 4 && t % 8 >= 4; // finer texels are the plane's
+            if (ofPlate != (plate == 1))
+                continue;
+            field.lightmap[t] = glm::vec4(std::sqrt(pi) * radiance, 0);
+            for (std::uint32_t i = 0; i < 3; ++i)
+                field.lightmap[(1 + i) * texels + t] = glm::vec4(first[int(i)] * radiance, 0);
+        }
+    }
+
+    /// Gives the plane texels of a quarter of the width where |x| and |z| are below 2/3 m. Sets the
+    /// field to 0.
+    void refineMiddle() {
+        layout->height = field.lightmapHeight = 4 + kFineCells + 1;
+        for (InstanceLightmap& i : layout->instances)
+            for (glm::vec2& uv : i.uv)
+                uv.y *= 4.f / float(layout->height);
+        layout->snaps.assign(8 * layout->height, 0);
+        layout->snaps[8 + 1] = kFineLookup + 4 * 8; // a block below the texels of both
+        field.lightmap.assign(9 * layout->snaps.size(), glm::vec4(0));
     }
 };
 

@@ -85,6 +85,24 @@ TEST_F(ViewportNearLight, IsThatOfTheCpu) {
     expectAlike(onDevice(plates, scene, 0), without, 0.01);
 }
 
+TEST_F(ViewportNearLight, ReachesLessWhereTexelsAreFiner) {
+    TwoPlates plates(wall(), 0.6f);
+    plates.builder.scene.lights = {sun()};
+    const Scene scene = plates.builder.build();
+    plates.setField(1, {0, 0, 1}, glm::vec3(0.5f));
+    const ImageF coarse = onCpu(plates, scene, 8);
+    plates.refineMiddle();
+    plates.setField(1, {0, 0, 1}, glm::vec3(0.5f));
+    const ImageF fine = onCpu(plates, scene, 8);
+    double changed = 0, sum = 0;
+    for (std::size_t i = 0; i < fine.rgb.size(); ++i) {
+        changed += double(std::abs(fine.rgb[i].x - coarse.rgb[i].x));
+        sum += double(coarse.rgb[i].x);
+    }
+    EXPECT_GT(changed, 0.05 * sum) << "finer texels are to matter here";
+    expectAlike(onDevice(plates, scene, 8), fine, 0.03);
+}
+
 TEST_F(ViewportNearLight, IsFoundOnBacksAndMirroredInstances) {
     for (const bool twoSided : {false, true}) {
         TwoPlates plates(simple::quad({-2, 0, 0}, {0, 4, 0}, {4, 0, 0}, 1)); // faces away
