@@ -238,24 +238,27 @@ std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     return chooseSnap(m_sides, m_side, quad.texel, from, f);
 }
 
-/// Evaluates every other cell of every other row, and the cells between cells that differ.
+/// Evaluates every other cell of every other row, the last of each as well, and the cells between
+/// cells that differ.
 CellSnaps Snapper::snapsOf(const Quad& quad) const {
+    constexpr int kLast = kCells - 1;
+    const auto evaluated = [](int i) { return i % 2 == 0 || i == kLast; };
     CellSnaps snap;
     const auto at = [&](int x, int y) -> std::uint32_t& {
         return snap[std::size_t(y * kCells + x)];
     };
-    for (int y = 0; y < kCells; y += 2)
-        for (int x = 0; x < kCells; x += 2)
-            at(x, y) = snapAt(quad, y * kCells + x);
+    for (int y = 0; y < kCells; ++y)
+        for (int x = 0; x < kCells; ++x)
+            if (evaluated(x) && evaluated(y))
+                at(x, y) = snapAt(quad, y * kCells + x);
     for (int y = 0; y < kCells; ++y)
         for (int x = 0; x < kCells; ++x) {
-            if (x % 2 == 0 && y % 2 == 0)
+            if (evaluated(x) && evaluated(y))
                 continue;
-            const int left = x / 2 * 2, right = std::min((x + 1) / 2 * 2, kCells - 2),
-                      upper = y / 2 * 2, lower = std::min((y + 1) / 2 * 2, kCells - 2);
-            const std::uint32_t first = at(left, upper);
-            const bool alike = first < kSnaps && at(right, upper) == first &&
-                               at(left, lower) == first && at(right, lower) == first;
+            const int dx = evaluated(x) ? 0 : 1, dy = evaluated(y) ? 0 : 1;
+            const std::uint32_t first = at(x - dx, y - dy);
+            const bool alike = first < kSnaps && at(x + dx, y - dy) == first &&
+                               at(x - dx, y + dy) == first && at(x + dx, y + dy) == first;
             at(x, y) = alike ? first : snapAt(quad, y * kCells + x);
         }
     return snap;

@@ -43,12 +43,12 @@ struct Reach {
     bool left = false, right = false;
 };
 
-Reach reachOf(const Scene& scene, const AtlasTexel& texel, float wall) {
+Reach reachOf(const Scene& scene, const AtlasTexel& texel, float wall, float at = kWall) {
     Reach reach;
     for (std::uint32_t k = 0; k < texel.count; ++k) {
         const float x = texelPoint(scene, texel, k).position.x;
-        reach.left |= x < kWall;
-        reach.right |= x > kWall + wall;
+        reach.left |= x < at;
+        reach.right |= x > at + wall;
     }
     return reach;
 }
@@ -94,7 +94,8 @@ TEST(TexelSides, NoTexelHasPointsOnBothSidesOfAWall) {
 
 /// Of random points of the hall, at least so many cells from the wall: how many lookups read a
 /// texel that has points beyond it.
-int readsBeyond(const Scene& scene, const Atlas& atlas, float wall, float cells) {
+int readsBeyond(const Scene& scene, const Atlas& atlas, float wall, float cells,
+                float place = kWall) {
     const LightmapLayout& layout = atlas.layout;
     std::vector<std::uint32_t> at(std::size_t(layout.width) * layout.height, ~0U);
     for (std::uint32_t i = 0; i < atlas.texels.size(); ++i)
@@ -108,14 +109,14 @@ int readsBeyond(const Scene& scene, const Atlas& atlas, float wall, float cells)
         const auto t = std::uint32_t(rng() % mesh.triangleCount());
         const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
         const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x;
-        if (x > kWall - apart && x < kWall + wall + apart)
+        if (x > place - apart && x < place + wall + apart)
             continue;
         const Bilinear lookup = bilinearAt(layout, lightmapUv(layout, 0, 0, t, uv.x, uv.y, false));
         bool wrong = false;
         for (int k = 0; k < 4; ++k)
             if (lookup.weight[k] > 1e-3f) {
-                const Reach reach = reachOf(scene, atlas.texels[at[lookup.texel[k]]], wall);
-                wrong |= x < kWall ? reach.right : reach.left;
+                const Reach reach = reachOf(scene, atlas.texels[at[lookup.texel[k]]], wall, place);
+                wrong |= x < place ? reach.right : reach.left;
             }
         beyond += wrong;
     }
@@ -132,6 +133,20 @@ TEST(TexelSides, SnappedLookupsReadNothingBeyondAWall) {
         EXPECT_GT(readsBeyond(scene, atlas, wall, 0.55f), 100) << "nothing to snap";
         atlas.layout.snaps = std::move(sides.snaps);
         EXPECT_EQ(readsBeyond(scene, atlas, wall, 0.55f), 0) << wall << " m, " << texels;
+    }
+}
+
+// Also where the wall stands before the last cell between two texels.
+TEST(TexelSides, SnappedLookupsReadNothingBeyondAWallWhereverItStandsInATexel) {
+    for (int i = 0; i < 20; ++i) {
+        const float place = 3.5f + 0.03f * float(i); // more than a texel in all
+        const Scene scene = partedHall(0, kTexels[1], place);
+        const TraceScene trace(scene);
+        Atlas atlas = atlasOf(scene);
+        TexelSides sides = findTexelSides(trace, atlas, {}, {});
+        atlas.texels = std::move(sides.texels);
+        atlas.layout.snaps = std::move(sides.snaps);
+        EXPECT_EQ(readsBeyond(scene, atlas, 0, 0.55f, place), 0) << place;
     }
 }
 

@@ -15,17 +15,17 @@ inline simple::SceneBuilder wallsAndSheets() {
     return b;
 }
 
-/// A hall of 8 x 3 x 4 m and a wall across it at x = 3.7 m that leaves nothing open: a sheet that
+/// A hall of 8 x 3 x 4 m and a wall across it at x = `at` that leaves nothing open: a sheet that
 /// shows both sides, or a solid. The hall's floor, ceiling and long walls are one surface each on
 /// both sides of it. One lamp hangs in the larger part.
-inline Scene partedHall(float wall, std::uint32_t texels) {
+inline Scene partedHall(float wall, std::uint32_t texels, float at = 3.7f) {
     using namespace simple;
     SceneBuilder b = wallsAndSheets();
     b.add(box(glm::vec3(0), glm::vec3(8, 3, 4), true));
     if (wall > 0)
-        b.add(box({3.7f, -0.1f, -0.1f}, {3.7f + wall, 3.1f, 4.1f}, false));
+        b.add(box({at, -0.1f, -0.1f}, {at + wall, 3.1f, 4.1f}, false));
     else
-        b.add(quad({3.7f, -0.1f, -0.1f}, {0, 3.2f, 0}, {0, 0, 4.2f}, 1));
+        b.add(quad({at, -0.1f, -0.1f}, {0, 3.2f, 0}, {0, 0, 4.2f}, 1));
     b.scene.lights.resize(1);
     b.scene.lights[0].position = {6, 2, 2};
     b.scene.lights[0].strength = 10;
