@@ -86,6 +86,13 @@ void hemisphereRadianceWeights(vec3 n, vec3 d, out float w[kCoefficients]) {
         w[i] = lower[i];
 }
 
+/// How far above a surface rays start, so that they do not meet it: what is read in a pixel belongs to a point beside
+/// it, and is rounded, too.
+float clearance(vec3 position, float reach) {
+    const float far = distance(frame.eye, position);
+    return max(1e-3 * reach, 4e-6 * (length(position) + far) + frame.positionError * far);
+}
+
 // PCG: O'Neill. PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number
 // Generation. 2014
 uint mixBits(uint x) {
@@ -125,9 +132,17 @@ vec3 openIrradiance(uint i, PackedSurface s, out vec3 toLight) {
     return dot(s.geometricNormal, toLight) > 0.0 ? E * max(dot(s.detailNormal, toLight), 0.0) : vec3(0);
 }
 
+/// What lies within `reach` on the way to a light. Shadow maps do not resolve that: where the edge of a roof lies within
+/// a texel of theirs, the sun would shine on the wall below it.
+bool blockedNearby(PackedSurface s, GpuLight light, vec3 toLight, float reach) {
+    const float most = light.kind == LIGHT_DIRECTIONAL ? reach : min(reach, distance(light.position, s.position));
+    const vec3 origin = s.position + clearance(s.position, reach) * s.geometricNormal;
+    return traceNear(origin, toLight, most).t < most;
+}
+
 /// Direct light of one light, picked by `u` in proportion to what it would send without shadows, for all: an unbiased
-/// estimate of their sum.
-vec3 pickedLight(PackedSurface s, float u) {
+/// estimate of their sum. What is within `reach` casts its shadow by a ray, except on the way to rectangles.
+vec3 pickedLight(PackedSurface s, float u, float reach) {
     float all = 0.0;
     vec3 picked = vec3(0), way = vec3(0);
     uint light = 0u;
@@ -150,10 +165,13 @@ vec3 pickedLight(PackedSurface s, float u) {
     if (!(all > 0.0))
         return vec3(0);
     const GpuLight by = lights[light];
-    const float seen = by.kind == LIGHT_RECTANGLE
-                           ? rectangleVisibility(by, rectangleOf(by), s, u, true)
-                           : visibility(by, s.position, s.geometricNormal, way,
-                                        vec2(frame.normalBias, frame.lightBias), true);
+    float seen = by.kind == LIGHT_RECTANGLE
+                     ? rectangleVisibility(by, rectangleOf(by), s, u, true)
+                     : visibility(by, s.position, s.geometricNormal, way,
+                                  vec2(frame.normalBias, frame.lightBias), true);
+    const bool traced = by.kind != LIGHT_RECTANGLE && seen > 0.0;
+    for (int once = 0; once < int(traced); ++once)
+        seen = blockedNearby(s, by, way, reach) ? 0.0 : seen;
     return picked * all * seen;
 }
 
@@ -178,13 +196,13 @@ PackedSurface metSurface(NearHit hit, vec3 position) {
 }
 
 /// Radiance of that surface towards the ray's origin.
-vec3 metRadiance(NearHit hit, vec3 position, float u) {
+vec3 metRadiance(NearHit hit, vec3 position, float u, float reach) {
     const PackedSurface s = metSurface(hit, position);
     vec3 c[kCoefficients];
     readAbove(s.geometricNormal, s.lightmapUv, c);
     float w[kCoefficients];
     irradianceWeights(s.detailNormal, w);
-    return s.albedo / kPi * (weightedSum(c, w) + pickedLight(s, u));
+    return s.albedo / kPi * (weightedSum(c, w) + pickedLight(s, u, reach));
 }
 
 /// One estimate of the irradiance to add. Loops replace branches, because software rasterisers skip nothing else.
@@ -202,7 +220,7 @@ vec3 nearCorrection(PackedSurface s, vec3 c[kCoefficients], vec3 origin, vec3 u)
         radiance = replaces ? -weightedSum(c, w) : vec3(0);
         const bool bright = replaces && (hit.front || (flags & NEAR_DOUBLE_SIDED) != 0u);
         for (int only = 0; only < int(bright); ++only)
-            radiance += metRadiance(hit, origin + hit.t * direction, u.z);
+            radiance += metRadiance(hit, origin + hit.t * direction, u.z, s.nearReach);
     }
     return kPi * min(2.0 - 2.0 * hit.t / s.nearReach, 1.0) * radiance; // nearWeight()
 }
@@ -213,10 +231,7 @@ void main() {
     const uint rays = depth > 0.0 && s.nearReach > 0.0 ? near.rays : 0u;
     vec3 sum = vec3(0), c[kCoefficients];
     readAbove(s.geometricNormal, s.lightmapUv, c);
-    // A ray must not meet its own surface: what is read in a pixel belongs to a point beside it, and is rounded, too.
-    const float far = length(frame.eye - s.position);
-    const float clear = max(1e-3 * s.nearReach, 4e-6 * (length(s.position) + far) + frame.positionError * far);
-    const vec3 origin = s.position + clear * s.geometricNormal;
+    const vec3 origin = s.position + clearance(s.position, s.nearReach) * s.geometricNormal;
     for (uint k = 0; k < rays; ++k)
         sum += nearCorrection(s, c, origin, pixelPoint(uvec2(gl_FragCoord.xy), near.first + k));
     const vec3 E = sum / float(max(rays, 1u));

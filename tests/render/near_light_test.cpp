@@ -103,6 +103,26 @@ TEST_F(ViewportNearLight, ReachesLessWhereTexelsAreFiner) {
     expectAlike(onDevice(plates, scene, 8), fine, 0.03);
 }
 
+// The wall shades the floor before it, so that nothing near is lit. Shadow maps are as coarse as
+// those of a house on a wide ground.
+TEST_F(ViewportNearLight, IsDarkAtTheFootOfAWallThatTheSunIsBehind) {
+    TwoPlates plates(wall(), 0.8f);
+    plates.builder.add(simple::quad({-300, -1, 300}, {600, 0, 0}, {0, 0, -600}));
+    plates.layout->instances.emplace_back();
+    plates.layout->meshes.emplace_back();
+    Light light = sun();
+    light.direction = glm::normalize(glm::vec3(0.3f, -1, 0.5f));
+    plates.builder.scene.lights = {light};
+    const Scene scene = plates.builder.build();
+    viewport->setCoarseShadows(true);
+    const ImageF picture = onDevice(plates, scene, 8);
+    double sum = 0;
+    for (const glm::vec3& E : picture.rgb)
+        sum += double(E.x);
+    // By shadow maps alone it is 0.027.
+    EXPECT_LT(sum / double(picture.rgb.size()), 1e-5);
+}
+
 TEST_F(ViewportNearLight, IsFoundOnBacksAndMirroredInstances) {
     for (const bool twoSided : {false, true}) {
         TwoPlates plates(simple::quad({-2, 0, 0}, {0, 4, 0}, {4, 0, 0}, 1)); // faces away
