@@ -3,7 +3,6 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
-#include "engine/math/nearest_point.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/senders/owner_tables.h"
@@ -288,9 +287,7 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
             const MeshSurfels& surfels = set.meshes[mesh];
             if (set.instanceBegin[i] == set.instanceBegin[i + 1] || surfels.frontCount < 2)
                 continue;
-            const NearestPoint nearest(std::span(surfels.position.data(), surfels.frontCount),
-                                       std::span(surfels.normal.data(), surfels.frontCount),
-                                       std::sqrt(std::max(surfels.area, 1e-30f)));
+            const NearestPoint nearest = nearestFront(surfels);
             Patches patches{trace, set, owners.of(mesh), i, nearest, rays};
             patches.raiseSurfels();
             result.owner[i] = partedOwners(patches, progress);

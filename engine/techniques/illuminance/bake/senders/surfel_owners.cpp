@@ -2,7 +2,6 @@
 #include "engine/techniques/illuminance/bake/senders/surfel_owners.h"
 
 #include "engine/core/parallel.h"
-#include "engine/math/nearest_point.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/techniques/illuminance/bake/surfel_spacing.h"
 
@@ -13,6 +12,12 @@
 #include <glm/geometric.hpp>
 
 namespace limn {
+
+NearestPoint nearestFront(const MeshSurfels& surfels) {
+    return {std::span(surfels.position.data(), surfels.frontCount),
+            std::span(surfels.normal.data(), surfels.frontCount),
+            std::sqrt(std::max(surfels.area, 1e-30f))};
+}
 
 bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
     bool within = true;
@@ -77,9 +82,7 @@ void SurfelOwners::forTriangles(const Mesh& mesh, const Progress& progress,
 SurfelOwners::SurfelOwners(const Mesh& mesh, const MeshSurfels& surfels, const Progress& progress)
     : m_frontCount(surfels.frontCount) {
     sizeBlocks(mesh, surfels);
-    const std::span<const glm::vec3> points(surfels.position.data(), surfels.frontCount);
-    const NearestPoint nearest(points, std::span(surfels.normal.data(), surfels.frontCount),
-                               std::sqrt(std::max(surfels.area, 1e-30f)));
+    const NearestPoint nearest = nearestFront(surfels);
     forTriangles(mesh, progress, [&](std::uint32_t t) {
         const glm::vec3 normal = triangleNormal(mesh, t);
         forCellsOf(t, [&](const Cell& cell) {

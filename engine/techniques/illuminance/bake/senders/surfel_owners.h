@@ -3,6 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/lightmap/density_fields.h"
+#include "engine/math/nearest_point.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 
 #include <algorithm>
@@ -12,6 +13,9 @@
 #include <vector>
 
 namespace limn {
+
+/// Finds the nearest of a mesh's surfels on front sides. Keeps references to them.
+NearestPoint nearestFront(const MeshSurfels& surfels);
 
 /// Finds the surfel that stands for a point of a mesh, from tables of triangle cells that hold the
 /// nearest surfel of like normal.
