@@ -132,8 +132,8 @@ vec3 openIrradiance(uint i, PackedSurface s, out vec3 toLight) {
     return dot(s.geometricNormal, toLight) > 0.0 ? E * max(dot(s.detailNormal, toLight), 0.0) : vec3(0);
 }
 
-/// What lies within `reach` on the way to a light. Shadow maps do not resolve that: where the edge of a roof lies within
-/// a texel of theirs, the sun would shine on the wall below it.
+/// Whether something lies within `reach` on the way to a light. Shadow maps do not resolve that: where the edge of a
+/// roof lies within a texel of theirs, the sun would shine on the wall below it.
 bool blockedNearby(PackedSurface s, GpuLight light, vec3 toLight, float reach) {
     const float most = light.kind == LIGHT_DIRECTIONAL ? reach : min(reach, distance(light.position, s.position));
     const vec3 origin = s.position + clearance(s.position, reach) * s.geometricNormal;
