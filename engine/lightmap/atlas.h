@@ -76,7 +76,7 @@ struct AtlasLookup {
     glm::vec2 f;         ///< position between that texel and the next ones, in [0, 1)^2
     std::uint32_t snaps; ///< LightmapLayout::snaps of that position
     bool inside;         ///< whether it lies in the atlas; otherwise it has no snap
-    float width;         ///< of its texels, where those of the atlas are 1
+    float width;         ///< of its texels, over that of the coarsest at this place
 };
 AtlasLookup lookupAt(const LightmapLayout& layout, glm::vec2 uv);
 

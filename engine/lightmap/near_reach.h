@@ -14,8 +14,8 @@ namespace limn {
 /// 0 for instances without a lightmap.
 std::vector<float> nearReaches(const Scene& scene, const LightmapLayout& layout);
 
-/// That distance at a point of an instance: its `reach`, or less as far as finer texels replace
-/// those of the atlas.
+/// That distance at one point of an instance [m]. `reach`: nearReaches() of the instance; it
+/// shrinks in proportion to the width of the texels, where finer ones replace those of the atlas.
 float nearReachAt(const LightmapLayout& layout, float reach, std::uint32_t instance,
                   std::uint32_t mesh, std::uint32_t triangle, float u, float v, bool back);
 

@@ -238,8 +238,8 @@ std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     return chooseSnap(m_sides, m_side, quad.texel, from, f);
 }
 
-/// Evaluates every other cell of every other row, the last of each as well, and the cells between
-/// cells that differ.
+/// Evaluates every other cell along each side, the last one too, and then the cells between cells
+/// that differ. Between cells that are alike, the snap is theirs.
 CellSnaps Snapper::snapsOf(const Quad& quad) const {
     constexpr int kLast = kCells - 1;
     const auto evaluated = [](int i) { return i % 2 == 0 || i == kLast; };

@@ -8,7 +8,7 @@ const uint kFineLookup = 1u << 31;
 const float kFineCells = 4.0;
 const int kFineLevels = 5;
 
-/// snapLookup() of engine/lightmap/atlas.h. `width` is that of the texels, where those of the atlas are 1.
+/// snapLookup() of engine/lightmap/atlas.h. `width` is AtlasLookup::width of the texels read.
 vec2 snapLookup(vec2 uv, out float width) {
     width = 1.0;
     vec2 p = uv * frame.lookupSize - 0.5, base = floor(p);

@@ -38,6 +38,15 @@ Atlas atlasOf(const Scene& scene) {
     return buildAtlas(scene, std::move(charts), scene.bake);
 }
 
+/// The same with the points and snaps that findTexelSides() chooses.
+Atlas snappedAtlasOf(const Scene& scene) {
+    Atlas atlas = atlasOf(scene);
+    TexelSides sides = findTexelSides(TraceScene(scene), atlas, {}, {});
+    atlas.texels = std::move(sides.texels);
+    atlas.layout.snaps = std::move(sides.snaps);
+    return atlas;
+}
+
 /// Which sides of the wall a texel of the hall has points on; within the wall is neither.
 struct Reach {
     bool left = false, right = false;
@@ -141,11 +150,7 @@ TEST(TexelSides, SnappedLookupsReadNothingBeyondAWallWhereverItStandsInATexel) {
     for (int i = 0; i < 20; ++i) {
         const float place = 3.5f + 0.03f * float(i); // more than a texel in all
         const Scene scene = partedHall(0, kTexels[1], place);
-        const TraceScene trace(scene);
-        Atlas atlas = atlasOf(scene);
-        TexelSides sides = findTexelSides(trace, atlas, {}, {});
-        atlas.texels = std::move(sides.texels);
-        atlas.layout.snaps = std::move(sides.snaps);
+        const Atlas atlas = snappedAtlasOf(scene);
         EXPECT_EQ(readsBeyond(scene, atlas, 0, 0.55f, place), 0) << place;
     }
 }
@@ -155,11 +160,7 @@ TEST(TexelSides, LookupsAtTheFootOfAThickWallReadNothingBeyondIt) {
     for (std::uint32_t texels = 300; texels < 800; texels += 25) {
         const float wall = 0.5f;
         const Scene scene = partedHall(wall, texels);
-        const TraceScene trace(scene);
-        Atlas atlas = atlasOf(scene);
-        TexelSides sides = findTexelSides(trace, atlas, {}, {});
-        atlas.texels = std::move(sides.texels);
-        atlas.layout.snaps = std::move(sides.snaps);
+        const Atlas atlas = snappedAtlasOf(scene);
         EXPECT_EQ(readsBeyond(scene, atlas, wall, 0), 0) << texels;
     }
 }

@@ -83,7 +83,7 @@ TEST(NearLight, WhatTheFieldSaidArrivesFromThereGoes) {
     EXPECT_LT(glm::length(E + 7.f / 8 * kPi * radiance), 0.005f * glm::length(E));
 }
 
-TEST(NearLight, FinerTexelsNeedItFromNearerOnly) {
+TEST(NearLight, ReachesLessWhereTexelsAreFiner) {
     TwoPlates plates(plateAbove(TwoPlates::kReach / 2));
     plates.refineMiddle();
     plates.setField(0, {0, 1, 0}, glm::vec3(1));

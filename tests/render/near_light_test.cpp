@@ -119,7 +119,7 @@ TEST_F(ViewportNearLight, IsDarkAtTheFootOfAWallThatTheSunIsBehind) {
     double sum = 0;
     for (const glm::vec3& E : picture.rgb)
         sum += double(E.x);
-    // By shadow maps alone it is 0.027.
+    // With shadow maps alone this mean is 0.027.
     EXPECT_LT(sum / double(picture.rgb.size()), 1e-5);
 }
 

@@ -25,9 +25,9 @@ glm::vec2 samplePoint(std::uint32_t number);
 GeometryView throughPoint(GeometryView view, glm::vec2 point, std::uint32_t width,
                           std::uint32_t height);
 
-/// Sets what shaders compute positions from: the eye, rays through pixels with `point` in their
-/// middles, depths, and how exact positions are where vertices have 2^`subPixelBits` places a
-/// pixel.
+/// Sets what shaders need to compute positions from depths: the eye, the rays through `point` of
+/// all pixels, as in throughPoint(), the depth range, and the positions' error on a device that
+/// moves vertices to steps of 1/2^`subPixelBits` of a pixel.
 void describePixels(const ViewportOptions& options, const Bounds& bounds, glm::vec2 point,
                     std::uint32_t subPixelBits, shared::GpuFrame& frame);
 

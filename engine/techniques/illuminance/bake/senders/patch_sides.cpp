@@ -111,7 +111,8 @@ std::uint32_t Patches::ownerOf(const MeshPoint& middle, float size, std::uint32_
 
 /// The surfel on the same side of all walls as a point, which is raised to `from`: the nearest one,
 /// or one of a few others, or the nearest again where all are behind walls. `nearestOwner` is the
-/// index of the nearest among the fronts, on either side of the surface.
+/// index of the nearest surfel on the front, also if `back`: surfels of both sides have the same
+/// places.
 std::uint32_t Patches::ownerAt(const MeshPoint& point, const RaisedPoint& from,
                                std::uint32_t nearestOwner, bool back) const {
     constexpr std::size_t kCompared = 8;
