@@ -6,11 +6,10 @@
 #include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/core/parallel.h"
-#include "engine/lightmap/atlas_stage.h"
-#include "engine/scene/mesh/input_hash.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/measure/energy_chain.h"
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -35,14 +34,12 @@ constexpr Column kColumns[] = {{"scene", -18, "name"},
                                {"change [%]", 10, "change", 2, 100},
                                {"nRMSE", 8, "nrmse", 4}};
 
-/// The points of the lightmap's caches, which a bake does not keep.
-CachePoints pointsOf(const TraceScene& trace, const Scene& scene, StageStore& store) {
-    std::uint64_t rays = 0;
-    const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, &store, rays);
-    CachePoints points;
-    placeCaches(scene, atlas->atlas, points);
-    return points;
-}
+constexpr Column kSenderColumns[] = {{"scene", -18, "name"},
+                                     {"senders from", 12, "from", 4},
+                                     {"to [widths]", 12, "to", 4},
+                                     {"share [%]", 10, "share", 2, 100},
+                                     {"excess [%]", 10, "excess", 2, 100},
+                                     {"+- [%]", 8, "noise", 2, 100}};
 
 Result<EnergyChain> measure(const EnergyBench& o, Scene& scene) {
     applyBakeOptions(o.bake, scene.bake);
@@ -60,9 +57,9 @@ Result<EnergyChain> measure(const EnergyBench& o, Scene& scene) {
     Result<Bake> uncut = bake(trace, progressOnStderr(), &store, &everySender);
     if (!uncut)
         return tl::make_unexpected(uncut.error());
-    const CachePoints points = pointsOf(trace, scene, store);
+    const BakedSenders senders(trace, scene, *made, store);
     const EnergyBakes bakes{std::make_shared<const Bake>(std::move(*made)),
-                            std::make_shared<const Bake>(std::move(*uncut)), points};
+                            std::make_shared<const Bake>(std::move(*uncut)), senders};
     const EnergyChain chain = measureEnergyChain(
         trace, bakes, {*camera, o.camera.width, o.camera.height, o.paths, o.seed},
         progressOnStderr());
@@ -70,6 +67,18 @@ Result<EnergyChain> measure(const EnergyBench& o, Scene& scene) {
     if (!chain.complete)
         return fail("cancelled");
     return chain;
+}
+
+Json senderRows(const std::string& name, const std::vector<SendersAt>& senders) {
+    Json rows = Json::array();
+    for (const SendersAt& s : senders)
+        rows.push_back({{"name", name},
+                        {"from", s.from},
+                        {"to", std::isfinite(s.to) ? Json(s.to) : Json()},
+                        {"share", s.share},
+                        {"excess", s.excess},
+                        {"noise", s.noise}});
+    return rows;
 }
 
 Exit runEnergyBench(const EnergyBench& o) {
@@ -86,20 +95,27 @@ Exit runEnergyBench(const EnergyBench& o) {
                    100 * chain->noise);
         printTitles(kColumns);
     }
+    const std::string name = std::filesystem::path(o.scene.scene).stem().string();
     Json rows = Json::array();
     double before = 1;
     for (const EnergyStep& s : chain->steps) {
-        Json row = {{"name", std::filesystem::path(o.scene.scene).stem().string()},
-                    {"step", s.name},
-                    {"energy", s.energy},
-                    {"change", s.energy - before},
-                    {"nrmse", s.nrmse},
-                    {"reference_noise", chain->noise}};
+        Json row = {{"name", name},       {"step", s.name},
+                    {"energy", s.energy}, {"change", s.energy - before},
+                    {"nrmse", s.nrmse},   {"reference_noise", chain->noise}};
         before = s.energy;
         if (!o.json)
             printRow(kColumns, row);
         rows.push_back(std::move(row));
     }
+    const Json senders = senderRows(name, chain->senders);
+    if (!o.json) {
+        fmt::print("\n");
+        printTitles(kSenderColumns);
+        for (const Json& row : senders)
+            printRow(kSenderColumns, row);
+    }
+    if (const Exit exit = writeRows(senders, o.output, "senders", false); exit != Exit::Done)
+        return exit;
     return writeRows(rows, o.output, "energy", o.json);
 }
 
@@ -114,7 +130,9 @@ void addEnergyBench(CLI::App& bench, Run& run) {
     addSceneOptions(*command, o->scene);
     addCameraOptions(*command, o->camera);
     addBakeOptions(*command, o->bake);
-    command->add_option("-o,--output", o->output, "Folder for energy.csv and energy.json")
+    command
+        ->add_option("-o,--output", o->output,
+                     "Folder for energy.csv and .json, senders.csv and .json")
         ->required();
     command->add_option("--paths", o->paths, "Paths per pixel and per surfel")
         ->check(CLI::Range(1, 1 << 20));

@@ -6,11 +6,17 @@
 #include "engine/measure/seen_points.h"
 #include "engine/reference/direct_light.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
+#include "engine/techniques/illuminance/bake/transport/gather.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <numeric>
 #include <optional>
 
 #include <glm/common.hpp>
@@ -23,6 +29,10 @@ namespace {
 constexpr std::uint32_t kGrain = 64; ///< pixels or surfels
 
 using Irradiances = std::vector<glm::vec3>;
+
+double sumOf(glm::vec3 v) {
+    return double(v.x) + double(v.y) + double(v.z);
+}
 
 struct Chain {
     const TraceScene& trace;
@@ -37,8 +47,11 @@ struct Chain {
     glm::vec3 truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) const;
     std::optional<Irradiances> atTexels() const;
     std::optional<std::vector<glm::vec4>> trueRadiosity() const;
+    std::optional<std::vector<SendersAt>> sendersAt(const std::vector<glm::vec4>& leaves,
+                                                    double truth) const;
     Irradiances gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const;
     Irradiances relit(const std::shared_ptr<const Bake>& bake) const;
+    Bilinear lookUp(const Hit& hit) const;
     std::uint32_t pickCache(const Bilinear& lookup, float u) const;
     SurfacePoint pointOf(std::uint32_t cache, float u, SurfacePoint p) const;
 };
@@ -83,7 +96,7 @@ std::uint32_t Chain::pickCache(const Bilinear& lookup, float u) const {
 /// give irradiance for any normal. Own caches, which fill some texels, use their middle as the only
 /// point.
 SurfacePoint Chain::pointOf(std::uint32_t cache, float u, SurfacePoint p) const {
-    const CachePoints& points = bakes.points;
+    const CachePoints& points = bakes.senders.lightmap;
     if (cache + 1 >= points.begin.size()) {
         p.position = bakes.bake->caches.position[cache];
         p.geometricNormal = bakes.bake->caches.normal[cache];
@@ -96,17 +109,20 @@ SurfacePoint Chain::pointOf(std::uint32_t cache, float u, SurfacePoint p) const 
     return p;
 }
 
-std::optional<Irradiances> Chain::atTexels() const {
+/// The lookup of a point that the camera sees.
+Bilinear Chain::lookUp(const Hit& hit) const {
     const LightmapLayout& layout = bakes.bake->lightmap;
+    const std::uint32_t mesh = trace.scene().instances[hit.instance].mesh;
+    return bilinearAt(
+        layout, lightmapUv(layout, hit.instance, mesh, hit.triangle, hit.u, hit.v, !hit.frontFace));
+}
+
+std::optional<Irradiances> Chain::atTexels() const {
     Irradiances result(seen.size());
     const bool done = parallelRanges(
         seen.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const Hit& hit = seen[i].hit;
-                const std::uint32_t mesh = trace.scene().instances[hit.instance].mesh;
-                const Bilinear lookup =
-                    bilinearAt(layout, lightmapUv(layout, hit.instance, mesh, hit.triangle, hit.u,
-                                                  hit.v, !hit.frontFace));
+                const Bilinear lookup = lookUp(seen[i].hit);
                 const std::uint32_t seed = mixBits(options.seed + 17, std::uint32_t(i));
                 for (std::uint32_t s = 0; s < options.paths; ++s) {
                     const glm::vec2 u = Sampler{seed, s}.pair(0);
@@ -164,6 +180,78 @@ std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     return done ? std::optional(std::move(leaves)) : std::nullopt;
 }
 
+/// Upper ends of the ranges of SendersAt.
+constexpr std::array<float, 6> kDistances = {
+    1 / 16.f, 1 / 4.f, 1, 4, 16, std::numeric_limits<float>::infinity()};
+
+/// Sums over rays that met surfels from one range of distances.
+struct SenderSums {
+    double light = 0, excess = 0, squares = 0;
+};
+using SumsByDistance = std::array<SenderSums, kDistances.size()>;
+
+/// One ray from one of the pixel's caches for each path. `truth`: the reference's irradiance,
+/// summed over pixels and colours.
+std::optional<std::vector<SendersAt>> Chain::sendersAt(const std::vector<glm::vec4>& leaves,
+                                                       double truth) const {
+    const Bake& bake = *bakes.bake;
+    const BakedSenders& senders = bakes.senders;
+    const RayGatherer gatherer(trace, senders.set, bake.caches, senders.lightmap, 1,
+                               senders.owners);
+    const auto addRay = [&](const SurfacePoint& from, const Sampler& sampler,
+                            SumsByDistance& sums) {
+        const glm::vec3 direction = sampleCosineHemisphere(from.normal, sampler.pair(1));
+        if (!(glm::dot(direction, from.geometricNormal) > 0))
+            return;
+        const Hit hit = trace.closestHit(
+            {trace.clearOf(from.position, from.geometricNormal), direction}, TraceMask::Static);
+        const std::optional<SurfacePoint> met = hit ? surfacePoint(trace, hit) : std::nullopt;
+        if (!met)
+            return;
+        std::uint64_t rays = 0;
+        const RawHit surfel = gatherer.credit(hit, direction);
+        const glm::vec3 E = directIrradiance(trace, *met, rays) +
+                            sampleIndirectIrradiance(paths, *met, sampler, rays);
+        const double light = sumOf(met->albedo * E + std::numbers::pi_v<float> * met->emission),
+                     excess = sumOf(glm::vec3(leaves[surfel])) - light;
+        const float distance = hit.t / std::sqrt(bake.surfels.area[surfel]);
+        SenderSums& at =
+            sums[std::size_t(std::ranges::upper_bound(kDistances, distance) - kDistances.begin())];
+        at.light += light;
+        at.excess += excess;
+        at.squares += excess * excess;
+    };
+    std::vector<SumsByDistance> blocks((seen.size() + kGrain - 1) / kGrain);
+    const auto addPixel = [&](std::size_t i) {
+        const Bilinear lookup = lookUp(seen[i].hit);
+        const std::uint32_t seed = mixBits(options.seed + 41, std::uint32_t(i));
+        for (std::uint32_t s = 0; s < options.paths; ++s) {
+            const glm::vec2 u = Sampler{seed, s}.pair(0);
+            if (const std::uint32_t cache = pickCache(lookup, u.x); cache != ~0U)
+                addRay(pointOf(cache, u.y, seen[i].surface), {seed, s}, blocks[i / kGrain]);
+        }
+    };
+    if (!parallelRanges(
+            blocks.size(), 1, progress, "senders", [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin * kGrain; i < std::min(end * kGrain, seen.size()); ++i)
+                    addPixel(i);
+            }))
+        return std::nullopt;
+    std::vector<SendersAt> result;
+    for (std::size_t k = 0; k < kDistances.size(); ++k) {
+        SenderSums sum;
+        for (const SumsByDistance& block : blocks) {
+            sum.light += block[k].light;
+            sum.excess += block[k].excess;
+            sum.squares += block[k].squares;
+        }
+        const double scale = 1 / (double(options.paths) * std::max(truth, 1e-300));
+        result.push_back({k > 0 ? kDistances[k - 1] : 0, kDistances[k], sum.light * scale,
+                          sum.excess * scale, std::sqrt(sum.squares) * scale});
+    }
+    return result;
+}
+
 Irradiances Chain::gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const {
     const int bands = std::min(int(bake.settings.bands), kIrradianceBands);
     const auto n = std::size_t(bands * bands);
@@ -196,10 +284,6 @@ Irradiances Chain::relit(const std::shared_ptr<const Bake>& bake) const {
         if (relighter.relight(trace.scene(), trace, 64, progress).converged)
             break;
     return lookUpIrradiance(relighter.field(), bake->lightmap, trace.scene(), seen);
-}
-
-double sumOf(glm::vec3 v) {
-    return double(v.x) + double(v.y) + double(v.z);
 }
 
 EnergyStep compareStep(std::string name, const Irradiances& E, const Irradiances& truth) {
@@ -238,6 +322,11 @@ EnergyChain measureEnergyChain(const TraceScene& trace, const EnergyBakes& bakes
     Irradiances truth(first->size());
     for (std::size_t i = 0; i < truth.size(); ++i)
         truth[i] = ((*first)[i] + (*second)[i]) / 2.f;
+    const double sum = std::transform_reduce(truth.begin(), truth.end(), 0., std::plus<>(), sumOf);
+    const auto senders = chain.sendersAt(*leaves, sum);
+    if (!senders)
+        return result;
+    result.senders = *senders;
     result.noise = std::abs(compareStep("", *first, truth).energy - 1);
     result.steps = {compareStep("reference", *first, truth),
                     compareStep("texels", *texels, truth),

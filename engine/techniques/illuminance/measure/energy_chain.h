@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
+#include "engine/techniques/illuminance/measure/baked_senders.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/trace/trace_scene.h"
 
@@ -20,6 +20,14 @@ struct EnergyStep {
     double nrmse = 0;  ///< rms(E - E_ref) / mean(E_ref), with the noise of both
 };
 
+/// The surfels that the pixels' caches see from one range of distances.
+struct SendersAt {
+    float from = 0, to = 0; ///< distance in widths of the surfel's patch, sqrt(area); `to` excluded
+    double share = 0;       ///< irradiance from the points seen, path-traced / the reference's
+    double excess = 0;      ///< the same for light of their surfels, path-traced, minus `share`
+    double noise = 0;       ///< standard error of `excess`
+};
+
 struct EnergyOptions {
     Camera camera;
     std::uint32_t width = 160, height = 90; ///< one surface point for each pixel
@@ -34,6 +42,9 @@ struct EnergyChain {
     /// "cut": the same through the bake's own links. "bounces": relighting, as in the picture.
     /// "bounces, uncut": relighting through one link for each sender.
     std::vector<EnergyStep> steps;
+    /// By ascending distance. Their `excess` sums to about what "surfels" gains over "texels".
+    /// Light of the sky is not among them.
+    std::vector<SendersAt> senders;
     double noise = 0;         ///< standard error of the reference's mean, relative
     std::uint64_t pixels = 0; ///< number that see a surface with a lightmap
     bool complete = false;    ///< false when cancelled
@@ -43,7 +54,7 @@ struct EnergyChain {
 struct EnergyBakes {
     std::shared_ptr<const Bake> bake;
     std::shared_ptr<const Bake> uncut; ///< same scene, CutCriterion::SolidAngle and 4096 links
-    const CachePoints& points;         ///< of the lightmap's caches, without own caches
+    const BakedSenders& senders;       ///< of `bake`
 };
 
 /// Replaces the chain from surfels to picture by path tracing one step at a time, and measures the

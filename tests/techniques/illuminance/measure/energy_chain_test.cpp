@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/measure/energy_chain.h"
 
-#include "engine/lightmap/atlas_stage.h"
-#include "engine/scene/mesh/input_hash.h"
+#include "engine/stages/stage_store.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace limn::energy_chain_test {
 namespace {
@@ -35,13 +36,6 @@ Scene furnace() {
 struct Measured {
     Scene scene = furnace();
     TraceScene trace{scene};
-    CachePoints points;
-
-    Measured() {
-        std::uint64_t rays = 0;
-        const auto atlas = atlasStage(trace, scene, hashMeshes(scene), {}, nullptr, rays);
-        placeCaches(scene, atlas->atlas, points);
-    }
     Bake baked(CutCriterion cut, std::uint32_t links) const {
         BakeSettings settings = scene.bake;
         settings.cut = cut;
@@ -51,26 +45,32 @@ struct Measured {
     Bake cut() const { return baked(CutCriterion::Detail, 32); }
     Bake uncut() const { return baked(CutCriterion::SolidAngle, 4096); }
 
-    /// By name.
-    std::map<std::string, EnergyStep> steps(Bake bake, Bake all) const {
+    EnergyChain chain(Bake bake, Bake all) const {
         EnergyOptions options;
         options.camera.eye = {2, 1.5f, 2};
         options.camera.target = {0.3f, 0.2f, 0.5f};
         options.width = 32;
         options.height = 18;
         options.paths = 64;
-        const EnergyChain chain =
+        StageStore store;
+        const BakedSenders senders(trace, scene, bake, store);
+        EnergyChain chain =
             measureEnergyChain(trace,
                                {std::make_shared<const Bake>(std::move(bake)),
-                                std::make_shared<const Bake>(std::move(all)), points},
+                                std::make_shared<const Bake>(std::move(all)), senders},
                                options);
         EXPECT_TRUE(chain.complete);
         EXPECT_EQ(chain.pixels, 32U * 18);
         EXPECT_LT(chain.noise, 0.01);
+        EXPECT_EQ(chain.steps.size(), 6U);
+        return chain;
+    }
+
+    /// By name.
+    std::map<std::string, EnergyStep> steps(Bake bake, Bake all) const {
         std::map<std::string, EnergyStep> result;
-        for (const EnergyStep& s : chain.steps)
+        for (const EnergyStep& s : chain(std::move(bake), std::move(all)).steps)
             result[s.name] = s;
-        EXPECT_EQ(result.size(), 6U);
         return result;
     }
 };
@@ -109,12 +109,53 @@ TEST(EnergyChain, ALossIsShownAtTheStepThatHasIt) {
     EXPECT_NEAR(others.at("bounces").energy, 1, 0.01);
 }
 
+TEST(EnergyChain, SendersOfAllDistancesAreRightInAFurnace) {
+    const Measured m;
+    const std::vector<SendersAt> senders = m.chain(m.cut(), m.uncut()).senders;
+    double share = 0;
+    float end = 0;
+    for (const SendersAt& s : senders) {
+        EXPECT_EQ(s.from, end);
+        EXPECT_NEAR(s.excess, 0, 1e-3 + 0.02 * s.share) << s.from;
+        share += s.share;
+        end = s.to;
+    }
+    EXPECT_EQ(end, std::numeric_limits<float>::infinity());
+    EXPECT_NEAR(share, 1, 0.01);
+}
+
+// Far outside the box there is no light, and surfels are left with what they emit: pi L of 2 pi L.
+TEST(EnergyChain, ALackOfLightIsShownAtEveryDistanceThatHasIt) {
+    const Measured m;
+    Bake dark = m.cut();
+    for (glm::vec3& p : dark.surfels.position)
+        p += glm::vec3(100);
+    dark.surfels.lightPoints.clear();
+    for (const SendersAt& s : m.chain(dark, m.uncut()).senders)
+        EXPECT_NEAR(s.excess, -s.share / 2, 1e-3 + 0.02 * s.share) << s.from;
+}
+
+TEST(EnergyChain, DistancesOfSendersAreInWidthsOfTheirPatches) {
+    const Measured m;
+    Bake narrow = m.cut();
+    for (float& area : narrow.surfels.area)
+        area /= 256;
+    const std::vector<SendersAt> wide = m.chain(m.cut(), m.uncut()).senders,
+                                 times16 = m.chain(narrow, m.uncut()).senders;
+    for (std::size_t k = 0; k + 3 < wide.size(); ++k) { // two ranges are a factor of 16
+        EXPECT_EQ(16 * wide[k].to, times16[k + 2].to);
+        EXPECT_NEAR(wide[k].share, times16[k + 2].share, k > 0 ? 1e-9 : 0.01) << k;
+    }
+}
+
 TEST(EnergyChain, ACancelledMeasurementIsNotComplete) {
     const Measured m;
     const std::atomic<bool> cancel = true;
     const Progress progress{.report = {}, .cancel = &cancel};
     const auto bake = std::make_shared<const Bake>(m.cut());
-    EXPECT_FALSE(measureEnergyChain(m.trace, {bake, bake, m.points}, {}, progress).complete);
+    StageStore store;
+    const BakedSenders senders(m.trace, m.scene, *bake, store);
+    EXPECT_FALSE(measureEnergyChain(m.trace, {bake, bake, senders}, {}, progress).complete);
 }
 
 } // namespace
