@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lightmap/texel_cover.h"
+#include "engine/trace/trace_scene.h"
 
 #include <algorithm>
 #include <atomic>
@@ -275,6 +276,11 @@ glm::vec2 unsnappedUv(const LightmapLayout& layout, std::uint32_t instance, std:
 glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
                      std::uint32_t triangle, float u, float v, bool back) {
     return snapLookup(layout, unsnappedUv(layout, instance, mesh, triangle, u, v, back));
+}
+
+Bilinear bilinearAt(const LightmapLayout& layout, const Scene& scene, const SurfaceHit& hit) {
+    return bilinearAt(layout, lightmapUv(layout, hit.instance, scene.instances[hit.instance].mesh,
+                                         hit.triangle, hit.u, hit.v, !hit.frontFace));
 }
 
 } // namespace limn

@@ -11,6 +11,8 @@
 
 namespace limn {
 
+struct SurfaceHit;
+
 /// A texel that a bilinear lookup can read, with sample points on the side of the surface that it
 /// represents: points spread over the part of the surface inside the texel, or the closest surface
 /// point if there is none inside.
@@ -97,5 +99,8 @@ glm::vec2 unsnappedUv(const LightmapLayout& layout, std::uint32_t instance, std:
 /// lightmap.
 glm::vec2 lightmapUv(const LightmapLayout& layout, std::uint32_t instance, std::uint32_t mesh,
                      std::uint32_t triangle, float u, float v, bool back);
+
+/// The lookup at the side of a surface that a ray met. Precondition: its instance has a lightmap.
+Bilinear bilinearAt(const LightmapLayout& layout, const Scene& scene, const SurfaceHit& hit);
 
 } // namespace limn

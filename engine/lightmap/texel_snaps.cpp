@@ -238,8 +238,8 @@ std::uint32_t Snapper::snapAt(const Quad& quad, int cell) const {
     return chooseSnap(m_sides, m_side, quad.texel, from, f);
 }
 
-/// Evaluates every other cell along each side, the last one too, and then the cells between cells
-/// that differ. Between cells that are alike, the snap is theirs.
+/// Evaluates the cells of every other row and column, and of the last ones. Of the cells between,
+/// only those whose neighbours differ are evaluated; all others have the snap of their neighbours.
 CellSnaps Snapper::snapsOf(const Quad& quad) const {
     constexpr int kLast = kCells - 1;
     const auto evaluated = [](int i) { return i % 2 == 0 || i == kLast; };

@@ -63,13 +63,10 @@ ReceiverAt::ReceiverAt(const LightmapLayout& layout, const Receivers& receivers)
 }
 
 std::uint32_t ReceiverAt::operator()(const Scene& scene, const Hit& hit) const {
-    const Instance& instance = scene.instances[hit.instance];
-    const bool back = !hit.frontFace;
-    if ((back && !isTwoSided(scene.materialOf(instance))) ||
+    if ((!hit.frontFace && !isTwoSided(scene.materialOf(scene.instances[hit.instance]))) ||
         m_layout.instances[hit.instance].uv.empty())
         return kNone;
-    const Bilinear lookup = bilinearAt(m_layout, lightmapUv(m_layout, hit.instance, instance.mesh,
-                                                            hit.triangle, hit.u, hit.v, back));
+    const Bilinear lookup = bilinearAt(m_layout, scene, hit);
     std::uint32_t found = kNone;
     float most = 0;
     for (int k = 0; k < 4; ++k)

@@ -34,6 +34,16 @@ double sumOf(glm::vec3 v) {
     return double(v.x) + double(v.y) + double(v.z);
 }
 
+/// Upper ends of the ranges of SendersAt.
+constexpr std::array<float, 6> kDistances = {
+    1 / 16.f, 1 / 4.f, 1, 4, 16, std::numeric_limits<float>::infinity()};
+
+/// Sums over the rays that meet surfels within one range of distances.
+struct SenderSums {
+    double light = 0, excess = 0, squares = 0;
+};
+using SumsByDistance = std::array<SenderSums, kDistances.size()>;
+
 struct Chain {
     const TraceScene& trace;
     const EnergyBakes& bakes;
@@ -51,7 +61,11 @@ struct Chain {
                                                     double truth) const;
     Irradiances gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const;
     Irradiances relit(const std::shared_ptr<const Bake>& bake) const;
-    Bilinear lookUp(const Hit& hit) const;
+    template <class Visit>
+    void forEachStart(std::size_t pixel, std::uint32_t salt, const Visit& visit) const;
+    void addSender(const RayGatherer& gatherer, const std::vector<glm::vec4>& leaves,
+                   const SurfacePoint& from, std::uint32_t seed, std::uint32_t sample,
+                   SumsByDistance& sums) const;
     std::uint32_t pickCache(const Bilinear& lookup, float u) const;
     SurfacePoint pointOf(std::uint32_t cache, float u, SurfacePoint p) const;
 };
@@ -109,30 +123,28 @@ SurfacePoint Chain::pointOf(std::uint32_t cache, float u, SurfacePoint p) const 
     return p;
 }
 
-/// The lookup of a point that the camera sees.
-Bilinear Chain::lookUp(const Hit& hit) const {
-    const LightmapLayout& layout = bakes.bake->lightmap;
-    const std::uint32_t mesh = trace.scene().instances[hit.instance].mesh;
-    return bilinearAt(
-        layout, lightmapUv(layout, hit.instance, mesh, hit.triangle, hit.u, hit.v, !hit.frontFace));
+/// Calls visit(point, seed, sample) for each path of a pixel: with a random point of one of the
+/// caches that it looks up, and the numbers of a Sampler whose first dimension chose that.
+template <class Visit>
+void Chain::forEachStart(std::size_t pixel, std::uint32_t salt, const Visit& visit) const {
+    const Bilinear lookup = bilinearAt(bakes.bake->lightmap, trace.scene(), seen[pixel].hit);
+    const std::uint32_t seed = mixBits(options.seed + salt, std::uint32_t(pixel));
+    for (std::uint32_t s = 0; s < options.paths; ++s) {
+        const glm::vec2 u = Sampler{seed, s}.pair(0);
+        if (const std::uint32_t cache = pickCache(lookup, u.x); cache != ~0U)
+            visit(pointOf(cache, u.y, seen[pixel].surface), seed, s);
+    }
 }
 
 std::optional<Irradiances> Chain::atTexels() const {
     Irradiances result(seen.size());
     const bool done = parallelRanges(
         seen.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Bilinear lookup = lookUp(seen[i].hit);
-                const std::uint32_t seed = mixBits(options.seed + 17, std::uint32_t(i));
-                for (std::uint32_t s = 0; s < options.paths; ++s) {
-                    const glm::vec2 u = Sampler{seed, s}.pair(0);
-                    const std::uint32_t cache = pickCache(lookup, u.x);
-                    if (cache == ~0U)
-                        continue;
-                    result[i] +=
-                        truth(pointOf(cache, u.y, seen[i].surface), seed, s) / float(options.paths);
-                }
-            }
+            for (std::size_t i = begin; i < end; ++i)
+                forEachStart(i, 17,
+                             [&](const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) {
+                                 result[i] += truth(p, seed, sample) / float(options.paths);
+                             });
         });
     return done ? std::optional(std::move(result)) : std::nullopt;
 }
@@ -180,63 +192,52 @@ std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     return done ? std::optional(std::move(leaves)) : std::nullopt;
 }
 
-/// Upper ends of the ranges of SendersAt.
-constexpr std::array<float, 6> kDistances = {
-    1 / 16.f, 1 / 4.f, 1, 4, 16, std::numeric_limits<float>::infinity()};
+/// Adds what a random ray from `from` meets. `leaves`: of trueRadiosity().
+void Chain::addSender(const RayGatherer& gatherer, const std::vector<glm::vec4>& leaves,
+                      const SurfacePoint& from, std::uint32_t seed, std::uint32_t sample,
+                      SumsByDistance& sums) const {
+    const glm::vec3 direction = sampleCosineHemisphere(from.normal, Sampler{seed, sample}.pair(1));
+    if (!(glm::dot(direction, from.geometricNormal) > 0))
+        return;
+    const Hit hit = trace.closestHit(
+        {trace.clearOf(from.position, from.geometricNormal), direction}, TraceMask::Static);
+    const std::optional<SurfacePoint> met = hit ? surfacePoint(trace, hit) : std::nullopt;
+    if (!met)
+        return;
+    std::uint64_t rays = 0;
+    const glm::vec3 E = directIrradiance(trace, *met, rays) + truth(*met, seed, sample);
+    const RawHit surfel = gatherer.credit(hit, direction);
+    const double light = sumOf(met->albedo * E + std::numbers::pi_v<float> * met->emission),
+                 excess = sumOf(glm::vec3(leaves[surfel])) - light;
+    const float distance = hit.t / std::sqrt(bakes.bake->surfels.area[surfel]);
+    SenderSums& at =
+        sums[std::size_t(std::ranges::upper_bound(kDistances, distance) - kDistances.begin())];
+    at.light += light;
+    at.excess += excess;
+    at.squares += excess * excess;
+}
 
-/// Sums over rays that met surfels from one range of distances.
-struct SenderSums {
-    double light = 0, excess = 0, squares = 0;
-};
-using SumsByDistance = std::array<SenderSums, kDistances.size()>;
-
-/// One ray from one of the pixel's caches for each path. `truth`: the reference's irradiance,
-/// summed over pixels and colours.
+/// Traces one ray for each path of each pixel. `truth`: the reference's irradiance, summed over
+/// pixels and colours.
 std::optional<std::vector<SendersAt>> Chain::sendersAt(const std::vector<glm::vec4>& leaves,
                                                        double truth) const {
-    const Bake& bake = *bakes.bake;
     const BakedSenders& senders = bakes.senders;
-    const RayGatherer gatherer(trace, senders.set, bake.caches, senders.lightmap, 1,
+    const RayGatherer gatherer(trace, senders.set, bakes.bake->caches, senders.lightmap, 1,
                                senders.owners);
-    const auto addRay = [&](const SurfacePoint& from, const Sampler& sampler,
-                            SumsByDistance& sums) {
-        const glm::vec3 direction = sampleCosineHemisphere(from.normal, sampler.pair(1));
-        if (!(glm::dot(direction, from.geometricNormal) > 0))
-            return;
-        const Hit hit = trace.closestHit(
-            {trace.clearOf(from.position, from.geometricNormal), direction}, TraceMask::Static);
-        const std::optional<SurfacePoint> met = hit ? surfacePoint(trace, hit) : std::nullopt;
-        if (!met)
-            return;
-        std::uint64_t rays = 0;
-        const RawHit surfel = gatherer.credit(hit, direction);
-        const glm::vec3 E = directIrradiance(trace, *met, rays) +
-                            sampleIndirectIrradiance(paths, *met, sampler, rays);
-        const double light = sumOf(met->albedo * E + std::numbers::pi_v<float> * met->emission),
-                     excess = sumOf(glm::vec3(leaves[surfel])) - light;
-        const float distance = hit.t / std::sqrt(bake.surfels.area[surfel]);
-        SenderSums& at =
-            sums[std::size_t(std::ranges::upper_bound(kDistances, distance) - kDistances.begin())];
-        at.light += light;
-        at.excess += excess;
-        at.squares += excess * excess;
-    };
     std::vector<SumsByDistance> blocks((seen.size() + kGrain - 1) / kGrain);
     const auto addPixel = [&](std::size_t i) {
-        const Bilinear lookup = lookUp(seen[i].hit);
-        const std::uint32_t seed = mixBits(options.seed + 41, std::uint32_t(i));
-        for (std::uint32_t s = 0; s < options.paths; ++s) {
-            const glm::vec2 u = Sampler{seed, s}.pair(0);
-            if (const std::uint32_t cache = pickCache(lookup, u.x); cache != ~0U)
-                addRay(pointOf(cache, u.y, seen[i].surface), {seed, s}, blocks[i / kGrain]);
-        }
+        forEachStart(i, 41, [&](const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) {
+            addSender(gatherer, leaves, p, seed, sample, blocks[i / kGrain]);
+        });
     };
-    if (!parallelRanges(
-            blocks.size(), 1, progress, "senders", [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin * kGrain; i < std::min(end * kGrain, seen.size()); ++i)
-                    addPixel(i);
-            }))
+    const bool done = parallelRanges(
+        blocks.size(), 1, progress, "senders", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin * kGrain; i < std::min(end * kGrain, seen.size()); ++i)
+                addPixel(i);
+        });
+    if (!done)
         return std::nullopt;
+    const double scale = 1 / (double(options.paths) * std::max(truth, 1e-300));
     std::vector<SendersAt> result;
     for (std::size_t k = 0; k < kDistances.size(); ++k) {
         SenderSums sum;
@@ -245,7 +246,6 @@ std::optional<std::vector<SendersAt>> Chain::sendersAt(const std::vector<glm::ve
             sum.excess += block[k].excess;
             sum.squares += block[k].squares;
         }
-        const double scale = 1 / (double(options.paths) * std::max(truth, 1e-300));
         result.push_back({k > 0 ? kDistances[k - 1] : 0, kDistances[k], sum.light * scale,
                           sum.excess * scale, std::sqrt(sum.squares) * scale});
     }

@@ -20,12 +20,13 @@ struct EnergyStep {
     double nrmse = 0;  ///< rms(E - E_ref) / mean(E_ref), with the noise of both
 };
 
-/// The surfels that the pixels' caches see from one range of distances.
+/// Light of the surfels that caches see from one range of distances, of the caches that the
+/// camera's pixels look up.
 struct SendersAt {
     float from = 0, to = 0; ///< distance in widths of the surfel's patch, sqrt(area); `to` excluded
-    double share = 0;       ///< irradiance from the points seen, path-traced / the reference's
-    double excess = 0;      ///< the same for light of their surfels, path-traced, minus `share`
-    double noise = 0;       ///< standard error of `excess`
+    double share = 0;  ///< irradiance that the points seen bring, path-traced / the reference's
+    double excess = 0; ///< the same if these had the light of their surfels, minus `share`
+    double noise = 0;  ///< standard error of `excess`
 };
 
 struct EnergyOptions {

@@ -71,9 +71,7 @@ std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, const
     const LightmapLayout& layout = bake.lightmap;
     if (hit.instance >= layout.instances.size() || layout.instances[hit.instance].uv.empty())
         return gridCacheAt(bake, hit.position);
-    const std::uint32_t mesh = scene.instances[hit.instance].mesh;
-    const Bilinear b = bilinearAt(
-        layout, lightmapUv(layout, hit.instance, mesh, hit.triangle, hit.u, hit.v, !hit.frontFace));
+    const Bilinear b = bilinearAt(layout, scene, hit);
     const auto strongest = std::max_element(b.weight, b.weight + 4) - b.weight;
     const auto end = bake.caches.texel.begin() + bake.caches.lightmapCount;
     const auto at = std::find(bake.caches.texel.begin(), end, b.texel[strongest]);

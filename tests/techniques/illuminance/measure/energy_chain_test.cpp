@@ -36,6 +36,7 @@ Scene furnace() {
 struct Measured {
     Scene scene = furnace();
     TraceScene trace{scene};
+
     Bake baked(CutCriterion cut, std::uint32_t links) const {
         BakeSettings settings = scene.bake;
         settings.cut = cut;
