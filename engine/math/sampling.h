@@ -43,23 +43,42 @@ inline glm::mat3 basisAround(glm::vec3 n) {
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-/// A set of `count` well-spread directions of equal solid angle: the Fibonacci lattice about z,
-/// rotated by a hash of `seed`. Heights are the middles of equal strata, so the mean of z is exact
-/// and the cosine-weighted sum of a constant has no error. Covers the sphere if `sphere`, else the
-/// hemisphere z > 0. Each direction has solid angle (sphere ? 4 pi : 2 pi) / count.
+/// A set of `count` well-spread directions: the Fibonacci lattice about z, rotated by a hash of
+/// `seed`. Covers the sphere if `sphere`, else the hemisphere z > 0. Each direction stands for a
+/// stratum of heights and lies in its middle, so the sums of solid angles, and of solid angles
+/// times z, have no error. Of a hemisphere's directions, the share `even` is spread evenly over
+/// solid angle, and the others in proportion to z.
 struct DirectionSet {
     std::uint32_t count;
     bool sphere;
     float turn;
+    float even; ///< in (0, 1]; 1 for a sphere
 
-    DirectionSet(std::uint32_t n, bool wholeSphere, std::uint32_t seed)
-        : count(n), sphere(wholeSphere), turn(unitFloat(mixBits(seed))) {}
+    DirectionSet(std::uint32_t n, bool wholeSphere, std::uint32_t seed, float evenShare = 1)
+        : count(n), sphere(wholeSphere), turn(unitFloat(mixBits(seed))),
+          even(wholeSphere ? 1 : evenShare) {}
 
-    /// z of direction i.
-    float height(std::uint32_t i) const {
-        const float stratum = (float(i) + 0.5f) / float(count);
-        return sphere ? 1 - 2 * stratum : 1 - stratum;
+    /// Upper bound of direction i's stratum of heights: the share i / count lies above it.
+    float bound(std::uint32_t i) const {
+        const float below = float(count - i) / float(count); // share
+        if (sphere)
+            return 2 * below - 1;
+        return 2 * below / (even + std::sqrt(even * even + 4 * (1 - even) * below));
     }
+    /// Share of the directions above height z. Inverts bound().
+    float above(float z) const {
+        return sphere ? (1 - z) / 2 : (1 - z) * (even + (1 - even) * (1 + z));
+    }
+    /// Number of directions per solid angle at height z [1/sr].
+    float density(float z) const {
+        const float all = (sphere ? 4 : 2) * std::numbers::pi_v<float>; // [sr]
+        return float(count) / all * (even + 2 * (1 - even) * z);
+    }
+    /// z of direction i.
+    float height(std::uint32_t i) const { return (bound(i) + bound(i + 1)) / 2; }
+    /// Solid angle that direction i stands for [sr]. That of its stratum: above() is a quadratic,
+    /// so its slope in the middle of a stratum is the mean slope.
+    float solidAngle(std::uint32_t i) const { return 1 / density(height(i)); }
     glm::vec3 operator[](std::uint32_t i) const {
         const double golden = std::numbers::phi - 1;
         const float z = height(i);
@@ -69,7 +88,6 @@ struct DirectionSet {
         const float r = std::sqrt(std::fmax(0.f, 1 - z * z));
         return {r * std::cos(angle), r * std::sin(angle), z};
     }
-    float solidAngle() const { return (sphere ? 4 : 2) * std::numbers::pi_v<float> / float(count); }
 };
 
 /// Maps (x, y) in [0, 1)^2 to a point uniform in the area of a triangle: barycentrics (u, v),

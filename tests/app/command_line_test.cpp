@@ -529,8 +529,9 @@ TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndOccludesTheLightWhereverItIs) {
                                  "--dynamic 'Short block@0.3,0.7,0.3' -o ";
     ASSERT_EQ(limn(onDevice + a + " --relight cpu").exit, 0);
     ASSERT_EQ(limn(onDevice + b + " --relight gpu").exit, 0);
-    // The room's light is an emitter: nothing but rounding can differ.
-    EXPECT_LT(json("compare " + b + " " + a + " --json")["nrmse"], 1e-5);
+    // The room's light is an emitter: nothing but rounding can differ. Four larger bakes differ by
+    // 1e-6 to 8e-6.
+    EXPECT_LT(json("compare " + b + " " + a + " --json")["nrmse"], 4e-5);
     ASSERT_EQ(limn(onDevice + b + " --relight gpu --no-dimming").exit, 0);
     EXPECT_GT(json("compare " + b + " " + a + " --json")["nrmse"], 0.05);
 }

@@ -66,7 +66,7 @@ TEST(CellLobes, AreTwoBandsOfAClampedCosine) {
     for (std::uint32_t i = 0; i < directions.count; ++i) {
         const float value = valueOf(sums[0].lobe, directions[i]);
         EXPECT_NEAR(value, 0.25f + 0.5f * glm::dot(n, directions[i]), 1e-6f);
-        flux += double(value * directions.solidAngle());
+        flux += double(value * directions.solidAngle(i));
     }
     EXPECT_NEAR(flux, std::numbers::pi, 1e-5);
 }

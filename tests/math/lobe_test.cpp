@@ -114,7 +114,7 @@ TEST(Lobe, SeesOfAHemisphereWhatItsHarmonicsHave) {
         float y[kMaxCoefficients];
         shBasis(kMaxBands, basisAround(normal) * set[i], y);
         for (int k = 0; k < kMaxCoefficients; ++k)
-            c[std::size_t(k)] += y[k] * set.solidAngle();
+            c[std::size_t(k)] += y[k] * set.solidAngle(i);
     }
     for (int bands = 2; bands <= kMaxBands; ++bands)
         for (const float n : {1.f, 5.f, 60.f})

@@ -102,6 +102,59 @@ TEST(DirectionSet, CoversTheHemisphereEvenly) {
     }
 }
 
+TEST(DirectionSet, SumsOfSolidAnglesHaveNoError) {
+    for (const bool sphere : {false, true})
+        for (const float even : {1.f, 0.5f, 0.01f})
+            for (const std::uint32_t count : {1U, 7U, 256U, 4096U}) {
+                const DirectionSet set(count, sphere, 3, even);
+                double angle = 0, cosine = 0;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    angle += double(set.solidAngle(i));
+                    cosine += double(set.solidAngle(i)) * std::abs(double(set.height(i)));
+                    EXPECT_NEAR(set[i].z, set.height(i), 1e-6f);
+                    EXPECT_NEAR(set.above(set.bound(i)), float(i) / float(count), 1e-6f);
+                }
+                EXPECT_NEAR(angle, (sphere ? 4 : 2) * std::numbers::pi, 1e-5);
+                if (!sphere || count % 2 == 0) {
+                    EXPECT_NEAR(cosine, (sphere ? 2 : 1) * std::numbers::pi, 1e-5);
+                }
+            }
+}
+
+TEST(DirectionSet, HasTheDensityItSays) {
+    const std::uint32_t count = 40000;
+    for (const float even : {1.f, 0.5f, 0.1f}) {
+        const DirectionSet set(count, false, 3, even);
+        for (float z = 0.05f; z < 1; z += 0.1f) { // rings of a tenth, each of 2 pi / 10 sr
+            std::uint32_t inRing = 0;
+            for (std::uint32_t i = 0; i < count; ++i)
+                inRing += std::abs(set[i].z - z) < 0.05f ? 1 : 0;
+            const double expected = double(set.density(z)) * 2 * std::numbers::pi / 10;
+            EXPECT_NEAR(inRing, expected, 2) << even << " " << z;
+        }
+    }
+}
+
+TEST(DirectionSet, FindsTheIrradianceOfALampAtEveryHeight) {
+    const double half = 0.1, solidAngle = 2 * std::numbers::pi * (1 - std::cos(half));
+    for (const double height : {0.15, 0.4, 0.7, 0.95}) {
+        const glm::vec3 lamp(std::sqrt(1 - height * height), 0, height);
+        for (const float even : {1.f, 0.5f}) {
+            double mean = 0;
+            constexpr std::uint32_t kSets = 400;
+            for (std::uint32_t seed = 0; seed < kSets; ++seed) {
+                const DirectionSet set(256, false, seed, even);
+                for (std::uint32_t i = 0; i < set.count; ++i)
+                    if (double(glm::dot(set[i], lamp)) > std::cos(half))
+                        mean += double(set.solidAngle(i) * set[i].z) / kSets;
+            }
+            // A cap's irradiance is its solid angle's, seen from its middle, times (1 + cos) / 2.
+            const double expected = solidAngle * height * (1 + std::cos(half)) / 2;
+            EXPECT_NEAR(mean, expected, 0.03 * expected) << even << " " << height;
+        }
+    }
+}
+
 TEST(Basis, IsOrthonormalAndRightHanded) {
     const DirectionSet set(500, true, 5);
     for (std::uint32_t i = 0; i < set.count; ++i) {

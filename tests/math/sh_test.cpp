@@ -110,7 +110,7 @@ TEST(Sh, CosineLobeOfRadianceMatchesItsClosedFormIrradiance) {
         shBasis(kMaxBands, set[i], y);
         for (int k = 0; k < kMaxCoefficients; ++k)
             c[std::size_t(k)] +=
-                glm::vec3(std::max(0.f, glm::dot(set[i], d)) * y[k] * set.solidAngle());
+                glm::vec3(std::max(0.f, glm::dot(set[i], d)) * y[k] * set.solidAngle(i));
     }
     EXPECT_NEAR(shIrradiance(kMaxBands, c.data(), d).x, 2 * kPi / 3, 3e-3);
 }

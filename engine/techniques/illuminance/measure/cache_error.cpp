@@ -63,7 +63,7 @@ PointGather gatherPoint(const TraceScene& trace, const Emitters& emitters, glm::
     for (std::uint32_t r = 0; r < rays; ++r) {
         const glm::vec3 local = directions[r];
         const Hit hit = trace.closestHit({origin, toWorld * local}, TraceMask::Static);
-        const float weight = local.z * directions.solidAngle();
+        const float weight = local.z * directions.solidAngle(r);
         if (!hit) {
             result.irradiance += skyRadiance(trace.scene().sky, toWorld * local) * weight;
             continue;

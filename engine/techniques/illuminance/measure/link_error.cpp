@@ -140,14 +140,14 @@ private:
         const std::uint32_t* sender = m_reference.sender.data() + std::size_t(i) * count;
         const std::uint32_t kept = keptRays({sender, count});
         const CacheRays rays = raysOf(m_reference.caches, m_reference.points, i, count);
-        const float weight = rays.local.solidAngle() / std::numbers::pi_v<float> * float(count) /
-                             float(std::max(kept, 1U));
+        const float all = float(count) / (std::numbers::pi_v<float> * float(std::max(kept, 1U)));
         float y[kMaxCoefficients];
         for (std::uint32_t r = 0; r < count; ++r) {
             if (sender[r] >= GatherHits::kFirstMark)
                 continue;
             ++result.rays;
             const glm::vec3 local = rays.local[r];
+            const float weight = rays.local.solidAngle(r) * all;
             shBasis(m_bands, rays.toWorld[r % rays.points] * local, y);
             const std::uint32_t link = linkAbove(sender[r]);
             if (link == kNone)

@@ -182,11 +182,11 @@ SeenByLink seenByLink(const Room& r, const Caches& caches, std::uint32_t c) {
     const CacheRays rays = raysOf(caches, r.points, c, r.hits.rays);
     const std::uint32_t* sender = r.hits.sender.data() + std::size_t(c) * r.hits.rays;
     const auto left = std::count(sender, sender + r.hits.rays, GatherHits::kLeftOut);
-    const float weight = rays.local.solidAngle() / float(kPi) * float(r.hits.rays) /
-                         float(r.hits.rays - std::uint32_t(left));
+    const float all = float(r.hits.rays) / float(r.hits.rays - std::uint32_t(left));
     for (std::uint32_t k = 0; k < r.hits.rays; ++k)
         if (sender[k] < GatherHits::kFirstMark) {
-            add(sender[k], rays[k], 0, weight, rays.local[k].z);
+            add(sender[k], rays[k], 0, rays.local.solidAngle(k) / float(kPi) * all,
+                rays.local[k].z);
             ++result.rays;
         }
     for (std::uint32_t k = r.hits.aimedBegin[c]; k < r.hits.aimedBegin[c + 1]; ++k) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
@@ -43,10 +44,9 @@ WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfe
     return p;
 }
 
-/// Share of the sky's irradiance, in [0, 1]. `open`: sum of the cosines of the rays that met
-/// nothing.
-float skyShare(float open, std::uint32_t rays) {
-    return 2 * open / float(std::max(rays, 1U));
+/// Share of the sky's irradiance that direction i of a hemisphere stands for.
+float skyShare(const DirectionSet& directions, std::uint32_t i) {
+    return directions.height(i) * directions.solidAngle(i) / std::numbers::pi_v<float>;
 }
 
 struct Sight {
@@ -77,19 +77,17 @@ bool Sight::look(const Progress& progress) {
             for (std::size_t c = first; c < last; ++c) {
                 const CacheRays directions = gatherer.directions(std::uint32_t(c));
                 const bool counts = points.weightOf(c) >= 1;
-                float open = 0;
                 for (std::uint32_t r = 0; r < rays; ++r) {
                     const Ray ray = gatherer.ray(directions, std::uint32_t(c), r);
                     const SurfaceHit hit = trace.closestSurface(ray, TraceMask::Static);
                     const RawHit met = gatherer.credit(hit, ray.direction);
                     if (!hit)
-                        open += directions.local.height(r);
+                        sky[c] += skyShare(directions.local, r);
                     else if (counts && !(met & kBack))
                         sightings[c * rays + r] = {met,
                                                    {hit.triangle, {hit.u, hit.v}},
                                                    hit.t * hit.t < set.surfels.area[met]};
                 }
-                sky[c] = skyShare(open, rays);
             }
         });
 }
@@ -175,14 +173,14 @@ MeshPoint Sight::placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>
 
 float skyAt(const TraceScene& trace, glm::vec3 position, glm::vec3 normal, std::uint32_t rays,
             std::uint32_t seed) {
-    const DirectionSet directions(rays, false, seed);
+    const DirectionSet directions = gatherDirections(rays, CacheKind::Hemisphere, seed);
     const glm::mat3 toWorld = basisAround(normal);
     const glm::vec3 from = trace.clearOf(position, normal);
     float open = 0;
     for (std::uint32_t r = 0; r < rays; ++r)
         if (!trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
-            open += directions.height(r);
-    return skyShare(open, rays);
+            open += skyShare(directions, r);
+    return open;
 }
 
 /// Texels of the atlas that belong to no cache.

@@ -33,7 +33,7 @@ ArrivedObjects::ArrivedObjects(const TraceScene& trace, const std::vector<std::u
     }
 }
 
-// z decreases evenly along the lattice, so a cone's rays lie within one contiguous range of it.
+// z decreases along the lattice, so a cone's rays lie within one contiguous range of it.
 void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from,
                                 const BoundingSphere& sphere,
                                 std::vector<std::uint8_t>& candidate) const {
@@ -51,8 +51,9 @@ void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec
         const float highest = toAxis > half ? std::cos(toAxis - half) : 1.f;
         const float lowest =
             toAxis + half < 3.14159f ? std::cos(std::min(toAxis + half, 3.14159f)) : -1.f;
-        const float range = rays.local.sphere ? 2.f : 1.f;
-        const auto place = [&](float z) { return (1 - z) / range * float(count); };
+        const auto place = [&](float z) {
+            return rays.local.above(rays.local.sphere ? z : std::max(z, 0.f)) * float(count);
+        };
         begin = std::uint32_t(std::clamp(place(highest) - 2, 0.f, float(count)));
         end = std::uint32_t(std::clamp(place(lowest) + 2, 0.f, float(count)));
     }

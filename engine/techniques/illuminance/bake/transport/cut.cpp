@@ -56,13 +56,21 @@ glm::mat3 turnAboutZ(float turns) {
     return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// The directions of a cache's rays, without its own rotation about z and its surface's frame.
-std::vector<glm::vec3> unturnedRays(std::uint32_t rays, bool sphere) {
-    DirectionSet set(rays, sphere, 0);
+/// What a ray of a cache stands for, if all of the cache's rays count.
+struct LocalRay {
+    glm::vec3 moment; ///< its direction times `weight`
+    float weight;     ///< solid angle / pi
+};
+
+/// A cache's rays, without its own rotation about z and its surface's frame.
+std::vector<LocalRay> unturnedRays(std::uint32_t rays, CacheKind kind) {
+    DirectionSet set = gatherDirections(rays, kind, 0);
     set.turn = 0;
-    std::vector<glm::vec3> result(rays);
-    for (std::uint32_t r = 0; r < rays; ++r)
-        result[r] = set[r];
+    std::vector<LocalRay> result(rays);
+    for (std::uint32_t r = 0; r < rays; ++r) {
+        const float weight = set.solidAngle(r) / std::numbers::pi_v<float>;
+        result[r] = {set[r] * weight, weight};
+    }
     return result;
 }
 
@@ -74,8 +82,8 @@ struct LinkInput {
     const TrainingLight& training;
     const CutSettings& settings;
     SenderOrder order;
-    std::vector<bool> sky;                     ///< skyNodes
-    std::vector<glm::vec3> hemisphere, sphere; ///< unturned rays
+    std::vector<bool> sky;                    ///< skyNodes
+    std::vector<LocalRay> hemisphere, sphere; ///< unturned rays
 };
 
 /// One thread's working space for linking caches.
@@ -173,18 +181,19 @@ private:
         if (kept == 0)
             return;
         const CacheRays rays = raysOf(caches, in.points, cache, count);
-        const float weight =
-            rays.local.solidAngle() / std::numbers::pi_v<float> * (float(count) / float(kept));
-        const float half = weight * irradianceShare(CacheKind::Grid, 0);
+        const float all = float(count) / float(kept);
+        const float half = all * irradianceShare(CacheKind::Grid, 0);
         const bool sphere = rays.local.sphere;
-        const glm::vec3* local = (sphere ? in.sphere : in.hemisphere).data();
-        std::array<glm::mat3, AtlasTexel::kMaxPoints> toMoment{};
+        const LocalRay* local = (sphere ? in.sphere : in.hemisphere).data();
+        std::array<glm::mat3, AtlasTexel::kMaxPoints> toWorld{};
         for (std::uint32_t k = 0; k < rays.points; ++k)
-            toMoment[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * weight;
+            toWorld[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * all;
         for (std::uint32_t r = 0, k = 0; r < count; ++r) {
             if (sender[r] < GatherHits::kFirstMark)
                 visit(sender[r],
-                      Sight{weight, sphere ? half : weight * local[r].z, toMoment[k] * local[r]},
+                      Sight{all * local[r].weight,
+                            sphere ? half * local[r].weight : all * local[r].moment.z,
+                            toWorld[k] * local[r].moment},
                       0.f);
             k = k + 1 == rays.points ? 0 : k + 1;
         }
@@ -442,8 +451,8 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                           settings,
                           SenderOrder(tree),
                           skyNodes(tree),
-                          unturnedRays(hits.rays, false),
-                          unturnedRays(hits.rays, true)};
+                          unturnedRays(hits.rays, CacheKind::Hemisphere),
+                          unturnedRays(hits.rays, CacheKind::Grid)};
     tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
     const bool shared = settings.criterion == CutCriterion::Detail;
     std::vector<CutChoices> choices(shared ? caches.size() : 0);

@@ -206,19 +206,6 @@ bool isBuried(const RawHit* hits, std::uint32_t rays) {
     return true;
 }
 
-CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
-                 std::uint32_t rays) {
-    const std::uint32_t first = points.begin[cache], count = points.begin[cache + 1] - first;
-    CacheRays result{
-        DirectionSet(rays, caches.kind[cache] != CacheKind::Hemisphere, points.seed[cache]),
-        count,
-        {}};
-    for (std::uint32_t k = 0; k < count; ++k)
-        result.toWorld[k] = basisAround(
-            caches.kind[cache] == CacheKind::Grid ? glm::vec3(0, 0, 1) : points.normal[first + k]);
-    return result;
-}
-
 Ray RayGatherer::ray(const CacheRays& directions, std::uint32_t cache, std::uint32_t r) const {
     const std::uint32_t k = r % directions.points;
     return {startOf(m_trace, m_points, m_points.begin[cache] + k), directions[r]};

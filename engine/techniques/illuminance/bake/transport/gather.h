@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/math/sampling.h"
-#include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/senders/owner_tables.h"
+#include "engine/techniques/illuminance/bake/transport/cache_rays.h"
 #include "engine/techniques/illuminance/bake/transport/gather_hits.h"
 #include "engine/trace/trace_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,18 +25,6 @@ struct SenderView {
 /// contact. A point of a Hemisphere cache sees nothing behind it.
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
                   const AimedSample& sample);
-
-/// The rays of a cache, which depend only on its kind, its points with their seed, and the number
-/// of rays. Local z is the point's normal (world z for Grid).
-struct CacheRays {
-    DirectionSet local;
-    std::uint32_t points;
-    std::array<glm::mat3, AtlasTexel::kMaxPoints> toWorld;
-
-    glm::vec3 operator[](std::uint32_t r) const { return toWorld[r % points] * local[r]; }
-};
-CacheRays raysOf(const Caches& caches, const CachePoints& points, std::uint32_t cache,
-                 std::uint32_t rays);
 
 /// Result of one ray before finishHits(): a leaf of the ClusterTree or, with kBack set, the surfel
 /// on the front of the one-sided surface whose back it met. Tracing yields only these 4 bytes per

@@ -36,6 +36,16 @@ void forEachOpenPoint(const CachePoints& points, std::uint32_t cache,
             visit(first + k);
 }
 
+/// Irradiance that each of a cache's `rays` rays brings from a sender of radiosity 1.
+inline std::vector<float> rayIrradiances(std::uint32_t rays, CacheKind kind) {
+    const DirectionSet set = gatherDirections(rays, kind, 0); // the rotation changes no height
+    std::vector<float> result(rays);
+    for (std::uint32_t r = 0; r < rays; ++r)
+        result[r] =
+            set.solidAngle(r) / std::numbers::pi_v<float> * irradianceShare(kind, set.height(r));
+    return result;
+}
+
 /// Calls visit(cache, ray, sender, weight) for every ray of the caches [begin, end) that met a
 /// sender, cache after cache. `weight`: the irradiance that a radiosity of 1 there brings to the
 /// cache by this ray, times CachePoints::weight. Rays that are left to aimed samples are not among
@@ -43,18 +53,17 @@ void forEachOpenPoint(const CachePoints& points, std::uint32_t cache,
 template <class Visit>
 void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Caches& caches,
                     std::uint32_t begin, std::uint32_t end, const Visit& visit) {
+    const std::vector<float> hemisphere = rayIrradiances(hits.rays, CacheKind::Hemisphere),
+                             sphere = rayIrradiances(hits.rays, CacheKind::Grid);
     for (std::uint32_t c = begin; c < end; ++c) {
-        const CacheKind kind = caches.kind[c];
-        const bool sphere = kind != CacheKind::Hemisphere;
-        const DirectionSet rays(hits.rays, sphere, 0); // the rotation changes no height
+        const std::vector<float>& own =
+            caches.kind[c] == CacheKind::Hemisphere ? hemisphere : sphere;
         const std::span<const std::uint32_t> sender = hits.sendersOf(c);
-        const std::uint32_t kept = keptRays(sender);
-        const auto weight = double(points.weightOf(c));
+        const double weight =
+            double(points.weightOf(c)) * double(hits.rays) / double(keptRays(sender));
         for (std::uint32_t r = 0; r < hits.rays; ++r)
             if (sender[r] < GatherHits::kFirstMark)
-                visit(c, r, sender[r],
-                      weight * double((sphere ? 4.f : 2.f) / float(kept) *
-                                      irradianceShare(kind, rays.height(r))));
+                visit(c, r, sender[r], weight * double(own[r]));
     }
 }
 

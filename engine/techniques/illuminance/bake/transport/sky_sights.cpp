@@ -146,27 +146,31 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkySight>& found) {
     if (m_guides.empty() || m_open.empty())
         return;
     const CacheRays rays = raysOf(in.caches, in.points, cache, in.hits.rays);
-    const float ofRay = rays.local.solidAngle(), minCosine = 1 - ofRay / (2 * kPi);
-    // Rays per solid angle: the cache's own, and those around each guide.
-    const float own = float(keptRays(senders)) / (float(in.hits.rays) * ofRay),
+    const bool hemisphere = in.caches.kind[cache] == CacheKind::Hemisphere;
+    const float ofRay = (hemisphere ? 2 : 4) * kPi / float(in.hits.rays),
+                minCosine = 1 - ofRay / (2 * kPi);
+    // Rays per solid angle are the cache's own that count, and those around each guide.
+    const float kept = float(keptRays(senders)) / float(in.hits.rays),
                 guided = float(kSkyRays) / (float(m_guides.size()) * ofRay);
-    const auto add = [&](std::uint32_t sender, std::uint32_t point, glm::vec3 d) {
+    const auto add = [&](std::uint32_t sender, std::uint32_t point, glm::vec3 d, float z) {
         const auto near = std::ranges::count_if(
             m_guides, [&](glm::vec3 guide) { return glm::dot(guide, d) >= minCosine; });
-        found.push_back({sender, point, packOct(d), 1 / (kPi * (own + guided * float(near)))});
+        const float density = kept * rays.local.density(z) + guided * float(near);
+        found.push_back({sender, point, packOct(d), 1 / (kPi * density)});
     };
     for (std::uint32_t r = 0; r < in.hits.rays; ++r)
         if (isSky(senders[r], in.surfels))
-            add(senders[r], in.points.begin[cache] + r % rays.points, rays[r]);
+            add(senders[r], in.points.begin[cache] + r % rays.points, rays[r],
+                rays.local.height(r));
     struct Aimed {
         std::uint32_t point;
         glm::vec3 direction;
     };
     RaysTogether<Aimed> aims(in.trace, TraceMask::Static);
     const auto open = [&](const Aimed& a) {
-        add(std::uint32_t(in.surfels) + skyCellOf(a.direction), a.point, a.direction);
+        const float z = hemisphere ? glm::dot(in.points.normal[a.point], a.direction) : 0;
+        add(std::uint32_t(in.surfels) + skyCellOf(a.direction), a.point, a.direction, z);
     };
-    const bool hemisphere = in.caches.kind[cache] == CacheKind::Hemisphere;
     for (std::uint32_t k = 0; k < kSkyRays; ++k) {
         const std::uint32_t point = m_open[k % m_open.size()];
         const glm::vec3 normal = in.points.normal[point], d = aimed(cache, k, ofRay);
