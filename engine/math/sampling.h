@@ -46,8 +46,8 @@ inline glm::mat3 basisAround(glm::vec3 n) {
 /// A set of `count` well-spread directions: the Fibonacci lattice about z, rotated by a hash of
 /// `seed`. Covers the sphere if `sphere`, else the hemisphere z > 0. Each direction stands for a
 /// stratum of heights and lies in its middle, so the sums of solid angles, and of solid angles
-/// times z, have no error. Of a hemisphere's directions, the share `even` is spread evenly over
-/// solid angle, and the others in proportion to z.
+/// times z, have no error. Of a hemisphere's directions, the share `even` has the same density
+/// everywhere, and the others a density in proportion to z.
 struct DirectionSet {
     std::uint32_t count;
     bool sphere;
@@ -65,19 +65,23 @@ struct DirectionSet {
             return 2 * below - 1;
         return 2 * below / (even + std::sqrt(even * even + 4 * (1 - even) * below));
     }
-    /// Share of the directions above height z. Inverts bound().
+    /// Share of the directions above height z, which may lie below the hemisphere. Inverts bound().
     float above(float z) const {
-        return sphere ? (1 - z) / 2 : (1 - z) * (even + (1 - even) * (1 + z));
+        if (sphere)
+            return (1 - z) / 2;
+        z = std::fmax(z, 0.f);
+        return (1 - z) * (even + (1 - even) * (1 + z));
     }
+    /// Solid angle of the whole set [sr].
+    float wholeAngle() const { return (sphere ? 4 : 2) * std::numbers::pi_v<float>; }
     /// Number of directions per solid angle at height z [1/sr].
     float density(float z) const {
-        const float all = (sphere ? 4 : 2) * std::numbers::pi_v<float>; // [sr]
-        return float(count) / all * (even + 2 * (1 - even) * z);
+        return float(count) / wholeAngle() * (even + 2 * (1 - even) * z);
     }
     /// z of direction i.
     float height(std::uint32_t i) const { return (bound(i) + bound(i + 1)) / 2; }
-    /// Solid angle that direction i stands for [sr]. That of its stratum: above() is a quadratic,
-    /// so its slope in the middle of a stratum is the mean slope.
+    /// Solid angle of direction i's stratum [sr]. It follows from the density in its middle, since
+    /// the mean slope of a quadratic, such as above(), is that in the middle.
     float solidAngle(std::uint32_t i) const { return 1 / density(height(i)); }
     glm::vec3 operator[](std::uint32_t i) const {
         const double golden = std::numbers::phi - 1;

@@ -148,7 +148,8 @@ TEST(DirectionSet, FindsTheIrradianceOfALampAtEveryHeight) {
                     if (double(glm::dot(set[i], lamp)) > std::cos(half))
                         mean += double(set.solidAngle(i) * set[i].z) / kSets;
             }
-            // A cap's irradiance is its solid angle's, seen from its middle, times (1 + cos) / 2.
+            // The integral of the cosine over a cap: of the vectors in it, which add up to its
+            // axis times its solid angle times (1 + cos) / 2, the z component.
             const double expected = solidAngle * height * (1 + std::cos(half)) / 2;
             EXPECT_NEAR(mean, expected, 0.03 * expected) << even << " " << height;
         }

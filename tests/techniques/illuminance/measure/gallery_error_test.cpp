@@ -47,6 +47,7 @@ Figures measure(std::uint64_t seed) {
     reference.height = drawn.height;
     reference.samplesPerPixel = 16;
     const auto truth = renderReferenceSet(trace, reference);
+    const double trueMean = meanOf(meanImage(truth->first(), truth->second()));
     BakeSettings settings;
     settings.lightmapCaches = 3000;
     settings.links = 128;
@@ -69,9 +70,7 @@ Figures measure(std::uint64_t seed) {
         figures.biasNoise = error.biasNoise;
         figures.nrmseNoise = std::max(figures.nrmseNoise, error.nrmseNoise);
         if (made.darkCamera)
-            figures.leak += meanOf(picture(*made.darkCamera)) /
-                            meanOf(meanImage(truth->first(), truth->second())) /
-                            std::size(kSurfels);
+            figures.leak += meanOf(picture(*made.darkCamera)) / trueMean / std::size(kSurfels);
     }
     return figures;
 }
@@ -82,10 +81,11 @@ struct Ceiling {
     double bias, nrmse, leak = 0;
 };
 
-/// No scene may get worse. A ceiling of the bias is the mean of ten bakes of 3600 to 4500 surfels,
-/// measured with up to eight times the samples, and one of their standard deviations, which is two
-/// of a mean of four, or 0.003 where that is more. A ceiling of the nRMSE is what the bake's method
-/// gave when it was last set, and about a tenth more. What makes a scene better may lower them.
+/// No scene may get worse. The ceiling of the bias was set from ten bakes of 3600 to 4500 surfels
+/// and references of up to eight times the samples: their mean plus 0.003, or plus the standard
+/// deviation of one bake where that is more; a mean of four bakes deviates by half of it. The
+/// ceiling of the nRMSE is a tenth above what was measured when it was set. A change that makes a
+/// scene better may lower them.
 /// Errors are those of a coarse bake, and no promise of what default settings give. Houses on large
 /// planes and a narrower door are missing: the noise of so few paths is so large that a ceiling
 /// would guard nothing.

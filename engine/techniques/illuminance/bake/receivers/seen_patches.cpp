@@ -5,12 +5,11 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/texel_sides.h"
 #include "engine/math/sampling.h"
-#include "engine/techniques/illuminance/bake/transport/gather.h"
+#include "engine/techniques/illuminance/bake/transport/seen_hits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
@@ -44,12 +43,7 @@ WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfe
     return p;
 }
 
-/// Share of the sky's irradiance that direction i of a hemisphere stands for.
-float skyShare(const DirectionSet& directions, std::uint32_t i) {
-    return directions.height(i) * directions.solidAngle(i) / std::numbers::pi_v<float>;
-}
-
-struct Sight {
+struct PatchSight {
     const TraceScene& trace;
     const SurfelSet& set;
     const OwnerTables& owners;
@@ -57,7 +51,8 @@ struct Sight {
     const CachePoints& points;
     std::uint32_t rays;                    ///< number for each cache and each surfel
     std::vector<Sighting> sightings = {};  ///< `rays` per cache
-    std::vector<float> sky = {};           ///< share of the sky that each cache sees
+    std::vector<float> ofRay = {};         ///< rayIrradiances() of a lightmap cache
+    std::vector<float> sky = {};           ///< share of the sky's irradiance that each cache has
     std::vector<std::uint32_t> begin = {}; ///< of surfel s: order[begin[s] … begin[s + 1])
     std::vector<std::uint32_t> order = {}; ///< indices into `sightings`
 
@@ -68,8 +63,9 @@ struct Sight {
     MeshPoint placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
 };
 
-bool Sight::look(const Progress& progress) {
+bool PatchSight::look(const Progress& progress) {
     resizeLarge(sightings, std::size_t(caches.lightmapCount) * rays);
+    ofRay = rayIrradiances(rays, CacheKind::Hemisphere);
     sky.resize(caches.lightmapCount);
     const RayGatherer gatherer(trace, set, caches, points, rays, owners);
     return parallelRanges(
@@ -82,7 +78,7 @@ bool Sight::look(const Progress& progress) {
                     const SurfaceHit hit = trace.closestSurface(ray, TraceMask::Static);
                     const RawHit met = gatherer.credit(hit, ray.direction);
                     if (!hit)
-                        sky[c] += skyShare(directions.local, r);
+                        sky[c] += ofRay[r];
                     else if (counts && !(met & kBack))
                         sightings[c * rays + r] = {met,
                                                    {hit.triangle, {hit.u, hit.v}},
@@ -93,7 +89,7 @@ bool Sight::look(const Progress& progress) {
 }
 
 /// Sorts the sightings that count by surfel, then by cache.
-void Sight::sort() {
+void PatchSight::sort() {
     const std::size_t count = set.surfels.size();
     std::vector<bool> seenFromAfar(count);
     for (const Sighting& s : sightings)
@@ -115,7 +111,7 @@ void Sight::sort() {
 }
 
 /// Picks at most kPicks of a surfel's sightings, spread evenly over the caches.
-std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
+std::vector<std::uint32_t> PatchSight::picks(std::uint32_t surfel) const {
     const std::uint32_t all = begin[surfel + 1] - begin[surfel], count = std::min(all, kPicks);
     std::vector<std::uint32_t> result(count);
     for (std::uint32_t k = 0; k < count; ++k)
@@ -126,7 +122,7 @@ std::vector<std::uint32_t> Sight::picks(std::uint32_t surfel) const {
 
 /// Whether at least half of a few of the caches that see the surfel's patch also see the surfel's
 /// own position.
-bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
+bool PatchSight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
     constexpr std::size_t kAsked = 4;
     const glm::vec3 place = trace.clearOf(set.surfels.position[surfel], set.surfels.normal[surfel]);
     std::size_t asked = 0, hidden = 0;
@@ -143,7 +139,8 @@ bool Sight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picke
 
 /// The place of a surfel: its own, or the picked point closest to the others. Distances are
 /// measured as in the search for owners (NearestPoint).
-MeshPoint Sight::placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
+MeshPoint PatchSight::placeFor(std::uint32_t surfel,
+                               const std::vector<std::uint32_t>& picked) const {
     const Surfels& s = set.surfels;
     const MeshPoint own{s.triangle[surfel], s.barycentric[surfel]};
     if (picked.size() < 2)
@@ -171,15 +168,16 @@ MeshPoint Sight::placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>
     return best;
 }
 
-float skyAt(const TraceScene& trace, glm::vec3 position, glm::vec3 normal, std::uint32_t rays,
-            std::uint32_t seed) {
-    const DirectionSet directions = gatherDirections(rays, CacheKind::Hemisphere, seed);
-    const glm::mat3 toWorld = basisAround(normal);
-    const glm::vec3 from = trace.clearOf(position, normal);
+/// Share of the sky's irradiance that a surfel has.
+float skyAt(const PatchSight& sight, const Surfels& moved, std::uint32_t s) {
+    const DirectionSet directions =
+        gatherDirections(sight.rays, CacheKind::Hemisphere, mixBits(s + 1));
+    const glm::mat3 toWorld = basisAround(moved.normal[s]);
+    const glm::vec3 from = sight.trace.clearOf(moved.position[s], moved.normal[s]);
     float open = 0;
-    for (std::uint32_t r = 0; r < rays; ++r)
-        if (!trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
-            open += skyShare(directions, r);
+    for (std::uint32_t r = 0; r < sight.rays; ++r)
+        if (!sight.trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
+            open += sight.ofRay[r];
     return open;
 }
 
@@ -197,7 +195,7 @@ std::vector<std::uint32_t> freeTexels(const LightmapLayout& layout, const Caches
 
 /// Error of the caches of a surfel: the share of the sky that the surfel sees minus the share that
 /// they see, times the number of rays that see the surfel.
-float wrongness(const Sight& sight, const Surfels& moved, std::uint32_t s) {
+float wrongness(const PatchSight& sight, const Surfels& moved, std::uint32_t s) {
     float read = 0, sum = 0;
     for (int k = 0; k < 4; ++k)
         if (moved.cacheWeight[s][k] > 0) {
@@ -207,8 +205,7 @@ float wrongness(const Sight& sight, const Surfels& moved, std::uint32_t s) {
     const std::uint32_t seen = sight.begin[s + 1] - sight.begin[s];
     if (seen == 0 || !(sum > 0))
         return 0;
-    const float own =
-        skyAt(sight.trace, moved.position[s], moved.normal[s], sight.rays, mixBits(s + 1));
+    const float own = skyAt(sight, moved, s);
     return std::abs(own - read) < kUnlike ? 0 : (own - read) * float(seen);
 }
 
@@ -261,7 +258,7 @@ std::vector<WrongGroup> worstGroups(const Surfels& moved, const std::vector<floa
 /// Own cache over seen points of the surfels' patches that face as the first surfel does: those
 /// visible from the surfel's place a little above the surface, hence on its side of a wall, or any
 /// where none is.
-OwnCache ownCache(const Sight& sight, const Surfels& moved,
+OwnCache ownCache(const PatchSight& sight, const Surfels& moved,
                   const std::vector<std::uint32_t>& surfels) {
     constexpr float kAlike = 0.9f, kAbove = 0.05f; // [patches' width]
     const Scene& scene = sight.trace.scene();
@@ -297,7 +294,7 @@ SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
                             const CachePoints& points, std::uint32_t rays,
                             const Progress& progress) {
     SeenPatches result;
-    Sight sight{trace, set, owners, caches, points, rays};
+    PatchSight sight{trace, set, owners, caches, points, rays};
     if (!sight.look(progress))
         return result;
     sight.sort();

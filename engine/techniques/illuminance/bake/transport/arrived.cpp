@@ -51,9 +51,7 @@ void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec
         const float highest = toAxis > half ? std::cos(toAxis - half) : 1.f;
         const float lowest =
             toAxis + half < 3.14159f ? std::cos(std::min(toAxis + half, 3.14159f)) : -1.f;
-        const auto place = [&](float z) {
-            return rays.local.above(rays.local.sphere ? z : std::max(z, 0.f)) * float(count);
-        };
+        const auto place = [&](float z) { return rays.local.above(z) * float(count); };
         begin = std::uint32_t(std::clamp(place(highest) - 2, 0.f, float(count)));
         end = std::uint32_t(std::clamp(place(lowest) + 2, 0.f, float(count)));
     }

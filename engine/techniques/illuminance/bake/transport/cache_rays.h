@@ -9,10 +9,11 @@
 
 namespace limn {
 
-/// Directions of a cache's rays. Of a surface cache's, half are spread evenly and half in
-/// proportion to the cosine, of which its irradiance is made: that has less noise than even ones
-/// alone where light comes from above, and never more than twice the variance of either
-/// (Hesterberg. Weighted Average Importance Sampling and Defensive Mixture Distributions. 1995).
+/// Directions of a cache's rays. Those of a surface cache sample a mixture of two densities, half
+/// uniform and half proportional to the cosine, by which irradiance weights radiance. Its variance
+/// is lower than that of uniform directions where light comes from near the normal, and never more
+/// than twice that of either (Hesterberg. Weighted Average Importance Sampling and Defensive
+/// Mixture Distributions. 1995).
 inline DirectionSet gatherDirections(std::uint32_t rays, CacheKind kind, std::uint32_t seed) {
     return {rays, kind != CacheKind::Hemisphere, seed, 0.5f};
 }

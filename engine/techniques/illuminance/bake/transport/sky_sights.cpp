@@ -147,7 +147,7 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkySight>& found) {
         return;
     const CacheRays rays = raysOf(in.caches, in.points, cache, in.hits.rays);
     const bool hemisphere = in.caches.kind[cache] == CacheKind::Hemisphere;
-    const float ofRay = (hemisphere ? 2 : 4) * kPi / float(in.hits.rays),
+    const float ofRay = rays.local.wholeAngle() / float(in.hits.rays),
                 minCosine = 1 - ofRay / (2 * kPi);
     // Rays per solid angle are the cache's own that count, and those around each guide.
     const float kept = float(keptRays(senders)) / float(in.hits.rays),
