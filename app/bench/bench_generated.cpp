@@ -87,7 +87,7 @@ Json settingsOf(const BakeSettings& s) {
 }
 
 /// The scene rendered with the light of a bake, from one camera.
-ImageF drawn(const Measured& m, const Camera& camera, const IndirectField& field,
+ImageF drawn(const Measured& m, const Camera& camera, const Lighting& lighting,
              const LightmapLayout& layout) {
     FieldRenderOptions options;
     options.view = View::Irradiance;
@@ -96,7 +96,9 @@ ImageF drawn(const Measured& m, const Camera& camera, const IndirectField& field
     options.height = m.view.height;
     options.samplesPerPixel = kFileSamples.perPixel; // as limn render draws
     options.nearRays = kFileSamples.nearRays;
-    return renderField(m.trace, field, layout, options);
+    options.gatherRays = kFileSamples.gatherRays;
+    options.straight = lighting.straightField(m.scene);
+    return renderField(m.trace, *lighting.field(), layout, options);
 }
 
 void addErrors(Json& row, const std::string& prefix, const Comparison& c) {
@@ -119,12 +121,11 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
     const auto lighting = technique.light(prepared);
     const LightingReport lit = lighting->update(
         {.scene = m.scene, .trace = &m.trace, .bounces = m.scene.relight.maxBounces}, {});
-    const IndirectField& field = *lighting->field();
     Json row = {{"name", fmt::format("generated:{}", m.seed)},
                 {"kind", kSceneKindNames[std::size_t(m.generated.kind)]},
                 {"half", m.seed % 2 == 0 ? "tuned" : "untuned"}};
     row.update(settingsOf(settings));
-    const Comparison c = m.errorOf(drawn(m, m.view.camera, field, layout));
+    const Comparison c = m.errorOf(drawn(m, m.view.camera, *lighting, layout));
     addErrors(row, "", c);
     if (draw) {
         RenderRequest request;
@@ -134,7 +135,8 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
         request.height = m.view.height;
         request.layout = {prepared.data, &layout};
         request.prepared = prepared;
-        request.relight = [&](bool) { return CpuLight{field, lit}; };
+        request.relight = [&](bool) { return CpuLight{*lighting->field(), lit}; };
+        request.straight = [&] { return lighting->straightField(m.scene); };
         const Result<RenderedImage> picture = (*draw)(m.scene, request);
         if (!picture)
             return tl::make_unexpected(picture.error());
@@ -142,7 +144,7 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
     }
     row["leak"] = nullptr;
     if (m.generated.darkCamera) {
-        const ImageF dark = drawn(m, *m.generated.darkCamera, field, layout);
+        const ImageF dark = drawn(m, *m.generated.darkCamera, *lighting, layout);
         row["leak"] = meanOf(dark) / meanOf(meanImage(m.truth.first(), m.truth.second()));
     }
     row["reference_spp"] = 2 * m.truth.samplesPerPixel; // of either of the two

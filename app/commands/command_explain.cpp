@@ -151,7 +151,8 @@ Exit runExplain(const ExplainCommand& options) {
                                  .y = options.pick[1],
                                  .light = PixelLight(unit),
                                  .samples = kFileSamples.perPixel,
-                                 .nearRays = kFileSamples.nearRays};
+                                 .nearRays = kFileSamples.nearRays,
+                                 .gatherRays = kFileSamples.gatherRays};
     reflectionTable(); // a process makes it once, the editor with its first picture
     const Clock::time_point start = Clock::now();
     const PixelExplanation e = explainPixel(*lit, question, {.rows = options.rows});

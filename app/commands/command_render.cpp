@@ -38,6 +38,7 @@ struct RenderCommand {
                               relight = "auto";
     float exposureEv = 0;
     std::uint32_t samplesPerPixel = kFileSamples.perPixel;
+    std::uint32_t gatherRays = kFileSamples.gatherRays;
     std::uint32_t nearRays = kFileSamples.nearRays;
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
@@ -158,8 +159,8 @@ Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Came
         if (const Result<void> added = addOverlay(options, scene, camera, baked); !added)
             return tl::make_unexpected(added.error());
     baked.light = light;
-    // What near rays meet may be out of view.
-    if (!options.allCaches && options.nearRays == 0)
+    // What rays meet may be out of view.
+    if (!options.allCaches && options.nearRays == 0 && options.gatherRays == 0)
         baked.view = {camera, float(options.camera.width) / float(options.camera.height)};
     return baked;
 }
@@ -238,9 +239,11 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.exposureEv = options.exposureEv;
     request.samplesPerPixel = options.samplesPerPixel;
     request.nearRays = options.nearRays;
+    request.gatherRays = options.gatherRays;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
         request.relight = [&](bool marched) { return relight(scene, baked, marched); };
+    request.straight = [&] { return baked.lighting->straightField(scene); };
     request.layout = baked.layout;
     request.technique = baked.technique;
     request.prepared = baked.prepared;
@@ -277,6 +280,7 @@ nlohmann::ordered_json reportJson(const RenderCommand& options, const RenderedIm
     json["height"] = image.linear.height;
     json["samples_per_pixel"] = options.samplesPerPixel;
     json["near_rays"] = options.nearRays;
+    json["gather_rays"] = options.gatherRays;
     json["invalid_pixels"] = countInvalidPixels(image.linear);
     if (!image.relightDevice.empty())
         json["relight"] = lightingJson(image.relightDevice, image.relight);
@@ -408,6 +412,11 @@ void addRenderCommand(CLI::App& app, Run& run) {
                      "Rays of each sample that look for surfaces within half a texel, whose own "
                      "light then takes the place of the lightmap's; 0: none")
         ->check(CLI::Range(0, 1024));
+    command
+        ->add_option("--gather-rays", options->gatherRays,
+                     "Rays of each sample that gather light from whatever they meet, which takes "
+                     "the place of the lightmap's where that is worse; 0: none")
+        ->check(CLI::Range(0, 1024));
     addOverlayFlags(*command, options->overlay);
     command->add_option(
         "--bake", options->bake,
@@ -440,7 +449,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command->add_flag(
         "--all-caches", options->allCaches,
         "Light the whole lightmap, not only the texels that the picture reads; near rays "
-        "have it lit anyway");
+        "and gathering have it lit anyway");
     command->add_flag("--json", options->json, "Print one JSON object to stdout");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

@@ -7,7 +7,7 @@
 
 namespace limn {
 
-RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
+FieldRenderOptions fieldOptions(const RenderRequest& request) {
     FieldRenderOptions options;
     options.view = request.view;
     options.camera = request.camera;
@@ -15,6 +15,18 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
     options.height = request.height;
     options.samplesPerPixel = request.samplesPerPixel;
     options.nearRays = request.nearRays;
+    options.gatherRays = request.gatherRays;
+    return options;
+}
+
+Image toneMappedAs(const RenderRequest& request, const ImageF& linear) {
+    const bool data = request.view == View::Albedo || request.view == View::Normals;
+    return toneMappedImage(linear, data ? Tonemap::None : request.tonemap,
+                           data ? 0 : request.exposureEv); // as the viewport shows data
+}
+
+RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
+    FieldRenderOptions options = fieldOptions(request);
     static const IndirectField noField;
     static const LightmapLayout noLayout;
     RenderedImage result;
@@ -25,6 +37,8 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
         field = &light.field;
         result.relightDevice = "cpu";
         result.relight = light.report;
+        if (request.straight && options.gatherRays > 0)
+            options.straight = request.straight();
     }
     MarchedCounts marched;
     options.marched = &marched;
@@ -34,11 +48,8 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
     endProgressLine();
     result.marchedRays = marched.rays;
     result.unknownRays = marched.unknown;
-    if (!request.tonemapped)
-        return result;
-    const bool data = request.view == View::Albedo || request.view == View::Normals;
-    result.picture = toneMappedImage(result.linear, data ? Tonemap::None : request.tonemap,
-                                     data ? 0 : request.exposureEv); // as the viewport shows data
+    if (request.tonemapped)
+        result.picture = toneMappedAs(request, result.linear);
     return result;
 }
 

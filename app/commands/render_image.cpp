@@ -4,6 +4,7 @@
 #include "app/commands/progress_line.h"
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
+#include "engine/measure/final_gather.h"
 #include "engine/techniques/device/device_table.h"
 
 #include <algorithm>
@@ -39,6 +40,10 @@ struct GpuDrawing {
     Result<void> chooseLighting(const RenderRequest& request);
     Result<void> relight(const Scene& scene, const RenderRequest& request, RenderedImage& result);
     Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request);
+    /// Returns false where there is nothing to add.
+    bool addGathered(const Scene& scene, const RenderRequest& request, ImageF& linear) const;
+
+    IndirectField cpuField; ///< of the last picture, where the light is the CPU's
 };
 
 Result<void> GpuDrawing::chooseLighting(const RenderRequest& request) {
@@ -66,6 +71,8 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
     if (!lighting) {
         const CpuLight light = request.relight(request.view == View::Lit);
         viewport.setIndirect(light.field);
+        if (request.gatherRays > 0)
+            cpuField = light.field;
         result.relightDevice = "cpu";
         result.relight = light.report;
         return {};
@@ -77,6 +84,25 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
                                       {});
     result.relightDevice = device->properties.deviceName;
     return {};
+}
+
+bool GpuDrawing::addGathered(const Scene& scene, const RenderRequest& request,
+                             ImageF& linear) const {
+    FieldRenderOptions options = fieldOptions(request);
+    if (options.gatherRays > 0 && request.relight)
+        options.straight = lighting           ? lighting->straightField(scene)
+                           : request.straight ? request.straight()
+                                              : nullptr;
+    if (!options.straight)
+        return false;
+    const IndirectField field = lighting ? lighting->readField() : cpuField;
+    const TraceScene trace(scene);
+    const FinalGather gather(trace, field, *request.layout, options);
+    if (!gather.any())
+        return false;
+    gather.addTo(linear, progressOnStderr());
+    endProgressLine();
+    return true;
 }
 
 Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& request) {
@@ -109,8 +135,12 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     endProgressLine();
     result.device = properties.deviceName;
     result.linear = viewport.readLinear();
+    const bool added = addGathered(scene, request, result.linear);
+    // The viewport fades its picture beneath an overlay, and does not know of the light added.
+    const bool drawnOver = request.overlay || request.inspection != Inspection::None;
     if (request.tonemapped)
-        result.picture = viewport.readTonemapped();
+        result.picture =
+            added && !drawnOver ? toneMappedAs(request, result.linear) : viewport.readTonemapped();
     return result;
 }
 

@@ -17,6 +17,7 @@
 
 namespace limn {
 
+struct FieldRenderOptions;
 struct OverlayData;
 
 /// Bounced light computed on the CPU, and the report of that computation.
@@ -33,12 +34,15 @@ struct RenderRequest {
     float exposureEv = 0;
     std::uint32_t samplesPerPixel = kFileSamples.perPixel; ///< box filter; at least 1
     std::uint32_t nearRays = kFileSamples.nearRays;        ///< of each sample; 0: none
+    std::uint32_t gatherRays = kFileSamples.gatherRays;    ///< the same; 0: none
     Inspection inspection = Inspection::None;              ///< of RenderedImage::picture
     bool tonemapped = false;                               ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout;          ///< of the light; null: there is none
     /// Computes the light on the CPU; `marched` as LightingInput::marched. Empty: no indirect
     /// light.
     std::function<CpuLight(bool marched)> relight;
+    /// Lighting::straightField() of the light that `relight` computed; empty: there is none.
+    std::function<std::shared_ptr<const IndirectField>()> straight;
     const Technique* technique = nullptr; ///< of the light, on either device; null: there is none
     Prepared prepared;                    ///< by the technique, where it precomputes
     bool lightAll = false;                ///< on a device, light also what the picture hides
@@ -55,6 +59,12 @@ struct RenderedImage {
     std::uint64_t marchedRays = 0; ///< reflections that the CPU marched
     std::uint64_t unknownRays = 0; ///< of them, those that no probe knows
 };
+
+/// The options with which renderField() draws the picture, without bounced light.
+FieldRenderOptions fieldOptions(const RenderRequest& request);
+
+/// RenderedImage::picture without overlay and inspection.
+Image toneMappedAs(const RenderRequest& request, const ImageF& linear);
 
 /// Draws pictures one after the other and keeps what the next one can use.
 using DrawPicture =

@@ -3,6 +3,7 @@
 
 #include "engine/math/luminance.h"
 #include "engine/measure/field_lobe.h"
+#include "engine/measure/final_gather_read.h"
 #include "engine/measure/near_light.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/direct_light.h"
@@ -25,7 +26,15 @@ struct PixelParts {
     /// Direct light of each of them by way of near surfaces, which the field is too coarse for.
     std::vector<glm::vec3> nearByLight;
     std::vector<glm::vec3> nearBySurface; ///< the same by way of each of Scene::instances
-    FieldReading reading;                 ///< of the field: all other light
+    /// Light that gathering found: straight from the sky and each of Scene::instances, and what
+    /// else is not the field's, by where it comes from and by the instance that sends it here.
+    struct Gathered {
+        glm::vec3 sky{0};
+        std::vector<glm::vec3> bySurface, byLight;
+    };
+    Gathered straight, bounced;
+    std::vector<glm::vec3> bouncedVia;
+    FieldReading reading; ///< of the field: all other light
     std::vector<std::uint32_t> seen;
 };
 
@@ -134,6 +143,67 @@ struct PixelReader {
     }
 };
 
+/// Reads what gathering exchanges.
+struct GatheredReader {
+    const PixelReader& pixel;
+    PixelParts& parts;
+    FieldReading straight; ///< of the straight field
+
+    bool shows(std::uint32_t instance) const {
+        return pixel.question.light == PixelLight::Irradiance || reflects(instance);
+    }
+    bool reflects(std::uint32_t instance) const { return !pixel.isBlack(instance); }
+    FieldReading& readingOf(const FieldPoint& at) {
+        return &at.field == &pixel.lit.field() ? parts.reading : straight;
+    }
+    void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart /*part*/) {
+        addIrradiance(at, weight, readingOf(at));
+    }
+    void fieldRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+                       GatherPart /*part*/) {
+        addRadiance(at, direction, weight, readingOf(at));
+    }
+    void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
+                     std::uint32_t /*bounce*/, std::uint32_t via) {
+        std::uint64_t rays = 0;
+        const std::vector<Light>& lights = pixel.lit.trace->scene().lights;
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            const glm::vec3 light = weight * sampleDirectLightFrom(*pixel.lit.trace, *met.point,
+                                                                   lights[l], own.pair(1), rays)
+                                                 .irradiance;
+            parts.bounced.byLight[l] += light;
+            parts.bouncedVia[via] += light;
+        }
+    }
+    void arrives(const FoundLight& from, glm::vec3 value, GatherPart part, std::uint32_t via) {
+        PixelParts::Gathered& to = part == Straight ? parts.straight : parts.bounced;
+        (from.instance == ~0U ? to.sky : to.bySurface[from.instance]) += value;
+        if (part == Bounced)
+            parts.bouncedVia[via] += value;
+    }
+};
+
+void readGathered(PixelReader& pixel) {
+    const PixelQuestion& q = pixel.question;
+    FieldRenderOptions options;
+    options.view = q.light == PixelLight::Radiance ? View::Lit : View::Irradiance;
+    options.camera = q.camera;
+    options.width = q.width;
+    options.height = q.height;
+    options.samplesPerPixel = q.samples;
+    options.seed = q.seed;
+    options.nearRays = q.nearRays;
+    options.gatherRays = q.gatherRays;
+    if (q.gatherRays > 0)
+        options.straight = pixel.lit.lighting->straightField(*pixel.lit.scene);
+    const FinalGather gather(*pixel.lit.trace, pixel.lit.field(), *pixel.lit.layout, options);
+    if (!gather.any())
+        return;
+    GatheredReader reader{pixel, pixel.parts, {}};
+    gather.read(q.x, q.y, reader);
+    pixel.parts.reading.straight = std::move(reader.straight.entries);
+}
+
 /// Adds rows below one of their sum, if there are any.
 void addGroup(std::vector<LightRow>& rows, const char* label, const std::vector<LightRow>& group) {
     if (!group.empty())
@@ -163,19 +233,30 @@ std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) 
     return rows;
 }
 
-/// Direct light by way of each near surface.
-std::vector<LightRow> nearSurfaceRows(const Scene& scene, const PixelParts& parts) {
+/// Light by way of each of Scene::instances.
+std::vector<LightRow> surfaceRows(const Scene& scene, const std::vector<glm::vec3>& bySurface) {
     std::vector<LightRow> rows;
-    for (std::uint32_t i = 0; i < parts.nearBySurface.size(); ++i)
-        if (parts.nearBySurface[i] != glm::vec3(0))
+    for (std::uint32_t i = 0; i < bySurface.size(); ++i)
+        if (bySurface[i] != glm::vec3(0))
             addRow(rows, {.kind = LightRowKind::Surface,
                           .label = objectLabel(scene, i),
                           .index = i,
-                          .value = parts.nearBySurface[i]});
+                          .value = bySurface[i]});
+    return rows;
+}
+
+/// Gathered light by where it comes from.
+std::vector<LightRow> gatheredRows(const Scene& scene, const PixelParts::Gathered& gathered) {
+    std::vector<LightRow> rows = lightRows(scene, gathered.byLight);
+    addRows(rows, surfaceRows(scene, gathered.bySurface), LightRow::kNone);
+    if (gathered.sky != glm::vec3(0))
+        addRow(rows, {.kind = LightRowKind::Sky, .label = "Sky", .value = gathered.sky});
     return rows;
 }
 
 constexpr const char* kNearLabel = "Direct light on what is near";
+constexpr const char* kStraightLabel = "Straight from sky and emissive surfaces";
+constexpr const char* kBouncedLabel = "Gathered from what rays met";
 
 } // namespace
 
@@ -192,15 +273,26 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
     reader.parts.byLight.assign(scene.lights.size(), glm::vec3(0));
     reader.parts.nearByLight = reader.parts.byLight;
     reader.parts.nearBySurface.assign(scene.instances.size(), glm::vec3(0));
+    reader.parts.straight.bySurface = reader.parts.nearBySurface;
+    reader.parts.bouncedVia = reader.parts.nearBySurface;
+    reader.parts.bounced = {.bySurface = reader.parts.nearBySurface,
+                            .byLight = reader.parts.byLight};
     const PixelRays rays(question.camera, question.width, question.height);
     for (std::uint32_t s = 0; s < question.samples; ++s)
         reader.add(PixelSample(rays, question.seed, question.y * question.width + question.x, s));
+    readGathered(reader);
     PixelExplanation result;
     const Explanation indirect = lit.lighting->explain(scene, reader.parts.reading, options);
     result.tables.byOrigin = result.tables.bySender = straightRows(scene, reader.parts);
     addGroup(result.tables.byOrigin, kNearLabel, lightRows(scene, reader.parts.nearByLight));
     addGroup(result.tables.bySender, kNearLabel,
-             strongest(nearSurfaceRows(scene, reader.parts), options.rows));
+             strongest(surfaceRows(scene, reader.parts.nearBySurface), options.rows));
+    const std::vector<LightRow> straight = gatheredRows(scene, reader.parts.straight);
+    addGroup(result.tables.byOrigin, kStraightLabel, straight);
+    addGroup(result.tables.bySender, kStraightLabel, strongest(straight, options.rows));
+    addGroup(result.tables.byOrigin, kBouncedLabel, gatheredRows(scene, reader.parts.bounced));
+    addGroup(result.tables.bySender, kBouncedLabel,
+             strongest(surfaceRows(scene, reader.parts.bouncedVia), options.rows));
     addGroup(result.tables.byOrigin, "Indirect", indirect.byOrigin);
     addGroup(result.tables.bySender, "Indirect", indirect.bySender);
     result.tables.bounces = indirect.bounces;

@@ -22,8 +22,8 @@ struct PixelQuestion {
     std::uint32_t width = 1280, height = 720; ///< of the picture [pixels]
     std::uint32_t x = 0, y = 0;               ///< of the pixel; (0, 0) is the upper left
     PixelLight light = PixelLight::Radiance;
-    std::uint32_t samples = kScreenSamples.perPixel, seed = 1,
-                  nearRays = 0; ///< as FieldRenderOptions
+    std::uint32_t samples = kScreenSamples.perPixel, seed = 1, nearRays = 0,
+                  gatherRays = 0; ///< as FieldRenderOptions
 
     bool operator==(const PixelQuestion&) const = default;
 };

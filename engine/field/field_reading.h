@@ -30,6 +30,9 @@ struct FieldReading {
         glm::vec3 weight{0};
     };
     std::vector<Marched> marched;
+
+    /// The same of Lighting::straightField().
+    std::vector<Entry> straight;
 };
 
 /// Adds weight * sampleIrradiance(at) to the reading. Where a colour of that is clamped to 0, it

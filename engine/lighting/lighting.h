@@ -48,6 +48,13 @@ public:
     /// been an update.
     virtual IndirectField readField() const { return *field(); }
 
+    /// The part of the light that arrives straight from the sky and emissive surfaces of `scene`,
+    /// the scene of the last update, on the CPU wherever the light exists: final gathering
+    /// exchanges it apart from the rest. Null if the technique cannot tell it from that.
+    virtual std::shared_ptr<const IndirectField> straightField(const Scene& /*scene*/) const {
+        return nullptr;
+    }
+
     /// A copy of the light for the technique's overlays of light; null if it has none.
     virtual std::shared_ptr<const LightSnapshot> snapshot() const { return nullptr; }
 

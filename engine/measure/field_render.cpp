@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
 #include "engine/measure/field_lobe.h"
+#include "engine/measure/final_gather.h"
 #include "engine/measure/near_light.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/direct_light.h"
@@ -131,7 +132,12 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                 image.rgb[i] = sum / float(options.samplesPerPixel);
             }
         });
-    return complete ? image : ImageF{};
+    if (!complete)
+        return {};
+    const FinalGather gather(trace, field, layout, options);
+    if (gather.any() && !gather.addTo(image, progress))
+        return {};
+    return image;
 }
 
 } // namespace limn

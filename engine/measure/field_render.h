@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 
 namespace limn {
 
@@ -26,6 +27,11 @@ struct FieldRenderOptions {
     std::uint32_t seed = 1;
     /// Rays of each sample that look for near surfaces (near_light.h); 0: light is the field's.
     std::uint32_t nearRays = 0;
+    /// The part of the field's light that arrives straight from the sky and emissive surfaces
+    /// (Lighting::straightField()). With it, `gatherRays` rays of each sample gather what is better
+    /// than the field's light (final_gather.h); null or 0: light is the field's.
+    std::shared_ptr<const IndirectField> straight;
+    std::uint32_t gatherRays = 0;
     MarchedCounts* marched = nullptr; ///< adds to it; null: nothing is counted
     // For comparisons:
     bool windowedLobes = true; ///< else lobes are cut off after the field's bands, and ring

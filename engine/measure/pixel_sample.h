@@ -15,8 +15,10 @@ struct PixelSample {
     float pickLight;   ///< for sampleDirectLight()
     glm::vec2 onLight; ///< the same
     Sampler near;      ///< for nearCorrection()
+    Sampler gather;    ///< for FinalGather
 
-    static constexpr std::uint32_t kNearSeed = 0x6e656172; ///< sets those rays apart from others
+    /// They set those rays apart from others.
+    static constexpr std::uint32_t kNearSeed = 0x6e656172, kGatherSeed = 0x67617468;
 
     /// `pixel`: y * width + x.
     PixelSample(const PixelRays& rays, std::uint32_t seed, std::uint32_t pixel, std::uint32_t s) {
@@ -27,6 +29,7 @@ struct PixelSample {
         pickLight = sampler.pair(1).x;
         onLight = sampler.pair(kOnLightDimension);
         near = {mixBits(sampler.seed, kNearSeed), s};
+        gather = {mixBits(sampler.seed, kGatherSeed), s};
     }
 };
 

@@ -107,6 +107,7 @@ EmitterSample sampleEmitter(const Emitters& emitters, const Scene& scene, glm::v
     const EmissiveTriangle& e = emitters.triangles[i];
     const glm::vec2 b = foldToTriangle(u);
     EmitterSample s;
+    s.instance = e.instance;
     s.position = e.corner + b.x * e.edge1 + b.y * e.edge2;
     const bool front = glm::dot(e.normal, from - s.position) > 0;
     s.normal = front ? e.normal : -e.normal;

@@ -2,6 +2,7 @@
 #include "engine/reference/path.h"
 
 #include "engine/reference/direct_light.h"
+#include "engine/reference/found_light.h"
 
 #include <algorithm>
 #include <optional>
@@ -22,48 +23,6 @@ constexpr std::uint32_t kLobeSeed =
 float misWeight(float pdf, float other) {
     const float ratio = other / pdf;
     return 1 / (1 + ratio * ratio);
-}
-
-// Light found by sampling an emitter or the sky, not by a bounce.
-struct FoundLight {
-    glm::vec3 irradiance{0}; ///< over its density; 0: none arrives
-    glm::vec3 toLight{0};
-    float pdf = 1; ///< [sr^-1]
-};
-
-// Samples one point on an emitter.
-FoundLight emitterLight(const PathContext& c, const SurfacePoint& p, float pick, glm::vec2 u,
-                        std::uint64_t& rays) {
-    if (c.emitters.empty())
-        return {};
-    const EmitterSample s = sampleEmitter(c.emitters, c.trace.scene(), p.position, pick, u);
-    if (s.radiance == glm::vec3(0))
-        return {};
-    const glm::vec3 origin = rayOrigin(c.trace, p);
-    const glm::vec3 way = s.position + s.normal * c.trace.epsilonAt(s.position) - origin;
-    const float distance = glm::length(way);
-    const glm::vec3 direction = way / distance;
-    const float cosTheta = glm::dot(p.normal, direction);
-    if (!(cosTheta > 0) || !(glm::dot(p.geometricNormal, direction) > 0))
-        return {};
-    ++rays;
-    if (c.trace.occluded({origin, direction, 0, distance}))
-        return {};
-    return {s.radiance * (cosTheta / s.pdf), direction, s.pdf};
-}
-
-// Samples one direction of the sky's image.
-FoundLight skyLight(const PathContext& c, const SurfacePoint& p, glm::vec2 u, std::uint64_t& rays) {
-    if (c.sky.empty())
-        return {};
-    const SkySample s = sampleSky(c.sky, c.trace.scene().sky, u);
-    const float cosTheta = glm::dot(p.normal, s.direction);
-    if (!(s.pdf > 0) || !(cosTheta > 0) || !(glm::dot(p.geometricNormal, s.direction) > 0))
-        return {};
-    ++rays;
-    if (c.trace.occluded({rayOrigin(c.trace, p), s.direction}))
-        return {};
-    return {s.radiance * (cosTheta / s.pdf), s.direction, s.pdf};
 }
 
 // Irradiance, weighted against the probability that a bounce finds the light.
@@ -95,8 +54,9 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     for (std::uint32_t bounce = 0; bounce < c.maxBounces; ++bounce) {
         const std::uint32_t dimension = kFirstPathDimension + bounce * kDimensionsPerBounce;
         const glm::vec2 picks = sampler.pair(dimension);
-        E += T * diffuseShare(p, emitterLight(c, p, picks.x, sampler.pair(dimension + 1), rays));
-        E += T * diffuseShare(p, skyLight(c, p, sampler.pair(dimension + 4), rays));
+        E += T * diffuseShare(p, emitterLightAt(c.trace, c.emitters, p, picks.x,
+                                                sampler.pair(dimension + 1), rays));
+        E += T * diffuseShare(p, skyLightAt(c.trace, c.sky, p, sampler.pair(dimension + 4), rays));
 
         const glm::vec3 direction = sampleCosineHemisphere(p.normal, sampler.pair(dimension + 2));
         if (!(glm::dot(direction, p.geometricNormal) > 0))
@@ -165,8 +125,9 @@ glm::vec3 sampleReflectedRadiance(const PathContext& c, const GlossyPoint& g,
     const Sampler own{mixBits(sampler.seed, kLobeSeed), sampler.index};
     const Sampler looking{mixBits(own.seed, kLobeSeed), sampler.index};
     const SurfacePoint& p = g.surface;
-    glm::vec3 L = glossyShare(g, emitterLight(c, p, looking.pair(0).x, looking.pair(1), rays)) +
-                  glossyShare(g, skyLight(c, p, looking.pair(2), rays));
+    glm::vec3 L = glossyShare(g, emitterLightAt(c.trace, c.emitters, p, looking.pair(0).x,
+                                                looking.pair(1), rays)) +
+                  glossyShare(g, skyLightAt(c.trace, c.sky, p, looking.pair(2), rays));
     const SpecularSample s = sampleSpecular(g.gloss, p.normal, g.toEye, own.pair(0));
     if (glm::dot(s.toLight, p.geometricNormal) > 0)
         L += s.weight * radianceAlong(c, p, s.toLight,

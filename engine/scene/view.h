@@ -19,15 +19,16 @@ enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Nor
 /// How finely pictures are sampled that are meant to be right rather than fast.
 struct PictureSamples {
     std::uint32_t perPixel;
-    std::uint32_t nearRays; ///< of each sample, which look for near surfaces
+    std::uint32_t nearRays;   ///< of each sample, which look for near surfaces
+    std::uint32_t gatherRays; ///< of each sample, for final gathering
 };
 
 /// Of pictures in files, unless one asks for others. With 16 samples, the rim of a bright lamp is
 /// wrong by more than its bounced light.
-inline constexpr PictureSamples kFileSamples{.perPixel = 64, .nearRays = 1};
+inline constexpr PictureSamples kFileSamples{.perPixel = 64, .nearRays = 1, .gatherRays = 1};
 
 /// Of what an editor shows at rest: as many near rays, with fewer samples to draw.
-inline constexpr PictureSamples kScreenSamples{.perPixel = 16, .nearRays = 4};
+inline constexpr PictureSamples kScreenSamples{.perPixel = 16, .nearRays = 4, .gatherRays = 0};
 
 /// What is drawn over a picture, which fades beneath it, to find faults: the edges of all
 /// triangles, or pixels with a NaN or Inf.

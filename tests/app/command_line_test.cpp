@@ -525,7 +525,8 @@ TEST_F(CommandLine, ADynamicObjectIsBakedOnceAndOccludesTheLightWhereverItIs) {
     expectRefusal(start + "--dynamic Ball -o " + b, "Ball");
     expectRefusal(start + "--dynamic 'Short block@1,2' -o " + b, "x,y,z");
     const std::string onDevice = "render cornell --bake " + bake +
-                                 " --view irradiance --near-rays 0 --width 48 --height 32 "
+                                 " --view irradiance --near-rays 0 --gather-rays 0 --width 48 "
+                                 "--height 32 "
                                  "--dynamic 'Short block@0.3,0.7,0.3' -o ";
     ASSERT_EQ(limn(onDevice + a + " --relight cpu").exit, 0);
     ASSERT_EQ(limn(onDevice + b + " --relight gpu").exit, 0);

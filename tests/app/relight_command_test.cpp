@@ -65,10 +65,10 @@ TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) 
              {"auto --relight cpu", "auto --relight gpu", "cpu --relight cpu"}) {
             if (baked == sponza && device != std::string("auto --relight cpu"))
                 continue; // takes long
-            const std::string render = std::string("render ") + view.scene + view.lens +
-                                       " --light 'sun dir=-0.4,-1,-0.3 lux=20' --bake " + bake +
-                                       " --device " + device +
-                                       " --near-rays 0 --spp 4 --width 160 --height 100 --json -o ";
+            const std::string render =
+                std::string("render ") + view.scene + view.lens +
+                " --light 'sun dir=-0.4,-1,-0.3 lux=20' --bake " + bake + " --device " + device +
+                " --near-rays 0 --gather-rays 0 --spp 4 --width 160 --height 100 --json -o ";
             const nlohmann::json with = json(render + few),
                                  without = json(render + all + " --all-caches");
             EXPECT_EQ(without["relight"]["caches_unseen"], 0);

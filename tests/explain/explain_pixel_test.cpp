@@ -359,6 +359,62 @@ TEST(ExplainPixel, SumsToThePictureWithLightFromNearSurfaces) {
     EXPECT_GT(near, 10U);
 }
 
+FieldRenderOptions gathered(const ConvergedLight& lit, View view) {
+    FieldRenderOptions options = pictureOf(inMixedRoom(), view);
+    options.nearRays = kNear;
+    options.gatherRays = 4;
+    options.straight = lit.lighting->straightField(*lit.scene);
+    return options;
+}
+
+PixelQuestion gatheredQuestion(Pixel p, PixelLight light) {
+    PixelQuestion question = questionWithNearLight(p);
+    question.gatherRays = 4;
+    question.light = light;
+    return question;
+}
+
+TEST(ExplainPixel, SumsToThePictureThatIsGathered) {
+    for (const std::uint32_t bands : {3U, 4U}) {
+        Scene scene = mixedRoom(LinkStorage::Rtp, bands, 0);
+        const ConvergedLight lit = light(scene);
+        const ImageF shown = renderField(*lit.trace, lit.field(), *lit.layout,
+                                         gathered(lit, View::Irradiance)),
+                     seen = renderField(*lit.trace, lit.field(), *lit.layout,
+                                        gathered(lit, View::Lit));
+        std::size_t straight = 0, bounced = 0;
+        for (const Pixel p : randomPixels(40)) {
+            SCOPED_TRACE(testing::Message() << "pixel " << p.x << ", " << p.y);
+            const PixelExplanation arrives = explainPixel(
+                                       lit, gatheredQuestion(p, PixelLight::Irradiance)),
+                                   leaves =
+                                       explainPixel(lit, gatheredQuestion(p, PixelLight::Radiance));
+            const double mean = meanOf(shown.rgb);
+            for (const auto* rows : {&arrives.tables.byOrigin, &arrives.tables.bySender}) {
+                glm::vec3 indirect = totalOf(*rows); // the picture shows no direct light
+                for (const LightRow& row : *rows)
+                    if (row.label == "Direct" && row.parent == LightRow::kNone)
+                        indirect -= row.value;
+                expectSame(indirect, shown.rgb[p.index()], 0.01, mean, "E");
+            }
+            expectSame(totalOf(leaves.tables.byOrigin), seen.rgb[p.index()], 0.01, meanOf(seen.rgb),
+                       "L");
+            expectRowsSum(arrives.tables.byOrigin, mean);
+            expectRowsSum(arrives.tables.bySender, mean);
+            straight += rowOf(arrives.tables.byOrigin, LightRowKind::Sky, LightRow::kNone,
+                              "Straight from sky and emissive surfaces")
+                            ? 1U
+                            : 0U;
+            bounced += rowOf(arrives.tables.byOrigin, LightRowKind::Light, 0,
+                             "Gathered from what rays met")
+                           ? 1U
+                           : 0U;
+        }
+        EXPECT_GT(straight, 10U);
+        EXPECT_GT(bounced, 10U);
+    }
+}
+
 TEST(ExplainPixel, WithoutALightNearSurfacesLackItToo) {
     const Scene scene = roomWithALowLamp();
     const ConvergedLight lit = light(scene);

@@ -67,7 +67,7 @@ async function compared(name) {
         camera: { eye: limn.camera.position.toArray(), target: limn.orbit.target.toArray(), fov: limn.camera.fov } }));
     const mine = path.join(folder, `${name}.exr`), theirs = path.join(folder, `${name}-limn.exr`);
     fs.writeFileSync(mine, encodeExr(width, height, await irradiance()));
-    limn('render', 'cornell', '--bake', bake, '--view', 'irradiance', '--device', 'cpu', '--near-rays', 0, '--width', width, '--height', height,
+    limn('render', 'cornell', '--bake', bake, '--view', 'irradiance', '--device', 'cpu', '--near-rays', 0, '--gather-rays', 0, '--width', width, '--height', height,
         '--eye', camera.eye.join(), '--target', camera.target.join(), '--fov', camera.fov,
         ...lamps.flatMap((l) => ['--light', `point pos=${l.position.join()} cd=${l.strength} color=${l.color.join()}`]), '-o', theirs);
     const { nrmse, nrmse_without_worst_percent: most, bias } = JSON.parse(limn('compare', mine, theirs, '--json'));

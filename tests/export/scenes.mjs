@@ -61,7 +61,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
     const { view: from } = known[name];
     const eye = from ? ['--eye', from.eye.join(), '--target', from.target.join(), '--fov', from.fov] : [];
     for (const view of ['irradiance', 'indirect']) for (const end of ['exr', 'png'])
-        limn('render', ...scene, '--bake', bake, '--view', view, '--near-rays', 0, '--width', width, '--height', height, ...eye,
+        limn('render', ...scene, '--bake', bake, '--view', view, '--near-rays', 0, '--gather-rays', 0, '--width', width, '--height', height, ...eye,
             ...(end === 'png' ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${view}.${end}`));
     for (const [engine, view, options] of [
         ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []],

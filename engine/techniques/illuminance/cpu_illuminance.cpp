@@ -4,6 +4,7 @@
 #include "engine/techniques/illuminance/explain_illuminance.h"
 #include "engine/techniques/illuminance/illuminance_snapshot.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
+#include "engine/techniques/illuminance/relight/straight_field.h"
 
 namespace limn {
 
@@ -12,6 +13,10 @@ LightingReport CpuIlluminance::update(const LightingInput& input, const Progress
         input.view ? &seenFrom(m_seen, *m_baked, *m_bake, *input.view) : nullptr;
     m_relighter.lightUnreadGrid(input.unread);
     return reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
+}
+
+std::shared_ptr<const IndirectField> CpuIlluminance::straightField(const Scene& scene) const {
+    return std::make_shared<const IndirectField>(limn::straightField(m_bake, scene));
 }
 
 std::shared_ptr<const LightSnapshot> CpuIlluminance::snapshot() const {

@@ -19,9 +19,10 @@ namespace {
 
 using Weights = std::vector<glm::vec3>;
 
-std::vector<CacheWeight> cachesOf(const Caches& caches, const FieldReading& reading) {
+std::vector<CacheWeight> cachesOf(const Caches& caches,
+                                  const std::vector<FieldReading::Entry>& entries) {
     std::map<std::pair<bool, std::uint32_t>, const FieldReading::Entry*> wanted;
-    for (const FieldReading::Entry& entry : reading.entries)
+    for (const FieldReading::Entry& entry : entries)
         wanted[{entry.grid, entry.index}] = &entry;
     std::vector<CacheWeight> weights;
     for (std::uint32_t c = 0; c < caches.size(); ++c)
@@ -71,8 +72,10 @@ struct ReadingWeights {
     std::vector<Weights> linked;   ///< of nodes, as links' senders
     std::vector<Weights> straight; ///< of leaves, which light the reading straight
     std::vector<Weights> bounced;  ///< of leaves, over all bounces after that
-    glm::vec3 remainder{0};        ///< value of the bounces that were not followed
-    std::uint32_t bounces = 1;     ///< followed
+    /// Of what nodes and leaves send without reflecting, in the reading of the straight field.
+    std::vector<Weights> linkedAlone, straightAlone;
+    glm::vec3 remainder{0};    ///< value of the bounces that were not followed
+    std::uint32_t bounces = 1; ///< followed
 
     glm::vec3 value(const std::vector<Weights>& of, std::uint32_t node, glm::vec3 light) const {
         return passes.value([&](std::size_t p) { return of[p][node]; }, light);
@@ -98,7 +101,8 @@ float absoluteSum(glm::vec3 v) {
 ReadingWeights weigh(const RelightState& state, const FieldReading& reading, double tolerance,
                      const std::vector<std::uint8_t>& black) {
     const ClusterTree& tree = state.bake.tree;
-    ReadingWeights w{Passes(state, cachesOf(state.bake.caches, reading))};
+    ReadingWeights w{Passes(state, cachesOf(state.bake.caches, reading.entries))};
+    const Passes alone(state, cachesOf(state.bake.caches, reading.straight));
     glm::vec3 all(0);
     for (std::size_t p = 0; p < w.passes.size(); ++p) {
         w.linked.push_back(linkedNodes(state, w.passes.caches(p)));
@@ -106,6 +110,9 @@ ReadingWeights weigh(const RelightState& state, const FieldReading& reading, dou
         pushWeights(tree, w.straight.back());
         w.straight.back().resize(tree.leaves());
         w.bounced.emplace_back(tree.leaves(), glm::vec3(0));
+        w.linkedAlone.push_back(linkedNodes(state, alone.caches(p)));
+        w.straightAlone.push_back(w.linkedAlone.back());
+        pushWeights(tree, w.straightAlone.back());
     }
     for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf)
         all += w.value(w.straight, leaf, state.radiosity[leaf]);
@@ -184,7 +191,8 @@ struct OriginTable {
         const ClusterTree& tree = state.bake.tree;
         glm::vec3 straight(0), bounced(0);
         for (std::uint32_t n = tree.surfels; n < tree.leaves(); ++n) {
-            straight += weights.value(weights.straight, n, state.radiosity[n]);
+            straight += weights.value(weights.straight, n, state.radiosity[n]) +
+                        weights.value(weights.straightAlone, n, state.radiosity[n]);
             bounced += weights.value(weights.bounced, n, state.radiosity[n]);
         }
         if (absoluteSum(straight) + absoluteSum(bounced) > 0)
@@ -196,7 +204,8 @@ struct OriginTable {
         for (std::uint32_t s = 0; s < state.bake.tree.surfels; ++s)
             if (state.emitted[s] != glm::vec3(0)) {
                 const std::uint32_t object = state.bake.surfels.instance[s];
-                straight[object] += weights.value(weights.straight, s, state.emitted[s]);
+                straight[object] += weights.value(weights.straight, s, state.emitted[s]) +
+                                    weights.value(weights.straightAlone, s, state.emitted[s]);
                 bounced[object] += weights.value(weights.bounced, s, state.emitted[s]);
             }
         for (const auto& [object, value] : straight)
@@ -252,8 +261,9 @@ struct SenderTable {
     void findLinks() {
         const ClusterTree& tree = state.bake.tree;
         for (std::uint32_t node = 0; node < tree.size(); ++node) {
-            if (std::ranges::all_of(weights.linked,
-                                    [&](const Weights& w) { return w[node] == glm::vec3(0); }))
+            const auto isZero = [&](const Weights& w) { return w[node] == glm::vec3(0); };
+            if (std::ranges::all_of(weights.linked, isZero) &&
+                std::ranges::all_of(weights.linkedAlone, isZero))
                 continue;
             std::map<std::uint32_t, LinkPart> parts;
             forEachLeaf(node, [&](std::uint32_t leaf, float share) {
@@ -261,7 +271,8 @@ struct SenderTable {
                     return;
                 LinkPart& part = parts[state.bake.surfels.instance[leaf]];
                 const glm::vec3 value =
-                    weights.value(weights.linked, node, state.radiosity[leaf]) * share;
+                    share * (weights.value(weights.linked, node, state.radiosity[leaf]) +
+                             weights.value(weights.linkedAlone, node, state.emitted[leaf]));
                 part.value += value;
                 part.surfels.emplace_back(leaf, value);
             });
@@ -330,7 +341,8 @@ struct SenderTable {
         LightRow sky{.kind = LightRowKind::Sky, .label = "Sky"};
         std::vector<LightRow> cells;
         for (std::uint32_t n = tree.surfels; n < tree.leaves(); ++n) {
-            const glm::vec3 value = weights.value(weights.straight, n, state.radiosity[n]);
+            const glm::vec3 value = weights.value(weights.straight, n, state.radiosity[n]) +
+                                    weights.value(weights.straightAlone, n, state.radiosity[n]);
             if (value == glm::vec3(0))
                 continue;
             const glm::vec3 d = tree.skyDirection[n - tree.surfels];

@@ -4,6 +4,7 @@
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/illuminance_snapshot.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
+#include "engine/techniques/illuminance/relight/straight_field.h"
 
 namespace limn {
 
@@ -21,6 +22,11 @@ LightingReport DeviceIlluminance::update(const LightingInput& input, const Progr
     const Bake& bake = *m_relighter->gpu().bake();
     const CacheFlags* seen = input.view ? &seenFrom(m_seen, *m_baked, bake, *input.view) : nullptr;
     return reportOf(m_relighter->relight(m_viewport, input.scene, input.bounces, progress, seen));
+}
+
+std::shared_ptr<const IndirectField> DeviceIlluminance::straightField(const Scene& scene) const {
+    return std::make_shared<const IndirectField>(
+        limn::straightField(m_relighter->gpu().bake(), scene));
 }
 
 std::shared_ptr<const LightSnapshot> DeviceIlluminance::snapshot() const {

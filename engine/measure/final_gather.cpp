@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "engine/measure/final_gather.h"
+
+#include "engine/core/parallel.h"
+#include "engine/measure/final_gather_read.h"
+#include "engine/reference/direct_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace limn {
+
+/// A pixel whose first samples have a standard error of this part of the picture's mean light gets
+/// as many again, and others in proportion, up to kMostMore times as many.
+static constexpr double kErrorOfOneMore = 0.125, kMostMore = 15;
+
+/// Rays of the further samples of a pixel; fewer are not worth taking.
+static constexpr std::uint32_t kFewestRays = 16;
+
+static bool showsBouncedLight(View view) {
+    return view == View::Lit || view == View::Indirect || view == View::Irradiance;
+}
+
+FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
+                         const LightmapLayout& layout, const FieldRenderOptions& options)
+    : m_trace(trace), m_field(field), m_layout(layout), m_options(options),
+      m_any(options.straight && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
+            showsBouncedLight(options.view)),
+      m_sources(m_any ? findStraightSources(trace) : StraightSources{}),
+      m_near(nearLight(trace, field, layout, m_any ? 1 : 0)),
+      m_rays(options.camera, options.width, options.height) {
+    if (m_any)
+        m_meanLight = meanLight();
+}
+
+/// Of irradiance, in what the view shows.
+glm::vec3 FinalGather::weightOf(const SurfacePoint& p) const {
+    return m_options.view == View::Irradiance ? glm::vec3(1) : p.albedo / glm::pi<float>();
+}
+
+/// Mean over the colours and over some points that the picture shows.
+double FinalGather::meanLight() const {
+    constexpr std::uint32_t kColumns = 32, kRows = 18;
+    const glm::vec2 cell = m_rays.size / glm::vec2(kColumns, kRows);
+    double sum = 0;
+    std::uint32_t count = 0;
+    for (std::uint32_t y = 0; y < kRows; ++y)
+        for (std::uint32_t x = 0; x < kColumns; ++x) {
+            const Hit hit = m_trace.closestHit(m_rays.through(cell * (glm::vec2(x, y) + 0.5f)));
+            const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
+            if (!p)
+                continue;
+            const FieldPoint at = fieldPoint(m_field, m_layout, m_trace.scene(), hit, *p);
+            sum += double(channelSum(weightOf(*p) * sampleIrradiance(at))) / 3;
+            ++count;
+        }
+    return count > 0 ? sum / count : 0;
+}
+
+/// Adds up what is read, and learns from it where light comes from.
+struct FinalGather::GatherReader {
+    const TraceScene& trace;
+    LightGuide* learns = nullptr;
+    std::array<glm::vec3, kGatherParts> sums{};
+
+    /// Whether an instance that the pixel shows, or that a ray met, reflects light.
+    static bool shows(std::uint32_t /*instance*/) { return true; }
+    static bool reflects(std::uint32_t /*instance*/) { return true; }
+    /// Weight times a field's irradiance or radiance.
+    void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart part) {
+        sums[part] += weight * sampleIrradiance(at);
+    }
+    void fieldRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+                       GatherPart part) {
+        sums[part] += weight * sampleRadiance(at, direction);
+    }
+    /// Weight times direct light where a ray ends. `via`: the instance that it met first.
+    void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
+                     std::uint32_t bounce, std::uint32_t /*via*/) {
+        std::uint64_t rays = 0;
+        const glm::vec3 light =
+            weight *
+            sampleDirectLight(trace, *met.point, own.pair(0).x, own.pair(1), rays).irradiance;
+        sums[Bounced] += light;
+        if (learns && bounce == 1)
+            learns->add(met.direction, channelSum(light));
+    }
+    /// Light from the sky or an emissive surface.
+    void arrives(const FoundLight& from, glm::vec3 value, GatherPart part, std::uint32_t /*via*/) {
+        sums[part] += value;
+        if (!learns || part == Bounced)
+            return;
+        if (from.instance == ~0U)
+            learns->add(from.toLight, channelSum(value));
+        else
+            learns->addOther(channelSum(value));
+    }
+};
+
+GatherSamples FinalGather::take(std::uint32_t x, std::uint32_t y, std::uint32_t begin,
+                                std::uint32_t count, const LightGuide* guide,
+                                LightGuide* learns) const {
+    GatherSamples taken{.parts = {}, .all = {}, .count = count};
+    for (std::uint32_t s = 0; s < count; ++s) {
+        GatherReader reader{m_trace, learns};
+        sample(x, y, begin + s, guide, {1, 1}, reader);
+        const bool half = s < count / 2;
+        for (std::uint32_t part = 0; part < kGatherParts; ++part)
+            taken.parts[part].add(reader.sums[part], half);
+        taken.all.add(reader.sums[Straight] + reader.sums[Bounced], half);
+    }
+    return taken;
+}
+
+/// The number of further samples of a pixel whose first samples have this variance.
+std::uint32_t FinalGather::further(double variance) const {
+    if (!(m_meanLight > 0))
+        return 0;
+    const std::uint32_t first = m_options.samplesPerPixel;
+    const double times = std::sqrt(variance / first) / (kErrorOfOneMore * m_meanLight);
+    const auto count = std::uint32_t(std::min(times, kMostMore) * first);
+    return count * m_options.gatherRays < kFewestRays ? 0 : count;
+}
+
+/// The tile whose upper left pixel is (x, y), with all of its samples.
+GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
+    GatherTile tile{.x = x,
+                    .y = y,
+                    .width = std::min(kGatherTile, m_options.width - x),
+                    .height = std::min(kGatherTile, m_options.height - y)};
+    const std::uint32_t count = m_options.samplesPerPixel;
+    const auto forEachPixel = [&](const auto& body) {
+        for (std::uint32_t j = 0; j < tile.height; ++j)
+            for (std::uint32_t i = 0; i < tile.width; ++i)
+                body(i, j, j * kGatherTile + i);
+    };
+    forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
+        tile.first[p] = take(x + i, y + j, 0, count, nullptr, &tile.guide);
+    });
+    tile.guide.finish();
+    forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
+        const double variance = varianceAround(tile, i, j);
+        tile.more[p] = take(x + i, y + j, count, further(variance), &tile.guide, nullptr);
+    });
+    weighSamples(tile);
+    return tile;
+}
+
+bool FinalGather::addTo(ImageF& image, const Progress& progress) const {
+    const std::uint32_t columns = (m_options.width + kGatherTile - 1) / kGatherTile,
+                        rows = (m_options.height + kGatherTile - 1) / kGatherTile;
+    const auto addTile = [&](std::uint32_t number) {
+        const GatherTile tile =
+            tileOf(number % columns * kGatherTile, number / columns * kGatherTile);
+        for (std::uint32_t j = 0; j < tile.height; ++j)
+            for (std::uint32_t i = 0; i < tile.width; ++i) {
+                const std::uint32_t p = j * kGatherTile + i;
+                const GatherSamples &first = tile.first[p], &more = tile.more[p];
+                const double w = tile.shareOfMore[p];
+                glm::dvec3 sum(0);
+                for (std::uint32_t part = 0; part < kGatherParts; ++part) {
+                    glm::dvec3 mean = (1 - w) / first.count * first.parts[part].sum;
+                    if (more.count > 0)
+                        mean += w / more.count * more.parts[part].sum;
+                    sum += tile.kept[part][p] * mean;
+                }
+                image.rgb[std::size_t(tile.y + j) * m_options.width + tile.x + i] += glm::vec3(sum);
+            }
+    };
+    return parallelRanges(std::size_t(columns) * rows, 1, progress, "gather",
+                          [&](std::size_t first, std::size_t last) {
+                              for (std::size_t t = first; t < last; ++t)
+                                  addTile(std::uint32_t(t));
+                          });
+}
+
+} // namespace limn

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/field/sample_field.h"
+#include "engine/measure/field_lobe.h"
+#include "engine/measure/field_render.h"
+#include "engine/measure/gather_tile.h"
+#include "engine/measure/near_light.h"
+#include "engine/measure/pixel_sample.h"
+#include "engine/reference/straight_light.h"
+
+#include <array>
+#include <cstdint>
+
+namespace limn {
+
+/// Final gathering: what a picture drawn from a field shows is exchanged for what rays from its
+/// pixels find, as far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights
+/// and Viewer Position. 1992
+///
+/// Light that arrives straight from the sky and emissive surfaces is sampled. Bounced light is the
+/// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
+/// where it is seen. Where a ray is shorter than these texels are wide, it goes on from there.
+///
+/// Pixels have as many samples as the picture, and more where these are noisy: in proportion to
+/// their standard deviation, which brings most for a given number (Neyman. On the Two Different
+/// Aspects of the Representative Method. 1934). Further samples are aimed at the light that the
+/// pixels of the same tile have found.
+///
+/// Where the field is about right, the exchange would bring noise alone. So each pixel keeps as
+/// much of it as has the least expected squared error, given the variance of its samples and how
+/// far the tile's pixels differ from the field beyond their noise (Efron, Morris. Stein's
+/// Estimation Rule and Its Competitors. 1973).
+class FinalGather {
+public:
+    /// Of pictures that renderField() draws with these arguments, which outlive the object.
+    FinalGather(const TraceScene& trace, const IndirectField& field, const LightmapLayout& layout,
+                const FieldRenderOptions& options);
+
+    /// Whether the options ask for it and the view shows bounced light. Pictures of one sample a
+    /// pixel are left alone, because nothing tells how noisy it is.
+    bool any() const { return m_any; }
+
+    /// Adds the exchange to a picture of the options' size. Returns false when cancelled.
+    /// Precondition: any().
+    bool addTo(ImageF& image, const Progress& progress = {}) const;
+
+    /// The same for one pixel, piece by piece: calls of `reader`, whose sum addTo() adds, as
+    /// GatherReader of final_gather.cpp does. In final_gather_read.h. Precondition: any().
+    template <class Reader>
+    void read(std::uint32_t x, std::uint32_t y, Reader& reader) const;
+
+private:
+    using Weights = std::array<glm::vec3, kGatherParts>;
+    struct GatherReader;
+
+    const IndirectField& straight() const { return *m_options.straight; }
+    FieldPoint pointOf(const IndirectField& field, const Hit& hit, const SurfacePoint& p) const {
+        return fieldPoint(field, m_layout, m_trace.scene(), hit, p);
+    }
+    glm::vec3 weightOf(const SurfacePoint& p) const;
+    double meanLight() const;
+    GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
+    GatherSamples take(std::uint32_t x, std::uint32_t y, std::uint32_t begin, std::uint32_t count,
+                       const LightGuide* guide, LightGuide* learns) const;
+    std::uint32_t further(double variance) const;
+    /// Reads sample s of a pixel, each part by its share. `guide`: of further samples.
+    template <class Reader>
+    void sample(std::uint32_t x, std::uint32_t y, std::uint32_t s, const LightGuide* guide,
+                std::array<double, kGatherParts> shares, Reader& reader) const;
+    template <class Reader>
+    void readNear(const StraightSample& found, const Hit& hit, const SurfacePoint& p,
+                  const Weights& weights, Reader& reader) const;
+    template <class Reader>
+    void readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
+                     Reader& reader) const;
+
+    const TraceScene& m_trace;
+    const IndirectField& m_field;
+    const LightmapLayout& m_layout;
+    const FieldRenderOptions& m_options;
+    bool m_any;
+    StraightSources m_sources;
+    NearLight m_near;
+    PixelRays m_rays;
+    double m_meanLight = 0; ///< of what the picture shows without the exchange
+};
+
+} // namespace limn

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "engine/measure/gather_tile.h"
+
+#include "engine/reference/surface_point.h"
+
+#include <algorithm>
+
+namespace limn {
+
+void GatherSums::add(glm::vec3 value, bool inFirstHalf) {
+    const double g = double(channelSum(value)) / 3;
+    sum += glm::dvec3(value);
+    grey += g;
+    squared += g * g;
+    firstHalf += inFirstHalf ? g : 0;
+}
+
+double GatherSums::variance(std::uint32_t count) const {
+    if (count < 2)
+        return 0;
+    const double mean = grey / count;
+    return std::max(squared / count - mean * mean, 0.0) * count / (count - 1);
+}
+
+double GatherSums::varianceByHalves(std::uint32_t count) const {
+    if (count < 2)
+        return 0;
+    const std::uint32_t half = count / 2;
+    const double difference = firstHalf / half - (grey - firstHalf) / (count - half);
+    return difference * difference / 4;
+}
+
+template <class Of>
+static double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j,
+                             const Of& of) {
+    double variance = 0;
+    for (const GatherSamples& samples : tile.first)
+        variance += of(samples).variance(samples.count) / (tile.width * tile.height);
+    int pixels = 1;
+    for (std::uint32_t y = j - std::min(j, 1U); y <= std::min(j + 1, tile.height - 1); ++y)
+        for (std::uint32_t x = i - std::min(i, 1U); x <= std::min(i + 1, tile.width - 1); ++x) {
+            const GatherSamples& samples = tile.first[y * kGatherTile + x];
+            variance += of(samples).variance(samples.count);
+            ++pixels;
+        }
+    return variance / pixels;
+}
+
+double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j) {
+    return varianceAround(tile, i, j, [](const GatherSamples& s) { return s.all; });
+}
+
+/// What a further sample is worth in the tile, in first ones.
+static double worthOfMore(const GatherTile& tile) {
+    double first = 0, more = 0;
+    for (std::uint32_t p = 0; p < kGatherPixels; ++p)
+        if (tile.more[p].count > 0) {
+            first += tile.first[p].all.variance(tile.first[p].count);
+            more += tile.more[p].all.variance(tile.more[p].count);
+        }
+    // Without the guide they are the same. With it, their density is a quarter of that at least, so
+    // their variance is hardly more than four times as large.
+    return tile.guide.share() > 0 && more > 0 ? std::clamp(first / more, 0.25, 100.0) : 1;
+}
+
+/// Sets how much of a part each pixel keeps: signal / (signal + noise), both squared. The signal is
+/// what the tile's pixels differ from the field by beyond their noise.
+static void keep(GatherTile& tile, GatherPart part, double worth) {
+    std::array<double, kGatherPixels> noise{};
+    double all = 0, noises = 0, independent = 0, byHalves = 0;
+    for (std::uint32_t j = 0; j < tile.height; ++j)
+        for (std::uint32_t i = 0; i < tile.width; ++i) {
+            const std::uint32_t p = j * kGatherTile + i;
+            const GatherSamples &first = tile.first[p], &more = tile.more[p];
+            const GatherSums& ofFirst = first.parts[part];
+            const double w = tile.shareOfMore[p];
+            const double mean = (1 - w) * ofFirst.grey / first.count +
+                                (more.count > 0 ? w * more.parts[part].grey / more.count : 0);
+            noise[p] =
+                varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
+                (first.count + worth * more.count);
+            all += mean * mean;
+            noises += noise[p];
+            independent += ofFirst.variance(first.count) / first.count;
+            byHalves += ofFirst.varianceByHalves(first.count);
+        }
+    const double stratified = independent > 0 ? std::min(byHalves / independent, 1.0) : 1;
+    const double signal = std::max(all - stratified * noises, 0.0) / (tile.width * tile.height);
+    for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
+        const double sum = signal + stratified * noise[p];
+        tile.kept[part][p] = sum > 0 ? signal / sum : 0;
+    }
+}
+
+void weighSamples(GatherTile& tile) {
+    const double worth = worthOfMore(tile);
+    for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
+        const double more = worth * tile.more[p].count;
+        tile.shareOfMore[p] = more > 0 ? more / (more + tile.first[p].count) : 0;
+    }
+    keep(tile, Straight, worth);
+    keep(tile, Bounced, worth);
+}
+
+} // namespace limn

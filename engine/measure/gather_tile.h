@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/reference/light_guide.h"
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Width of the tiles of a picture whose pixels learn from each other [pixels].
+inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kGatherTile;
+
+/// Parts of the light, each of which is exchanged as far as that is worth its noise: what arrives
+/// straight from the sky and emissive surfaces, and the rest.
+enum GatherPart : std::uint32_t { Straight, Bounced };
+inline constexpr std::uint32_t kGatherParts = 2;
+
+/// Sums over samples of a pixel, of one part of the light. Variances are of the mean of the
+/// colours.
+struct GatherSums {
+    glm::dvec3 sum{0};
+    double grey = 0, squared = 0;
+    double firstHalf = 0; ///< `grey` of the first half of the samples
+
+    void add(glm::vec3 value, bool inFirstHalf);
+    double variance(std::uint32_t count) const; ///< of a sample
+    /// Of the mean, from the difference of both halves, which knows of the samples'
+    /// stratification.
+    double varianceByHalves(std::uint32_t count) const;
+};
+struct GatherSamples {
+    std::array<GatherSums, kGatherParts> parts;
+    GatherSums all; ///< of both parts together
+    std::uint32_t count = 0;
+};
+/// The samples of a tile's pixels; pixel (i, j) has number j * kGatherTile + i. Those beyond the
+/// picture have none.
+struct GatherTile {
+    std::uint32_t x = 0, y = 0, width = 0, height = 0; ///< [pixels]
+    LightGuide guide;
+    std::array<GatherSamples, kGatherPixels> first, more;
+    std::array<double, kGatherPixels> shareOfMore{}; ///< of further samples, in the mean of all
+    /// Share of each part's mean that the picture gets.
+    std::array<std::array<double, kGatherPixels>, kGatherParts> kept{};
+};
+
+/// The variance of a first sample of pixel (i, j), of both parts together: the mean over its
+/// neighbours, and the whole tile as one more. Where all of a pixel's own samples have missed a
+/// window, they have none.
+double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);
+
+/// Weighs further samples against first ones, and the mean of all against the field: sets
+/// shareOfMore and kept.
+void weighSamples(GatherTile& tile);
+
+} // namespace limn

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "engine/measure/final_gather_read.h"
+
+#include "engine/core/parallel.h"
+#include "engine/measure/compare.h"
+#include "engine/reference/reference.h"
+#include "tests/measure/two_plates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace limn::final_gather_test {
+namespace {
+
+/// A plane of coarse texels below a black plate of 4 m and an even sky, and a field that holds the
+/// same straight light for all of it. Nothing reflects.
+struct BelowAPlate {
+    TwoPlates plates{plateAbove(1), 0};
+    Scene scene;
+    FieldRenderOptions options;
+
+    /// `lamp`: the plate shines as well. `field`: the radiance that the field holds.
+    explicit BelowAPlate(glm::vec3 field, glm::vec3 lamp = glm::vec3(0)) {
+        plates.builder.scene.sky.radiance = {1, 2, 3};
+        plates.builder.scene.materials[1].emission = lamp;
+        plates.setField(0, {0, 1, 0}, field);
+        scene = plates.builder.build();
+        options.view = View::Irradiance;
+        options.camera.eye = {3, 0.7f, 3};
+        options.camera.target = {0, 0, 0};
+        options.width = 36; // no multiple of the tiles
+        options.height = 20;
+        options.samplesPerPixel = 64;
+        options.gatherRays = 1;
+        options.straight = std::make_shared<const IndirectField>(plates.field);
+    }
+    ImageF drawn(const FieldRenderOptions& by) const {
+        return renderField(TraceScene(scene), plates.field, *plates.layout, by);
+    }
+    ImageF truth() const {
+        ReferenceOptions r;
+        r.view = options.view;
+        r.camera = options.camera;
+        r.width = options.width;
+        r.height = options.height;
+        r.samplesPerPixel = 4096;
+        return renderReference(TraceScene(scene), r).image;
+    }
+    double error(const FieldRenderOptions& by) const {
+        return compareImages(drawn(by), truth())->nrmse;
+    }
+};
+
+TEST(FinalGather, ExchangesWhatTheFieldHasForWhatRaysFind) {
+    for (const glm::vec3 lamp : {glm::vec3(0), glm::vec3(2, 1, 0.5f)}) {
+        const BelowAPlate s(glm::vec3(0.4f, 0.8f, 1.2f), lamp);
+        FieldRenderOptions without = s.options;
+        without.gatherRays = 0;
+        const double before = s.error(without), after = s.error(s.options);
+        EXPECT_GT(before, 0.3);
+        EXPECT_LT(after, 0.2 * before);
+        // Four rays of a quarter of the samples are as good.
+        FieldRenderOptions four = s.options;
+        four.samplesPerPixel = 16;
+        four.gatherRays = 4;
+        EXPECT_LT(s.error(four), 0.2 * before);
+    }
+}
+
+/// Each sample finds exactly pi times the radiance, so further samples have nothing to add, and
+/// all of the exchange is kept.
+TEST(FinalGather, IsExactUnderAnOpenSky) {
+    BelowAPlate s(glm::vec3(0.2f));
+    s.scene.instances[1].toWorld[3].y = -2; // the plate lies below
+    s.options.camera.eye = {0.3f, 0.9f, 0.3f};
+    const ImageF image = s.drawn(s.options);
+    for (const glm::vec3 E : image.rgb) {
+        EXPECT_NEAR(E.x, glm::pi<float>(), 1e-3f);
+        EXPECT_NEAR(E.z, 3 * glm::pi<float>(), 3e-3f);
+    }
+}
+
+/// The light of a field that is right is worth more than that of noisy samples.
+TEST(FinalGather, LeavesAFieldThatIsRightAlone) {
+    // Of the hemisphere over each point of a floor under a roof on thin air, half is open.
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0)));
+    Material grid = simple::lambert(glm::vec3(0));
+    grid.alphaMode = AlphaMode::Mask;
+    grid.doubleSided = true;
+    b.assets->images.push_back({"holes", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
+    grid.baseColorTexture.image = 0;
+    grid.baseColorTexture.nearest = true;
+    b.addMaterial(grid);
+    Mesh roof = simple::quad({-40, 1, -40}, {80, 0, 0}, {0, 0, 80}, 1);
+    roof.uv0 = {{0, 0}, {4000, 0}, {4000, 1}, {0, 1}}; // stripes 1 cm wide
+    b.add(simple::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}));
+    b.add(roof);
+    b.scene.sky.radiance = glm::vec3(1);
+    const Scene scene = b.build();
+    IndirectField field;
+    field.gridSize = {1, 1, 1};
+    field.gridBounds = {glm::vec3(-4), glm::vec3(4)};
+    field.grid.assign(9, glm::vec4(0));
+    field.grid[0] = glm::vec4(std::sqrt(glm::pi<float>()) * glm::vec3(1), 0); // radiance 1/2
+    FieldRenderOptions options;
+    options.view = View::Irradiance;
+    options.camera.eye = {0.1f, 0.9f, 0.1f};
+    options.camera.target = {0, 0, 0};
+    options.width = 32;
+    options.height = 24;
+    options.samplesPerPixel = 16;
+    options.gatherRays = 1;
+    options.straight = std::make_shared<const IndirectField>(field);
+    const TraceScene trace(scene);
+    const ImageF image = renderField(trace, field, {}, options);
+    double squared = 0;
+    for (const glm::vec3 E : image.rgb)
+        squared += std::pow(double(E.x) - glm::pi<double>() / 2, 2) / double(image.rgb.size());
+    // Alone, 16 random samples would have a standard error of pi / 8.
+    EXPECT_LT(std::sqrt(squared), 0.2 * glm::pi<double>() / 8);
+}
+
+/// Irradiance in the middle of the plane, whose own field is dark, from a grey plate `height` above
+/// it whose field is `light`.
+double belowAGreyPlate(float height, float light) {
+    TwoPlates plates(plateAbove(height));
+    plates.setField(1, {0, -1, 0}, glm::vec3(light));
+    FieldRenderOptions options;
+    options.view = View::Irradiance;
+    options.camera.eye = {0.02f, 0.2f, 0.02f};
+    options.camera.target = {0, 0, 0};
+    options.camera.fovY = 0.3f;
+    options.width = options.height = 16;
+    options.samplesPerPixel = 64;
+    options.gatherRays = 1;
+    IndirectField dark = plates.field;
+    std::ranges::fill(dark.lightmap, glm::vec4(0));
+    options.straight = std::make_shared<const IndirectField>(dark);
+    return meanOf(
+        renderField(TraceScene(plates.builder.build()), plates.field, *plates.layout, options));
+}
+
+TEST(FinalGather, ReadsTheFieldWhereRaysEnd) {
+    const double a = 2, h = 2, r = std::sqrt(a * a + h * h);
+    const double formFactor = 4 * a / (glm::pi<double>() * r) * std::atan(a / r);
+    const double sent = 0.5 * glm::pi<double>() * 3; // albedo times irradiance
+    EXPECT_NEAR(belowAGreyPlate(2, 3), formFactor * sent, 0.03 * formFactor * sent);
+}
+
+/// The plate's texels are 4/3 m wide: rays that are shorter do not read them. Where the plate is
+/// 1/2 m away, others have a cosine below 3/8, so they are 9/64 of all.
+TEST(FinalGather, GoesOnWhereRaysAreShorterThanTexels) {
+    const double all = 0.5 * glm::pi<double>() * 3;
+    EXPECT_GT(belowAGreyPlate(0.5f, 3), 0.02 * all);
+    EXPECT_LT(belowAGreyPlate(0.5f, 3), 9. / 64 * all);
+}
+
+TEST(FinalGather, DoesNothingWhereItIsNotAskedFor) {
+    BelowAPlate s(glm::vec3(1));
+    const auto any = [&](const FieldRenderOptions& o) {
+        const TraceScene trace(s.scene);
+        return FinalGather(trace, s.plates.field, *s.plates.layout, o).any();
+    };
+    EXPECT_TRUE(any(s.options));
+    FieldRenderOptions o = s.options;
+    o.gatherRays = 0;
+    EXPECT_FALSE(any(o));
+    o = s.options;
+    o.samplesPerPixel = 1;
+    EXPECT_FALSE(any(o));
+    o = s.options;
+    o.straight = nullptr;
+    EXPECT_FALSE(any(o));
+    for (const View view : {View::Direct, View::Albedo, View::Normals}) {
+        o = s.options;
+        o.view = view;
+        EXPECT_FALSE(any(o));
+    }
+}
+
+TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
+    struct Sum {
+        glm::vec3 value{0};
+        static bool shows(std::uint32_t) { return true; }
+        static bool reflects(std::uint32_t) { return true; }
+        void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart) {
+            value += weight * sampleIrradiance(at);
+        }
+        void fieldRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+                           GatherPart) {
+            value += weight * sampleRadiance(at, direction);
+        }
+        void directLight(const StraightSample&, const Sampler&, glm::vec3, std::uint32_t,
+                         std::uint32_t) {} // there is no light
+        void arrives(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {
+            value += found;
+        }
+    };
+    BelowAPlate s(glm::vec3(0.4f), glm::vec3(1, 0, 0));
+    s.options.nearRays = 1;
+    const TraceScene trace(s.scene);
+    const FinalGather straight(trace, s.plates.field, *s.plates.layout, s.options);
+    const ImageF black{36, 20, std::vector<glm::vec3>(720, glm::vec3(0))};
+    ImageF one = black, many = black;
+    {
+        const ThreadLimit limit(1);
+        ASSERT_TRUE(straight.addTo(one));
+    }
+    ASSERT_TRUE(straight.addTo(many));
+    EXPECT_EQ(one.rgb, many.rgb);
+    for (const std::uint32_t pixel : {0U, 100U, 377U, 719U}) {
+        Sum sum;
+        straight.read(pixel % 36, pixel / 36, sum);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(sum.value[k], one.rgb[pixel][k], 1e-4f);
+    }
+}
+
+TEST(FinalGather, CanBeCancelled) {
+    const BelowAPlate s(glm::vec3(1));
+    const TraceScene trace(s.scene);
+    const FinalGather straight(trace, s.plates.field, *s.plates.layout, s.options);
+    ImageF image{36, 20, std::vector<glm::vec3>(720, glm::vec3(0))};
+    const std::atomic<bool> cancelled = true;
+    Progress progress;
+    progress.cancel = &cancelled;
+    EXPECT_FALSE(straight.addTo(image, progress));
+}
+
+} // namespace
+} // namespace limn::final_gather_test
