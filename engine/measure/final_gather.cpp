@@ -40,12 +40,12 @@ glm::vec3 FinalGather::weightOf(const SurfacePoint& p) const {
     return m_options.view == View::Irradiance ? glm::vec3(1) : p.albedo / glm::pi<float>();
 }
 
-/// Mean over the colours and over some points that the picture shows.
+/// Mean over the colours and over some points of the picture, where the background counts as dark:
+/// surfaces that fill a small part of a picture may well cost more for each of their pixels.
 double FinalGather::meanLight() const {
     constexpr std::uint32_t kColumns = 32, kRows = 18;
     const glm::vec2 cell = m_rays.size / glm::vec2(kColumns, kRows);
     double sum = 0;
-    std::uint32_t count = 0;
     for (std::uint32_t y = 0; y < kRows; ++y)
         for (std::uint32_t x = 0; x < kColumns; ++x) {
             const Hit hit = m_trace.closestHit(m_rays.through(cell * (glm::vec2(x, y) + 0.5f)));
@@ -54,9 +54,8 @@ double FinalGather::meanLight() const {
                 continue;
             const FieldPoint at = fieldPoint(m_field, m_layout, m_trace.scene(), hit, *p);
             sum += double(channelSum(weightOf(*p) * sampleIrradiance(at))) / 3;
-            ++count;
         }
-    return count > 0 ? sum / count : 0;
+    return sum / (kColumns * kRows);
 }
 
 /// Adds up what is read, and learns from it where light comes from.
