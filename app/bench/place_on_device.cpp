@@ -46,9 +46,6 @@ public:
 
     const IndirectField* field() const override { return m_light->field(); }
     IndirectField readField() const override { return m_light->readField(); }
-    std::shared_ptr<const IndirectField> straightField(const Scene& scene) const override {
-        return m_light->straightField(scene);
-    }
 
 private:
     /// Memory allocated on the device; buffers that await their release are released first.

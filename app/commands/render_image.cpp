@@ -43,7 +43,7 @@ struct GpuDrawing {
     /// Returns false where there is nothing to add.
     bool addGathered(const Scene& scene, const RenderRequest& request, ImageF& linear) const;
 
-    IndirectField cpuField; ///< of the last picture, where the light is the CPU's
+    const IndirectField* cpuField = nullptr; ///< of this picture, where the light is the CPU's
 };
 
 Result<void> GpuDrawing::chooseLighting(const RenderRequest& request) {
@@ -71,8 +71,7 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
     if (!lighting) {
         const CpuLight light = request.relight(request.view == View::Lit);
         viewport.setIndirect(light.field);
-        if (request.gatherRays > 0)
-            cpuField = light.field;
+        cpuField = &light.field;
         result.relightDevice = "cpu";
         result.relight = light.report;
         return {};
@@ -95,9 +94,9 @@ bool GpuDrawing::addGathered(const Scene& scene, const RenderRequest& request,
                                               : nullptr;
     if (!options.straight)
         return false;
-    const IndirectField field = lighting ? lighting->readField() : cpuField;
+    const IndirectField onDevice = lighting ? lighting->readField() : IndirectField();
     const TraceScene trace(scene);
-    const FinalGather gather(trace, field, *request.layout, options);
+    const FinalGather gather(trace, lighting ? onDevice : *cpuField, *request.layout, options);
     if (!gather.any())
         return false;
     gather.addTo(linear, progressOnStderr());

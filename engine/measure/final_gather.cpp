@@ -156,15 +156,8 @@ bool FinalGather::addTo(ImageF& image, const Progress& progress) const {
         for (std::uint32_t j = 0; j < tile.height; ++j)
             for (std::uint32_t i = 0; i < tile.width; ++i) {
                 const std::uint32_t p = j * kGatherTile + i;
-                const GatherSamples &first = tile.first[p], &more = tile.more[p];
-                const double w = tile.shareOfMore[p];
-                glm::dvec3 sum(0);
-                for (std::uint32_t part = 0; part < kGatherParts; ++part) {
-                    glm::dvec3 mean = (1 - w) / first.count * first.parts[part].sum;
-                    if (more.count > 0)
-                        mean += w / more.count * more.parts[part].sum;
-                    sum += tile.kept[part][p] * mean;
-                }
+                const glm::dvec3 sum = tile.kept[Straight][p] * tile.meanOf(p, Straight) +
+                                       tile.kept[Bounced][p] * tile.meanOf(p, Bounced);
                 image.rgb[std::size_t(tile.y + j) * m_options.width + tile.x + i] += glm::vec3(sum);
             }
     };

@@ -10,7 +10,6 @@ namespace limn {
 void GatherSums::add(glm::vec3 value, bool inFirstHalf) {
     const double g = double(channelSum(value)) / 3;
     sum += glm::dvec3(value);
-    grey += g;
     squared += g * g;
     firstHalf += inFirstHalf ? g : 0;
 }
@@ -18,7 +17,7 @@ void GatherSums::add(glm::vec3 value, bool inFirstHalf) {
 double GatherSums::variance(std::uint32_t count) const {
     if (count < 2)
         return 0;
-    const double mean = grey / count;
+    const double mean = grey() / count;
     return std::max(squared / count - mean * mean, 0.0) * count / (count - 1);
 }
 
@@ -26,7 +25,7 @@ double GatherSums::varianceByHalves(std::uint32_t count) const {
     if (count < 2)
         return 0;
     const std::uint32_t half = count / 2;
-    const double difference = firstHalf / half - (grey - firstHalf) / (count - half);
+    const double difference = firstHalf / half - (grey() - firstHalf) / (count - half);
     return difference * difference / 4;
 }
 
@@ -50,7 +49,15 @@ double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j) 
     return varianceAround(tile, i, j, [](const GatherSamples& s) { return s.all; });
 }
 
-/// What a further sample is worth in the tile, in first ones.
+glm::dvec3 GatherTile::meanOf(std::uint32_t p, GatherPart part) const {
+    const double w = shareOfMore[p];
+    glm::dvec3 mean = (1 - w) / first[p].count * first[p].parts[part].sum;
+    if (more[p].count > 0)
+        mean += w / more[p].count * more[p].parts[part].sum;
+    return mean;
+}
+
+/// The number of first samples that a further one is worth: the ratio of their variances.
 static double worthOfMore(const GatherTile& tile) {
     double first = 0, more = 0;
     for (std::uint32_t p = 0; p < kGatherPixels; ++p)
@@ -73,13 +80,12 @@ static void keep(GatherTile& tile, GatherPart part, double worth) {
             const std::uint32_t p = j * kGatherTile + i;
             const GatherSamples &first = tile.first[p], &more = tile.more[p];
             const GatherSums& ofFirst = first.parts[part];
-            const double w = tile.shareOfMore[p];
-            const double mean = (1 - w) * ofFirst.grey / first.count +
-                                (more.count > 0 ? w * more.parts[part].grey / more.count : 0);
+            const glm::dvec3 mean = tile.meanOf(p, part);
+            const double grey = (mean.x + mean.y + mean.z) / 3;
             noise[p] =
                 varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
                 (first.count + worth * more.count);
-            all += mean * mean;
+            all += grey * grey;
             noises += noise[p];
             independent += ofFirst.variance(first.count) / first.count;
             byHalves += ofFirst.varianceByHalves(first.count);

@@ -18,14 +18,15 @@ inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kG
 enum GatherPart : std::uint32_t { Straight, Bounced };
 inline constexpr std::uint32_t kGatherParts = 2;
 
-/// Sums over samples of a pixel, of one part of the light. Variances are of the mean of the
-/// colours.
+/// Sums over samples of a pixel, of one part of the light. A sample's grey is the mean of its
+/// colours, and variances are of that.
 struct GatherSums {
     glm::dvec3 sum{0};
-    double grey = 0, squared = 0;
-    double firstHalf = 0; ///< `grey` of the first half of the samples
+    double squared = 0;   ///< of the squares of greys
+    double firstHalf = 0; ///< of the greys of the first half of the samples
 
     void add(glm::vec3 value, bool inFirstHalf);
+    double grey() const { return (sum.x + sum.y + sum.z) / 3; }
     double variance(std::uint32_t count) const; ///< of a sample
     /// Of the mean, from the difference of both halves, which knows of the samples'
     /// stratification.
@@ -45,6 +46,9 @@ struct GatherTile {
     std::array<double, kGatherPixels> shareOfMore{}; ///< of further samples, in the mean of all
     /// Share of each part's mean that the picture gets.
     std::array<std::array<double, kGatherPixels>, kGatherParts> kept{};
+
+    /// Mean over all samples of a part of pixel p, which has some.
+    glm::dvec3 meanOf(std::uint32_t p, GatherPart part) const;
 };
 
 /// The variance of a first sample of pixel (i, j), of both parts together: the mean over its

@@ -17,8 +17,8 @@
 namespace limn::final_gather_test {
 namespace {
 
-/// A plane of coarse texels below a black plate of 4 m and an even sky, and a field that holds the
-/// same straight light for all of it. Nothing reflects.
+/// A plane of coarse texels below a black plate of 4 m, under an even sky. The field has the same
+/// straight light everywhere on the plane. Nothing reflects.
 struct BelowAPlate {
     TwoPlates plates{plateAbove(1), 0};
     Scene scene;

@@ -93,8 +93,8 @@ TEST(StraightLight, AGuideToTheHoleSavesNoise) {
     const double before = squares(nullptr, &learned);
     learned.finish();
     EXPECT_NEAR(learned.share(), 0.75f, 1e-5f);
-    // The hole fills .3 of the cells around the zenith, at which three of four rays are aimed; of
-    // those by the cosine, .07 pass it.
+    // Three of four rays are aimed at the cells around the zenith, of which the hole fills .3. Of
+    // the others, which follow the cosine, .07 pass the hole.
     EXPECT_LT(squares(&learned, nullptr), 0.35 * before);
 }
 

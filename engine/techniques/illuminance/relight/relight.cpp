@@ -263,8 +263,7 @@ void Relighter::State::writeField(const CacheFlags& which, bool grid) {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(bands * bands);
     const auto write = [&](std::size_t c, std::vector<glm::vec4>& out, std::size_t stride) {
-        for (std::size_t i = 0; i < coefficients; ++i)
-            out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
+        placeCache(caches, sh, c, coefficients, stride, out);
     };
     const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
     for (std::size_t c = 0; c < which.size(); ++c)

@@ -25,13 +25,6 @@ static std::vector<glm::vec4> emittedRadiosity(const Bake& bake, const Scene& sc
     return radiosity;
 }
 
-/// The cache's harmonics at its place in a field of `stride` texels or cells.
-static void place(const Caches& caches, const std::vector<glm::vec3>& sh, std::size_t c,
-                  std::size_t coefficients, std::size_t stride, std::vector<glm::vec4>& out) {
-    for (std::size_t i = 0; i < coefficients; ++i)
-        out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
-}
-
 IndirectField straightField(const std::shared_ptr<const Bake>& bake, const Scene& scene) {
     const FlushDenormals flush;
     const Caches& caches = bake->caches;
@@ -66,14 +59,14 @@ IndirectField straightField(const std::shared_ptr<const Bake>& bake, const Scene
     const std::size_t texels = std::size_t(field.lightmapWidth) * field.lightmapHeight;
     field.lightmap.assign(texels * coefficients, glm::vec4(0));
     for (std::size_t c = 0; c < caches.lightmapCount; ++c)
-        place(caches, sh, c, coefficients, texels, field.lightmap);
+        placeCache(caches, sh, c, coefficients, texels, field.lightmap);
     field.gridBounds = bake->gridBounds;
     if (grid) {
         field.gridSize = bake->gridSize;
         field.gridDepth = {bake, &bake->gridDepth};
         field.grid.assign(field.cells() * coefficients, glm::vec4(0));
         for (std::size_t c = caches.lightmapCount; c < caches.size(); ++c)
-            place(caches, sh, c, coefficients, field.cells(), field.grid);
+            placeCache(caches, sh, c, coefficients, field.cells(), field.grid);
     }
     return field;
 }

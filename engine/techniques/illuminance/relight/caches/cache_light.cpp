@@ -69,6 +69,12 @@ LinkCounts lightCaches(const Caches& caches, LinkEnds ends, const std::vector<gl
     return {links, skipped};
 }
 
+void placeCache(const Caches& caches, const std::vector<glm::vec3>& sh, std::size_t c,
+                std::size_t coefficients, std::size_t stride, std::vector<glm::vec4>& out) {
+    for (std::size_t i = 0; i < coefficients; ++i)
+        out[i * stride + caches.texel[c]] = glm::vec4(sh[c * coefficients + i], 0);
+}
+
 void continueCaches(const Caches& caches, int bands, const CacheRuns& runs,
                     std::vector<glm::vec3>& sh) {
     const auto coefficients = std::size_t(bands * bands);

@@ -55,6 +55,10 @@ std::vector<std::uint32_t> linksBeforeSky(const Caches& caches, const ClusterTre
 /// Makes the bands from bands.chroma on grey.
 void dropChroma(LightBands bands, const CacheRuns& runs, std::vector<glm::vec3>& sh);
 
+/// Writes the harmonics of cache c at its place in a field of `stride` texels or cells.
+void placeCache(const Caches& caches, const std::vector<glm::vec3>& sh, std::size_t c,
+                std::size_t coefficients, std::size_t stride, std::vector<glm::vec4>& out);
+
 /// Fills the invalid caches of the runs from the valid ones that stand in for them.
 void fillInvalidCaches(const Caches& caches, int bands, const CacheRuns& runs,
                        std::vector<glm::vec3>& sh);
