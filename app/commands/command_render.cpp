@@ -69,20 +69,6 @@ std::vector<std::string> strings(const Names& names) {
     return {names.begin(), names.end()};
 }
 
-bool needsIndirect(View view) {
-    switch (view) {
-    case View::Lit:
-    case View::Indirect:
-    case View::Irradiance:
-        return true;
-    case View::Direct:
-    case View::Albedo:
-    case View::Normals:
-        return false;
-    }
-    return false;
-}
-
 // Reads the bake, or makes one with the document's settings.
 Result<std::shared_ptr<const Precomputed>> obtainBake(const RenderCommand& options,
                                                       const Precomputation& precomputation,
@@ -129,7 +115,7 @@ Result<void> addOverlay(const RenderCommand& options, const Scene& scene, const 
 }
 
 Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Camera& camera) {
-    const bool light = needsIndirect(View(indexOf(kViewNames, options.view)));
+    const bool light = showsBouncedLight(View(indexOf(kViewNames, options.view)));
     if (scene.instances.empty() || !(light || options.overlay.wanted()))
         return Baked{}; // nothing receives light, or nobody asks
     Baked baked;
@@ -410,7 +396,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
     command
         ->add_option("--near-rays", options->nearRays,
                      "Rays of each sample that look for surfaces within half a texel, whose own "
-                     "light then takes the place of the lightmap's; 0: none")
+                     "light then takes the place of the lightmap's, where --gather-rays is 0 or "
+                     "something is drawn over the picture; 0: none")
         ->check(CLI::Range(0, 1024));
     command
         ->add_option("--gather-rays", options->gatherRays,

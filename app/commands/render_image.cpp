@@ -40,11 +40,39 @@ struct GpuDrawing {
     Result<void> chooseLighting(const RenderRequest& request);
     Result<void> relight(const Scene& scene, const RenderRequest& request, RenderedImage& result);
     Result<RenderedImage> draw(const Scene& scene, const RenderRequest& request);
-    /// Returns false where there is nothing to add.
-    bool addGathered(const Scene& scene, const RenderRequest& request, ImageF& linear) const;
 
     const IndirectField* cpuField = nullptr; ///< of this picture, where the light is the CPU's
 };
+
+/// Gathers for one picture, from a field that it may own.
+struct Gathering {
+    FieldRenderOptions options;
+    IndirectField onDevice;
+    TraceScene trace;
+    FinalGather gather;
+
+    Gathering(const GpuDrawing& drawing, const Scene& scene, const RenderRequest& request,
+              FieldRenderOptions by)
+        : options(std::move(by)),
+          onDevice(drawing.lighting ? drawing.lighting->readField() : IndirectField()),
+          trace(scene),
+          gather(trace, drawing.lighting ? onDevice : *drawing.cpuField, *request.layout, options) {
+    }
+};
+
+/// Of what `drawing` is lit by. Null where the picture is not to gather.
+std::unique_ptr<const Gathering> gatheringOf(const GpuDrawing& drawing, const Scene& scene,
+                                             const RenderRequest& request) {
+    FieldRenderOptions options = fieldOptions(request);
+    if (options.gatherRays > 0 && request.relight)
+        options.straight = drawing.lighting   ? drawing.lighting->straightField(scene)
+                           : request.straight ? request.straight()
+                                              : nullptr;
+    if (!options.straight)
+        return nullptr;
+    auto gathering = std::make_unique<const Gathering>(drawing, scene, request, std::move(options));
+    return gathering->gather.any() ? std::move(gathering) : nullptr;
+}
 
 Result<void> GpuDrawing::chooseLighting(const RenderRequest& request) {
     chosen = true;
@@ -85,25 +113,6 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
     return {};
 }
 
-bool GpuDrawing::addGathered(const Scene& scene, const RenderRequest& request,
-                             ImageF& linear) const {
-    FieldRenderOptions options = fieldOptions(request);
-    if (options.gatherRays > 0 && request.relight)
-        options.straight = lighting           ? lighting->straightField(scene)
-                           : request.straight ? request.straight()
-                                              : nullptr;
-    if (!options.straight)
-        return false;
-    const IndirectField onDevice = lighting ? lighting->readField() : IndirectField();
-    const TraceScene trace(scene);
-    const FinalGather gather(trace, lighting ? onDevice : *cpuField, *request.layout, options);
-    if (!gather.any())
-        return false;
-    gather.addTo(linear, progressOnStderr());
-    endProgressLine();
-    return true;
-}
-
 Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& request) {
     const VkPhysicalDeviceProperties& properties = device->properties;
     const std::uint32_t limit = properties.limits.maxImageDimension2D;
@@ -115,12 +124,16 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     if (const auto lit = relight(scene, request, result); !lit)
         return tl::make_unexpected(lit.error());
     viewport.setOverlay(request.overlay);
+    // The viewport fades its picture beneath what is drawn over it, so nothing can be added later.
+    const bool drawnOver = request.overlay || request.inspection != Inspection::None;
+    const auto gathering = drawnOver ? nullptr : gatheringOf(*this, scene, request);
     ViewportOptions options;
     options.view = request.view;
     options.camera = request.camera;
     options.width = request.width;
     options.height = request.height;
-    options.nearRays = request.nearRays;
+    options.diffuse = !gathering;
+    options.nearRays = gathering ? 0 : request.nearRays;
     options.tonemap = request.tonemap;
     options.exposureEv = request.exposureEv;
     options.inspection = request.inspection;
@@ -134,12 +147,13 @@ Result<RenderedImage> GpuDrawing::draw(const Scene& scene, const RenderRequest& 
     endProgressLine();
     result.device = properties.deviceName;
     result.linear = viewport.readLinear();
-    const bool added = addGathered(scene, request, result.linear);
-    // The viewport fades its picture beneath an overlay, and does not know of the light added.
-    const bool drawnOver = request.overlay || request.inspection != Inspection::None;
+    if (gathering) {
+        gathering->gather.addTo(result.linear, progress);
+        endProgressLine();
+    }
     if (request.tonemapped)
         result.picture =
-            added && !drawnOver ? toneMappedAs(request, result.linear) : viewport.readTonemapped();
+            gathering ? toneMappedAs(request, result.linear) : viewport.readTonemapped();
     return result;
 }
 

@@ -56,6 +56,8 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
     m_result.legend = worker.overlay ? worker.overlay->legend : OverlayLegend{};
     m_result.stats = worker.viewport.stats();
     m_result.nearLight = worker.showsNearLight();
+    m_result.gathers = worker.gathers();
+    m_result.gathered = 0;
     m_result.running = m_next.has_value() || worker.bouncing();
     m_result.lit = worker.shown.litBy();
     m_result.relight = worker.relight;
@@ -68,10 +70,11 @@ void RenderJob::publish(RenderWorker& worker, DrawnImages images) {
 
 // What the picture was metered and timed by stays that of its first sample: times of a refined one
 // would be for triangles that nothing made necessary.
-void RenderJob::publishRefined(DrawnImages images) {
+void RenderJob::publishRefined(const RenderWorker& worker, DrawnImages images) {
     const std::lock_guard lock(m_mutex);
     m_result.image = std::move(images.shown);
     m_result.linear = std::move(images.linear);
+    m_result.gathered = worker.gathered();
     ++m_result.number;
 }
 
@@ -81,8 +84,10 @@ void RenderJob::run(bool validate) {
         RenderWorker worker(validate);
         for (;;) {
             std::unique_lock lock(m_mutex);
-            m_changed.wait(
-                lock, [&] { return m_stop || m_next || worker.bouncing() || worker.refining(); });
+            m_changed.wait(lock, [&] {
+                return m_stop || m_next || worker.bouncing() || worker.refining() ||
+                       worker.gathering();
+            });
             if (m_stop)
                 return;
             std::optional<PictureRequest> request = std::exchange(m_next, {});
@@ -90,8 +95,9 @@ void RenderJob::run(bool validate) {
             lock.unlock();
             if (request || worker.bouncing())
                 publish(worker, worker.draw(request ? std::move(*request) : worker.shown, m_hurry));
-            else if (std::optional<DrawnImages> images = worker.refine(m_hurry))
-                publishRefined(std::move(*images));
+            else if (std::optional<DrawnImages> images =
+                         worker.refining() ? worker.refine(m_hurry) : worker.gather(m_hurry))
+                publishRefined(worker, std::move(*images));
             else
                 continue;
             m_wake();

@@ -34,6 +34,7 @@ struct PictureRequest {
     bool linear = false; ///< DrawnPicture::linear is wanted too
     bool meter = false;  ///< DrawnPicture::metered is wanted too
     bool moving = false; ///< shadow maps that change may be coarse
+    bool gather = false; ///< at rest, where it can (RenderWorker::gathers())
     OverlayRequest overlay;
     std::shared_ptr<const OverlaySource> overlaySource; ///< null: no overlay
     std::shared_ptr<const Scene> overlayScene;          ///< scene that overlaySource was made from
@@ -56,6 +57,8 @@ struct DrawnPicture {
     OverlayLegend legend;         ///< of its overlay
     ViewportStats stats;
     bool nearLight = false;                        ///< RenderWorker::showsNearLight()
+    bool gathers = false;                          ///< RenderWorker::gathers()
+    float gathered = 0;                            ///< RenderWorker::gathered()
     bool running = false;                          ///< another one is being drawn
     LitBy lit;                                     ///< what the following members are about
     LightingStatus relight;                        ///< by this device
@@ -69,7 +72,8 @@ struct DrawnPicture {
 /// Draws the viewport on a thread and a Vulkan device of its own, so that neither a large upload
 /// nor a slow picture holds up the window: on a software rasteriser everything on one queue would
 /// wait for it. The picture comes back through the CPU. If it relights, it redraws after every few
-/// bounces until they have converged. Then it refines a picture that stands still, and sleeps.
+/// bounces until they have converged. Then it refines a picture that stands still, gathers its
+/// light, and sleeps.
 class RenderJob {
 public:
     /// `wake` is called from the thread when there is a new result().
@@ -87,7 +91,7 @@ public:
 private:
     void run(bool validate);
     void publish(RenderWorker& worker, DrawnImages images);
-    void publishRefined(DrawnImages images);
+    void publishRefined(const RenderWorker& worker, DrawnImages images);
 
     std::function<void()> m_wake;
     std::atomic<bool> m_hurry{false}; ///< another picture is requested, or the job is stopping

@@ -4,6 +4,7 @@
 #include "app/editor/measure_relight.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "engine/scene/exposure.h"
+#include "engine/scene/tone_map.h"
 #include "engine/techniques/device/device_table.h"
 #include "engine/techniques/technique_table.h"
 
@@ -16,6 +17,9 @@
 namespace limn {
 
 using Clock = std::chrono::steady_clock;
+
+/// While a picture is gathered.
+static constexpr std::chrono::seconds kShowGatheredEvery{1};
 
 static double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -173,10 +177,80 @@ bool worthRefining(std::uint32_t samples, double sampleMs) {
     return samples < kScreenSamples.perPixel && samples * sampleMs <= kMaxRefineMs;
 }
 
+/// What is drawn over a picture at rest would jitter or fade.
+static bool canBeRefined(const PictureRequest& request) {
+    return !request.moving && !request.overlay.kind &&
+           request.options.inspection == Inspection::None;
+}
+
 bool RenderWorker::refining() const {
-    const bool drawnOver = shown.overlay.kind || shown.options.inspection != Inspection::None;
-    return m_samples > 0 && worthRefining(m_samples, m_pictureMs) && !shown.moving && !drawnOver &&
+    return m_samples > 0 && worthRefining(m_samples, m_pictureMs) && canBeRefined(shown) &&
            !bouncing();
+}
+
+static bool canGather(const PictureRequest& request) {
+    const BakedScene& lit = request.lit;
+    return request.gather && canBeRefined(request) && showsBouncedLight(request.options.view) &&
+           request.technique && (request.field || request.relight) && lit.bake && lit.trace &&
+           !lit.preview && sameStaticGeometry(*lit.scene, *request.scene);
+}
+
+/// Returns false if the technique has nothing to gather from.
+bool RenderWorker::takeGatheredFrom() {
+    const Scene& scene = *shown.scene;
+    if (m_fromScene != shown.scene || m_fromBake != shown.lit.bake) {
+        m_from.trace = std::make_shared<const TraceScene>(scene, *shown.lit.trace);
+        m_from.layout = {shown.lit.bake, &shown.lit.bake->layout()}; // lives as long as the bake
+        const Lighting* here = m_driver.lighting();
+        m_from.straight = here ? here->straightField(scene)
+                               : shown.technique->light(shown.lit.prepared())->straightField(scene);
+        m_fromScene = shown.scene;
+        m_fromBake = shown.lit.bake;
+    }
+    m_from.field = m_driver.lighting()
+                       ? std::make_shared<const IndirectField>(m_driver.lighting()->readField())
+                       : shown.field;
+    return m_from.straight && m_from.field;
+}
+
+bool RenderWorker::beginGathering(const std::atomic<bool>& hurry) {
+    m_gathers = takeGatheredFrom();
+    if (!m_gathers)
+        return false;
+    ImageF drawn = viewport.readLinear();
+    ViewportOptions rest = shown.options;
+    rest.diffuse = false;
+    viewport.render(rest);
+    for (std::uint32_t n = 1; n < m_samples; ++n) {
+        if (hurry)
+            return false;
+        viewport.refine();
+    }
+    FieldRenderOptions options;
+    options.view = rest.view;
+    options.camera = rest.camera;
+    options.width = rest.width;
+    options.height = rest.height;
+    options.samplesPerPixel = kScreenSamples.perPixel;
+    options.gatherRays = kScreenSamples.gatherRays;
+    m_gather = std::make_unique<RestGather>(m_from, std::move(options), std::move(drawn),
+                                            viewport.readLinear());
+    return true;
+}
+
+std::optional<DrawnImages> RenderWorker::gather(const std::atomic<bool>& hurry) {
+    if (!m_gather && !beginGathering(hurry))
+        return {};
+    if (!m_gather->addRows(kShowGatheredEvery, hurry))
+        return {};
+    const ViewportOptions& o = shown.options;
+    DrawnImages images;
+    images.shown = std::make_shared<const Image>(
+        toneMappedImage(m_gather->picture(), o.tonemap, o.exposureEv));
+    if (shown.linear)
+        images.linear = std::make_shared<const LinearPicture>(
+            LinearPicture{m_gather->picture(), o.camera, o.view});
+    return images;
 }
 
 std::optional<DrawnImages> RenderWorker::refine(const std::atomic<bool>& hurry) {
@@ -208,6 +282,8 @@ DrawnImages RenderWorker::draw(PictureRequest request, const std::atomic<bool>& 
     else
         takeField(request);
     const auto start = Clock::now();
+    m_gather.reset();
+    m_gathers = canGather(request);
     takeSnapshot(request);
     makeOverlay(request);
     viewport.render(request.options);

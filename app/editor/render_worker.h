@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/editor/render_job.h"
+#include "app/editor/rest_gather.h"
 #include "engine/gpu/device.h"
 #include "engine/lighting/lighting_driver.h"
 #include "engine/render/viewport.h"
@@ -46,6 +47,19 @@ public:
     /// Precondition: refining().
     std::optional<DrawnImages> refine(const std::atomic<bool>& hurry);
 
+    /// Whether the picture shown ends with final gathering once it stands still. That is on the
+    /// CPU, from the light of a bake that holds for all surfaces that stand still.
+    bool gathers() const { return m_gathers; }
+    /// Share of the picture that is gathered.
+    float gathered() const { return m_gather ? m_gather->share() : 0; }
+    /// True if there is something left to gather, and nothing to do before.
+    bool gathering() const {
+        return m_gathers && !bouncing() && !refining() && !(m_gather && m_gather->done());
+    }
+    /// Gathers some of the picture shown. Empty if there is nothing to show, or if `hurry` was set
+    /// before that was done; then the next call must be draw(). Precondition: gathering().
+    std::optional<DrawnImages> gather(const std::atomic<bool>& hurry);
+
     std::unique_ptr<gpu::Device> device;
     Viewport viewport;
     PictureRequest shown;
@@ -69,6 +83,8 @@ private:
     void takeSnapshot(const PictureRequest& request);
     void makeOverlay(const PictureRequest& request);
     DrawnImages readImages();
+    bool beginGathering(const std::atomic<bool>& hurry);
+    bool takeGatheredFrom();
 
     LightingDriver m_driver;                 ///< of shown.litBy(), while it is needed
     bool m_litMoving = false;                ///< lit by shadow maps that may be coarse
@@ -79,6 +95,11 @@ private:
     std::string m_timesKey;                  ///< of shown.litBy()
     std::uint32_t m_samples = 0;             ///< of each pixel of the picture shown
     double m_pictureMs = 0;                  ///< what the last picture took, without bounces
+    bool m_gathers = false;                  ///< gathers()
+    GatheredFrom m_from;                     ///< for m_fromScene, lit from m_fromBake
+    std::shared_ptr<const Scene> m_fromScene;
+    std::shared_ptr<const Precomputed> m_fromBake;
+    std::unique_ptr<RestGather> m_gather; ///< of the picture shown; null: it has not begun
 };
 
 } // namespace limn

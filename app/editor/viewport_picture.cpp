@@ -102,6 +102,8 @@ void ViewportPicture::takeDrawn(Session& session) {
     frame.surfacesDrawn = stats.geometryDrawn;
     frame.gpuBytes = stats.gpuBytes;
     frame.nearLight = m_drawn.nearLight;
+    frame.gathers = m_drawn.gathers;
+    frame.gathered = m_drawn.gathered;
     frame.width = image.width;
     frame.height = image.height;
     frame.pictures = m_drawn.number;
@@ -186,7 +188,8 @@ void ViewportPicture::update(Session& session) {
                 session.lit(),
                 litBy(session),
                 session.viewportRelights(),
-                needsReference(state.compare.mode)};
+                needsReference(state.compare.mode),
+                !session.other().scene};
     if (state.overlay.options.kind) {
         shown.overlay = state.overlay.options;
         shown.overlaySource = state.overlay.source;
@@ -213,7 +216,7 @@ void ViewportPicture::update(Session& session) {
                  .exposureEv = view.exposureEv,
                  .inspection = view.inspection};
     m_job.draw({shown.scene, shown.layout, shown.field, m_options, shown.linear && !m_reduced,
-                view.autoExposure, m_reduced, shown.overlay, shown.overlaySource,
+                view.autoExposure, m_reduced, shown.gather, shown.overlay, shown.overlaySource,
                 state.overlay.scene, shown.light, shown.lit.technique, litBake(session),
                 shown.relight, measure ? state.trace : nullptr});
     m_drawn = m_job.result();

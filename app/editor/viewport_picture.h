@@ -55,6 +55,7 @@ private:
         LitBy lit;
         bool relight = false; ///< by the viewport's device
         bool linear = false;  ///< it is compared with the reference
+        bool gather = false;  ///< not beside another technique, whose picture is not gathered
 
         bool operator==(const Shown&) const = default;
     };

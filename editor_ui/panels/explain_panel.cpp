@@ -31,7 +31,8 @@ void explainAt(EditorState& state, glm::vec2 mouse) {
                      .x = std::min(pixel.x, size.x - 1),
                      .y = std::min(pixel.y, size.y - 1),
                      .samples = kScreenSamples.perPixel,
-                     .nearRays = state.frame.nearLight ? kScreenSamples.nearRays : 0},
+                     .nearRays = state.frame.nearLight ? kScreenSamples.nearRays : 0,
+                     .gatherRays = state.frame.gathers ? kScreenSamples.gatherRays : 0},
         .point = hit.position};
 }
 

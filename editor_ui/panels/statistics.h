@@ -82,6 +82,8 @@ struct FrameStatus {
     std::uint32_t shadowMapsDrawn = 0;
     std::uint64_t gpuBytes = 0;
     bool nearLight = false;              ///< pictures at rest show light from near surfaces
+    bool gathers = false;                ///< they end with final gathering
+    float gathered = 0;                  ///< share of the last picture that is gathered
     std::uint32_t width = 0, height = 0; ///< of the last picture [px]
     std::uint64_t pictures = 0;          ///< viewport renders
     std::uint64_t surfacesDrawn = 0;     ///< of those, how many drew triangles

@@ -75,13 +75,15 @@ void drawEnd(const AxisEnd& end, ImVec2 centre, bool over) {
 }
 
 /// Label of the work that still refines the picture; empty if there is none.
-const char* refining(const EditorState& state) {
+std::string refining(const EditorState& state) {
     if (state.bake.preview && state.bake.running)
         return ", preview";
     if (state.relight.running && !state.relight.converged)
         return ", refining";
     if (float(state.frame.width) + 1 < state.view.size.x)
         return ", coarse while moving";
+    if (state.frame.gathered > 0 && state.frame.gathered < 1)
+        return fmt::format(", gathering {:.0f} %", 100 * state.frame.gathered);
     return "";
 }
 

@@ -45,6 +45,7 @@ struct PixelReader {
     std::vector<int> bands;    ///< that each material reflects
     std::vector<bool> marches; ///< whether its reflections are marched
     NearLight near;
+    bool gathers; ///< diffuse light is readGathered()'s
     PixelParts parts;
 
     float share() const { return 1 / float(question.samples); }
@@ -85,17 +86,18 @@ struct PixelReader {
 
     void addArriving(const PixelSample& sample, const Hit& hit, const SurfacePoint& p) {
         addDirect(sample, p, [](const DirectSample& d) { return d.irradiance; });
-        if (hasField())
-            addBounced(sample, hit, p, glm::vec3(share()));
+        addBounced(sample, hit, p, glm::vec3(share()));
     }
 
     bool isBlack(std::uint32_t instance) const {
         return std::ranges::count(options.black, instance) > 0;
     }
 
-    /// Adds weight times the irradiance from bounces at the point.
+    /// Adds weight times the irradiance from bounces at the point, unless that is gathered.
     void addBounced(const PixelSample& sample, const Hit& hit, const SurfacePoint& p,
                     glm::vec3 weight) {
+        if (gathers || !hasField())
+            return;
         const FieldPoint at = pointOf(hit, p);
         addIrradiance(at, weight, parts.reading);
         for (const NearSurface& s : findNearSurfaces(near, hit, p, sample.near)) {
@@ -127,10 +129,10 @@ struct PixelReader {
         parts.emission += share() * p.emission;
         addDirect(sample, p,
                   [&](const DirectSample& d) { return g.reflect(d.irradiance, d.toLight); });
+        addBounced(sample, hit, p, p.albedo * (share() / glm::pi<float>()));
         if (!hasField())
             return;
         const Scene& scene = lit.trace->scene();
-        addBounced(sample, hit, p, p.albedo * (share() / glm::pi<float>()));
         const FieldPoint at = pointOf(hit, p);
         const std::uint32_t material = scene.instances[hit.instance].material;
         if (lit.field().marched && marches[material]) {
@@ -143,7 +145,7 @@ struct PixelReader {
     }
 };
 
-/// Reads what gathering exchanges.
+/// Reads gathered light.
 struct GatheredReader {
     const PixelReader& pixel;
     PixelParts& parts;
@@ -158,10 +160,6 @@ struct GatheredReader {
     }
     void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart /*part*/) {
         addIrradiance(at, weight, readingOf(at));
-    }
-    void fieldRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
-                       GatherPart /*part*/) {
-        addRadiance(at, direction, weight, readingOf(at));
     }
     void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
                      std::uint32_t /*bounce*/, std::uint32_t via) {
@@ -183,8 +181,8 @@ struct GatheredReader {
     }
 };
 
-void readGathered(PixelReader& pixel) {
-    const PixelQuestion& q = pixel.question;
+/// With which a picture of the question's pixel is drawn.
+FieldRenderOptions pictureOptions(const ConvergedLight& lit, const PixelQuestion& q) {
     FieldRenderOptions options;
     options.view = q.light == PixelLight::Radiance ? View::Lit : View::Irradiance;
     options.camera = q.camera;
@@ -195,10 +193,12 @@ void readGathered(PixelReader& pixel) {
     options.nearRays = q.nearRays;
     options.gatherRays = q.gatherRays;
     if (q.gatherRays > 0)
-        options.straight = pixel.lit.lighting->straightField(*pixel.lit.scene);
-    const FinalGather gather(*pixel.lit.trace, pixel.lit.field(), *pixel.lit.layout, options);
-    if (!gather.any())
-        return;
+        options.straight = lit.lighting->straightField(*lit.scene);
+    return options;
+}
+
+void readGathered(const FinalGather& gather, PixelReader& pixel) {
+    const PixelQuestion& q = pixel.question;
     GatheredReader reader{pixel, pixel.parts, {}};
     gather.read(q.x, q.y, reader);
     pixel.parts.reading.straight = std::move(reader.straight.entries);
@@ -263,13 +263,17 @@ constexpr const char* kBouncedLabel = "Gathered from what rays met";
 PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
                               const ExplainOptions& options) {
     const Scene& scene = lit.trace->scene();
-    PixelReader reader{lit,
-                       question,
-                       options,
-                       reflectedBands(scene, lit.field()),
-                       marchedReflections(scene),
-                       nearLight(*lit.trace, lit.field(), *lit.layout, question.nearRays),
-                       {}};
+    const FieldRenderOptions picture = pictureOptions(lit, question);
+    const FinalGather gather(*lit.trace, lit.field(), *lit.layout, picture);
+    PixelReader reader{
+        lit,
+        question,
+        options,
+        reflectedBands(scene, lit.field()),
+        marchedReflections(scene),
+        nearLight(*lit.trace, lit.field(), *lit.layout, gather.any() ? 0 : question.nearRays),
+        gather.any(),
+        {}};
     reader.parts.byLight.assign(scene.lights.size(), glm::vec3(0));
     reader.parts.nearByLight = reader.parts.byLight;
     reader.parts.nearBySurface.assign(scene.instances.size(), glm::vec3(0));
@@ -280,7 +284,8 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
     const PixelRays rays(question.camera, question.width, question.height);
     for (std::uint32_t s = 0; s < question.samples; ++s)
         reader.add(PixelSample(rays, question.seed, question.y * question.width + question.x, s));
-    readGathered(reader);
+    if (gather.any())
+        readGathered(gather, reader);
     PixelExplanation result;
     const Explanation indirect = lit.lighting->explain(scene, reader.parts.reading, options);
     result.tables.byOrigin = result.tables.bySender = straightRows(scene, reader.parts);

@@ -29,13 +29,14 @@ struct FieldContext {
     std::vector<bool> marches; ///< whether its reflections are marched
     MarchedCounts* counts;
     NearLight near;
+    bool gathers; ///< diffuse light is added by FinalGather
 
     bool hasField() const { return field.lightmapWidth > 0 || field.gridSize.x > 0; }
 };
 
 glm::vec3 fieldIrradiance(const FieldContext& c, const Hit& hit, const SurfacePoint& p,
                           const Sampler& nearSampler) {
-    if (!c.hasField())
+    if (!c.hasField() || c.gathers)
         return glm::vec3(0);
     return sampleIrradiance(fieldPoint(c.field, c.layout, c.trace.scene(), hit, p)) +
            nearCorrection(c.near, hit, p, nearSampler);
@@ -105,6 +106,7 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.samplesPerPixel > 0);
     constexpr std::size_t kTile = 256; // pixels
+    const FinalGather gather(trace, field, layout, options);
     FieldContext context{.trace = trace,
                          .field = field,
                          .layout = layout,
@@ -113,7 +115,9 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
                          .bands = {},
                          .marches = {},
                          .counts = options.marched,
-                         .near = nearLight(trace, field, layout, options.nearRays)};
+                         .near =
+                             nearLight(trace, field, layout, gather.any() ? 0 : options.nearRays),
+                         .gathers = gather.any()};
     context.bands = options.allBands
                         ? std::vector<int>(trace.scene().materials.size(), int(field.bands))
                         : reflectedBands(trace.scene(), field);
@@ -134,7 +138,6 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
         });
     if (!complete)
         return {};
-    const FinalGather gather(trace, field, layout, options);
     if (gather.any() && !gather.addTo(image, progress))
         return {};
     return image;

@@ -25,7 +25,8 @@ struct FieldRenderOptions {
     std::uint32_t samplesPerPixel =
         kScreenSamples.perPixel; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
-    /// Rays of each sample that look for near surfaces (near_light.h); 0: light is the field's.
+    /// Rays of each sample that look for near surfaces (near_light.h), unless the picture gathers;
+    /// 0: light is the field's.
     std::uint32_t nearRays = 0;
     /// The part of the field's light that arrives straight from the sky and emissive surfaces
     /// (Lighting::straightField()). With it, `gatherRays` rays of each sample gather what is better

@@ -2,6 +2,7 @@
 #include "engine/measure/final_gather.h"
 
 #include "engine/core/parallel.h"
+#include "engine/lightmap/near_reach.h"
 #include "engine/measure/final_gather_read.h"
 #include "engine/reference/direct_light.h"
 
@@ -14,13 +15,16 @@ namespace limn {
 
 /// A pixel whose first samples have a standard error of this part of the picture's mean light gets
 /// as many again, and others in proportion, up to kMostMore times as many.
-static constexpr double kErrorOfOneMore = 0.125, kMostMore = 15;
+static constexpr double kErrorOfOneMore = 0.125, kMostMore = 255;
 
 /// Rays of the further samples of a pixel; fewer are not worth taking.
 static constexpr std::uint32_t kFewestRays = 16;
 
-static bool showsBouncedLight(View view) {
-    return view == View::Lit || view == View::Indirect || view == View::Irradiance;
+static std::vector<float> texelWidths(const Scene& scene, const LightmapLayout& layout) {
+    std::vector<float> widths = nearReaches(scene, layout);
+    for (float& width : widths)
+        width *= 2;
+    return widths;
 }
 
 FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
@@ -29,7 +33,7 @@ FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
       m_any(options.straight && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
             showsBouncedLight(options.view)),
       m_sources(m_any ? findStraightSources(trace) : StraightSources{}),
-      m_near(nearLight(trace, field, layout, m_any ? 1 : 0)),
+      m_widths(m_any ? texelWidths(trace.scene(), layout) : std::vector<float>()),
       m_rays(options.camera, options.width, options.height) {
     if (m_any)
         m_meanLight = meanLight();
@@ -67,13 +71,9 @@ struct FinalGather::GatherReader {
     /// Whether an instance that the pixel shows, or that a ray met, reflects light.
     static bool shows(std::uint32_t /*instance*/) { return true; }
     static bool reflects(std::uint32_t /*instance*/) { return true; }
-    /// Weight times a field's irradiance or radiance.
+    /// Weight times a field's irradiance.
     void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart part) {
         sums[part] += weight * sampleIrradiance(at);
-    }
-    void fieldRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
-                       GatherPart part) {
-        sums[part] += weight * sampleRadiance(at, direction);
     }
     /// Weight times direct light where a ray ends. `via`: the instance that it met first.
     void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
@@ -104,11 +104,14 @@ GatherSamples FinalGather::take(std::uint32_t x, std::uint32_t y, std::uint32_t 
     GatherSamples taken{.parts = {}, .all = {}, .count = count};
     for (std::uint32_t s = 0; s < count; ++s) {
         GatherReader reader{m_trace, learns};
-        sample(x, y, begin + s, guide, {1, 1}, reader);
+        sample(x, y, begin + s, guide, {1, 1, 1}, reader);
         const bool half = s < count / 2;
-        for (std::uint32_t part = 0; part < kGatherParts; ++part)
+        glm::vec3 all(0);
+        for (std::uint32_t part = 0; part < kGatherParts; ++part) {
             taken.parts[part].add(reader.sums[part], half);
-        taken.all.add(reader.sums[Straight] + reader.sums[Bounced], half);
+            all += reader.sums[part];
+        }
+        taken.all.add(all, half);
     }
     return taken;
 }
@@ -147,21 +150,22 @@ GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
     return tile;
 }
 
-bool FinalGather::addTo(ImageF& image, const Progress& progress) const {
-    const std::uint32_t columns = (m_options.width + kGatherTile - 1) / kGatherTile,
-                        rows = (m_options.height + kGatherTile - 1) / kGatherTile;
+bool FinalGather::addRows(ImageF& image, std::uint32_t firstRow, std::uint32_t lastRow,
+                          const Progress& progress) const {
+    const std::uint32_t columns = (m_options.width + kGatherTile - 1) / kGatherTile;
     const auto addTile = [&](std::uint32_t number) {
         const GatherTile tile =
-            tileOf(number % columns * kGatherTile, number / columns * kGatherTile);
+            tileOf(number % columns * kGatherTile, (firstRow + number / columns) * kGatherTile);
         for (std::uint32_t j = 0; j < tile.height; ++j)
             for (std::uint32_t i = 0; i < tile.width; ++i) {
                 const std::uint32_t p = j * kGatherTile + i;
-                const glm::dvec3 sum = tile.kept[Straight][p] * tile.meanOf(p, Straight) +
-                                       tile.kept[Bounced][p] * tile.meanOf(p, Bounced);
+                glm::dvec3 sum(0);
+                for (const GatherPart part : {Straight, Bounced, Shown})
+                    sum += tile.kept[part][p] * tile.meanOf(p, part);
                 image.rgb[std::size_t(tile.y + j) * m_options.width + tile.x + i] += glm::vec3(sum);
             }
     };
-    return parallelRanges(std::size_t(columns) * rows, 1, progress, "gather",
+    return parallelRanges(std::size_t(columns) * (lastRow - firstRow), 1, progress, "gather",
                           [&](std::size_t first, std::size_t last) {
                               for (std::size_t t = first; t < last; ++t)
                                   addTile(std::uint32_t(t));

@@ -6,22 +6,23 @@
 #include "engine/measure/field_lobe.h"
 #include "engine/measure/field_render.h"
 #include "engine/measure/gather_tile.h"
-#include "engine/measure/near_light.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/straight_light.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace limn {
 
-/// Final gathering: what a picture drawn from a field shows is exchanged for what rays from its
-/// pixels find, as far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights
+/// Final gathering: the field's light is exchanged for what rays from a picture's pixels find, as
+/// far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights
 /// and Viewer Position. 1992
 ///
 /// Light that arrives straight from the sky and emissive surfaces is sampled. Bounced light is the
 /// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
-/// where it is seen. Where a ray is shorter than these texels are wide, it goes on from there.
+/// where it is seen. Where a ray is shorter than some of these texels' widths, it goes on from
+/// there. So light that comes from near surfaces needs no rays of its own (near_light.h).
 ///
 /// Pixels have as many samples as the picture, and more where these are noisy: in proportion to
 /// their standard deviation, which brings most for a given number (Neyman. On the Two Different
@@ -34,7 +35,7 @@ namespace limn {
 /// Estimation Rule and Its Competitors. 1973).
 class FinalGather {
 public:
-    /// Of pictures that renderField() draws with these arguments, which outlive the object.
+    /// Of pictures that are drawn with these arguments, which outlive the object.
     FinalGather(const TraceScene& trace, const IndirectField& field, const LightmapLayout& layout,
                 const FieldRenderOptions& options);
 
@@ -42,9 +43,16 @@ public:
     /// pixel are left alone, because nothing tells how noisy it is.
     bool any() const { return m_any; }
 
-    /// Adds the exchange to a picture of the options' size. Returns false when cancelled.
-    /// Precondition: any().
-    bool addTo(ImageF& image, const Progress& progress = {}) const;
+    /// Adds the bounced light of diffuse surfaces to a picture of the options' size that has none
+    /// yet. Returns false when cancelled. Precondition: any().
+    bool addTo(ImageF& image, const Progress& progress = {}) const {
+        return addRows(image, 0, tileRows(), progress);
+    }
+    /// The same for some rows of tiles, [first, last).
+    bool addRows(ImageF& image, std::uint32_t first, std::uint32_t last,
+                 const Progress& progress = {}) const;
+    /// Number of rows of kGatherTile pixels.
+    std::uint32_t tileRows() const { return (m_options.height + kGatherTile - 1) / kGatherTile; }
 
     /// The same for one pixel, piece by piece: calls of `reader`, whose sum addTo() adds, as
     /// GatherReader of final_gather.cpp does. In final_gather_read.h. Precondition: any().
@@ -70,9 +78,6 @@ private:
     void sample(std::uint32_t x, std::uint32_t y, std::uint32_t s, const LightGuide* guide,
                 std::array<double, kGatherParts> shares, Reader& reader) const;
     template <class Reader>
-    void readNear(const StraightSample& found, const Hit& hit, const SurfacePoint& p,
-                  const Weights& weights, Reader& reader) const;
-    template <class Reader>
     void readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
                      Reader& reader) const;
 
@@ -82,9 +87,9 @@ private:
     const FieldRenderOptions& m_options;
     bool m_any;
     StraightSources m_sources;
-    NearLight m_near;
+    std::vector<float> m_widths; ///< twice the nearReaches() [m]
     PixelRays m_rays;
-    double m_meanLight = 0; ///< of what the picture shows without the exchange
+    double m_meanLight = 0; ///< of the field's light in the picture
 };
 
 } // namespace limn

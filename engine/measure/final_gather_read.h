@@ -7,17 +7,12 @@
 
 namespace limn {
 
-/// A ray that meets short ones only, as in a gap, ends after as many.
-inline constexpr std::uint32_t kMostGatherBounces = 8;
+/// Where a ray meets a surface at fewer texels' widths than these, the field is not read there but
+/// the ray goes on, because light that comes from so near varies too much for texels.
+inline constexpr float kFewestTexels = 4;
 
-template <class Reader>
-void FinalGather::readNear(const StraightSample& found, const Hit& hit, const SurfacePoint& p,
-                           const Weights& weights, Reader& reader) const {
-    const FieldPoint all = pointOf(m_field, hit, p), straightAt = pointOf(straight(), hit, p);
-    reader.fieldRadiance(straightAt, found.direction, weights[Straight], Straight);
-    reader.fieldRadiance(straightAt, found.direction, -weights[Bounced], Bounced);
-    reader.fieldRadiance(all, found.direction, weights[Bounced], Bounced);
-}
+/// A ray that meets near surfaces only, as in a gap, ends after as many.
+inline constexpr std::uint32_t kMostGatherBounces = 16;
 
 template <class Reader>
 void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
@@ -27,8 +22,8 @@ void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 
         weight *= met.point->albedo / glm::pi<float>();
         reader.directLight(met, {mixBits(own.seed, kOnLightDimension + bounce), own.index}, weight,
                            bounce, via);
-        const float texel = 2 * nearReach(m_near, met.hit);
-        if (bounce == kMostGatherBounces || !(met.hit.t < texel)) {
+        if (bounce == kMostGatherBounces ||
+            !(met.hit.t < kFewestTexels * m_widths[met.hit.instance])) {
             reader.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
             return;
         }
@@ -49,34 +44,24 @@ void FinalGather::sample(std::uint32_t x, std::uint32_t y, std::uint32_t s, cons
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
     if (!p || !reader.shows(hit.instance))
         return;
-    Weights weights = {float(shares[Straight]) * weightOf(*p),
-                       float(shares[Bounced]) * weightOf(*p)};
-    const FieldPoint straightAt = pointOf(straight(), hit, *p);
+    Weights weights;
+    for (std::uint32_t part = 0; part < kGatherParts; ++part)
+        weights[part] = float(shares[part]) * weightOf(*p);
+    const FieldPoint at = pointOf(m_field, hit, *p), straightAt = pointOf(straight(), hit, *p);
+    reader.fieldIrradiance(at, weights[Shown], Shown);
     reader.fieldIrradiance(straightAt, -weights[Straight], Straight);
     reader.fieldIrradiance(straightAt, weights[Bounced], Bounced);
-    reader.fieldIrradiance(pointOf(m_field, hit, *p), -weights[Bounced], Bounced);
+    reader.fieldIrradiance(at, -weights[Bounced], Bounced);
     const std::uint32_t rays = m_options.gatherRays;
-    for (glm::vec3& weight : weights)
-        weight /= float(rays);
-    const float reach = m_options.nearRays > 0 ? nearReach(m_near, hit) : 0;
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
         const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
         for (const FoundLight& f : found.found)
             if (f.irradiance != glm::vec3(0))
-                reader.arrives(f, weights[Straight] * f.irradiance, Straight, f.instance);
-        if (!(found.weight > 0) || !found.hit)
-            continue;
-        // Near light has put the own light of what is near in the place of the field's already.
-        const bool emits = found.point && found.point->emission != glm::vec3(0);
-        const float near = nearWeight(m_near, reach, found.hit, emits);
-        if (near > 0)
-            readNear(
-                found, hit, *p,
-                {near * found.weight * weights[Straight], near * found.weight * weights[Bounced]},
-                reader);
-        if (near < 1)
-            readBounced(found, own, (1 - near) * found.weight * weights[Bounced], reader);
+                reader.arrives(f, weights[Straight] / float(rays) * f.irradiance, Straight,
+                               f.instance);
+        if (found.weight > 0 && found.hit)
+            readBounced(found, own, found.weight / float(rays) * weights[Bounced], reader);
     }
 }
 
@@ -85,14 +70,19 @@ void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
     const GatherTile tile = tileOf(x / kGatherTile * kGatherTile, y / kGatherTile * kGatherTile);
     const std::uint32_t pixel = (y - tile.y) * kGatherTile + x - tile.x,
                         first = tile.first[pixel].count, more = tile.more[pixel].count;
-    const auto shares = [&](double share) {
-        return std::array{share * tile.kept[Straight][pixel], share * tile.kept[Bounced][pixel]};
+    // Of one of the first samples, or of a further one.
+    const auto shares = [&](bool further) {
+        std::array<double, kGatherParts> each;
+        for (std::uint32_t part = 0; part < kGatherParts; ++part) {
+            const double w = tile.shareOfMore[part][pixel];
+            each[part] = tile.kept[part][pixel] * (further ? w / more : (1 - w) / first);
+        }
+        return each;
     };
-    const double w = tile.shareOfMore[pixel];
     for (std::uint32_t s = 0; s < first; ++s)
-        sample(x, y, s, nullptr, shares((1 - w) / first), reader);
+        sample(x, y, s, nullptr, shares(false), reader);
     for (std::uint32_t s = 0; s < more; ++s)
-        sample(x, y, first + s, &tile.guide, shares(w / more), reader);
+        sample(x, y, first + s, &tile.guide, shares(true), reader);
 }
 
 } // namespace limn

@@ -7,6 +7,9 @@
 
 namespace limn {
 
+/// Of a further sample, in first ones.
+static constexpr double kMostWorth = 100;
+
 void GatherSums::add(glm::vec3 value, bool inFirstHalf) {
     const double g = double(channelSum(value)) / 3;
     sum += glm::dvec3(value);
@@ -50,24 +53,25 @@ double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j) 
 }
 
 glm::dvec3 GatherTile::meanOf(std::uint32_t p, GatherPart part) const {
-    const double w = shareOfMore[p];
+    const double w = shareOfMore[part][p];
     glm::dvec3 mean = (1 - w) / first[p].count * first[p].parts[part].sum;
     if (more[p].count > 0)
         mean += w / more[p].count * more[p].parts[part].sum;
     return mean;
 }
 
-/// The number of first samples that a further one is worth: the ratio of their variances.
-static double worthOfMore(const GatherTile& tile) {
+/// The number of first samples that a further one is worth in a part: the ratio of their variances.
+/// The guide makes it more where the part's light comes from few directions, and less where it
+/// comes from all.
+static double worthOfMore(const GatherTile& tile, GatherPart part) {
     double first = 0, more = 0;
     for (std::uint32_t p = 0; p < kGatherPixels; ++p)
         if (tile.more[p].count > 0) {
-            first += tile.first[p].all.variance(tile.first[p].count);
-            more += tile.more[p].all.variance(tile.more[p].count);
+            first += tile.first[p].parts[part].variance(tile.first[p].count);
+            more += tile.more[p].parts[part].variance(tile.more[p].count);
         }
-    // Without the guide they are the same. With it, their density is a quarter of that at least, so
-    // their variance is hardly more than four times as large.
-    return tile.guide.share() > 0 && more > 0 ? std::clamp(first / more, 0.25, 100.0) : 1;
+    const bool same = part == Shown || !(tile.guide.share() > 0) || !(more > 0);
+    return same ? 1 : std::min(first / more, kMostWorth);
 }
 
 /// Sets how much of a part each pixel keeps: signal / (signal + noise), both squared. The signal is
@@ -99,13 +103,16 @@ static void keep(GatherTile& tile, GatherPart part, double worth) {
 }
 
 void weighSamples(GatherTile& tile) {
-    const double worth = worthOfMore(tile);
-    for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
-        const double more = worth * tile.more[p].count;
-        tile.shareOfMore[p] = more > 0 ? more / (more + tile.first[p].count) : 0;
+    for (const GatherPart part : {Straight, Bounced, Shown}) {
+        const double worth = worthOfMore(tile, part);
+        for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
+            const double more = worth * tile.more[p].count;
+            tile.shareOfMore[part][p] = more > 0 ? more / (more + tile.first[p].count) : 0;
+        }
+        if (part != Shown)
+            keep(tile, part, worth);
     }
-    keep(tile, Straight, worth);
-    keep(tile, Bounced, worth);
+    tile.kept[Shown].fill(1);
 }
 
 } // namespace limn

@@ -13,10 +13,11 @@ namespace limn {
 /// Width of the tiles of a picture whose pixels learn from each other [pixels].
 inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kGatherTile;
 
-/// Parts of the light, each of which is exchanged as far as that is worth its noise: what arrives
-/// straight from the sky and emissive surfaces, and the rest.
-enum GatherPart : std::uint32_t { Straight, Bounced };
-inline constexpr std::uint32_t kGatherParts = 2;
+/// Parts of the light that a picture gets. Two are exchanges, each of which is kept as far as that
+/// is worth its noise: of what arrives straight from the sky and emissive surfaces, and of the
+/// rest. Shown is what the field shows.
+enum GatherPart : std::uint32_t { Straight, Bounced, Shown };
+inline constexpr std::uint32_t kGatherParts = 3;
 
 /// Sums over samples of a pixel, of one part of the light. A sample's grey is the mean of its
 /// colours, and variances are of that.
@@ -34,7 +35,7 @@ struct GatherSums {
 };
 struct GatherSamples {
     std::array<GatherSums, kGatherParts> parts;
-    GatherSums all; ///< of both parts together
+    GatherSums all; ///< of all parts together
     std::uint32_t count = 0;
 };
 /// The samples of a tile's pixels; pixel (i, j) has number j * kGatherTile + i. Those beyond the
@@ -43,7 +44,8 @@ struct GatherTile {
     std::uint32_t x = 0, y = 0, width = 0, height = 0; ///< [pixels]
     LightGuide guide;
     std::array<GatherSamples, kGatherPixels> first, more;
-    std::array<double, kGatherPixels> shareOfMore{}; ///< of further samples, in the mean of all
+    /// Share of further samples in each part's mean over all samples.
+    std::array<std::array<double, kGatherPixels>, kGatherParts> shareOfMore{};
     /// Share of each part's mean that the picture gets.
     std::array<std::array<double, kGatherPixels>, kGatherParts> kept{};
 
@@ -51,7 +53,7 @@ struct GatherTile {
     glm::dvec3 meanOf(std::uint32_t p, GatherPart part) const;
 };
 
-/// The variance of a first sample of pixel (i, j), of both parts together: the mean over its
+/// The variance of a first sample of pixel (i, j), of all parts together: the mean over its
 /// neighbours, and the whole tile as one more. Where all of a pixel's own samples have missed a
 /// window, they have none.
 double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);

@@ -285,7 +285,8 @@ void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
-    indirectPass.record(cmd, slot.set, options.view, surfaces.drawn(), indirect.field->chroma);
+    indirectPass.record(cmd, slot.set, options.view, options.diffuse, surfaces.drawn(),
+                        indirect.field->chroma);
     vkCmdEndRendering(cmd);
     if (options.view == View::Lit && sky.active()) {
         beginOnLinear(cmd, options);

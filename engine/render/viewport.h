@@ -35,6 +35,7 @@ struct ViewportOptions {
     /// lightmap, whose own light then takes the place of the field's, as nearCorrection() does; 0:
     /// none. Dynamic objects and cutouts are not found.
     std::uint32_t nearRays = 0;
+    bool diffuse = true;  ///< shows bounced light that surfaces reflect diffusely; else only glossy
     float exposureEv = 0; ///< colour is multiplied by 2^exposureEv before tone mapping
     /// Wireframe needs a device that fills polygons with lines; on others, surfaces are grey.
     Inspection inspection = Inspection::None;

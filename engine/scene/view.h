@@ -16,6 +16,10 @@ namespace limn {
 /// emission + specular; the background is the sky. In every other view the background is 0.
 enum class View : std::uint32_t { Lit, Direct, Indirect, Irradiance, Albedo, Normals };
 
+constexpr bool showsBouncedLight(View view) {
+    return view == View::Lit || view == View::Indirect || view == View::Irradiance;
+}
+
 /// How finely pictures are sampled that are meant to be right rather than fast.
 struct PictureSamples {
     std::uint32_t perPixel;
@@ -27,8 +31,8 @@ struct PictureSamples {
 /// wrong by more than its bounced light.
 inline constexpr PictureSamples kFileSamples{.perPixel = 64, .nearRays = 1, .gatherRays = 1};
 
-/// Of what an editor shows at rest: as many near rays, with fewer samples to draw.
-inline constexpr PictureSamples kScreenSamples{.perPixel = 16, .nearRays = 4, .gatherRays = 0};
+/// Of what an editor shows at rest: as many rays, with fewer samples to draw.
+inline constexpr PictureSamples kScreenSamples{.perPixel = 16, .nearRays = 4, .gatherRays = 4};
 
 /// What is drawn over a picture, which fades beneath it, to find faults: the edges of all
 /// triangles, or pixels with a NaN or Inf.

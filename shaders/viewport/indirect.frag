@@ -16,6 +16,8 @@ layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_G
 layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
 layout(constant_id = 3) const bool kFirst = true; // first of the passes: it also writes pixels of other bands and the background
 
+layout(constant_id = 5) const bool kDiffuse = true; // shows diffuse light, not only what is glossy
+
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
 layout(set = 0, binding = 5, std430) readonly buffer Grid { uvec2 grid[]; };
@@ -109,7 +111,7 @@ FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid)
     }
     for (int once = 0; once < int(lightmapRead); ++once)
         sums = readLightmap(s.lightmapUv, irradiance, lobe);
-    return FieldSums(max(sums.irradiance, 0.0) * frame.fieldUnit, max(sums.lobe, 0.0) * frame.fieldUnit);
+    return FieldSums(kDiffuse ? max(sums.irradiance, 0.0) * frame.fieldUnit : vec3(0), max(sums.lobe, 0.0) * frame.fieldUnit);
 }
 
 vec3 bouncedLight(PackedSurface s, bool fromGrid, bool marches) {

@@ -2,8 +2,12 @@
 // Pictures that light their scene themselves, one request after the other, without the thread.
 #include "app/editor/render_worker.h"
 
+#include "engine/lighting/converged_light.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/measure/compare.h"
+#include "engine/measure/field_render.h"
 #include "engine/scene/exposure.h"
+#include "engine/scene/tone_map.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
@@ -139,6 +143,119 @@ TEST_F(RenderWorkerTest, RefinesAPictureThatStandsStill) {
     request.options.inspection = Inspection::None;
     drawn(worker, request);
     EXPECT_TRUE(worker.refining());
+}
+
+/// Refines and gathers until nothing is left to do.
+DrawnImages finished(RenderWorker& worker) {
+    const std::atomic<bool> calm = false;
+    DrawnImages images;
+    while (worker.refining() || worker.gathering())
+        images = *(worker.refining() ? worker.refine(calm) : worker.gather(calm));
+    return images;
+}
+
+TEST_F(RenderWorkerTest, GathersTheLightOfAPictureThatStandsStill) {
+    RenderWorker worker(false);
+    EXPECT_FALSE(worker.gathering());
+    PictureRequest request = looking(1, first);
+    request.linear = true;
+    drawn(worker, request);
+    EXPECT_FALSE(worker.gathers()) << "nobody asks";
+    const ImageF alone = finished(worker).linear->image;
+    request.gather = true;
+    drawn(worker, request);
+    ASSERT_TRUE(worker.gathers());
+    EXPECT_FALSE(worker.gathering()) << "before it is refined";
+    EXPECT_EQ(worker.gathered(), 0);
+    const DrawnImages images = finished(worker);
+    EXPECT_EQ(worker.gathered(), 1);
+    EXPECT_FALSE(worker.gathering());
+
+    const auto lit = convergeLight(first, trace, made->technique(), request.lit.prepared(),
+                                   LitFor::Pictures, {});
+    ASSERT_TRUE(lit);
+    FieldRenderOptions options;
+    options.view = request.options.view;
+    options.camera = request.options.camera;
+    options.width = request.options.width;
+    options.height = request.options.height;
+    options.gatherRays = kScreenSamples.gatherRays;
+    options.straight = lit->lighting->straightField(*first);
+    const ImageF whole = renderField(*trace, lit->field(), *lit->layout, options);
+    EXPECT_LT(compareImages(images.linear->image, whole)->nrmse, 1e-3);
+    EXPECT_GT(compareImages(alone, whole)->nrmse, 0.02);
+    EXPECT_EQ(images.shown->rgba, toneMappedImage(images.linear->image, request.options.tonemap,
+                                                  request.options.exposureEv)
+                                      .rgba);
+}
+
+TEST_F(RenderWorkerTest, GathersTheLightOfTheCpuAlike) {
+    RenderWorker here(false), there(false);
+    PictureRequest request = looking(1, first);
+    request.gather = request.linear = true;
+    drawn(here, request);
+    const ImageF byDevice = finished(here).linear->image;
+    const auto lit = convergeLight(first, trace, made->technique(), request.lit.prepared(),
+                                   LitFor::Pictures, {});
+    ASSERT_TRUE(lit);
+    request.relight = false;
+    request.field = std::make_shared<const IndirectField>(lit->field());
+    drawn(there, request);
+    EXPECT_LT(compareImages(finished(there).linear->image, byDevice)->nrmse, 1e-3);
+}
+
+TEST_F(RenderWorkerTest, GathersOnlyWhatStandsStillAndIsBakedAsItIs) {
+    RenderWorker worker(false);
+    const auto gathers = [&](const auto& change) {
+        PictureRequest request = looking(1, first);
+        request.gather = true;
+        change(request);
+        drawn(worker, request);
+        return worker.gathers();
+    };
+    EXPECT_TRUE(gathers([](PictureRequest&) {}));
+    EXPECT_TRUE(gathers([&](PictureRequest& r) { r.scene = moved; })) << "only a lamp moved";
+    EXPECT_FALSE(gathers([](PictureRequest& r) { r.moving = true; }));
+    EXPECT_FALSE(gathers([](PictureRequest& r) { r.lit.preview = true; }));
+    EXPECT_FALSE(gathers([](PictureRequest& r) { r.options.view = View::Albedo; }));
+    EXPECT_FALSE(
+        gathers([](PictureRequest& r) { r.options.inspection = Inspection::InvalidPixels; }));
+    EXPECT_FALSE(gathers([&](PictureRequest& r) {
+        Scene scene = *first;
+        scene.instances[0].toWorld[3].x += 0.1f;
+        r.scene = std::make_shared<const Scene>(std::move(scene));
+    })) << "a wall moved";
+}
+
+TEST_F(RenderWorkerTest, RowsThatAreNotGatheredYetStayAsDrawn) {
+    const std::atomic<bool> calm = false, hurry = true;
+    const auto lit =
+        convergeLight(first, trace, made->technique(), {made, first}, LitFor::Pictures, {});
+    ASSERT_TRUE(lit);
+    FieldRenderOptions options;
+    options.view = View::Irradiance;
+    options.camera = looking(1, first).options.camera;
+    options.width = 20;
+    options.height = 20;
+    options.gatherRays = 1;
+    const glm::vec3 before(1e6f);
+    const ImageF drawn{20, 20, std::vector<glm::vec3>(400, before)},
+        rest{20, 20, std::vector<glm::vec3>(400, glm::vec3(0))};
+    RestGather gather({trace, lit->layout, std::make_shared<const IndirectField>(lit->field()),
+                       lit->lighting->straightField(*first)},
+                      options, drawn, rest);
+    for (const std::size_t rows : {8U, 16U, 20U}) {
+        EXPECT_FALSE(gather.done());
+        ASSERT_TRUE(gather.addRows(std::chrono::milliseconds(0), calm));
+        for (std::size_t i = 0; i < 400; ++i)
+            EXPECT_EQ(gather.picture().rgb[i] == before, i >= 20 * rows);
+    }
+    EXPECT_TRUE(gather.done());
+    RestGather stopped({trace, lit->layout, std::make_shared<const IndirectField>(lit->field()),
+                        lit->lighting->straightField(*first)},
+                       options, drawn, rest);
+    EXPECT_FALSE(stopped.addRows(std::chrono::milliseconds(0), hurry));
+    EXPECT_EQ(stopped.picture().rgb, drawn.rgb);
 }
 
 TEST(WorthRefining, EndsAtSixteenSamplesOrWhereTheNextWouldTakeTwentySeconds) {

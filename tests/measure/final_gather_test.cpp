@@ -138,7 +138,7 @@ double belowAGreyPlate(float height, float light) {
     options.camera.fovY = 0.3f;
     options.width = options.height = 16;
     options.samplesPerPixel = 64;
-    options.gatherRays = 1;
+    options.gatherRays = 16;
     IndirectField dark = plates.field;
     std::ranges::fill(dark.lightmap, glm::vec4(0));
     options.straight = std::make_shared<const IndirectField>(dark);
@@ -146,19 +146,50 @@ double belowAGreyPlate(float height, float light) {
         renderField(TraceScene(plates.builder.build()), plates.field, *plates.layout, options));
 }
 
-TEST(FinalGather, ReadsTheFieldWhereRaysEnd) {
-    const double a = 2, h = 2, r = std::sqrt(a * a + h * h);
-    const double formFactor = 4 * a / (glm::pi<double>() * r) * std::atan(a / r);
-    const double sent = 0.5 * glm::pi<double>() * 3; // albedo times irradiance
-    EXPECT_NEAR(belowAGreyPlate(2, 3), formFactor * sent, 0.03 * formFactor * sent);
+/// From a plate of 4 m to a point `h` below its middle.
+double formFactorOfPlate(double h) {
+    const double a = 2, r = std::sqrt(a * a + h * h);
+    return 4 * a / (glm::pi<double>() * r) * std::atan(a / r);
 }
 
-/// The plate's texels are 4/3 m wide: rays that are shorter do not read them. Where the plate is
-/// 1/2 m away, others have a cosine below 3/8, so they are 9/64 of all.
-TEST(FinalGather, GoesOnWhereRaysAreShorterThanTexels) {
-    const double all = 0.5 * glm::pi<double>() * 3;
-    EXPECT_GT(belowAGreyPlate(0.5f, 3), 0.02 * all);
-    EXPECT_LT(belowAGreyPlate(0.5f, 3), 9. / 64 * all);
+// The plate's texels are 4/3 m wide, so the field is read where rays are longer than 16/3 m.
+constexpr double kSent = 0.5 * glm::pi<double>() * 3; ///< albedo times irradiance
+
+TEST(FinalGather, ReadsTheFieldWhereRaysEnd) {
+    const double light = formFactorOfPlate(5.5) * kSent;
+    EXPECT_NEAR(belowAGreyPlate(5.5f, 3), light, 0.03 * light);
+}
+
+/// Where the plate is 5 m away, rays to a disc in its middle are too short. They go on to the
+/// plane, and not a tenth of them meets the plate again.
+TEST(FinalGather, GoesOnWhereRaysAreShorterThanSomeTexels) {
+    const double h = 5, toRim = 16. / 3, disc = 1 - h * h / (toRim * toRim);
+    const double light = (formFactorOfPlate(h) - disc) * kSent;
+    EXPECT_NEAR(belowAGreyPlate(float(h), 3), light, 0.1 * light);
+    EXPECT_NEAR(belowAGreyPlate(0.5f, 3), 0, 1e-3 * kSent);
+}
+
+TEST(FinalGather, NeedsNoNearLight) {
+    BelowAPlate s(glm::vec3(0.4f));
+    const ImageF without = s.drawn(s.options);
+    s.options.nearRays = 4;
+    EXPECT_EQ(s.drawn(s.options).rgb, without.rgb);
+}
+
+/// Half of the picture is dark. Where that begins, the field itself is noisy.
+TEST(FinalGather, TakesMoreSamplesOfTheFieldAtEdges) {
+    BelowAPlate s(glm::vec3(1, 2, 3)); // as the sky's
+    s.scene.instances[1].toWorld[3].y = -2;
+    s.options.camera.eye = {5, 3, 0.3f};
+    s.options.samplesPerPixel = 16;
+    FieldRenderOptions without = s.options;
+    without.gatherRays = 0;
+    FieldRenderOptions finely = without;
+    finely.samplesPerPixel = 4096;
+    const ImageF fine = s.drawn(finely);
+    const double before = compareImages(s.drawn(without), fine)->nrmse;
+    EXPECT_GT(before, 0.01);
+    EXPECT_LT(compareImages(s.drawn(s.options), fine)->nrmse, 0.5 * before);
 }
 
 TEST(FinalGather, DoesNothingWhereItIsNotAskedFor) {
@@ -192,10 +223,6 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
         void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart) {
             value += weight * sampleIrradiance(at);
         }
-        void fieldRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
-                           GatherPart) {
-            value += weight * sampleRadiance(at, direction);
-        }
         void directLight(const StraightSample&, const Sampler&, glm::vec3, std::uint32_t,
                          std::uint32_t) {} // there is no light
         void arrives(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {
@@ -203,20 +230,19 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
         }
     };
     BelowAPlate s(glm::vec3(0.4f), glm::vec3(1, 0, 0));
-    s.options.nearRays = 1;
     const TraceScene trace(s.scene);
-    const FinalGather straight(trace, s.plates.field, *s.plates.layout, s.options);
+    const FinalGather gather(trace, s.plates.field, *s.plates.layout, s.options);
     const ImageF black{36, 20, std::vector<glm::vec3>(720, glm::vec3(0))};
     ImageF one = black, many = black;
     {
         const ThreadLimit limit(1);
-        ASSERT_TRUE(straight.addTo(one));
+        ASSERT_TRUE(gather.addTo(one));
     }
-    ASSERT_TRUE(straight.addTo(many));
+    ASSERT_TRUE(gather.addTo(many));
     EXPECT_EQ(one.rgb, many.rgb);
     for (const std::uint32_t pixel : {0U, 100U, 377U, 719U}) {
         Sum sum;
-        straight.read(pixel % 36, pixel / 36, sum);
+        gather.read(pixel % 36, pixel / 36, sum);
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(sum.value[k], one.rgb[pixel][k], 1e-4f);
     }
@@ -225,12 +251,12 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
 TEST(FinalGather, CanBeCancelled) {
     const BelowAPlate s(glm::vec3(1));
     const TraceScene trace(s.scene);
-    const FinalGather straight(trace, s.plates.field, *s.plates.layout, s.options);
+    const FinalGather gather(trace, s.plates.field, *s.plates.layout, s.options);
     ImageF image{36, 20, std::vector<glm::vec3>(720, glm::vec3(0))};
     const std::atomic<bool> cancelled = true;
     Progress progress;
     progress.cancel = &cancelled;
-    EXPECT_FALSE(straight.addTo(image, progress));
+    EXPECT_FALSE(gather.addTo(image, progress));
 }
 
 } // namespace

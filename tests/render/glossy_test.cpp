@@ -65,6 +65,26 @@ TEST_F(ViewportGlossy, ReflectsBouncedLightAsTheCpuDoesInEveryNumberOfBands) {
             }
 }
 
+// Whoever gathers diffuse light itself gets the rest of the picture.
+TEST_F(ViewportGlossy, DiffuseLightCanBeLeftOut) {
+    simple::SceneBuilder b = plane({0.9f, 0.6f, 0.3f});
+    b.scene.materials[0].metallic = 0.5f;
+    b.scene.materials[0].roughness = 0.3f;
+    b.scene.materials[0].emission = {1, 2, 3};
+    viewport->setIndirect(field(4));
+    const Scene scene = b.build();
+    const ImageF whole = draw(scene, View::Lit), diffuse = draw(scene, View::Indirect);
+    options.diffuse = false;
+    const ImageF rest = draw(scene, View::Lit);
+    for (std::size_t i = 0; i < whole.rgb.size(); i += 37)
+        expectNear(rest.rgb[i] + diffuse.rgb[i], whole.rgb[i], 1e-5f);
+    EXPECT_GT(diffuse.rgb.back().x, 0.1f);
+    EXPECT_GT(rest.rgb.back().x, 1.1f); // more than is emitted
+    for (const View view : {View::Indirect, View::Irradiance})
+        for (const glm::vec3 none : draw(scene, view).rgb)
+            EXPECT_EQ(none, glm::vec3(0));
+}
+
 TEST_F(ViewportGlossy, ReadsMoreBandsAsSoonAsAMaterialIsPolished) {
     simple::SceneBuilder b = plane({0.9f, 0.6f, 0.3f});
     b.scene.materials[0].metallic = 1;

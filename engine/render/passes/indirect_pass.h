@@ -14,15 +14,16 @@ public:
     IndirectPass(gpu::Device& device, VkDescriptorSetLayout frameLayout);
 
     /// Records the pass over the whole bound linear image. `frameSet` holds the surface images and
-    /// the field, whose first `chroma` bands are in colour.
-    void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view,
+    /// the field, whose first `chroma` bands are in colour. `diffuse`: as
+    /// ViewportOptions::diffuse.
+    void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, View view, bool diffuse,
                 const SurfacesDrawn& surfaces, std::uint32_t chroma);
 
 private:
     struct Variant {
         View view;
         std::uint32_t features, bands, chroma;
-        bool first;
+        bool first, diffuse;
         auto operator<=>(const Variant&) const = default;
     };
 

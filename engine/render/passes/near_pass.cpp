@@ -16,10 +16,6 @@ namespace limn::render {
 
 using shared::GpuNear;
 
-static bool showsBouncedLight(View view) {
-    return view == View::Lit || view == View::Indirect || view == View::Irradiance;
-}
-
 NearPass::NearPass(gpu::Device& device, VkDescriptorSetLayout frameLayout)
     : m_device(device), m_frameLayout(frameLayout), m_surfaces(device) {}
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/measure/final_gather.h"
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+
+namespace limn {
+
+/// What the light of a picture is gathered from, on the CPU. No member is null.
+struct GatheredFrom {
+    std::shared_ptr<const TraceScene> trace;
+    std::shared_ptr<const LightmapLayout> layout;
+    std::shared_ptr<const IndirectField> field;    ///< all of it is lit
+    std::shared_ptr<const IndirectField> straight; ///< Lighting::straightField()
+};
+
+/// Final gathering of a picture that stands still, some rows at a time, so that those that are done
+/// can be shown meanwhile.
+class RestGather {
+public:
+    /// `drawn`: the picture as it was drawn; `rest`: without diffuse light
+    /// (ViewportOptions::diffuse). Both are of the size of `options`, which ask for gathering by
+    /// all but their `straight`.
+    RestGather(GatheredFrom from, FieldRenderOptions options, ImageF drawn, ImageF rest);
+
+    bool done() const { return m_rows == m_gather.tileRows(); }
+    /// Share of the rows that are done.
+    float share() const { return float(m_rows) / float(m_gather.tileRows()); }
+
+    /// Gathers rows for about this time, one at least. False if `hurry` was set before that was
+    /// done; then the object is of no more use. Precondition: !done().
+    bool addRows(std::chrono::milliseconds time, const std::atomic<bool>& hurry);
+
+    /// Rows that are done, and the others as they were drawn.
+    const ImageF& picture() const { return m_picture; }
+
+private:
+    GatheredFrom m_from;
+    FieldRenderOptions m_options;
+    ImageF m_picture, m_rest;
+    FinalGather m_gather;
+    std::uint32_t m_rows = 0; ///< of tiles, that are done
+};
+
+} // namespace limn
