@@ -122,6 +122,7 @@ private:
     int m_framesOwed = kFramesAfterEvent;
     bool m_wasIdle = false;
     std::uint64_t m_compared = 0; ///< ComparedPicture::number of the latest frame
+    bool m_gathered = false;      ///< its picture was gathered
 };
 
 /// Sleeps until there is something to draw. Returns false after a wait that brought nothing.
@@ -159,6 +160,7 @@ void EditorApp::takeWindowEvents() {
 void EditorApp::frame() {
     const auto start = Clock::now();
     const WorkSet before = m_session.working();
+    const float gathered = m_session.state.frame.gathered;
     ImGuiIO& io = ImGui::GetIO();
     const glm::uvec2 size = m_window->size();
     io.DisplaySize = {float(size.x), float(size.y)};
@@ -179,8 +181,8 @@ void EditorApp::frame() {
                    .jobs = msBetween(drawn, updated),
                    .viewport = msBetween(updated, Clock::now())};
     draw(time);
-    m_framesOwed = std::max(m_framesOwed - 1, 0);
     FrameStatus& status = m_session.state.frame;
+    m_framesOwed = std::max(m_framesOwed - 1, status.gathered != gathered ? 1 : 0); // panels say it
     ++status.uiFrames;
     status.frames.add(time, before | m_session.working());
 }
@@ -250,6 +252,7 @@ void EditorApp::writeStats() const {
         {"device", m_device->properties.deviceName},
         {"frames", s.frame.uiFrames},
         {"pictures", s.frame.pictures},
+        {"gathered", s.frame.gathered},
         {"longest_frame", frameJson(s.frame.frames.sinceStart)},
         {"longest_frame_since_idle", frameJson(s.frame.frames.sinceIdle)},
         {"longest_frame_during", during},
@@ -287,11 +290,14 @@ void EditorApp::run() {
             m_window->wait(0.002);
         frame();
         countLatency(msBetween(wanted, Clock::now()));
-        // A reference is refined for minutes, in which the editor is never idle.
-        if (const std::uint64_t number = m_session.compared().number; number != m_compared) {
-            m_compared = number;
+        // A reference is refined for minutes, in which the editor is never idle. Pictures are
+        // gathered while it is.
+        const std::uint64_t number = m_session.compared().number;
+        const bool gathered = m_session.state.frame.gathered == 1;
+        if (number != m_compared || (gathered && !m_gathered))
             writeStats();
-        }
+        m_compared = number;
+        m_gathered = gathered;
         const bool idle = m_session.idle() && m_framesOwed == 0 && m_picture.idle();
         if (idle && !m_wasIdle) {
             writeStats();

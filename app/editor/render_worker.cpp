@@ -217,8 +217,20 @@ bool RenderWorker::beginGathering(const std::atomic<bool>& hurry) {
     m_gathers = takeGatheredFrom();
     if (!m_gathers)
         return false;
+    const ViewportOptions& o = shown.options;
+    FieldRenderOptions options;
+    options.view = o.view;
+    options.camera = o.camera;
+    options.width = o.width;
+    options.height = o.height;
+    options.samplesPerPixel = kScreenSamples.perPixel;
+    options.gatherRays = kScreenSamples.gatherRays;
+    auto gather = std::make_unique<RestGather>(m_from, std::move(options));
+    m_gathers = gather->any();
+    if (!m_gathers)
+        return false;
     ImageF drawn = viewport.readLinear();
-    ViewportOptions rest = shown.options;
+    ViewportOptions rest = o;
     rest.diffuse = false;
     viewport.render(rest);
     for (std::uint32_t n = 1; n < m_samples; ++n) {
@@ -226,15 +238,8 @@ bool RenderWorker::beginGathering(const std::atomic<bool>& hurry) {
             return false;
         viewport.refine();
     }
-    FieldRenderOptions options;
-    options.view = rest.view;
-    options.camera = rest.camera;
-    options.width = rest.width;
-    options.height = rest.height;
-    options.samplesPerPixel = kScreenSamples.perPixel;
-    options.gatherRays = kScreenSamples.gatherRays;
-    m_gather = std::make_unique<RestGather>(m_from, std::move(options), std::move(drawn),
-                                            viewport.readLinear());
+    gather->begin(std::move(drawn), viewport.readLinear());
+    m_gather = std::move(gather);
     return true;
 }
 

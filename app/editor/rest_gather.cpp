@@ -15,11 +15,14 @@ static FieldRenderOptions withStraight(FieldRenderOptions options, const Gathere
     return options;
 }
 
-RestGather::RestGather(GatheredFrom from, FieldRenderOptions options, ImageF drawn, ImageF rest)
+RestGather::RestGather(GatheredFrom from, FieldRenderOptions options)
     : m_from(std::move(from)), m_options(withStraight(std::move(options), m_from)),
-      m_picture(std::move(drawn)), m_rest(std::move(rest)),
-      m_gather(*m_from.trace, *m_from.field, *m_from.layout, m_options) {
-    assert(m_gather.any() && m_picture.rgb.size() == m_rest.rgb.size());
+      m_gather(*m_from.trace, *m_from.field, *m_from.layout, m_options) {}
+
+void RestGather::begin(ImageF drawn, ImageF rest) {
+    assert(any() && drawn.rgb.size() == rest.rgb.size());
+    m_picture = std::move(drawn);
+    m_rest = std::move(rest);
 }
 
 bool RestGather::addRows(std::chrono::milliseconds time, const std::atomic<bool>& hurry) {

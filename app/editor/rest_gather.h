@@ -21,17 +21,22 @@ struct GatheredFrom {
 /// can be shown meanwhile.
 class RestGather {
 public:
-    /// `drawn`: the picture as it was drawn; `rest`: without diffuse light
-    /// (ViewportOptions::diffuse). Both are of the size of `options`, which ask for gathering by
-    /// all but their `straight`.
-    RestGather(GatheredFrom from, FieldRenderOptions options, ImageF drawn, ImageF rest);
+    /// Of a picture that is drawn with `options`, but that `straight` is that of `from`.
+    RestGather(GatheredFrom from, FieldRenderOptions options);
+
+    /// FinalGather::any(). If not, no other function may be called.
+    bool any() const { return m_gather.any(); }
+
+    /// Takes the picture as it was drawn, and the `rest` of it without diffuse light
+    /// (ViewportOptions::diffuse).
+    void begin(ImageF drawn, ImageF rest);
 
     bool done() const { return m_rows == m_gather.tileRows(); }
     /// Share of the rows that are done.
     float share() const { return float(m_rows) / float(m_gather.tileRows()); }
 
     /// Gathers rows for about this time, one at least. False if `hurry` was set before that was
-    /// done; then the object is of no more use. Precondition: !done().
+    /// done; then the object is of no more use. Precondition: it has begun, and is not done().
     bool addRows(std::chrono::milliseconds time, const std::atomic<bool>& hurry);
 
     /// Rows that are done, and the others as they were drawn.

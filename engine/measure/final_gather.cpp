@@ -20,6 +20,11 @@ static constexpr double kErrorOfOneMore = 0.125, kMostMore = 255;
 /// Rays of the further samples of a pixel; fewer are not worth taking.
 static constexpr std::uint32_t kFewestRays = 16;
 
+static bool asksForIt(const FieldRenderOptions& options) {
+    return options.straight && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
+           showsBouncedLight(options.view);
+}
+
 static std::vector<float> texelWidths(const Scene& scene, const LightmapLayout& layout) {
     std::vector<float> widths = nearReaches(scene, layout);
     for (float& width : widths)
@@ -30,9 +35,9 @@ static std::vector<float> texelWidths(const Scene& scene, const LightmapLayout& 
 FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
                          const LightmapLayout& layout, const FieldRenderOptions& options)
     : m_trace(trace), m_field(field), m_layout(layout), m_options(options),
-      m_any(options.straight && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
-            showsBouncedLight(options.view)),
-      m_sources(m_any ? findStraightSources(trace) : StraightSources{}),
+      m_sources(asksForIt(options) ? findStraightSources(trace) : StraightSources{}),
+      m_any(asksForIt(options) &&
+            (m_sources.shine || std::ranges::any_of(trace.scene().lights, shines))),
       m_widths(m_any ? texelWidths(trace.scene(), layout) : std::vector<float>()),
       m_rays(options.camera, options.width, options.height) {
     if (m_any)

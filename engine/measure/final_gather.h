@@ -39,8 +39,8 @@ public:
     FinalGather(const TraceScene& trace, const IndirectField& field, const LightmapLayout& layout,
                 const FieldRenderOptions& options);
 
-    /// Whether the options ask for it and the view shows bounced light. Pictures of one sample a
-    /// pixel are left alone, because nothing tells how noisy it is.
+    /// Whether the options ask for it, the view shows bounced light, and there is any. Pictures of
+    /// one sample a pixel are left alone, because nothing tells how noisy it is.
     bool any() const { return m_any; }
 
     /// Adds the bounced light of diffuse surfaces to a picture of the options' size that has none
@@ -85,8 +85,8 @@ private:
     const IndirectField& m_field;
     const LightmapLayout& m_layout;
     const FieldRenderOptions& m_options;
-    bool m_any;
     StraightSources m_sources;
+    bool m_any;
     std::vector<float> m_widths; ///< twice the nearReaches() [m]
     PixelRays m_rays;
     double m_meanLight = 0; ///< of the field's light in the picture

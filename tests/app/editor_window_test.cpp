@@ -225,7 +225,8 @@ TEST_F(EditorWindowTest, AnIdleEditorDrawsNothingOnceItKnowsWhichDeviceRelightsF
 
 TEST_F(EditorWindowTest, AFocusedTextFieldDrawsNothing) {
     ASSERT_TRUE(waitFor([](const auto& s) {
-        return s["bake_up_to_date"] && s["relight_converged"] && s["relight_gpu_ms"] > 0;
+        return s["bake_up_to_date"] && s["relight_converged"] && s["relight_gpu_ms"] > 0 &&
+               s["gathered"] == 1;
     }));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     const std::uint64_t before = readStats()["frames"];
@@ -285,6 +286,7 @@ TEST_F(EditorOnGpuTest, AMovedLightIsFollowedUntilItConvergesAndThenNothingIsDra
     EXPECT_EQ(readStats()["relight_on"], "gpu");
     EXPECT_GT(readStats()["relight_calls"], 1U) << "a few bounces at a time";
     ASSERT_NO_FATAL_FAILURE(dragTheLight());
+    ASSERT_TRUE(waitFor([](const auto& s) { return s["gathered"] == 1; }));
     const nlohmann::json before = statsOfASleeper();
     ASSERT_NO_FATAL_FAILURE(saveAndQuit());
     const auto last = readStats();

@@ -227,6 +227,24 @@ TEST_F(RenderWorkerTest, GathersOnlyWhatStandsStillAndIsBakedAsItIs) {
     })) << "a wall moved";
 }
 
+TEST_F(RenderWorkerTest, GathersNothingWhereThereIsNoLight) {
+    const std::atomic<bool> calm = false;
+    RenderWorker worker(false);
+    Scene scene = *first;
+    scene.lights.clear();
+    for (Material& m : scene.materials)
+        m.emission = glm::vec3(0);
+    scene.sky = {};
+    PictureRequest request = looking(1, std::make_shared<const Scene>(std::move(scene)));
+    request.gather = true;
+    drawn(worker, request);
+    while (worker.refining())
+        worker.refine(calm);
+    ASSERT_TRUE(worker.gathering());
+    EXPECT_FALSE(worker.gather(calm));
+    EXPECT_FALSE(worker.gathering());
+}
+
 TEST_F(RenderWorkerTest, RowsThatAreNotGatheredYetStayAsDrawn) {
     const std::atomic<bool> calm = false, hurry = true;
     const auto lit =
@@ -241,9 +259,10 @@ TEST_F(RenderWorkerTest, RowsThatAreNotGatheredYetStayAsDrawn) {
     const glm::vec3 before(1e6f);
     const ImageF drawn{20, 20, std::vector<glm::vec3>(400, before)},
         rest{20, 20, std::vector<glm::vec3>(400, glm::vec3(0))};
-    RestGather gather({trace, lit->layout, std::make_shared<const IndirectField>(lit->field()),
-                       lit->lighting->straightField(*first)},
-                      options, drawn, rest);
+    const GatheredFrom from{trace, lit->layout, std::make_shared<const IndirectField>(lit->field()),
+                            lit->lighting->straightField(*first)};
+    RestGather gather(from, options);
+    gather.begin(drawn, rest);
     for (const std::size_t rows : {8U, 16U, 20U}) {
         EXPECT_FALSE(gather.done());
         ASSERT_TRUE(gather.addRows(std::chrono::milliseconds(0), calm));
@@ -251,9 +270,8 @@ TEST_F(RenderWorkerTest, RowsThatAreNotGatheredYetStayAsDrawn) {
             EXPECT_EQ(gather.picture().rgb[i] == before, i >= 20 * rows);
     }
     EXPECT_TRUE(gather.done());
-    RestGather stopped({trace, lit->layout, std::make_shared<const IndirectField>(lit->field()),
-                        lit->lighting->straightField(*first)},
-                       options, drawn, rest);
+    RestGather stopped(from, options);
+    stopped.begin(drawn, rest);
     EXPECT_FALSE(stopped.addRows(std::chrono::milliseconds(0), hurry));
     EXPECT_EQ(stopped.picture().rgb, drawn.rgb);
 }

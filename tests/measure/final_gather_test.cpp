@@ -131,6 +131,7 @@ TEST(FinalGather, LeavesAFieldThatIsRightAlone) {
 double belowAGreyPlate(float height, float light) {
     TwoPlates plates(plateAbove(height));
     plates.setField(1, {0, -1, 0}, glm::vec3(light));
+    plates.builder.scene.sky.radiance = glm::vec3(1e-6f); // without light there is no field
     FieldRenderOptions options;
     options.view = View::Irradiance;
     options.camera.eye = {0.02f, 0.2f, 0.02f};
@@ -213,6 +214,10 @@ TEST(FinalGather, DoesNothingWhereItIsNotAskedFor) {
         o.view = view;
         EXPECT_FALSE(any(o));
     }
+    s.scene.sky = {};
+    EXPECT_FALSE(any(s.options)) << "nothing shines";
+    s.scene.lights.emplace_back();
+    EXPECT_TRUE(any(s.options));
 }
 
 TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
