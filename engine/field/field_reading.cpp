@@ -19,13 +19,13 @@ static void addSum(const FieldPoint& at, std::span<float> ofCoefficients, glm::v
     if (at.field.continues && !lookup.grid)
         weighCut(at.surfaceNormal(), ofCoefficients.data());
     for (std::size_t k = 0; k < lookup.count; ++k) {
-        auto entry = std::ranges::find_if(reading.entries, [&](const FieldReading::Entry& e) {
-            return e.grid == lookup.grid && e.index == lookup.index[k];
-        });
-        if (entry == reading.entries.end())
-            entry = reading.entries.insert(entry, {.grid = lookup.grid, .index = lookup.index[k]});
+        const std::uint64_t key = std::uint64_t(lookup.index[k]) << 1 | (lookup.grid ? 1 : 0);
+        const auto [place, added] = reading.places.try_emplace(key, reading.entries.size());
+        if (added)
+            reading.entries.push_back({.grid = lookup.grid, .index = lookup.index[k]});
+        FieldReading::Entry& entry = reading.entries[place->second];
         for (std::size_t i = 0; i < ofCoefficients.size(); ++i)
-            entry->weight[i] += weight * (lookup.weight[k] * ofCoefficients[i]);
+            entry.weight[i] += weight * (lookup.weight[k] * ofCoefficients[i]);
     }
 }
 

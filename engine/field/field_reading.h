@@ -7,7 +7,9 @@
 #include "engine/math/sh.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace limn {
@@ -22,7 +24,8 @@ struct FieldReading {
         /// Per coefficient and colour; 0 from the field's number of coefficients on.
         std::array<glm::vec3, kMaxCoefficients> weight{};
     };
-    std::vector<Entry> entries; ///< each cell and texel at most once
+    std::vector<Entry> entries;                            ///< each cell and texel at most once
+    std::unordered_map<std::uint64_t, std::size_t> places; ///< of entries, by index and `grid`
 
     /// Weight of the radiance that a marched reflection looks up.
     struct Marched {
