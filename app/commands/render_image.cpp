@@ -60,7 +60,7 @@ struct Gathering {
     }
 };
 
-/// Of what `drawing` is lit by. Null where the picture is not to gather.
+/// Gathers from the light that `drawing` shows. Null where the picture is not to be gathered.
 std::unique_ptr<const Gathering> gatheringOf(const GpuDrawing& drawing, const Scene& scene,
                                              const RenderRequest& request) {
     FieldRenderOptions options = fieldOptions(request);

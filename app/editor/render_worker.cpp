@@ -177,7 +177,8 @@ bool worthRefining(std::uint32_t samples, double sampleMs) {
     return samples < kScreenSamples.perPixel && samples * sampleMs <= kMaxRefineMs;
 }
 
-/// What is drawn over a picture at rest would jitter or fade.
+/// Whether a picture may be refined and gathered once it is drawn. Something drawn over it would
+/// jitter, and is drawn over a faded picture, to which no light can be added.
 static bool canBeRefined(const PictureRequest& request) {
     return !request.moving && !request.overlay.kind &&
            request.options.inspection == Inspection::None;

@@ -21,7 +21,7 @@ struct GatheredFrom {
 /// can be shown meanwhile.
 class RestGather {
 public:
-    /// Of a picture that is drawn with `options`, but that `straight` is that of `from`.
+    /// For a picture that is drawn with `options`; their `straight` is replaced by that of `from`.
     RestGather(GatheredFrom from, FieldRenderOptions options);
 
     /// FinalGather::any(). If not, no other function may be called.

@@ -16,8 +16,8 @@
 namespace limn {
 
 /// Final gathering: the field's light is exchanged for what rays from a picture's pixels find, as
-/// far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights
-/// and Viewer Position. 1992
+/// far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights and Viewer
+/// Position. 1992
 ///
 /// Light that arrives straight from the sky and emissive surfaces is sampled. Bounced light is the
 /// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
@@ -73,7 +73,8 @@ private:
     GatherSamples take(std::uint32_t x, std::uint32_t y, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, LightGuide* learns) const;
     std::uint32_t further(double variance) const;
-    /// Reads sample s of a pixel, each part by its share. `guide`: of further samples.
+    /// Reads sample s of a pixel, whose parts count by their `shares`. `guide` aims the rays of a
+    /// further sample; null for the first ones.
     template <class Reader>
     void sample(std::uint32_t x, std::uint32_t y, std::uint32_t s, const LightGuide* guide,
                 std::array<double, kGatherParts> shares, Reader& reader) const;

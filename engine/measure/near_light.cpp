@@ -19,27 +19,15 @@ NearLight nearLight(const TraceScene& trace, const IndirectField& field,
             rays > 0 ? nearReaches(trace.scene(), layout) : std::vector<float>(), rays};
 }
 
-float nearReach(const NearLight& near, const Hit& hit) {
-    const float most = near.rays > 0 ? near.reach[hit.instance] : 0;
-    if (!(most > 0))
-        return 0;
-    return nearReachAt(near.layout, most, hit.instance,
-                       near.trace.scene().instances[hit.instance].mesh, hit.triangle, hit.u, hit.v,
-                       !hit.frontFace);
-}
-
-float nearWeight(const NearLight& near, float reach, const SurfaceHit& met, bool emits) {
-    if (!(reach > 0) || !met || emits || !(near.reach[met.instance] > 0))
-        return 0;
-    return nearWeight(met.t, reach);
-}
-
 std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
                                           const SurfacePoint& p, const Sampler& sampler) {
     std::vector<NearSurface> found;
-    const float reach = nearReach(near, hit);
-    if (!(reach > 0))
+    const float most = near.rays > 0 ? near.reach[hit.instance] : 0;
+    if (!(most > 0))
         return found;
+    const float reach = nearReachAt(near.layout, most, hit.instance,
+                                    near.trace.scene().instances[hit.instance].mesh, hit.triangle,
+                                    hit.u, hit.v, !hit.frontFace);
     const glm::vec3 origin = rayOrigin(near.trace, p);
     for (std::uint32_t k = 0; k < near.rays; ++k) {
         const Sampler own{sampler.seed, sampler.index * near.rays + k};
@@ -47,12 +35,13 @@ std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
         if (!(glm::dot(direction, p.geometricNormal) > 0))
             continue;
         const Hit met = near.trace.closestHit({origin, direction, 0, reach}, TraceMask::Static);
-        const std::optional<SurfacePoint> point =
-            met ? surfacePoint(near.trace, met) : std::nullopt;
-        const float weight = nearWeight(near, reach, met, point && point->emission != glm::vec3(0));
-        if (weight > 0)
-            found.push_back(
-                {met, point, direction, glm::pi<float>() / float(near.rays) * weight, own});
+        if (!met || !(near.reach[met.instance] > 0))
+            continue;
+        const std::optional<SurfacePoint> point = surfacePoint(near.trace, met);
+        if (point && point->emission != glm::vec3(0))
+            continue;
+        const float weight = glm::pi<float>() / float(near.rays) * nearWeight(met.t, reach);
+        found.push_back({met, point, direction, weight, own});
     }
     return found;
 }

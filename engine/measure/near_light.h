@@ -24,13 +24,6 @@ struct NearLight {
 NearLight nearLight(const TraceScene& trace, const IndirectField& field,
                     const LightmapLayout& layout, std::uint32_t rays);
 
-/// Distance within which surfaces count as near at a hit [m]; 0 where none does.
-float nearReach(const NearLight& near, const Hit& hit);
-
-/// Weight with which what a ray of such a point met counts as near, in [0, 1]. `emits`: whether it
-/// is emissive.
-float nearWeight(const NearLight& near, float reach, const SurfaceHit& met, bool emits);
-
 /// A near surface, hit by one ray, whose radiance replaces the field's.
 struct NearSurface {
     Hit hit;

@@ -15,7 +15,6 @@ layout(constant_id = 0) const uint kView = VIEW_LIT;
 layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID, FEATURE_MARCHED: what any surface reads
 layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
 layout(constant_id = 3) const bool kFirst = true; // first of the passes: it also writes pixels of other bands and the background
-
 layout(constant_id = 5) const bool kDiffuse = true; // shows diffuse light, not only what is glossy
 
 layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
