@@ -17,7 +17,8 @@ static FieldRenderOptions withStraight(FieldRenderOptions options, const Gathere
 
 RestGather::RestGather(GatheredFrom from, FieldRenderOptions options)
     : m_from(std::move(from)), m_options(withStraight(std::move(options), m_from)),
-      m_gather(*m_from.trace, *m_from.field, *m_from.layout, m_options) {}
+      m_gather(*m_from.trace, *m_from.field, *m_from.layout, m_options),
+      m_light(m_gather.picture()) {}
 
 void RestGather::begin(ImageF drawn, ImageF rest) {
     assert(any() && drawn.rgb.size() == rest.rgb.size());
@@ -30,15 +31,15 @@ bool RestGather::addRows(std::chrono::milliseconds time, const std::atomic<bool>
     Progress progress;
     progress.cancel = &hurry;
     do {
-        if (!m_gather.addRows(m_rest, m_rows, m_rows + 1, progress))
+        if (!m_gather.gatherRows(m_light, m_rows, m_rows + 1, progress))
             return false;
-        const std::size_t row = std::size_t(kGatherTile) * m_rest.width,
-                          begin = std::min(m_rows * row, m_rest.rgb.size()),
-                          end = std::min(begin + row, m_rest.rgb.size());
-        std::copy(m_rest.rgb.begin() + std::ptrdiff_t(begin),
-                  m_rest.rgb.begin() + std::ptrdiff_t(end),
-                  m_picture.rgb.begin() + std::ptrdiff_t(begin));
         ++m_rows;
+        const std::uint32_t from = m_shown, width = m_rest.width;
+        m_shown = done() ? m_rest.height : (m_rows - 1) * kGatherTile;
+        addGathered(m_rest, m_light, {{0, from}, {width, m_shown}});
+        std::copy(m_rest.rgb.begin() + std::ptrdiff_t(from) * width,
+                  m_rest.rgb.begin() + std::ptrdiff_t(m_shown) * width,
+                  m_picture.rgb.begin() + std::ptrdiff_t(from) * width);
     } while (!done() && Clock::now() - start < time);
     return true;
 }

@@ -32,11 +32,12 @@ public:
     void begin(ImageF drawn, ImageF rest);
 
     bool done() const { return m_rows == m_gather.tileRows(); }
-    /// Share of the rows that are done.
+    /// Share of the rows of tiles that are gathered.
     float share() const { return float(m_rows) / float(m_gather.tileRows()); }
 
-    /// Gathers rows for about this time, one at least. False if `hurry` was set before that was
-    /// done; then the object is of no more use. Precondition: it has begun, and is not done().
+    /// Gathers rows of tiles for about this time, one at least. Those above the last of them are
+    /// done, whose pixels learn from it. False if `hurry` was set before that was done; then the
+    /// object is of no more use. Precondition: it has begun, and is not done().
     bool addRows(std::chrono::milliseconds time, const std::atomic<bool>& hurry);
 
     /// Rows that are done, and the others as they were drawn.
@@ -47,7 +48,9 @@ private:
     FieldRenderOptions m_options;
     ImageF m_picture, m_rest;
     FinalGather m_gather;
-    std::uint32_t m_rows = 0; ///< of tiles, that are done
+    GatheredLight m_light;
+    std::uint32_t m_rows = 0;  ///< of tiles, that are gathered
+    std::uint32_t m_shown = 0; ///< rows of pixels that m_picture has
 };
 
 } // namespace limn

@@ -103,13 +103,15 @@ struct FinalGather::GatherReader {
     }
 };
 
-GatherSamples FinalGather::take(std::uint32_t x, std::uint32_t y, std::uint32_t begin,
-                                std::uint32_t count, const LightGuide* guide,
-                                LightGuide* learns) const {
-    GatherSamples taken{.parts = {}, .all = {}, .count = count};
+GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
+                                const LightGuide* guide, LightGuide* learns) const {
+    GatherSamples taken;
+    taken.count = count;
+    Shares whole;
+    whole.fill(glm::vec3(1));
     for (std::uint32_t s = 0; s < count; ++s) {
         GatherReader reader{m_trace, learns};
-        sample(x, y, begin + s, guide, {1, 1, 1}, reader);
+        taken.weight += sample(at, begin + s, guide, whole, reader);
         const bool half = s < count / 2;
         glm::vec3 all(0);
         for (std::uint32_t part = 0; part < kGatherParts; ++part) {
@@ -144,37 +146,36 @@ GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
                 body(i, j, j * kGatherTile + i);
     };
     forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
-        tile.first[p] = take(x + i, y + j, 0, count, nullptr, &tile.guide);
+        tile.first[p] = take({x + i, y + j}, 0, count, nullptr, &tile.guide);
     });
     tile.guide.finish();
     forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
         const double variance = varianceAround(tile, i, j);
-        tile.more[p] = take(x + i, y + j, count, further(variance), &tile.guide, nullptr);
+        tile.more[p] = take({x + i, y + j}, count, further(variance), &tile.guide, nullptr);
     });
     weighSamples(tile);
     return tile;
 }
 
-bool FinalGather::addRows(ImageF& image, std::uint32_t firstRow, std::uint32_t lastRow,
-                          const Progress& progress) const {
+bool FinalGather::gatherRows(GatheredLight& light, std::uint32_t firstRow, std::uint32_t lastRow,
+                             const Progress& progress) const {
     const std::uint32_t columns = (m_options.width + kGatherTile - 1) / kGatherTile;
-    const auto addTile = [&](std::uint32_t number) {
-        const GatherTile tile =
-            tileOf(number % columns * kGatherTile, (firstRow + number / columns) * kGatherTile);
-        for (std::uint32_t j = 0; j < tile.height; ++j)
-            for (std::uint32_t i = 0; i < tile.width; ++i) {
-                const std::uint32_t p = j * kGatherTile + i;
-                glm::dvec3 sum(0);
-                for (const GatherPart part : {Straight, Bounced, Shown})
-                    sum += tile.kept[part][p] * tile.meanOf(p, part);
-                image.rgb[std::size_t(tile.y + j) * m_options.width + tile.x + i] += glm::vec3(sum);
-            }
-    };
     return parallelRanges(std::size_t(columns) * (lastRow - firstRow), 1, progress, "gather",
                           [&](std::size_t first, std::size_t last) {
-                              for (std::size_t t = first; t < last; ++t)
-                                  addTile(std::uint32_t(t));
+                              for (std::size_t t = first; t < last; ++t) {
+                                  const auto row = firstRow + std::uint32_t(t / columns),
+                                             column = std::uint32_t(t % columns);
+                                  light.set(tileOf(column * kGatherTile, row * kGatherTile));
+                              }
                           });
+}
+
+bool FinalGather::addTo(ImageF& image, const Progress& progress) const {
+    GatheredLight light(picture());
+    if (!gatherRows(light, 0, tileRows(), progress))
+        return false;
+    addGathered(image, light, picture());
+    return true;
 }
 
 } // namespace limn

@@ -6,6 +6,7 @@
 #include "engine/measure/field_lobe.h"
 #include "engine/measure/field_render.h"
 #include "engine/measure/gather_tile.h"
+#include "engine/measure/gathered_light.h"
 #include "engine/measure/pixel_sample.h"
 #include "engine/reference/straight_light.h"
 
@@ -29,10 +30,8 @@ namespace limn {
 /// Aspects of the Representative Method. 1934). Further samples are aimed at the light that the
 /// pixels of the same tile have found.
 ///
-/// Where the field is about right, the exchange would bring noise alone. So each pixel keeps as
-/// much of it as has the least expected squared error, given the variance of its samples and how
-/// far the tile's pixels differ from the field beyond their noise (Efron, Morris. Stein's
-/// Estimation Rule and Its Competitors. 1973).
+/// Where the field is about right, the exchange would bring noise alone. So each pixel keeps only
+/// as much of it, and of the mean around it, as is worth its noise (keptExchange()).
 class FinalGather {
 public:
     /// Of pictures that are drawn with these arguments, which outlive the object.
@@ -45,22 +44,24 @@ public:
 
     /// Adds the bounced light of diffuse surfaces to a picture of the options' size that has none
     /// yet. Returns false when cancelled. Precondition: any().
-    bool addTo(ImageF& image, const Progress& progress = {}) const {
-        return addRows(image, 0, tileRows(), progress);
-    }
-    /// The same for some rows of tiles, [first, last).
-    bool addRows(ImageF& image, std::uint32_t first, std::uint32_t last,
-                 const Progress& progress = {}) const;
+    bool addTo(ImageF& image, const Progress& progress = {}) const;
+
+    /// The same in steps: gathers rows of tiles, [first, last), of the whole picture, whose light
+    /// addGathered() adds.
+    bool gatherRows(GatheredLight& light, std::uint32_t first, std::uint32_t last,
+                    const Progress& progress = {}) const;
     /// Number of rows of kGatherTile pixels.
     std::uint32_t tileRows() const { return (m_options.height + kGatherTile - 1) / kGatherTile; }
+    PixelRect picture() const { return {{0, 0}, {m_options.width, m_options.height}}; }
 
-    /// The same for one pixel, piece by piece: calls of `reader`, whose sum addTo() adds, as
-    /// GatherReader of final_gather.cpp does. In final_gather_read.h. Precondition: any().
+    /// The light that addTo() adds to one pixel, piece by piece: calls of `reader`, whose sum it
+    /// is, as GatherReader of final_gather.cpp does. In final_gather_read.h. Precondition: any().
     template <class Reader>
     void read(std::uint32_t x, std::uint32_t y, Reader& reader) const;
 
 private:
-    using Weights = std::array<glm::vec3, kGatherParts>;
+    /// Of the parts, in what a sample is read for.
+    using Shares = std::array<glm::vec3, kGatherParts>;
     struct GatherReader;
 
     const IndirectField& straight() const { return *m_options.straight; }
@@ -70,14 +71,18 @@ private:
     glm::vec3 weightOf(const SurfacePoint& p) const;
     double meanLight() const;
     GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
-    GatherSamples take(std::uint32_t x, std::uint32_t y, std::uint32_t begin, std::uint32_t count,
+    GatherSamples take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, LightGuide* learns) const;
     std::uint32_t further(double variance) const;
-    /// Reads sample s of a pixel, whose parts count by their `shares`. `guide` aims the rays of a
+    /// Reads sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of a
     /// further sample; null for the first ones.
     template <class Reader>
-    void sample(std::uint32_t x, std::uint32_t y, std::uint32_t s, const LightGuide* guide,
-                std::array<double, kGatherParts> shares, Reader& reader) const;
+    glm::vec3 sample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide, const Shares& shares,
+                     Reader& reader) const;
+    /// Reads all samples of a pixel of the tile.
+    template <class Reader>
+    void readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+                   Reader& reader) const;
     template <class Reader>
     void readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
                      Reader& reader) const;

@@ -37,52 +37,84 @@ void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 
 }
 
 template <class Reader>
-void FinalGather::sample(std::uint32_t x, std::uint32_t y, std::uint32_t s, const LightGuide* guide,
-                         std::array<double, kGatherParts> shares, Reader& reader) const {
-    const PixelSample pixel(m_rays, m_options.seed, y * m_options.width + x, s);
+glm::vec3 FinalGather::sample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
+                              const Shares& shares, Reader& reader) const {
+    const PixelSample pixel(m_rays, m_options.seed, at.y * m_options.width + at.x, s);
     const Hit hit = m_trace.closestHit(pixel.ray);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
     if (!p || !reader.shows(hit.instance))
-        return;
-    Weights weights;
-    for (std::uint32_t part = 0; part < kGatherParts; ++part)
-        weights[part] = float(shares[part]) * weightOf(*p);
-    const FieldPoint at = pointOf(m_field, hit, *p), straightAt = pointOf(straight(), hit, *p);
-    reader.fieldIrradiance(at, weights[Shown], Shown);
-    reader.fieldIrradiance(straightAt, -weights[Straight], Straight);
-    reader.fieldIrradiance(straightAt, weights[Bounced], Bounced);
-    reader.fieldIrradiance(at, -weights[Bounced], Bounced);
+        return glm::vec3(0);
+    const glm::vec3 weight = weightOf(*p), direct = shares[Straight] * weight,
+                    bounced = shares[Bounced] * weight, shown = shares[Shown] * weight;
+    const FieldPoint of = pointOf(m_field, hit, *p), ofStraight = pointOf(straight(), hit, *p);
+    if (shown != glm::vec3(0))
+        reader.fieldIrradiance(of, shown, Shown);
+    reader.fieldIrradiance(ofStraight, -direct, Straight);
+    reader.fieldIrradiance(ofStraight, bounced, Bounced);
+    reader.fieldIrradiance(of, -bounced, Bounced);
     const std::uint32_t rays = m_options.gatherRays;
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
         const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
         for (const FoundLight& f : found.found)
             if (f.irradiance != glm::vec3(0))
-                reader.arrives(f, weights[Straight] / float(rays) * f.irradiance, Straight,
-                               f.instance);
+                reader.arrives(f, direct / float(rays) * f.irradiance, Straight, f.instance);
         if (found.weight > 0 && found.hit)
-            readBounced(found, own, found.weight / float(rays) * weights[Bounced], reader);
+            readBounced(found, own, found.weight / float(rays) * bounced, reader);
     }
+    return weight;
 }
 
 template <class Reader>
-void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
-    const GatherTile tile = tileOf(x / kGatherTile * kGatherTile, y / kGatherTile * kGatherTile);
-    const std::uint32_t pixel = (y - tile.y) * kGatherTile + x - tile.x,
-                        first = tile.first[pixel].count, more = tile.more[pixel].count;
+void FinalGather::readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+                            Reader& reader) const {
+    if (shares == Shares{})
+        return;
+    const std::uint32_t p = (pixel.y - tile.y) * kGatherTile + pixel.x - tile.x,
+                        first = tile.first[p].count, more = tile.more[p].count;
     // Of one of the first samples, or of a further one.
-    const auto shares = [&](bool further) {
-        std::array<double, kGatherParts> each;
+    const auto ofOne = [&](bool further) {
+        Shares each;
         for (std::uint32_t part = 0; part < kGatherParts; ++part) {
-            const double w = tile.shareOfMore[part][pixel];
-            each[part] = tile.kept[part][pixel] * (further ? w / more : (1 - w) / first);
+            const double w = tile.shareOfMore[part][p];
+            each[part] = float(further ? w / more : (1 - w) / first) * shares[part];
         }
         return each;
     };
     for (std::uint32_t s = 0; s < first; ++s)
-        sample(x, y, s, nullptr, shares(false), reader);
+        sample(pixel, s, nullptr, ofOne(false), reader);
     for (std::uint32_t s = 0; s < more; ++s)
-        sample(x, y, first + s, &tile.guide, shares(true), reader);
+        sample(pixel, first + s, &tile.guide, ofOne(true), reader);
+}
+
+template <class Reader>
+void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
+    const PixelRect window = windowAround({x, y}, kGatherRadius, picture());
+    const glm::uvec2 begin = window.begin / kGatherTile * kGatherTile;
+    const auto upTo = [](std::uint32_t end) {
+        return (end + kGatherTile - 1) / kGatherTile * kGatherTile;
+    };
+    GatheredLight light({begin, glm::min({upTo(window.end.x), upTo(window.end.y)}, picture().end)});
+    std::vector<GatherTile> tiles;
+    for (std::uint32_t j = begin.y; j < light.rect.end.y; j += kGatherTile)
+        for (std::uint32_t i = begin.x; i < light.rect.end.x; i += kGatherTile)
+            light.set(tiles.emplace_back(tileOf(i, j)));
+    std::array<KeptExchange, kExchanges> kept;
+    for (const GatherPart part : {Straight, Bounced})
+        kept[part] = keptExchange(light, part, {x, y});
+    const std::uint32_t columns = (light.rect.end.x - begin.x + kGatherTile - 1) / kGatherTile;
+    const glm::vec3 weight = light.at({x, y}).weight;
+    window.forEach([&](glm::uvec2 at) {
+        const glm::uvec2 apart = glm::max(at, {x, y}) - glm::min(at, {x, y});
+        const bool isNear = std::max(apart.x, apart.y) <= kNearRadius,
+                   isItself = at == glm::uvec2(x, y);
+        Shares shares{};
+        for (const GatherPart part : {Straight, Bounced})
+            shares[part] = kept[part].factorOf(isNear, isItself, weight);
+        shares[Shown] = glm::vec3(isItself ? 1 : 0);
+        const glm::uvec2 tile = (at - begin) / kGatherTile;
+        readPixel(tiles[tile.y * columns + tile.x], at, shares, reader);
+    });
 }
 
 } // namespace limn

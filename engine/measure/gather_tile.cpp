@@ -74,32 +74,23 @@ static double worthOfMore(const GatherTile& tile, GatherPart part) {
     return same ? 1 : std::min(first / more, kMostWorth);
 }
 
-/// Sets how much of a part each pixel keeps: signal / (signal + noise), both squared. The signal is
-/// what the tile's pixels differ from the field by beyond their noise.
-static void keep(GatherTile& tile, GatherPart part, double worth) {
-    std::array<double, kGatherPixels> noise{};
-    double all = 0, noises = 0, independent = 0, byHalves = 0;
+/// Sets the noise of an exchange's means. `worth`: of a further sample, in first ones.
+static void setNoise(GatherTile& tile, GatherPart part, double worth) {
+    std::array<double, kGatherPixels>& noise = tile.noise[part];
+    double independent = 0, byHalves = 0;
     for (std::uint32_t j = 0; j < tile.height; ++j)
         for (std::uint32_t i = 0; i < tile.width; ++i) {
             const std::uint32_t p = j * kGatherTile + i;
-            const GatherSamples &first = tile.first[p], &more = tile.more[p];
-            const GatherSums& ofFirst = first.parts[part];
-            const glm::dvec3 mean = tile.meanOf(p, part);
-            const double grey = (mean.x + mean.y + mean.z) / 3;
+            const GatherSamples& first = tile.first[p];
             noise[p] =
                 varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
-                (first.count + worth * more.count);
-            all += grey * grey;
-            noises += noise[p];
-            independent += ofFirst.variance(first.count) / first.count;
-            byHalves += ofFirst.varianceByHalves(first.count);
+                (first.count + worth * tile.more[p].count);
+            independent += first.parts[part].variance(first.count) / first.count;
+            byHalves += first.parts[part].varianceByHalves(first.count);
         }
     const double stratified = independent > 0 ? std::min(byHalves / independent, 1.0) : 1;
-    const double signal = std::max(all - stratified * noises, 0.0) / (tile.width * tile.height);
-    for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
-        const double sum = signal + stratified * noise[p];
-        tile.kept[part][p] = sum > 0 ? signal / sum : 0;
-    }
+    for (double& n : noise)
+        n *= stratified;
 }
 
 void weighSamples(GatherTile& tile) {
@@ -110,9 +101,8 @@ void weighSamples(GatherTile& tile) {
             tile.shareOfMore[part][p] = more > 0 ? more / (more + tile.first[p].count) : 0;
         }
         if (part != Shown)
-            keep(tile, part, worth);
+            setNoise(tile, part, worth);
     }
-    tile.kept[Shown].fill(1);
 }
 
 } // namespace limn

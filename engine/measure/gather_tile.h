@@ -15,9 +15,9 @@ inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kG
 
 /// Parts of the light that a picture gets. Two are exchanges, each of which is kept as far as that
 /// is worth its noise: of what arrives straight from the sky and emissive surfaces, and of the
-/// rest. Shown is what the field shows.
+/// rest. Shown is what the field shows, of which all is kept.
 enum GatherPart : std::uint32_t { Straight, Bounced, Shown };
-inline constexpr std::uint32_t kGatherParts = 3;
+inline constexpr std::uint32_t kGatherParts = 3, kExchanges = 2;
 
 /// Sums over samples of a pixel, of one part of the light. A sample's grey is the mean of its
 /// colours, and variances are of that.
@@ -35,7 +35,8 @@ struct GatherSums {
 };
 struct GatherSamples {
     std::array<GatherSums, kGatherParts> parts;
-    GatherSums all; ///< of all parts together
+    GatherSums all;       ///< of all parts together
+    glm::dvec3 weight{0}; ///< of the factors by which the picture shows irradiance
     std::uint32_t count = 0;
 };
 /// The samples of a tile's pixels; pixel (i, j) has number j * kGatherTile + i. Those beyond the
@@ -46,8 +47,8 @@ struct GatherTile {
     std::array<GatherSamples, kGatherPixels> first, more;
     /// Share of further samples in each part's mean over all samples.
     std::array<std::array<double, kGatherPixels>, kGatherParts> shareOfMore{};
-    /// Share of each part's mean that the picture gets.
-    std::array<std::array<double, kGatherPixels>, kGatherParts> kept{};
+    /// Variance of the greys of each exchange's mean over all samples.
+    std::array<std::array<double, kGatherPixels>, kExchanges> noise{};
 
     /// Mean over all samples of a part of pixel p, which has some.
     glm::dvec3 meanOf(std::uint32_t p, GatherPart part) const;
@@ -58,8 +59,7 @@ struct GatherTile {
 /// window, they have none.
 double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);
 
-/// Weighs further samples against first ones, and the mean of all against the field: sets
-/// shareOfMore and kept.
+/// Weighs further samples against first ones: sets shareOfMore and noise.
 void weighSamples(GatherTile& tile);
 
 } // namespace limn
