@@ -173,6 +173,8 @@ struct GatheredReader {
             parts.bouncedVia[via] += light;
         }
     }
+    void rayBegins(const StraightSample& /*found*/) {}
+    void rayEnds() {}
     void arrives(const FoundLight& from, glm::vec3 value, GatherPart part, std::uint32_t via) {
         PixelParts::Gathered& to = part == Straight ? parts.straight : parts.bounced;
         (from.instance == ~0U ? to.sky : to.bySurface[from.instance]) += value;

@@ -67,50 +67,54 @@ double FinalGather::meanLight() const {
     return sum / (kColumns * kRows);
 }
 
-/// Adds up what is read, and learns from it where light comes from.
+/// Adds up what is read, and, in `rays` unless null, what each ray has brought.
 struct FinalGather::GatherReader {
     const TraceScene& trace;
-    LightGuide* learns = nullptr;
+    std::vector<RayLight>* rays = nullptr;
     std::array<glm::vec3, kGatherParts> sums{};
+    RayLight* ray = nullptr; ///< the one that is followed
 
     /// Whether an instance that the pixel shows, or that a ray met, reflects light.
     static bool shows(std::uint32_t /*instance*/) { return true; }
     static bool reflects(std::uint32_t /*instance*/) { return true; }
+    /// What is read between these is what a ray from the pixel has brought.
+    void rayBegins(const StraightSample& found) {
+        if (rays && found.weight > 0)
+            ray = &rays->emplace_back(RayLight{found.direction, found.found[2].pdf, 0});
+    }
+    void rayEnds() { ray = nullptr; }
+    void add(glm::vec3 light, GatherPart part) {
+        sums[part] += light;
+        if (ray)
+            ray->light += channelSum(light);
+    }
     /// Weight times a field's irradiance.
     void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart part) {
-        sums[part] += weight * sampleIrradiance(at);
+        add(weight * sampleIrradiance(at), part);
     }
     /// Weight times direct light where a ray ends. `via`: the instance that it met first.
     void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
-                     std::uint32_t bounce, std::uint32_t /*via*/) {
-        std::uint64_t rays = 0;
-        const glm::vec3 light =
-            weight *
-            sampleDirectLight(trace, *met.point, own.pair(0).x, own.pair(1), rays).irradiance;
-        sums[Bounced] += light;
-        if (learns && bounce == 1)
-            learns->add(met.direction, channelSum(light));
+                     std::uint32_t /*bounce*/, std::uint32_t /*via*/) {
+        std::uint64_t shadowRays = 0;
+        add(weight * sampleDirectLight(trace, *met.point, own.pair(0).x, own.pair(1), shadowRays)
+                         .irradiance,
+            Bounced);
     }
     /// Light from the sky or an emissive surface.
-    void arrives(const FoundLight& from, glm::vec3 value, GatherPart part, std::uint32_t /*via*/) {
-        sums[part] += value;
-        if (!learns || part == Bounced)
-            return;
-        if (from.instance == ~0U)
-            learns->add(from.toLight, channelSum(value));
-        else
-            learns->addOther(channelSum(value));
+    void arrives(const FoundLight& /*from*/, glm::vec3 value, GatherPart part,
+                 std::uint32_t /*via*/) {
+        add(value, part);
     }
 };
 
 GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
-                                const LightGuide* guide, LightGuide* learns) const {
+                                const LightGuide* guide, std::vector<RayLight>* learned) const {
     GatherSamples taken;
     taken.count = count;
     Shares whole;
     whole.fill(glm::vec3(1));
     for (std::uint32_t s = 0; s < count; ++s) {
-        GatherReader reader{m_trace, learns};
+        GatherReader reader{m_trace, learned};
         taken.weight += sample(at, begin + s, guide, whole, reader);
         const bool half = s < count / 2;
         glm::vec3 all(0);
@@ -140,15 +144,16 @@ GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
                     .width = std::min(kGatherTile, m_options.width - x),
                     .height = std::min(kGatherTile, m_options.height - y)};
     const std::uint32_t count = m_options.samplesPerPixel;
+    std::array<std::vector<RayLight>, 2> learned; // by every other pixel
     const auto forEachPixel = [&](const auto& body) {
         for (std::uint32_t j = 0; j < tile.height; ++j)
             for (std::uint32_t i = 0; i < tile.width; ++i)
                 body(i, j, j * kGatherTile + i);
     };
     forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
-        tile.first[p] = take({x + i, y + j}, 0, count, nullptr, &tile.guide);
+        tile.first[p] = take({x + i, y + j}, 0, count, nullptr, &learned[(i + j) % 2]);
     });
-    tile.guide.finish();
+    tile.guide = learnGuide(learned[0], learned[1]);
     forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
         const double variance = varianceAround(tile, i, j);
         tile.more[p] = take({x + i, y + j}, count, further(variance), &tile.guide, nullptr);

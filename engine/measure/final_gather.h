@@ -72,7 +72,7 @@ private:
     double meanLight() const;
     GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
     GatherSamples take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
-                       const LightGuide* guide, LightGuide* learns) const;
+                       const LightGuide* guide, std::vector<RayLight>* learned) const;
     std::uint32_t further(double variance) const;
     /// Reads sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of a
     /// further sample; null for the first ones.

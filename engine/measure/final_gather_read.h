@@ -12,7 +12,7 @@ namespace limn {
 inline constexpr float kFewestTexels = 4;
 
 /// A ray that meets near surfaces only, as in a gap, ends after as many.
-inline constexpr std::uint32_t kMostGatherBounces = 16;
+inline constexpr std::uint32_t kMostGatherBounces = 64;
 
 template <class Reader>
 void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
@@ -56,11 +56,17 @@ glm::vec3 FinalGather::sample(glm::uvec2 at, std::uint32_t s, const LightGuide* 
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
         const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
-        for (const FoundLight& f : found.found)
+        const auto arrives = [&](const FoundLight& f) {
             if (f.irradiance != glm::vec3(0))
                 reader.arrives(f, direct / float(rays) * f.irradiance, Straight, f.instance);
+        };
+        arrives(found.found[0]);
+        arrives(found.found[1]);
+        reader.rayBegins(found);
+        arrives(found.found[2]);
         if (found.weight > 0 && found.hit)
             readBounced(found, own, found.weight / float(rays) * bounced, reader);
+        reader.rayEnds();
     }
     return weight;
 }

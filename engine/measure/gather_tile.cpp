@@ -60,6 +60,19 @@ glm::dvec3 GatherTile::meanOf(std::uint32_t p, GatherPart part) const {
     return mean;
 }
 
+/// What the variance of means is of that of as many independent samples: less where samples are
+/// well spread.
+static double shareByStratification(const std::array<GatherSamples, kGatherPixels>& samples,
+                                    GatherPart part) {
+    double independent = 0, byHalves = 0;
+    for (const GatherSamples& s : samples)
+        if (s.count > 0) {
+            independent += s.parts[part].variance(s.count) / s.count;
+            byHalves += s.parts[part].varianceByHalves(s.count);
+        }
+    return independent > 0 ? std::min(byHalves / independent, 1.0) : 1;
+}
+
 /// The number of first samples that a further one is worth in a part: the ratio of their variances.
 /// The guide makes it more where the part's light comes from few directions, and less where it
 /// comes from all.
@@ -70,27 +83,23 @@ static double worthOfMore(const GatherTile& tile, GatherPart part) {
             first += tile.first[p].parts[part].variance(tile.first[p].count);
             more += tile.more[p].parts[part].variance(tile.more[p].count);
         }
+    first *= shareByStratification(tile.first, part);
+    more *= shareByStratification(tile.more, part);
     const bool same = part == Shown || !(tile.guide.share() > 0) || !(more > 0);
     return same ? 1 : std::min(first / more, kMostWorth);
 }
 
 /// Sets the noise of an exchange's means. `worth`: of a further sample, in first ones.
 static void setNoise(GatherTile& tile, GatherPart part, double worth) {
-    std::array<double, kGatherPixels>& noise = tile.noise[part];
-    double independent = 0, byHalves = 0;
+    const double stratified = shareByStratification(tile.first, part);
     for (std::uint32_t j = 0; j < tile.height; ++j)
         for (std::uint32_t i = 0; i < tile.width; ++i) {
             const std::uint32_t p = j * kGatherTile + i;
-            const GatherSamples& first = tile.first[p];
-            noise[p] =
+            tile.noise[part][p] =
+                stratified *
                 varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
-                (first.count + worth * tile.more[p].count);
-            independent += first.parts[part].variance(first.count) / first.count;
-            byHalves += first.parts[part].varianceByHalves(first.count);
+                (tile.first[p].count + worth * tile.more[p].count);
         }
-    const double stratified = independent > 0 ? std::min(byHalves / independent, 1.0) : 1;
-    for (double& n : noise)
-        n *= stratified;
 }
 
 void weighSamples(GatherTile& tile) {

@@ -6,38 +6,42 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace limn {
 
+/// What a ray from a surface, whose direction followed the cosine, has brought.
+struct RayLight {
+    glm::vec3 direction{0}; ///< unit
+    float pdf = 0;          ///< of the direction [sr^-1]
+    float light = 0;        ///< in any unit that is the same for all rays
+};
+
 /// Where light comes from that the surfaces of a small part of a picture find by chance alone, as
-/// learned from samples: the sky through windows, surfaces in the sun. It knows how much arrives
+/// learned from rays: the sky through windows, surfaces in the sun. It knows how much arrives
 /// from each of some hundred cells of equal solid angle, and aims rays there.
 ///
 /// Vorba, Karlik, Sik, Ritschel, Krivanek. On-line Learning of Parametric Mixture Models for Light
 /// Transport Simulation. 2014 learn directions likewise; a table suffices for one bounce.
 class LightGuide {
 public:
-    /// Adds light that arrives from unit `direction`, in any unit that is the same for all.
+    /// Adds light that arrives from a unit direction, in any unit that is the same for all.
     void add(glm::vec3 direction, float light) {
-        m_upTo[cellOf(direction)] += light;
-        m_all += light;
+        m_upTo[cellOf(direction)] += std::max(light, 0.f);
     }
-    /// Adds light that other samples find better, at which the guide does not aim.
-    void addOther(float light) { m_all += light; }
 
-    /// Ends learning.
-    void finish() {
+    /// Ends learning. `share`: see below; none is taken where there is no light.
+    void finish(float share) {
         for (std::size_t i = 1; i < kCells; ++i)
             m_upTo[i] += m_upTo[i - 1];
-        m_share = m_all > 0 ? kMostAimed * m_upTo.back() / m_all : 0;
+        m_share = m_upTo.back() > 0 ? share : 0;
     }
 
-    /// Share of the directions that are to be sampled by the guide, in [0, 3/4]: in proportion to
-    /// the share of light at which it aims. The others follow the cosine, so that no direction is
-    /// sampled with less than a quarter of the density that it would have without the guide.
+    /// Share of the directions that are to be sampled by the guide, in [0, 1). The others follow
+    /// the cosine.
     float share() const { return m_share; }
 
     /// Samples a direction. Precondition: share() > 0. `u` in [0, 1)^2.
@@ -58,7 +62,7 @@ public:
 
 private:
     static constexpr std::size_t kBands = 16, kSectors = 32, kCells = kBands * kSectors;
-    static constexpr float kTurn = 2 * std::numbers::pi_v<float>, kMostAimed = 0.75f;
+    static constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
     static std::size_t cellOf(glm::vec3 d) {
         const float turns = std::atan2(d.z, d.x) / kTurn;
@@ -71,7 +75,13 @@ private:
     float lightOf(std::size_t cell) const { return m_upTo[cell] - before(cell); }
 
     std::array<float, kCells> m_upTo{}; ///< light of a cell; after finish(), of all up to it
-    float m_all = 0, m_share = 0;
+    float m_share = 0;
 };
+
+/// A guide that aims as many rays as leave the least noise, up to three quarters, so that no
+/// direction has less than a quarter of the density that it would have without the guide. Takes
+/// rays from two halves of the pixels. What one half teaches is tried on the other, because light
+/// that is near arrives from a different side at each pixel, and what few rays have found is noise.
+LightGuide learnGuide(std::span<const RayLight> half, std::span<const RayLight> otherHalf);
 
 } // namespace limn

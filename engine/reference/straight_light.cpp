@@ -40,9 +40,11 @@ StraightSample sampleStraightLight(const TraceScene& trace, const StraightSource
         if (f.irradiance != glm::vec3(0))
             f.irradiance *= balanceWeight(f.pdf, density(f.toLight));
 
+    // Both ways of sampling share the numbers, so that each has well-spread ones.
     const glm::vec2 u = sampler.pair(3);
-    s.direction =
-        sampler.pair(4).x < aimed ? guide->sample(u) : sampleCosineHemisphere(p.normal, u);
+    s.direction = u.x < aimed
+                      ? guide->sample({u.x / aimed, u.y})
+                      : sampleCosineHemisphere(p.normal, {(u.x - aimed) / (1 - aimed), u.y});
     const float cosTheta = glm::dot(p.normal, s.direction);
     if (!(cosTheta > 0) || !(glm::dot(p.geometricNormal, s.direction) > 0))
         return s;

@@ -32,7 +32,7 @@ struct StraightSample {
     std::optional<SurfacePoint> point; ///< there; none also where the hit is black
 };
 
-/// Uses `sampler`'s pairs 0 to 4. `guide`: aims some of the rays, if there is one; they follow the
+/// Uses `sampler`'s pairs 0 to 3. `guide`: aims some of the rays, if there is one; they follow the
 /// cosine otherwise. Combined as in Veach, Guibas. Optimally Combining Sampling Techniques for
 /// Monte Carlo Rendering. 1995
 StraightSample sampleStraightLight(const TraceScene& trace, const StraightSources& sources,
