@@ -18,7 +18,7 @@ static FieldRenderOptions withStraight(FieldRenderOptions options, const Gathere
 RestGather::RestGather(GatheredFrom from, FieldRenderOptions options)
     : m_from(std::move(from)), m_options(withStraight(std::move(options), m_from)),
       m_gather(*m_from.trace, *m_from.field, *m_from.layout, m_options),
-      m_light(m_gather.picture()) {}
+      m_light(any() ? m_gather.picture() : PixelRect{}) {}
 
 void RestGather::begin(ImageF drawn, ImageF rest) {
     assert(any() && drawn.rgb.size() == rest.rgb.size());

@@ -60,7 +60,7 @@ public:
     void read(std::uint32_t x, std::uint32_t y, Reader& reader) const;
 
 private:
-    /// Of the parts, in what a sample is read for.
+    /// Factors by which the parts of a sample count.
     using Shares = std::array<glm::vec3, kGatherParts>;
     struct GatherReader;
 

@@ -44,28 +44,31 @@ glm::vec3 FinalGather::sample(glm::uvec2 at, std::uint32_t s, const LightGuide* 
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
     if (!p || !reader.shows(hit.instance))
         return glm::vec3(0);
-    const glm::vec3 weight = weightOf(*p), direct = shares[Straight] * weight,
-                    bounced = shares[Bounced] * weight, shown = shares[Shown] * weight;
-    const FieldPoint of = pointOf(m_field, hit, *p), ofStraight = pointOf(straight(), hit, *p);
-    if (shown != glm::vec3(0))
-        reader.fieldIrradiance(of, shown, Shown);
-    reader.fieldIrradiance(ofStraight, -direct, Straight);
-    reader.fieldIrradiance(ofStraight, bounced, Bounced);
-    reader.fieldIrradiance(of, -bounced, Bounced);
+    const glm::vec3 weight = weightOf(*p);
+    Shares weights;
+    for (std::uint32_t part = 0; part < kGatherParts; ++part)
+        weights[part] = shares[part] * weight;
+    const FieldPoint here = pointOf(m_field, hit, *p), straightHere = pointOf(straight(), hit, *p);
+    if (shares[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
+        reader.fieldIrradiance(here, weights[Shown], Shown);
+    reader.fieldIrradiance(straightHere, -weights[Straight], Straight);
+    reader.fieldIrradiance(straightHere, weights[Bounced], Bounced);
+    reader.fieldIrradiance(here, -weights[Bounced], Bounced);
     const std::uint32_t rays = m_options.gatherRays;
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
         const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
         const auto arrives = [&](const FoundLight& f) {
             if (f.irradiance != glm::vec3(0))
-                reader.arrives(f, direct / float(rays) * f.irradiance, Straight, f.instance);
+                reader.arrives(f, weights[Straight] / float(rays) * f.irradiance, Straight,
+                               f.instance);
         };
         arrives(found.found[0]);
         arrives(found.found[1]);
         reader.rayBegins(found);
         arrives(found.found[2]);
         if (found.weight > 0 && found.hit)
-            readBounced(found, own, found.weight / float(rays) * bounced, reader);
+            readBounced(found, own, found.weight / float(rays) * weights[Bounced], reader);
         reader.rayEnds();
     }
     return weight;
