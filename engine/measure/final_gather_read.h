@@ -3,6 +3,7 @@
 
 #include "engine/measure/final_gather.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace limn {
@@ -11,18 +12,23 @@ namespace limn {
 /// the ray goes on, because light that comes from so near varies too much for texels.
 inline constexpr float kFewestTexels = 4;
 
-/// A ray that meets near surfaces only, as in a gap, ends after as many.
+/// A ray that meets near surfaces only, as in a gap, ends where those since the first reflect less
+/// than this share of the light, or after as many bounces.
+inline constexpr float kLeastReflected = 0.03f;
 inline constexpr std::uint32_t kMostGatherBounces = 64;
 
 template <class Reader>
 void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
                               Reader& reader) const {
     const std::uint32_t via = met.hit.instance;
+    float reflected = 1;
     for (std::uint32_t bounce = 1; met.point && reader.reflects(met.hit.instance); ++bounce) {
-        weight *= met.point->albedo / glm::pi<float>();
+        const glm::vec3 albedo = met.point->albedo;
+        weight *= albedo / glm::pi<float>();
+        reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
         reader.directLight(met, {mixBits(own.seed, kOnLightDimension + bounce), own.index}, weight,
                            bounce, via);
-        if (bounce == kMostGatherBounces ||
+        if (reflected < kLeastReflected || bounce == kMostGatherBounces ||
             !(met.hit.t < kFewestTexels * m_widths[met.hit.instance])) {
             reader.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
             return;
