@@ -34,12 +34,12 @@ bool RestGather::addRows(std::chrono::milliseconds time, const std::atomic<bool>
         if (!m_gather.gatherRows(m_light, m_rows, m_rows + 1, progress))
             return false;
         ++m_rows;
-        const std::uint32_t from = m_shown, width = m_rest.width;
-        m_shown = done() ? m_rest.height : (m_rows - 1) * kGatherTile;
-        addGathered(m_rest, m_light, {{0, from}, {width, m_shown}});
-        std::copy(m_rest.rgb.begin() + std::ptrdiff_t(from) * width,
-                  m_rest.rgb.begin() + std::ptrdiff_t(m_shown) * width,
-                  m_picture.rgb.begin() + std::ptrdiff_t(from) * width);
+        const std::uint32_t first = (std::max(m_rows, 2U) - 2) * kGatherTile, width = m_rest.width,
+                            last = done() ? m_rest.height : (m_rows - 1) * kGatherTile;
+        addGathered(m_rest, m_light, {{0, first}, {width, last}});
+        std::copy(m_rest.rgb.begin() + std::ptrdiff_t(first) * width,
+                  m_rest.rgb.begin() + std::ptrdiff_t(last) * width,
+                  m_picture.rgb.begin() + std::ptrdiff_t(first) * width);
     } while (!done() && Clock::now() - start < time);
     return true;
 }

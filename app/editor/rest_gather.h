@@ -35,9 +35,9 @@ public:
     /// Share of the rows of tiles that are gathered.
     float share() const { return float(m_rows) / float(m_gather.tileRows()); }
 
-    /// Gathers rows of tiles for about this time, one at least. Those above the last of them are
-    /// done, whose pixels learn from it. False if `hurry` was set before that was done; then the
-    /// object is of no more use. Precondition: it has begun, and is not done().
+    /// Gathers rows of tiles for about this time, one at least. The last row gathered is shown once
+    /// the next one is, because pixels take means across both. False if `hurry` was set before that
+    /// was done; then the object is of no more use. Precondition: it has begun, and is not done().
     bool addRows(std::chrono::milliseconds time, const std::atomic<bool>& hurry);
 
     /// Rows that are done, and the others as they were drawn.
@@ -49,8 +49,7 @@ private:
     ImageF m_picture, m_rest;
     FinalGather m_gather;
     GatheredLight m_light;
-    std::uint32_t m_rows = 0;  ///< of tiles, that are gathered
-    std::uint32_t m_shown = 0; ///< rows of pixels that m_picture has
+    std::uint32_t m_rows = 0; ///< of tiles, that are gathered
 };
 
 } // namespace limn

@@ -162,7 +162,7 @@ struct GatheredReader {
         addIrradiance(at, weight, readingOf(at));
     }
     void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
-                     std::uint32_t /*bounce*/, std::uint32_t via) {
+                     std::uint32_t via) {
         std::uint64_t rays = 0;
         const std::vector<Light>& lights = pixel.lit.trace->scene().lights;
         for (std::size_t l = 0; l < lights.size(); ++l) {
@@ -173,6 +173,7 @@ struct GatheredReader {
             parts.bouncedVia[via] += light;
         }
     }
+    // Only guides learn from single rays.
     void rayBegins(const StraightSample& /*found*/) {}
     void rayEnds() {}
     void arrives(const FoundLight& from, glm::vec3 value, GatherPart part, std::uint32_t via) {

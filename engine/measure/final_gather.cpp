@@ -62,22 +62,22 @@ double FinalGather::meanLight() const {
             if (!p)
                 continue;
             const FieldPoint at = fieldPoint(m_field, m_layout, m_trace.scene(), hit, *p);
-            sum += double(channelSum(weightOf(*p) * sampleIrradiance(at))) / 3;
+            sum += greyOf(weightOf(*p) * sampleIrradiance(at));
         }
     return sum / (kColumns * kRows);
 }
 
-/// Adds up what is read, and, in `rays` unless null, what each ray has brought.
+/// Sums the light that is read. Unless `rays` is null, adds to it each ray and the light it brings.
 struct FinalGather::GatherReader {
     const TraceScene& trace;
     std::vector<RayLight>* rays = nullptr;
     std::array<glm::vec3, kGatherParts> sums{};
-    RayLight* ray = nullptr; ///< the one that is followed
+    RayLight* ray = nullptr; ///< the last of `rays` while it is followed
 
     /// Whether an instance that the pixel shows, or that a ray met, reflects light.
     static bool shows(std::uint32_t /*instance*/) { return true; }
     static bool reflects(std::uint32_t /*instance*/) { return true; }
-    /// What is read between these is what a ray from the pixel has brought.
+    /// A ray from the pixel brings all light that is read between these two calls.
     void rayBegins(const StraightSample& found) {
         if (rays && found.weight > 0)
             ray = &rays->emplace_back(RayLight{found.direction, found.found[2].pdf, 0});
@@ -94,7 +94,7 @@ struct FinalGather::GatherReader {
     }
     /// Weight times direct light where a ray ends. `via`: the instance that it met first.
     void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
-                     std::uint32_t /*bounce*/, std::uint32_t /*via*/) {
+                     std::uint32_t /*via*/) {
         std::uint64_t shadowRays = 0;
         add(weight * sampleDirectLight(trace, *met.point, own.pair(0).x, own.pair(1), shadowRays)
                          .irradiance,

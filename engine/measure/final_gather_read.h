@@ -12,8 +12,9 @@ namespace limn {
 /// the ray goes on, because light that comes from so near varies too much for texels.
 inline constexpr float kFewestTexels = 4;
 
-/// A ray that meets near surfaces only, as in a gap, ends where those since the first reflect less
-/// than this share of the light, or after as many bounces.
+/// In a gap, where a ray meets near surfaces only, the field is read all the same when the product
+/// of the albedos after the first hit's is below kLeastReflected, or at the last of
+/// kMostGatherBounces.
 inline constexpr float kLeastReflected = 0.03f;
 inline constexpr std::uint32_t kMostGatherBounces = 64;
 
@@ -27,7 +28,7 @@ void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 
         weight *= albedo / glm::pi<float>();
         reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
         reader.directLight(met, {mixBits(own.seed, kOnLightDimension + bounce), own.index}, weight,
-                           bounce, via);
+                           via);
         if (reflected < kLeastReflected || bounce == kMostGatherBounces ||
             !(met.hit.t < kFewestTexels * m_widths[met.hit.instance])) {
             reader.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
@@ -104,7 +105,8 @@ void FinalGather::readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shar
 
 template <class Reader>
 void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
-    const PixelRect window = windowAround({x, y}, kGatherRadius, picture());
+    const PixelRect window = windowAround({x, y}, kGatherRadius, picture()),
+                    near = windowAround({x, y}, kNearRadius, picture());
     const glm::uvec2 begin = window.begin / kGatherTile * kGatherTile;
     const auto upTo = [](std::uint32_t end) {
         return (end + kGatherTile - 1) / kGatherTile * kGatherTile;
@@ -120,9 +122,7 @@ void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
     const std::uint32_t columns = (light.rect.end.x - begin.x + kGatherTile - 1) / kGatherTile;
     const glm::vec3 weight = light.at({x, y}).weight;
     window.forEach([&](glm::uvec2 at) {
-        const glm::uvec2 apart = glm::max(at, {x, y}) - glm::min(at, {x, y});
-        const bool isNear = std::max(apart.x, apart.y) <= kNearRadius,
-                   isItself = at == glm::uvec2(x, y);
+        const bool isNear = near.contains(at), isItself = at == glm::uvec2(x, y);
         Shares shares{};
         for (const GatherPart part : {Straight, Bounced})
             shares[part] = kept[part].factorOf(isNear, isItself, weight);

@@ -10,8 +10,12 @@ namespace limn {
 /// Of a further sample, in first ones.
 static constexpr double kMostWorth = 100;
 
+double greyOf(glm::vec3 light) {
+    return double(channelSum(light)) / 3;
+}
+
 void GatherSums::add(glm::vec3 value, bool inFirstHalf) {
-    const double g = double(channelSum(value)) / 3;
+    const double g = greyOf(value);
     sum += glm::dvec3(value);
     squared += g * g;
     firstHalf += inFirstHalf ? g : 0;
@@ -60,8 +64,8 @@ glm::dvec3 GatherTile::meanOf(std::uint32_t p, GatherPart part) const {
     return mean;
 }
 
-/// What the variance of means is of that of as many independent samples: less where samples are
-/// well spread.
+/// Ratio of the variance of pixels' means to what it would be if samples were independent; below 1
+/// where they are stratified.
 static double shareByStratification(const std::array<GatherSamples, kGatherPixels>& samples,
                                     GatherPart part) {
     double independent = 0, byHalves = 0;
@@ -77,6 +81,8 @@ static double shareByStratification(const std::array<GatherSamples, kGatherPixel
 /// The guide makes it more where the part's light comes from few directions, and less where it
 /// comes from all.
 static double worthOfMore(const GatherTile& tile, GatherPart part) {
+    if (part == Shown || !(tile.guide.share() > 0)) // both are sampled alike
+        return 1;
     double first = 0, more = 0;
     for (std::uint32_t p = 0; p < kGatherPixels; ++p)
         if (tile.more[p].count > 0) {
@@ -85,8 +91,7 @@ static double worthOfMore(const GatherTile& tile, GatherPart part) {
         }
     first *= shareByStratification(tile.first, part);
     more *= shareByStratification(tile.more, part);
-    const bool same = part == Shown || !(tile.guide.share() > 0) || !(more > 0);
-    return same ? 1 : std::min(first / more, kMostWorth);
+    return more > 0 ? std::min(first / more, kMostWorth) : 1;
 }
 
 /// Sets the noise of an exchange's means. `worth`: of a further sample, in first ones.

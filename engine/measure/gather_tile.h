@@ -19,8 +19,10 @@ inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kG
 enum GatherPart : std::uint32_t { Straight, Bounced, Shown };
 inline constexpr std::uint32_t kGatherParts = 3, kExchanges = 2;
 
-/// Sums over samples of a pixel, of one part of the light. A sample's grey is the mean of its
-/// colours, and variances are of that.
+/// Mean of the colours, of which variances are taken.
+double greyOf(glm::vec3 light);
+
+/// Sums over samples of a pixel, of one part of the light.
 struct GatherSums {
     glm::dvec3 sum{0};
     double squared = 0;   ///< of the squares of greys
@@ -29,8 +31,8 @@ struct GatherSums {
     void add(glm::vec3 value, bool inFirstHalf);
     double grey() const { return (sum.x + sum.y + sum.z) / 3; }
     double variance(std::uint32_t count) const; ///< of a sample
-    /// Of the mean, from the difference of both halves, which knows of the samples'
-    /// stratification.
+    /// Of the mean, from the difference of both halves, which is smaller where samples are
+    /// stratified.
     double varianceByHalves(std::uint32_t count) const;
 };
 struct GatherSamples {

@@ -2,17 +2,12 @@
 #include "engine/measure/gathered_light.h"
 
 #include "engine/core/parallel.h"
-#include "engine/reference/surface_point.h"
 
 #include <array>
 
 #include <glm/common.hpp>
 
 namespace limn {
-
-static double greyOf(glm::vec3 light) {
-    return double(channelSum(light)) / 3;
-}
 
 PixelRect windowAround(glm::uvec2 pixel, std::uint32_t radius, const PixelRect& rect) {
     return {glm::max(pixel, rect.begin + radius) - radius, glm::min(pixel + radius + 1U, rect.end)};
@@ -48,7 +43,7 @@ glm::vec3 GatheredMean::factorFor(glm::vec3 weight) const {
 
 namespace {
 
-/// What pixels differ by, measured over a window.
+/// Squared differences over the pixels of a window, and what part of them is expected of noise.
 struct Difference {
     double squared = 0, noise = 0, weights = 0; ///< of greys
     double own = 0, ownNoise = 0;               ///< of the pixel in question
@@ -63,7 +58,8 @@ struct Difference {
             ownNoise = itsNoise;
         }
     }
-    /// Signal / (signal + noise), both squared, where the signal is in proportion to the weight.
+    /// The share of its difference that the pixel in question keeps: signal / (signal + noise),
+    /// both squared. The signal is taken to be in proportion to the pixel's weight.
     float kept() const {
         const double signal = squared > noise ? (squared - noise) * own / weights : 0;
         return signal > 0 ? float(signal / (signal + ownNoise)) : 0;

@@ -14,20 +14,23 @@
 
 namespace limn {
 
-/// What the samples of a pixel have found. Light in what the picture shows.
+/// Means over the samples of a pixel. Light is in the unit of the picture, irradiance or radiance.
 struct GatheredPixel {
-    glm::vec3 weight{0}; ///< mean factor by which the picture shows irradiance
+    glm::vec3 weight{0}; ///< what the picture shows for unit irradiance; 0 in the background
     glm::vec3 shown{0};  ///< the field's light
     std::array<glm::vec3, kExchanges> exchange{};
     std::array<float, kExchanges> noise{}; ///< variance of the exchange's grey
 };
 
-/// Pixels of a picture.
+/// Some pixels of a picture.
 struct PixelRect {
     glm::uvec2 begin{0}, end{0}; ///< end is exclusive
 
     std::size_t numberOf(glm::uvec2 pixel) const {
         return std::size_t(pixel.y - begin.y) * (end.x - begin.x) + pixel.x - begin.x;
+    }
+    bool contains(glm::uvec2 pixel) const {
+        return pixel.x >= begin.x && pixel.y >= begin.y && pixel.x < end.x && pixel.y < end.y;
     }
     std::size_t size() const { return std::size_t(end.x - begin.x) * (end.y - begin.y); }
     /// Calls body(pixel) for each, row by row.
@@ -39,10 +42,10 @@ struct PixelRect {
     }
 };
 
-/// Pixels on each side of one that it learns from, and of those near it.
+/// Radii of the window whose mean a pixel shares in, and of its neighbourhood within that [pixels].
 inline constexpr std::uint32_t kGatherRadius = 3, kNearRadius = 1;
 
-/// The pixels within `radius` of one that are in `rect`, as it is.
+/// The square of pixels up to `radius` away from a pixel of `rect`, clipped to `rect`.
 PixelRect windowAround(glm::uvec2 pixel, std::uint32_t radius, const PixelRect& rect);
 
 /// What has been gathered for a part of a picture.
@@ -56,26 +59,28 @@ struct GatheredLight {
     void set(const GatherTile& tile);
 };
 
-/// Light as the picture shows it, where the irradiance is the mean of some pixels'.
+/// Sums over some pixels, and with these the light of any pixel that had their mean irradiance.
 struct GatheredMean {
-    glm::vec3 sum{0}, weights{0}; ///< of these pixels
+    glm::vec3 sum{0}, weights{0}; ///< of the exchange, and of GatheredPixel::weight
     double noise = 0;             ///< variance of the sum's grey
 
     void add(const GatheredPixel& pixel, GatherPart part);
-    /// In a pixel of this weight.
+    /// The light of a pixel of this weight.
     glm::vec3 in(glm::vec3 weight) const { return factorFor(weight) * sum; }
-    /// The factor of the sum in that.
+    /// in(weight) is the sum times this.
     glm::vec3 factorFor(glm::vec3 weight) const;
 };
 
-/// How much of an exchange a pixel gets: shares of the mean of its window, of what the mean of the
-/// pixels near it differs from that, and of what the pixel itself differs from that one.
+/// How much of an exchange a pixel gets: a share of the mean over its window, a share of the
+/// difference between the mean over its neighbourhood and that mean, and a share of the difference
+/// between the pixel itself and its neighbourhood.
 struct KeptExchange {
     GatheredMean window, near;
     float ofWindow = 0, ofNear = 0, ofPixel = 0;
 
     glm::vec3 lightIn(const GatheredPixel& pixel, GatherPart part) const;
-    /// The factor in that of the exchange of one of the window's pixels.
+    /// lightIn() is the sum over the window's pixels of their exchange times this. `weight`: that
+    /// of the pixel that gets the light. `isNear`: the summed pixel is in its neighbourhood.
     glm::vec3 factorOf(bool isNear, bool isItself, glm::vec3 weight) const;
 };
 

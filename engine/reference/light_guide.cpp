@@ -10,9 +10,9 @@ static void addAll(LightGuide& guide, std::span<const RayLight> rays) {
         guide.add(r.direction, r.light);
 }
 
-/// Adds the second moments of what rays would bring that a guide, which has learned from others,
-/// aims by each of the shares: E[(light pdf / aimed)^2] is the mean of light^2 pdf / aimed over the
-/// rays of density pdf.
+/// Adds, for each of the shares, the second moment of the light of rays if that share of them were
+/// aimed by a guide that has learned from other rays. With the density `aimed` it is the mean of
+/// light^2 pdf / aimed over rays whose density was pdf.
 static void addSquares(std::array<double, kShares.size()>& squares,
                        std::span<const RayLight> learned, std::span<const RayLight> rays) {
     LightGuide guide;

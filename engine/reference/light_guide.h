@@ -33,7 +33,7 @@ public:
         m_upTo[cellOf(direction)] += std::max(light, 0.f);
     }
 
-    /// Ends learning. `share`: see below; none is taken where there is no light.
+    /// Ends learning, and sets share(); that is 0 if no light was added.
     void finish(float share) {
         for (std::size_t i = 1; i < kCells; ++i)
             m_upTo[i] += m_upTo[i - 1];

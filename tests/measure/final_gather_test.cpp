@@ -245,8 +245,8 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
         void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart) {
             value += glm::dvec3(weight * sampleIrradiance(at));
         }
-        void directLight(const StraightSample&, const Sampler&, glm::vec3, std::uint32_t,
-                         std::uint32_t) {} // there is no light
+        void directLight(const StraightSample&, const Sampler&, glm::vec3, std::uint32_t) {
+        } // there is no light
         void rayBegins(const StraightSample&) {}
         void rayEnds() {}
         void arrives(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {

@@ -59,7 +59,7 @@ TEST(LearnGuide, AimsAtWhatBothHalvesHaveFound) {
     EXPECT_GT(guide.pdf(kSun), 10 * guide.pdf(kOtherSun));
 }
 
-/// As in two pixels that are close to a lamp and see it on different sides.
+/// Pixels that are close to a patch of light see it in different directions.
 TEST(LearnGuide, DoesNotAimWhereHalvesDisagree) {
     EXPECT_EQ(learnGuide(raysOf(1, patchAt(kSun)), raysOf(2, patchAt(kOtherSun))).share(), 0);
 }
@@ -71,7 +71,7 @@ TEST(LearnGuide, DoesNotAimAtWhatFewRaysHaveFound) {
     EXPECT_EQ(learnGuide(half, otherHalf).share(), 0);
 }
 
-/// The cosine is the best that there is.
+/// Rays that follow the cosine then have no noise.
 TEST(LearnGuide, DoesNotAimWhereLightIsEven) {
     const auto even = [](glm::vec3) { return 2.f; };
     EXPECT_EQ(learnGuide(raysOf(1, even), raysOf(2, even)).share(), 0);
