@@ -6,8 +6,8 @@
 #include "app/commands/scene_options.h"
 
 #include "engine/gallery/gallery.h"
-#include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
+#include "engine/picture/field_render.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/techniques/technique_table.h"
 

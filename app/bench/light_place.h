@@ -4,7 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/lighting/technique.h"
 #include "engine/lightmap/lightmap_layout.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 
 #include <functional>
 #include <memory>

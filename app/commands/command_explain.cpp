@@ -5,8 +5,8 @@
 #include "app/commands/scene_options.h"
 #include "app/commands/technique_options.h"
 
-#include "engine/explain/explain_pixel.h"
 #include "engine/math/luminance.h"
+#include "engine/picture/explain_pixel.h"
 #include "engine/scene/surface/reflection_lobe.h"
 
 #include <array>

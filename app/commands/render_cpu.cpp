@@ -2,7 +2,7 @@
 #include "app/commands/progress_line.h"
 #include "app/commands/render_image.h"
 
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/scene/tone_map.h"
 
 namespace limn {

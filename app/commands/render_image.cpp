@@ -4,7 +4,7 @@
 #include "app/commands/progress_line.h"
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
-#include "engine/measure/final_gather.h"
+#include "engine/picture/final_gather.h"
 #include "engine/techniques/device/device_table.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/measure/final_gather.h"
+#include "engine/picture/final_gather.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/explain/explain_pixel.h"
+#include "engine/picture/explain_pixel.h"
 #include "engine/scene/document.h"
 
 #include <memory>

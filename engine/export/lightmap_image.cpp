@@ -4,8 +4,8 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sh.h"
-#include "engine/reference/direct_light.h"
 #include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/shading/direct_light.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
 #include "engine/math/sampling.h"
-#include "engine/reference/direct_light.h"
+#include "engine/shading/direct_light.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
 #include "engine/measure/seen_points.h"
-#include "engine/reference/direct_light.h"
+#include "engine/shading/direct_light.h"
 
 #include <algorithm>
 #include <cmath>

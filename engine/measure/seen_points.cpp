@@ -3,8 +3,8 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
-#include "engine/measure/field_lobe.h"
-#include "engine/reference/pixel_rays.h"
+#include "engine/picture/field_lobe.h"
+#include "engine/shading/pixel_rays.h"
 
 namespace limn {
 

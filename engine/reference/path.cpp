@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/reference/path.h"
 
-#include "engine/reference/direct_light.h"
-#include "engine/reference/found_light.h"
+#include "engine/shading/direct_light.h"
+#include "engine/shading/found_light.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/reference/emitters.h"
-#include "engine/reference/sampler.h"
-#include "engine/reference/sky_light.h"
-#include "engine/reference/surface_point.h"
+#include "engine/shading/emitters.h"
+#include "engine/shading/sampler.h"
+#include "engine/shading/sky_light.h"
+#include "engine/shading/surface_point.h"
 
 #include <cstdint>
 
@@ -25,10 +25,6 @@ struct PathContext {
 
 /// First of the Sampler's dimensions that paths use; callers may use those below it.
 inline constexpr std::uint32_t kFirstPathDimension = 2;
-
-/// Dimension of the points on lights that illuminate the first surface of a path; later surfaces
-/// use the following dimensions.
-inline constexpr std::uint32_t kOnLightDimension = 1u << 16;
 
 /// One unbiased estimate of the irradiance [W m^-2] at `first` from bounces, emissive surfaces and
 /// sky: everything but light straight from directional, point, spot and rectangle lights.

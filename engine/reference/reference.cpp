@@ -2,9 +2,9 @@
 #include "engine/reference/reference.h"
 
 #include "engine/core/parallel.h"
-#include "engine/reference/direct_light.h"
 #include "engine/reference/path.h"
-#include "engine/reference/pixel_rays.h"
+#include "engine/shading/direct_light.h"
+#include "engine/shading/pixel_rays.h"
 
 #include <algorithm>
 #include <atomic>

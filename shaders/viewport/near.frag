@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces short rays to surfaces nearer than half a texel of the lightmap, and replaces the field's radiance from their
-// direction by the radiance that they reflect: nearCorrection() of engine/measure/near_light.h.
+// direction by the radiance that they reflect: nearCorrection() of engine/picture/near_light.h.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/gpu_frame.h"
@@ -113,7 +113,7 @@ vec3 pixelPoint(uvec2 pixel, uint number) {
                 unitFloat(c + number * 2360945575u));
 }
 
-/// sampleCosineHemisphere() of engine/reference/sampler.h.
+/// sampleCosineHemisphere() of engine/shading/sampler.h.
 vec3 cosineDirection(vec3 n, vec2 u) {
     const float side = n.z >= 0.0 ? 1.0 : -1.0;
     const float a = -1.0 / (side + n.z), b = n.x * n.y * a;

@@ -5,7 +5,7 @@
 #include "engine/lighting/converged_light.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/compare.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/scene/exposure.h"
 #include "engine/scene/tone_map.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"

@@ -2,7 +2,7 @@
 #include "engine/math/hemisphere_radiance.h"
 
 #include "engine/math/sh.h"
-#include "engine/reference/sampler.h"
+#include "engine/shading/sampler.h"
 
 #include <gtest/gtest.h>
 

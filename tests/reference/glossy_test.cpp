@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/lobe.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/reference/reference.h"
-#include "engine/reference/sampler.h"
 #include "engine/scene/surface/reflection_lobe.h"
+#include "engine/shading/sampler.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

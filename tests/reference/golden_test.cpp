@@ -2,7 +2,7 @@
 #include "tests/core/source_path.h"
 #include "tests/golden/cornell_golden.h"
 
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/reference/reference.h"
 
 namespace limn::golden_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/compare.h"
 #include "engine/reference/reference.h"
-#include "engine/reference/sky_light.h"
+#include "engine/shading/sky_light.h"
 
 #include "engine/core/parallel.h"
 #include "tests/trace/masked.h"

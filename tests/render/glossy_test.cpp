@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/lobe.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/scene/surface/receiver_bands.h"
 #include "engine/scene/surface/reflection_lobe.h"
 #include "tests/render/viewport_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "tests/render/viewport_fixture.h"
 
 namespace limn::lightmap_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light from near surfaces on the device against that on the CPU, which tests/measure checks.
-#include "engine/measure/field_render.h"
-#include "tests/measure/two_plates.h"
+#include "engine/picture/field_render.h"
+#include "tests/picture/two_plates.h"
 #include "tests/render/viewport_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -2,7 +2,7 @@
 // The sun on scenes much larger than what is looked at: its shadow maps follow the camera.
 #include "tests/render/viewport_fixture.h"
 
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/render/shadows/shadow_cascades.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // make.
 #include "tests/render/viewport_fixture.h"
 
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 
 #include <algorithm>
 

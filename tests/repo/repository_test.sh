@@ -147,7 +147,7 @@ light_knows_no_vulkan() {
 
 # The editor, the program and explanations know techniques by their tables; what needs more lies in the technique's part of the program.
 techniques_are_known_by_their_tables() {
-    ! files "^(editor_ui|app|engine/explain)/.*$cpp" | grep -v '^app/techniques/' |
+    ! files "^(editor_ui|app|engine/picture)/.*$cpp" | grep -v '^app/techniques/' |
         xargs grep -nE '^ *# *include *"(engine|app)/techniques/[a-z_]+/' | grep -v '"engine/techniques/device/'
 }
 

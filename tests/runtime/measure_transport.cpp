@@ -7,7 +7,7 @@
 #include "engine/core/replace_file.h"
 #include "engine/files/project_file.h"
 #include "engine/measure/compare.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/techniques/illuminance/bake/bake_file.h"
 #include "engine/trace/trace_scene.h"
 #include "tests/core/source_path.h"

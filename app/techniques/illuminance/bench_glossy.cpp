@@ -7,11 +7,11 @@
 
 #include "engine/core/parallel.h"
 #include "engine/files/image_file.h"
-#include "engine/measure/field_render.h"
-#include "engine/reference/pixel_rays.h"
+#include "engine/picture/field_render.h"
 #include "engine/reference/reference.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/tone_map.h"
+#include "engine/shading/pixel_rays.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 

@@ -10,7 +10,7 @@
 namespace limn::render {
 
 /// Bounding volume hierarchy of the triangles against which near.frag traces rays: those that
-/// findNearSurfaces() of engine/measure/near_light.h may return, without cutouts. Each triangle has
+/// findNearSurfaces() of engine/picture/near_light.h may return, without cutouts. Each triangle has
 /// the mean albedo of its area.
 struct NearGeometry {
     std::vector<shared::GpuNearNode> nodes; ///< the first is the root; empty: no triangles

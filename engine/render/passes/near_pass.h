@@ -11,7 +11,7 @@
 
 namespace limn::render {
 
-/// Adds nearCorrection() of engine/measure/near_light.h to the bounced light in the linear image.
+/// Adds nearCorrection() of engine/picture/near_light.h to the bounced light in the linear image.
 /// Reads the shadow maps of all lights.
 class NearPass {
 public:

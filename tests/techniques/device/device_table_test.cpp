@@ -3,7 +3,7 @@
 
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/compare.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"

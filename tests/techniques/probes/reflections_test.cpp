@@ -3,8 +3,8 @@
 #include "engine/field/field_reading.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sampling.h"
-#include "engine/measure/field_lobe.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_lobe.h"
+#include "engine/picture/field_render.h"
 #include "tests/techniques/probes/lit_by_probes.h"
 
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/math/sh.h"
-#include "engine/reference/direct_light.h"
-#include "engine/reference/emitters.h"
-#include "engine/reference/surface_point.h"
+#include "engine/shading/direct_light.h"
+#include "engine/shading/emitters.h"
+#include "engine/shading/surface_point.h"
 
 #include <algorithm>
 #include <cmath>

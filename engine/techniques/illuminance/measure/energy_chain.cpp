@@ -4,7 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/seen_points.h"
-#include "engine/reference/direct_light.h"
+#include "engine/shading/direct_light.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gallery/gallery.h"
 #include "engine/measure/compare.h"
-#include "engine/measure/field_render.h"
 #include "engine/measure/reference_set.h"
+#include "engine/picture/field_render.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/core/sweep.h"
 

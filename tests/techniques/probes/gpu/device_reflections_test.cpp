@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lightmap/atlas.h"
-#include "engine/measure/field_render.h"
+#include "engine/picture/field_render.h"
 #include "engine/techniques/probes/gpu/device_probes.h"
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/probes/lit_by_probes.h"

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/march_ray.h"
+#include "engine/field/sample_field.h"
+#include "engine/shading/surface_point.h"
+
+#include <array>
+#include <vector>
+
+namespace limn {
+
+/// The lookup of a field at the surface that was hit. The arguments must outlive it.
+FieldPoint fieldPoint(const IndirectField& field, const LightmapLayout& layout, const Scene& scene,
+                      const Hit& hit, const SurfacePoint& p);
+
+/// Specular reflection of a field's light at a point: weight * sampleLobe(axis, bands, factors).
+struct FieldLobe {
+    glm::vec3 axis{0}; ///< unit
+    int bands = 0;
+    std::array<float, kMaxBands> factors{};
+    glm::vec3 weight{0};
+};
+
+/// `bands`: those that the material reflects. `windowed`: the lobe fades out over them and hardly
+/// rings, else it is cut off.
+FieldLobe fieldLobe(const FieldPoint& at, const GlossyPoint& g, int bands, bool windowed);
+
+/// Whether reflections of each material of the scene are marched where a field has maps for that:
+/// those of glossy receivers (engine/scene/surface/receiver_bands.h).
+std::vector<bool> marchedReflections(const Scene& scene);
+
+/// Specular reflection of what a ray marched along the axis of the lobe meets: weight times
+/// marchedRadiance(at).
+struct MarchedReflection {
+    MarchEnd end = MarchEnd::Unknown;
+    MarchedLookup at;
+    glm::vec3 weight{0};
+};
+MarchedReflection marchReflection(const MarchedMaps& maps, const TraceScene& trace,
+                                  const GlossyPoint& g);
+
+/// Number of bands of `field` that each material of the scene reflects.
+std::vector<int> reflectedBands(const Scene& scene, const IndirectField& field);
+
+} // namespace limn

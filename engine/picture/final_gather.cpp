@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "engine/picture/final_gather.h"
+
+#include "engine/core/parallel.h"
+#include "engine/lightmap/near_reach.h"
+#include "engine/picture/final_gather_read.h"
+#include "engine/shading/direct_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace limn {
+
+/// A pixel whose first samples have a standard error of this part of the picture's mean light gets
+/// as many again, and others in proportion, up to kMostMore times as many.
+static constexpr double kErrorOfOneMore = 0.125, kMostMore = 255;
+
+/// Rays of the further samples of a pixel; fewer are not worth taking.
+static constexpr std::uint32_t kFewestRays = 16;
+
+static bool asksForIt(const FieldRenderOptions& options) {
+    return options.straight && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
+           showsBouncedLight(options.view);
+}
+
+static std::vector<float> texelWidths(const Scene& scene, const LightmapLayout& layout) {
+    std::vector<float> widths = nearReaches(scene, layout);
+    for (float& width : widths)
+        width *= 2;
+    return widths;
+}
+
+FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
+                         const LightmapLayout& layout, const FieldRenderOptions& options)
+    : m_trace(trace), m_field(field), m_layout(layout), m_options(options),
+      m_sources(asksForIt(options) ? findStraightSources(trace) : StraightSources{}),
+      m_any(asksForIt(options) &&
+            (m_sources.shine || std::ranges::any_of(trace.scene().lights, shines))),
+      m_widths(m_any ? texelWidths(trace.scene(), layout) : std::vector<float>()),
+      m_rays(options.camera, options.width, options.height) {
+    if (m_any)
+        m_meanLight = meanLight();
+}
+
+/// Of irradiance, in what the view shows.
+glm::vec3 FinalGather::weightOf(const SurfacePoint& p) const {
+    return m_options.view == View::Irradiance ? glm::vec3(1) : p.albedo / glm::pi<float>();
+}
+
+/// Mean over the colours and over some points of the picture, where the background counts as dark:
+/// surfaces that fill a small part of a picture may well cost more for each of their pixels.
+double FinalGather::meanLight() const {
+    constexpr std::uint32_t kColumns = 32, kRows = 18;
+    const glm::vec2 cell = m_rays.size / glm::vec2(kColumns, kRows);
+    double sum = 0;
+    for (std::uint32_t y = 0; y < kRows; ++y)
+        for (std::uint32_t x = 0; x < kColumns; ++x) {
+            const Hit hit = m_trace.closestHit(m_rays.through(cell * (glm::vec2(x, y) + 0.5f)));
+            const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
+            if (!p)
+                continue;
+            const FieldPoint at = fieldPoint(m_field, m_layout, m_trace.scene(), hit, *p);
+            sum += greyOf(weightOf(*p) * sampleIrradiance(at));
+        }
+    return sum / (kColumns * kRows);
+}
+
+/// Sums the light that is read. Unless `rays` is null, adds to it each ray and the light it brings.
+struct FinalGather::GatherReader {
+    const TraceScene& trace;
+    std::vector<RayLight>* rays = nullptr;
+    std::array<glm::vec3, kGatherParts> sums{};
+    RayLight* ray = nullptr; ///< the last of `rays` while it is followed
+
+    /// Whether an instance that the pixel shows, or that a ray met, reflects light.
+    static bool shows(std::uint32_t /*instance*/) { return true; }
+    static bool reflects(std::uint32_t /*instance*/) { return true; }
+    /// A ray from the pixel brings all light that is read between these two calls.
+    void rayBegins(const StraightSample& found) {
+        if (rays && found.weight > 0)
+            ray = &rays->emplace_back(RayLight{found.direction, found.found[2].pdf, 0});
+    }
+    void rayEnds() { ray = nullptr; }
+    void add(glm::vec3 light, GatherPart part) {
+        sums[part] += light;
+        if (ray)
+            ray->light += channelSum(light);
+    }
+    /// Weight times a field's irradiance.
+    void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart part) {
+        add(weight * sampleIrradiance(at), part);
+    }
+    /// Weight times direct light where a ray ends. `via`: the instance that it met first.
+    void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
+                     std::uint32_t /*via*/) {
+        std::uint64_t shadowRays = 0;
+        add(weight * sampleDirectLight(trace, *met.point, own.pair(0).x, own.pair(1), shadowRays)
+                         .irradiance,
+            Bounced);
+    }
+    /// Light from the sky or an emissive surface.
+    void arrives(const FoundLight& /*from*/, glm::vec3 value, GatherPart part,
+                 std::uint32_t /*via*/) {
+        add(value, part);
+    }
+};
+
+GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
+                                const LightGuide* guide, std::vector<RayLight>* learned) const {
+    GatherSamples taken;
+    taken.count = count;
+    Shares whole;
+    whole.fill(glm::vec3(1));
+    for (std::uint32_t s = 0; s < count; ++s) {
+        GatherReader reader{m_trace, learned};
+        taken.weight += sample(at, begin + s, guide, whole, reader);
+        const bool half = s < count / 2;
+        glm::vec3 all(0);
+        for (std::uint32_t part = 0; part < kGatherParts; ++part) {
+            taken.parts[part].add(reader.sums[part], half);
+            all += reader.sums[part];
+        }
+        taken.all.add(all, half);
+    }
+    return taken;
+}
+
+/// The number of further samples of a pixel whose first samples have this variance.
+std::uint32_t FinalGather::further(double variance) const {
+    if (!(m_meanLight > 0))
+        return 0;
+    const std::uint32_t first = m_options.samplesPerPixel;
+    const double times = std::sqrt(variance / first) / (kErrorOfOneMore * m_meanLight);
+    const auto count = std::uint32_t(std::min(times, kMostMore) * first);
+    return count * m_options.gatherRays < kFewestRays ? 0 : count;
+}
+
+/// The tile whose upper left pixel is (x, y), with all of its samples.
+GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
+    GatherTile tile{.x = x,
+                    .y = y,
+                    .width = std::min(kGatherTile, m_options.width - x),
+                    .height = std::min(kGatherTile, m_options.height - y)};
+    const std::uint32_t count = m_options.samplesPerPixel;
+    std::array<std::vector<RayLight>, 2> learned; // by every other pixel
+    const auto forEachPixel = [&](const auto& body) {
+        for (std::uint32_t j = 0; j < tile.height; ++j)
+            for (std::uint32_t i = 0; i < tile.width; ++i)
+                body(i, j, j * kGatherTile + i);
+    };
+    forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
+        tile.first[p] = take({x + i, y + j}, 0, count, nullptr, &learned[(i + j) % 2]);
+    });
+    tile.guide = learnGuide(learned[0], learned[1]);
+    forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
+        const double variance = varianceAround(tile, i, j);
+        tile.more[p] = take({x + i, y + j}, count, further(variance), &tile.guide, nullptr);
+    });
+    weighSamples(tile);
+    return tile;
+}
+
+bool FinalGather::gatherRows(GatheredLight& light, std::uint32_t firstRow, std::uint32_t lastRow,
+                             const Progress& progress) const {
+    const std::uint32_t columns = (m_options.width + kGatherTile - 1) / kGatherTile;
+    return parallelRanges(std::size_t(columns) * (lastRow - firstRow), 1, progress, "gather",
+                          [&](std::size_t first, std::size_t last) {
+                              for (std::size_t t = first; t < last; ++t) {
+                                  const auto row = firstRow + std::uint32_t(t / columns),
+                                             column = std::uint32_t(t % columns);
+                                  light.set(tileOf(column * kGatherTile, row * kGatherTile));
+                              }
+                          });
+}
+
+bool FinalGather::addTo(ImageF& image, const Progress& progress) const {
+    GatheredLight light(picture());
+    if (!gatherRows(light, 0, tileRows(), progress))
+        return false;
+    addGathered(image, light, picture());
+    return true;
+}
+
+} // namespace limn

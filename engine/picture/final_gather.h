@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/field/sample_field.h"
+#include "engine/picture/field_lobe.h"
+#include "engine/picture/field_render.h"
+#include "engine/picture/gather_tile.h"
+#include "engine/picture/gathered_light.h"
+#include "engine/picture/pixel_sample.h"
+#include "engine/picture/straight_light.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Final gathering: the field's light is exchanged for what rays from a picture's pixels find, as
+/// far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights and Viewer
+/// Position. 1992
+///
+/// Light that arrives straight from the sky and emissive surfaces is sampled. Bounced light is the
+/// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
+/// where it is seen. Where a ray is shorter than some of these texels' widths, it goes on from
+/// there. So light that comes from near surfaces needs no rays of its own (near_light.h).
+///
+/// Pixels have as many samples as the picture, and more where these are noisy: in proportion to
+/// their standard deviation, which brings most for a given number (Neyman. On the Two Different
+/// Aspects of the Representative Method. 1934). Further samples are aimed at the light that the
+/// pixels of the same tile have found.
+///
+/// Where the field is about right, the exchange would bring noise alone. So each pixel keeps only
+/// as much of it, and of the mean around it, as is worth its noise (keptExchange()).
+class FinalGather {
+public:
+    /// Of pictures that are drawn with these arguments, which outlive the object.
+    FinalGather(const TraceScene& trace, const IndirectField& field, const LightmapLayout& layout,
+                const FieldRenderOptions& options);
+
+    /// Whether the options ask for it, the view shows bounced light, and there is any. Pictures of
+    /// one sample a pixel are left alone, because nothing tells how noisy it is.
+    bool any() const { return m_any; }
+
+    /// Adds the bounced light of diffuse surfaces to a picture of the options' size that has none
+    /// yet. Returns false when cancelled. Precondition: any().
+    bool addTo(ImageF& image, const Progress& progress = {}) const;
+
+    /// The same in steps: gathers rows of tiles, [first, last), of the whole picture, whose light
+    /// addGathered() adds.
+    bool gatherRows(GatheredLight& light, std::uint32_t first, std::uint32_t last,
+                    const Progress& progress = {}) const;
+    /// Number of rows of kGatherTile pixels.
+    std::uint32_t tileRows() const { return (m_options.height + kGatherTile - 1) / kGatherTile; }
+    PixelRect picture() const { return {{0, 0}, {m_options.width, m_options.height}}; }
+
+    /// The light that addTo() adds to one pixel, piece by piece: calls of `reader`, whose sum it
+    /// is, as GatherReader of final_gather.cpp does. In final_gather_read.h. Precondition: any().
+    template <class Reader>
+    void read(std::uint32_t x, std::uint32_t y, Reader& reader) const;
+
+private:
+    /// Factors by which the parts of a sample count.
+    using Shares = std::array<glm::vec3, kGatherParts>;
+    struct GatherReader;
+
+    const IndirectField& straight() const { return *m_options.straight; }
+    FieldPoint pointOf(const IndirectField& field, const Hit& hit, const SurfacePoint& p) const {
+        return fieldPoint(field, m_layout, m_trace.scene(), hit, p);
+    }
+    glm::vec3 weightOf(const SurfacePoint& p) const;
+    double meanLight() const;
+    GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
+    GatherSamples take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
+                       const LightGuide* guide, std::vector<RayLight>* learned) const;
+    std::uint32_t further(double variance) const;
+    /// Reads sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of a
+    /// further sample; null for the first ones.
+    template <class Reader>
+    glm::vec3 sample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide, const Shares& shares,
+                     Reader& reader) const;
+    /// Reads all samples of a pixel of the tile.
+    template <class Reader>
+    void readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+                   Reader& reader) const;
+    template <class Reader>
+    void readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
+                     Reader& reader) const;
+
+    const TraceScene& m_trace;
+    const IndirectField& m_field;
+    const LightmapLayout& m_layout;
+    const FieldRenderOptions& m_options;
+    StraightSources m_sources;
+    bool m_any;
+    std::vector<float> m_widths; ///< twice the nearReaches() [m]
+    PixelRays m_rays;
+    double m_meanLight = 0; ///< of the field's light in the picture
+};
+
+} // namespace limn

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/picture/final_gather.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace limn {
+
+/// Where a ray meets a surface at fewer texels' widths than these, the field is not read there but
+/// the ray goes on, because light that comes from so near varies too much for texels.
+inline constexpr float kFewestTexels = 4;
+
+/// In a gap, where a ray meets near surfaces only, the field is read all the same when the product
+/// of the albedos after the first hit's is below kLeastReflected, or at the last of
+/// kMostGatherBounces.
+inline constexpr float kLeastReflected = 0.03f;
+inline constexpr std::uint32_t kMostGatherBounces = 64;
+
+template <class Reader>
+void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
+                              Reader& reader) const {
+    const std::uint32_t via = met.hit.instance;
+    float reflected = 1;
+    for (std::uint32_t bounce = 1; met.point && reader.reflects(met.hit.instance); ++bounce) {
+        const glm::vec3 albedo = met.point->albedo;
+        weight *= albedo / glm::pi<float>();
+        reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
+        reader.directLight(met, {mixBits(own.seed, kOnLightDimension + bounce), own.index}, weight,
+                           via);
+        if (reflected < kLeastReflected || bounce == kMostGatherBounces ||
+            !(met.hit.t < kFewestTexels * m_widths[met.hit.instance])) {
+            reader.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
+            return;
+        }
+        met = sampleStraightLight(m_trace, m_sources, *met.point,
+                                  {mixBits(own.seed, bounce), own.index});
+        for (const FoundLight& f : met.found)
+            if (f.irradiance != glm::vec3(0))
+                reader.arrives(f, weight * f.irradiance, Bounced, via);
+        weight *= met.weight;
+    }
+}
+
+template <class Reader>
+glm::vec3 FinalGather::sample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
+                              const Shares& shares, Reader& reader) const {
+    const PixelSample pixel(m_rays, m_options.seed, at.y * m_options.width + at.x, s);
+    const Hit hit = m_trace.closestHit(pixel.ray);
+    const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
+    if (!p || !reader.shows(hit.instance))
+        return glm::vec3(0);
+    const glm::vec3 weight = weightOf(*p);
+    Shares weights;
+    for (std::uint32_t part = 0; part < kGatherParts; ++part)
+        weights[part] = shares[part] * weight;
+    const FieldPoint here = pointOf(m_field, hit, *p), straightHere = pointOf(straight(), hit, *p);
+    if (shares[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
+        reader.fieldIrradiance(here, weights[Shown], Shown);
+    reader.fieldIrradiance(straightHere, -weights[Straight], Straight);
+    reader.fieldIrradiance(straightHere, weights[Bounced], Bounced);
+    reader.fieldIrradiance(here, -weights[Bounced], Bounced);
+    const std::uint32_t rays = m_options.gatherRays;
+    for (std::uint32_t k = 0; k < rays; ++k) {
+        const Sampler own{pixel.gather.seed, s * rays + k};
+        const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
+        const auto arrives = [&](const FoundLight& f) {
+            if (f.irradiance != glm::vec3(0))
+                reader.arrives(f, weights[Straight] / float(rays) * f.irradiance, Straight,
+                               f.instance);
+        };
+        arrives(found.found[0]);
+        arrives(found.found[1]);
+        reader.rayBegins(found);
+        arrives(found.found[2]);
+        if (found.weight > 0 && found.hit)
+            readBounced(found, own, found.weight / float(rays) * weights[Bounced], reader);
+        reader.rayEnds();
+    }
+    return weight;
+}
+
+template <class Reader>
+void FinalGather::readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+                            Reader& reader) const {
+    if (shares == Shares{})
+        return;
+    const std::uint32_t p = (pixel.y - tile.y) * kGatherTile + pixel.x - tile.x,
+                        first = tile.first[p].count, more = tile.more[p].count;
+    // Of one of the first samples, or of a further one.
+    const auto ofOne = [&](bool further) {
+        Shares each;
+        for (std::uint32_t part = 0; part < kGatherParts; ++part) {
+            const double w = tile.shareOfMore[part][p];
+            each[part] = float(further ? w / more : (1 - w) / first) * shares[part];
+        }
+        return each;
+    };
+    for (std::uint32_t s = 0; s < first; ++s)
+        sample(pixel, s, nullptr, ofOne(false), reader);
+    for (std::uint32_t s = 0; s < more; ++s)
+        sample(pixel, first + s, &tile.guide, ofOne(true), reader);
+}
+
+template <class Reader>
+void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
+    const PixelRect window = windowAround({x, y}, kGatherRadius, picture()),
+                    near = windowAround({x, y}, kNearRadius, picture());
+    const glm::uvec2 begin = window.begin / kGatherTile * kGatherTile;
+    const auto upTo = [](std::uint32_t end) {
+        return (end + kGatherTile - 1) / kGatherTile * kGatherTile;
+    };
+    GatheredLight light({begin, glm::min({upTo(window.end.x), upTo(window.end.y)}, picture().end)});
+    std::vector<GatherTile> tiles;
+    for (std::uint32_t j = begin.y; j < light.rect.end.y; j += kGatherTile)
+        for (std::uint32_t i = begin.x; i < light.rect.end.x; i += kGatherTile)
+            light.set(tiles.emplace_back(tileOf(i, j)));
+    std::array<KeptExchange, kExchanges> kept;
+    for (const GatherPart part : {Straight, Bounced})
+        kept[part] = keptExchange(light, part, {x, y});
+    const std::uint32_t columns = (light.rect.end.x - begin.x + kGatherTile - 1) / kGatherTile;
+    const glm::vec3 weight = light.at({x, y}).weight;
+    window.forEach([&](glm::uvec2 at) {
+        const bool isNear = near.contains(at), isItself = at == glm::uvec2(x, y);
+        Shares shares{};
+        for (const GatherPart part : {Straight, Bounced})
+            shares[part] = kept[part].factorOf(isNear, isItself, weight);
+        shares[Shown] = glm::vec3(isItself ? 1 : 0);
+        const glm::uvec2 tile = (at - begin) / kGatherTile;
+        readPixel(tiles[tile.y * columns + tile.x], at, shares, reader);
+    });
+}
+
+} // namespace limn

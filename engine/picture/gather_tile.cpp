@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "engine/picture/gather_tile.h"
+
+#include "engine/shading/surface_point.h"
+
+#include <algorithm>
+
+namespace limn {
+
+/// Of a further sample, in first ones.
+static constexpr double kMostWorth = 100;
+
+double greyOf(glm::vec3 light) {
+    return double(channelSum(light)) / 3;
+}
+
+void GatherSums::add(glm::vec3 value, bool inFirstHalf) {
+    const double g = greyOf(value);
+    sum += glm::dvec3(value);
+    squared += g * g;
+    firstHalf += inFirstHalf ? g : 0;
+}
+
+double GatherSums::variance(std::uint32_t count) const {
+    if (count < 2)
+        return 0;
+    const double mean = grey() / count;
+    return std::max(squared / count - mean * mean, 0.0) * count / (count - 1);
+}
+
+double GatherSums::varianceByHalves(std::uint32_t count) const {
+    if (count < 2)
+        return 0;
+    const std::uint32_t half = count / 2;
+    const double difference = firstHalf / half - (grey() - firstHalf) / (count - half);
+    return difference * difference / 4;
+}
+
+template <class Of>
+static double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j,
+                             const Of& of) {
+    double variance = 0;
+    for (const GatherSamples& samples : tile.first)
+        variance += of(samples).variance(samples.count) / (tile.width * tile.height);
+    int pixels = 1;
+    for (std::uint32_t y = j - std::min(j, 1U); y <= std::min(j + 1, tile.height - 1); ++y)
+        for (std::uint32_t x = i - std::min(i, 1U); x <= std::min(i + 1, tile.width - 1); ++x) {
+            const GatherSamples& samples = tile.first[y * kGatherTile + x];
+            variance += of(samples).variance(samples.count);
+            ++pixels;
+        }
+    return variance / pixels;
+}
+
+double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j) {
+    return varianceAround(tile, i, j, [](const GatherSamples& s) { return s.all; });
+}
+
+glm::dvec3 GatherTile::meanOf(std::uint32_t p, GatherPart part) const {
+    const double w = shareOfMore[part][p];
+    glm::dvec3 mean = (1 - w) / first[p].count * first[p].parts[part].sum;
+    if (more[p].count > 0)
+        mean += w / more[p].count * more[p].parts[part].sum;
+    return mean;
+}
+
+/// Ratio of the variance of pixels' means to what it would be if samples were independent; below 1
+/// where they are stratified.
+static double shareByStratification(const std::array<GatherSamples, kGatherPixels>& samples,
+                                    GatherPart part) {
+    double independent = 0, byHalves = 0;
+    for (const GatherSamples& s : samples)
+        if (s.count > 0) {
+            independent += s.parts[part].variance(s.count) / s.count;
+            byHalves += s.parts[part].varianceByHalves(s.count);
+        }
+    return independent > 0 ? std::min(byHalves / independent, 1.0) : 1;
+}
+
+/// The number of first samples that a further one is worth in a part: the ratio of their variances.
+/// The guide makes it more where the part's light comes from few directions, and less where it
+/// comes from all.
+static double worthOfMore(const GatherTile& tile, GatherPart part) {
+    if (part == Shown || !(tile.guide.share() > 0)) // both are sampled alike
+        return 1;
+    double first = 0, more = 0;
+    for (std::uint32_t p = 0; p < kGatherPixels; ++p)
+        if (tile.more[p].count > 0) {
+            first += tile.first[p].parts[part].variance(tile.first[p].count);
+            more += tile.more[p].parts[part].variance(tile.more[p].count);
+        }
+    first *= shareByStratification(tile.first, part);
+    more *= shareByStratification(tile.more, part);
+    return more > 0 ? std::min(first / more, kMostWorth) : 1;
+}
+
+/// Sets the noise of an exchange's means. `worth`: of a further sample, in first ones.
+static void setNoise(GatherTile& tile, GatherPart part, double worth) {
+    const double stratified = shareByStratification(tile.first, part);
+    for (std::uint32_t j = 0; j < tile.height; ++j)
+        for (std::uint32_t i = 0; i < tile.width; ++i) {
+            const std::uint32_t p = j * kGatherTile + i;
+            tile.noise[part][p] =
+                stratified *
+                varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
+                (tile.first[p].count + worth * tile.more[p].count);
+        }
+}
+
+void weighSamples(GatherTile& tile) {
+    for (const GatherPart part : {Straight, Bounced, Shown}) {
+        const double worth = worthOfMore(tile, part);
+        for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
+            const double more = worth * tile.more[p].count;
+            tile.shareOfMore[part][p] = more > 0 ? more / (more + tile.first[p].count) : 0;
+        }
+        if (part != Shown)
+            setNoise(tile, part, worth);
+    }
+}
+
+} // namespace limn

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/picture/light_guide.h"
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Width of the tiles of a picture whose pixels learn from each other [pixels].
+inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kGatherTile;
+
+/// Parts of the light that a picture gets. Two are exchanges, each of which is kept as far as that
+/// is worth its noise: of what arrives straight from the sky and emissive surfaces, and of the
+/// rest. Shown is what the field shows, of which all is kept.
+enum GatherPart : std::uint32_t { Straight, Bounced, Shown };
+inline constexpr std::uint32_t kGatherParts = 3, kExchanges = 2;
+
+/// Mean of the colours, of which variances are taken.
+double greyOf(glm::vec3 light);
+
+/// Sums over samples of a pixel, of one part of the light.
+struct GatherSums {
+    glm::dvec3 sum{0};
+    double squared = 0;   ///< of the squares of greys
+    double firstHalf = 0; ///< of the greys of the first half of the samples
+
+    void add(glm::vec3 value, bool inFirstHalf);
+    double grey() const { return (sum.x + sum.y + sum.z) / 3; }
+    double variance(std::uint32_t count) const; ///< of a sample
+    /// Of the mean, from the difference of both halves, which is smaller where samples are
+    /// stratified.
+    double varianceByHalves(std::uint32_t count) const;
+};
+struct GatherSamples {
+    std::array<GatherSums, kGatherParts> parts;
+    GatherSums all;       ///< of all parts together
+    glm::dvec3 weight{0}; ///< of the factors by which the picture shows irradiance
+    std::uint32_t count = 0;
+};
+/// The samples of a tile's pixels; pixel (i, j) has number j * kGatherTile + i. Those beyond the
+/// picture have none.
+struct GatherTile {
+    std::uint32_t x = 0, y = 0, width = 0, height = 0; ///< [pixels]
+    LightGuide guide;
+    std::array<GatherSamples, kGatherPixels> first, more;
+    /// Share of further samples in each part's mean over all samples.
+    std::array<std::array<double, kGatherPixels>, kGatherParts> shareOfMore{};
+    /// Variance of the greys of each exchange's mean over all samples.
+    std::array<std::array<double, kGatherPixels>, kExchanges> noise{};
+
+    /// Mean over all samples of a part of pixel p, which has some.
+    glm::dvec3 meanOf(std::uint32_t p, GatherPart part) const;
+};
+
+/// The variance of a first sample of pixel (i, j), of all parts together: the mean over its
+/// neighbours, and the whole tile as one more. Where all of a pixel's own samples have missed a
+/// window, they have none.
+double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);
+
+/// Weighs further samples against first ones: sets shareOfMore and noise.
+void weighSamples(GatherTile& tile);
+
+} // namespace limn

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/indirect_field.h"
+#include "engine/lightmap/lightmap_layout.h"
+#include "engine/shading/sampler.h"
+#include "engine/shading/surface_point.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace limn {
+
+/// Input of the functions below; made by nearLight(). `layout` belongs to the field.
+struct NearLight {
+    const TraceScene& trace;
+    const IndirectField& field;
+    const LightmapLayout& layout;
+    std::vector<float> reach; ///< nearReaches(); empty if there are no rays
+    std::uint32_t rays = 0;   ///< for each estimate; 0: no correction
+};
+NearLight nearLight(const TraceScene& trace, const IndirectField& field,
+                    const LightmapLayout& layout, std::uint32_t rays);
+
+/// A near surface, hit by one ray, whose radiance replaces the field's.
+struct NearSurface {
+    Hit hit;
+    std::optional<SurfacePoint> point; ///< none: the black back of a one-sided surface
+    glm::vec3 direction{0};            ///< of the ray, unit
+    float weight = 0; ///< of its radiance less the field's, in the irradiance to add [sr]
+    Sampler sampler;  ///< for its direct light: pair(kNearPick), pair(kNearOnLight)
+};
+inline constexpr std::uint32_t kNearPick = 1, kNearOnLight = 2;
+
+/// The surfaces that near.rays rays from point `p`, found by `hit`, meet: static ones with a
+/// lightmap, within reach. Emissive ones change nothing, because lightmaps have finer texels near
+/// them.
+std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
+                                          const SurfacePoint& p, const Sampler& sampler);
+
+/// Unbiased estimate of the irradiance [W m^-2] to add to the field's at point `p`: of each near
+/// surface its own light, less what the field says arrives from its direction. Its own light is
+/// direct light with traced shadows and the field there. The estimate may be negative; added to
+/// the field's irradiance, its mean is so only as far as the field's harmonics ring. 0 where
+/// nothing is near.
+///
+/// Irradiance is parted into near and far as in: Arikan, Forsyth, O'Brien. Fast and Detailed
+/// Approximate Global Illumination by Irradiance Decomposition. 2005. There, distant light is
+/// sampled without what is near; here the field has both, so what is near is exchanged.
+glm::vec3 nearCorrection(const NearLight& near, const Hit& hit, const SurfacePoint& p,
+                         const Sampler& sampler);
+
+} // namespace limn

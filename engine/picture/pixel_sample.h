@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/shading/pixel_rays.h"
+#include "engine/shading/sampler.h"
+
+#include <cstdint>
+
+namespace limn {
+
+/// Sample s of a pixel of a picture that is drawn on the CPU from a field.
+struct PixelSample {
+    Ray ray;
+    float pickLight;   ///< for sampleDirectLight()
+    glm::vec2 onLight; ///< the same
+    Sampler near;      ///< for nearCorrection()
+    Sampler gather;    ///< for FinalGather
+
+    /// They set those rays apart from others.
+    static constexpr std::uint32_t kNearSeed = 0x6e656172, kGatherSeed = 0x67617468;
+
+    /// `pixel`: y * width + x.
+    PixelSample(const PixelRays& rays, std::uint32_t seed, std::uint32_t pixel, std::uint32_t s) {
+        const Sampler sampler{mixBits(seed, pixel), s};
+        const auto width = std::uint32_t(rays.size.x);
+        const glm::vec2 corner(float(pixel % width), float(pixel / width));
+        ray = rays.through(corner + sampler.pair(0));
+        pickLight = sampler.pair(1).x;
+        onLight = sampler.pair(kOnLightDimension);
+        near = {mixBits(sampler.seed, kNearSeed), s};
+        gather = {mixBits(sampler.seed, kGatherSeed), s};
+    }
+};
+
+} // namespace limn

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "engine/picture/straight_light.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+namespace limn {
+
+/// The balance heuristic.
+static float balanceWeight(float pdf, float other) {
+    return pdf / (pdf + other);
+}
+
+StraightSources findStraightSources(const TraceScene& trace) {
+    StraightSources sources{findEmitters(trace), findSkyLight(trace.scene().sky), false};
+    const auto shines = [](glm::vec3 radiance) { return channelSum(radiance) > 0; };
+    sources.shine = !sources.emitters.empty() ||
+                    std::ranges::any_of(skyCellRadiance(trace.scene().sky), shines);
+    return sources;
+}
+
+StraightSample sampleStraightLight(const TraceScene& trace, const StraightSources& sources,
+                                   const SurfacePoint& p, const Sampler& sampler,
+                                   const LightGuide* guide) {
+    const float aimed = guide ? guide->share() : 0;
+    // Of the ray below, for each direction.
+    const auto density = [&](glm::vec3 d) {
+        const float byCosine =
+            (1 - aimed) * std::max(glm::dot(p.normal, d), 0.f) / glm::pi<float>();
+        return aimed > 0 ? byCosine + aimed * guide->pdf(d) : byCosine;
+    };
+    StraightSample s;
+    std::uint64_t rays = 0;
+    s.found[0] =
+        emitterLightAt(trace, sources.emitters, p, sampler.pair(0).x, sampler.pair(1), rays);
+    s.found[1] = skyLightAt(trace, sources.sky, p, sampler.pair(2), rays);
+    for (FoundLight& f : std::span(s.found).first(2))
+        if (f.irradiance != glm::vec3(0))
+            f.irradiance *= balanceWeight(f.pdf, density(f.toLight));
+
+    // Both ways of sampling share the numbers, so that each has well-spread ones.
+    const glm::vec2 u = sampler.pair(3);
+    s.direction = u.x < aimed
+                      ? guide->sample({u.x / aimed, u.y})
+                      : sampleCosineHemisphere(p.normal, {(u.x - aimed) / (1 - aimed), u.y});
+    const float cosTheta = glm::dot(p.normal, s.direction);
+    if (!(cosTheta > 0) || !(glm::dot(p.geometricNormal, s.direction) > 0))
+        return s;
+    const float pdf = density(s.direction);
+    s.weight = cosTheta / pdf;
+    s.hit = trace.closestHit({rayOrigin(trace, p), s.direction});
+    FoundLight& f = s.found[2];
+    f = {.toLight = s.direction, .pdf = pdf};
+    if (!s.hit) {
+        const glm::vec3 radiance = skyRadiance(trace.scene().sky, s.direction);
+        f.irradiance = radiance * s.weight * balanceWeight(pdf, skyPdf(sources.sky, radiance));
+        return s;
+    }
+    s.point = surfacePoint(trace, s.hit);
+    if (s.point && s.point->emission != glm::vec3(0)) {
+        f.irradiance = s.point->emission * s.weight *
+                       balanceWeight(pdf, emitterPdf(sources.emitters, s.hit, p.position));
+        f.instance = s.hit.instance;
+    }
+    return s;
+}
+
+} // namespace limn

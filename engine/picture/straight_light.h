@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/picture/light_guide.h"
+#include "engine/shading/found_light.h"
+#include "engine/shading/sampler.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace limn {
+
+/// Whatever sends light straight to surfaces without being a light: emissive surfaces and the sky.
+struct StraightSources {
+    Emitters emitters;
+    SkyLight sky;       ///< of its image
+    bool shine = false; ///< whether there is any
+};
+StraightSources findStraightSources(const TraceScene& trace);
+
+/// One sample of the light that arrives at a surface straight from these.
+struct StraightSample {
+    /// What a point on an emitter, a direction of the sky's image and the ray below found; each is
+    /// weighted against the others, and their sum is an unbiased estimate of the irradiance.
+    std::array<FoundLight, 3> found;
+
+    glm::vec3 direction{0};            ///< of a ray from the surface, unit
+    float weight = 0;                  ///< cosine over the ray's density [sr]; 0: there is no ray
+    Hit hit;                           ///< of the ray
+    std::optional<SurfacePoint> point; ///< there; none also where the hit is black
+};
+
+/// Uses `sampler`'s pairs 0 to 3. `guide`: aims some of the rays, if there is one; they follow the
+/// cosine otherwise. Combined as in Veach, Guibas. Optimally Combining Sampling Techniques for
+/// Monte Carlo Rendering. 1995
+StraightSample sampleStraightLight(const TraceScene& trace, const StraightSources& sources,
+                                   const SurfacePoint& p, const Sampler& sampler,
+                                   const LightGuide* guide = nullptr);
+
+} // namespace limn

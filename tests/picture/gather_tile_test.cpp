@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "engine/picture/gather_tile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace limn::gather_tile_test {
+namespace {
+
+std::mt19937& random() {
+    static std::mt19937 numbers(1);
+    return numbers;
+}
+float uniform() {
+    return std::uniform_real_distribution<float>()(random());
+}
+
+/// Samples of Straight whose mean is 1.
+template <class Sample>
+GatherSamples samplesOf(std::uint32_t count, const Sample& sample) {
+    GatherSamples samples;
+    samples.count = count;
+    for (std::uint32_t s = 0; s < count; ++s)
+        samples.parts[Straight].add(glm::vec3(sample(s)), s < count / 2);
+    return samples;
+}
+
+/// Means over some tiles whose further samples were aimed, so that their variance may be another.
+struct Measured {
+    double shareOfMore = 0;
+    double noise = 0; ///< as the tiles know it
+    double error = 0; ///< squared
+};
+template <class First, class More>
+Measured measured(const First& first, const More& more) {
+    constexpr std::uint32_t kTiles = 32;
+    Measured mean;
+    for (std::uint32_t t = 0; t < kTiles; ++t) {
+        GatherTile tile{.width = kGatherTile, .height = kGatherTile};
+        tile.guide.add({0, 1, 0}, 1);
+        tile.guide.finish(0.5f);
+        for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
+            tile.first[p] = samplesOf(32, first);
+            tile.more[p] = samplesOf(128, more);
+        }
+        weighSamples(tile);
+        mean.shareOfMore += tile.shareOfMore[Straight][0] / kTiles;
+        for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
+            mean.noise += tile.noise[Straight][p] / (kTiles * kGatherPixels);
+            mean.error += std::pow(tile.meanOf(p, Straight).x - 1, 2) / (kTiles * kGatherPixels);
+        }
+    }
+    return mean;
+}
+
+float independent(std::uint32_t /*sample*/) {
+    return 2 * uniform();
+}
+/// One in each sixteenth of the range, in either half of 32 samples.
+float wellSpread(std::uint32_t sample) {
+    return (float(sample % 16) + uniform()) / 8;
+}
+
+TEST(GatherTile, KnowsItsNoise) {
+    const Measured mean = measured(independent, independent);
+    EXPECT_NEAR(mean.shareOfMore, 0.8, 0.02);
+    const double expected = 1. / 3 / 160; // variance of one sample over their number
+    EXPECT_NEAR(mean.noise, expected, 0.15 * expected);
+    EXPECT_NEAR(mean.error, expected, 0.15 * expected);
+}
+
+TEST(GatherTile, CountsFurtherSamplesByTheirVariance) {
+    const Measured mean =
+        measured(independent, [](std::uint32_t) { return uniform() < 0.05f ? 20.f : 0.f; });
+    // 1/3 against 19: a further sample is worth a fifty-seventh of a first one.
+    EXPECT_NEAR(mean.shareOfMore, 128. / (128 + 57 * 32), 0.02);
+    EXPECT_NEAR(mean.error, mean.noise, 0.15 * mean.noise);
+}
+
+/// Few samples that are well spread are worth more than many that are not.
+TEST(GatherTile, KnowsWhichSamplesAreWellSpread) {
+    const Measured mean = measured(wellSpread, independent);
+    EXPECT_LT(mean.shareOfMore, 0.1);
+    EXPECT_NEAR(mean.error, mean.noise, 0.15 * mean.noise);
+    EXPECT_GT(measured(independent, wellSpread).shareOfMore, 0.99);
+}
+
+} // namespace
+} // namespace limn::gather_tile_test

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "engine/picture/gathered_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace limn::gathered_light_test {
+namespace {
+
+constexpr std::uint32_t kWidth = 40, kHeight = 30;
+
+/// A picture whose pixels' weight, and bounced light without noise, are functions of the pixel.
+template <class Weight, class Irradiance>
+GatheredLight picture(double noise, const Weight& weight, const Irradiance& irradiance) {
+    GatheredLight light({{0, 0}, {kWidth, kHeight}});
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    light.rect.forEach([&](glm::uvec2 at) {
+        GatheredPixel& p = light.pixels[light.rect.numberOf(at)];
+        p.weight = weight(at);
+        const double error = normal(random) * noise;
+        p.exchange[Bounced] = p.weight * (irradiance(at) + float(error));
+        const double grey = double(p.weight.x + p.weight.y + p.weight.z) / 3;
+        p.noise[Bounced] = float(noise * noise * grey * grey);
+    });
+    return light;
+}
+
+glm::vec3 white(glm::uvec2 /*at*/) {
+    return glm::vec3(1);
+}
+
+/// Root of the mean squared error of the first colour in the pixels for which `of` says so.
+template <class Irradiance, class Of>
+double error(const GatheredLight& light, const Irradiance& irradiance, const Of& of) {
+    ImageF image{kWidth, kHeight, std::vector<glm::vec3>(kWidth * kHeight)};
+    addGathered(image, light, light.rect);
+    double squared = 0, count = 0;
+    light.rect.forEach([&](glm::uvec2 at) {
+        if (!of(at))
+            return;
+        const glm::vec3 right = irradiance(at) * light.at(at).weight;
+        squared += std::pow(double(image.rgb[light.rect.numberOf(at)].x - right.x), 2);
+        ++count;
+    });
+    return std::sqrt(squared / count);
+}
+bool all(glm::uvec2 /*at*/) {
+    return true;
+}
+
+TEST(GatheredLight, KeepsAllThatHasNoNoise) {
+    const auto steep = [](glm::uvec2 at) {
+        return glm::vec3(float(at.x * at.x), float(at.y), float((at.x ^ at.y) & 1));
+    };
+    EXPECT_LT(error(picture(0, white, steep), steep, all), 1e-3);
+}
+
+TEST(GatheredLight, KeepsTheMeanOfWhatIsEvenInNoise) {
+    const auto none = [](glm::uvec2) { return glm::vec3(0); };
+    EXPECT_LT(error(picture(1, white, none), none, all), 0.25);
+    for (const float value : {0.5f, 5.f}) {
+        const auto even = [&](glm::uvec2) { return glm::vec3(value); };
+        EXPECT_LT(error(picture(1, white, even), even, all), 0.3) << value;
+    }
+}
+
+/// Where pixels cannot tell a spot from noise, the pixels near them can.
+TEST(GatheredLight, KeepsTheMeanOfWhatIsNear) {
+    const auto spots = [](glm::uvec2 at) {
+        return glm::vec3(at.x % 12 < 4 && at.y % 12 < 4 ? 4 : 0);
+    };
+    const auto inMiddle = [](glm::uvec2 at) {
+        return at.x % 12 > 0 && at.x % 12 < 3 && at.y % 12 > 0 && at.y % 12 < 3;
+    };
+    EXPECT_LT(error(picture(1.5, white, spots), spots, inMiddle), 0.75 * 1.5);
+}
+
+TEST(GatheredLight, KeepsEdges) {
+    const auto edge = [](glm::uvec2 at) { return glm::vec3(at.x < 20 ? 0 : 10); };
+    const GatheredLight light = picture(1, white, edge);
+    EXPECT_LT(error(light, edge, [](glm::uvec2 at) { return at.x == 19 || at.x == 20; }), 1.25);
+}
+
+/// Irradiance is what surfaces share. Their albedo, and where there is none, stay sharp.
+TEST(GatheredLight, TakesTheMeanOfIrradiance) {
+    const auto squares = [](glm::uvec2 at) {
+        return (at.x / 3 + at.y / 3) % 2 > 0 ? glm::vec3(0.9f, 0.1f, 0.5f) : glm::vec3(0.05f);
+    };
+    const auto even = [](glm::uvec2) { return glm::vec3(3); };
+    const GatheredLight textured = picture(1, squares, even);
+    const auto dark = [](glm::uvec2 at) { return (at.x / 3 + at.y / 3) % 2 == 0; };
+    EXPECT_LT(error(textured, even, dark), 0.3 * 0.05);
+    EXPECT_LT(error(textured, even, all), 0.3 * 0.9);
+
+    const auto covered = [](glm::uvec2 at) { return glm::vec3(at.x < 20 ? 1 : 0); };
+    const GatheredLight half = picture(1, covered, even);
+    EXPECT_EQ(error(half, even, [](glm::uvec2 at) { return at.x >= 20; }), 0);
+    EXPECT_LT(error(half, even, [](glm::uvec2 at) { return at.x == 19; }), 0.5);
+}
+
+TEST(GatheredLight, IsTheSumOfPixelsTimesTheirFactors) {
+    const auto wavy = [](glm::uvec2 at) {
+        return 2.f + glm::vec3(std::sin(0.5f * float(at.x)), std::cos(float(at.y)), 0);
+    };
+    const auto weight = [](glm::uvec2 at) {
+        return 0.1f * glm::vec3(float(at.x % 3), float(at.y % 5), 3);
+    };
+    const GatheredLight light = picture(0.5, weight, wavy);
+    for (const glm::uvec2 at : {glm::uvec2(0, 0), glm::uvec2(20, 9), glm::uvec2(39, 29)}) {
+        const KeptExchange kept = keptExchange(light, Bounced, at);
+        glm::vec3 sum(0);
+        windowAround(at, kGatherRadius, light.rect).forEach([&](glm::uvec2 q) {
+            const bool isNear = std::max(std::abs(int(q.x) - int(at.x)),
+                                         std::abs(int(q.y) - int(at.y))) <= int(kNearRadius);
+            sum +=
+                kept.factorOf(isNear, q == at, light.at(at).weight) * light.at(q).exchange[Bounced];
+        });
+        const glm::vec3 whole = kept.lightIn(light.at(at), Bounced);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(sum[c], whole[c], 1e-5f);
+    }
+}
+
+} // namespace
+} // namespace limn::gathered_light_test
