@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/command.h"
+#include "app/program_version.h"
 
 #include <cstdio>
 #include <exception>
 
 namespace limn {
 
-Exit failed(const std::string& message) {
-    std::fprintf(stderr, "limn: %s\n", message.c_str());
-    return Exit::Failed;
-}
-
 static int runLimn(int argc, char** argv) {
-    CLI::App app("Limn, an editor for light", "limn");
-    app.require_subcommand(1);
-    Run run;
-    addBakeCommand(app, run);
-    addBenchCommand(app, run);
-    addCompareCommand(app, run);
-#ifdef LIMN_EDITOR
-    addEditCommand(app, run);
-#endif
-    addExplainCommand(app, run);
-    addExportCommand(app, run);
-    addInfoCommand(app, run);
-    addReferenceCommand(app, run);
-    addRenderCommand(app, run);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? int(Exit::Done) : int(Exit::Usage);
-    }
-    const Exit exit = run();
+    Command program("limn", "Limn, an editor for light", programVersion());
+    program.requireCommand();
+    addBakeCommand(program);
+    addBenchCommand(program);
+    addCompareCommand(program);
+    addEditCommand(program);
+    addExplainCommand(program);
+    addExportCommand(program);
+    addInfoCommand(program);
+    addReferenceCommand(program);
+    addRenderCommand(program);
+    const Command::Chosen chosen = program.parse(argc, argv);
+    if (!chosen.action)
+        return int(chosen.status);
+    const Exit exit = chosen.action();
     // A full disk shows only now, where stdout is a file.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         return int(failed("cannot write to standard output"));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/resources.h"
 
+#include "generated/app/build_facts.h"
+
 #include <filesystem>
 #include <system_error>
 
@@ -17,7 +19,7 @@ static std::string folderOf(const std::string& installedName, const std::string&
         if (fs::is_directory(installed, error))
             return installed.string();
     }
-    return std::string(LIMN_SOURCE_DIR "/") + sourceName;
+    return std::string(kSourceFolder) + "/" + sourceName;
 }
 
 std::string dataFolder(const std::string& name) {

@@ -49,12 +49,32 @@ if(LIMN_FUZZ)
   target_compile_definitions(limn_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 
+# Headers that most sources include, precompiled once for all rooms. Where each source is compiled by itself there are none, so that
+# the preset each-file finds sources that lack an include.
+set(LIMN_HEADERS <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <numeric> <optional> <span> <string>
+    <string_view> <utility> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp> <glm/gtc/constants.hpp>
+    <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
+function(limn_shared_headers)
+  find_package(fmt REQUIRED)
+  find_package(glm REQUIRED)
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/headers.cpp CONTENT "")
+  add_library(limn_headers OBJECT EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/generated/headers.cpp)
+  target_link_libraries(limn_headers PRIVATE limn_options fmt::fmt glm::glm)
+  target_precompile_headers(limn_headers PRIVATE ${LIMN_HEADERS})
+endfunction()
+function(limn_precompile target)
+  if(LIMN_UNITY GREATER 1)
+    target_precompile_headers(${target} REUSE_FROM limn_headers)
+  endif()
+endfunction()
+
 # limn_room(limn_render SOURCES a.cpp passes/b.cpp PRIVATE_FOLDERS passes DEPENDS limn_core TBB::tbb)
 # Headers in PRIVATE_FOLDERS are for this room alone, or for the other rooms of its technique.
 function(limn_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;PRIVATE_FOLDERS;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(${name} PUBLIC limn_options ${ROOM_DEPENDS})
+  limn_precompile(${name})
   set_property(GLOBAL APPEND PROPERTY LIMN_ROOMS ${name})
   set_property(GLOBAL APPEND PROPERTY LIMN_JOINED ${name})
 endfunction()

@@ -6,6 +6,7 @@
 #include "app/commands/scene_options.h"
 
 #include "engine/gallery/gallery.h"
+#include "engine/json/json.h"
 #include "engine/measure/reference_set.h"
 #include "engine/picture/field_render.h"
 #include "engine/scene/bake_settings_fields.h"
@@ -20,7 +21,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -173,8 +173,8 @@ constexpr Column kGeneratedColumns[] = {
 void addDistribution(Json& to, const std::vector<const Json*>& rows, const std::string& key) {
     std::vector<double> values;
     for (const Json* row : rows)
-        if (const auto value = row->find(key); value != row->end() && value->is_number())
-            values.push_back(std::abs(value->get<double>()));
+        if (const Json& value = (*row)[key]; value.isNumber())
+            values.push_back(std::abs(value.get<double>()));
     std::sort(values.begin(), values.end());
     const auto at = [&](double share) -> Json {
         if (values.empty())
@@ -247,8 +247,9 @@ Json distributions(const Json& rows, const std::vector<BakeSettings>& settings, 
             std::vector<const Json*> members;
             for (const Json& row : rows) {
                 const bool same =
-                    std::all_of(wanted.items().begin(), wanted.items().end(),
-                                [&](const auto& item) { return row[item.key()] == item.value(); });
+                    std::ranges::all_of(wanted.members(), [&](const JsonMember& setting) {
+                        return row[setting.key] == setting.value;
+                    });
                 if (same && (!key || row[key] == group))
                     members.push_back(&row);
             }
@@ -283,47 +284,40 @@ Exit writeAll(const GeneratedBench& o, const Json& rows, const Json& groups) {
 
 } // namespace
 
-void addGeneratedOptions(CLI::App& command, GeneratedBench& o) {
-    auto* generated =
+void addGeneratedOptions(Command& command, GeneratedBench& o) {
+    Option generated =
         command
-            .add_option("--generated", o.scenes,
-                        "Measure pictures of this many generated scenes instead, with default "
-                        "settings except those given")
-            ->check(CLI::Range(1, 100000));
-    command.add_option("--first-seed", o.firstSeed, "Seed of the first generated scene")
-        ->needs(generated);
+            .option("--generated", o.scenes,
+                    "Measure pictures of this many generated scenes instead, with default "
+                    "settings except those given")
+            .within(1, 100000);
+    command.option("--first-seed", o.firstSeed, "Seed of the first generated scene")
+        .needs(generated);
     command
-        .add_option(
-            "--spp", o.samplesPerPixel,
-            "Maximum samples per pixel of a reference; fewer are traced where those suffice")
-        ->needs(generated)
-        ->check(CLI::Range(2, 1 << 20));
-    command.add_option("--size", o.size, "Size of the pictures, WxH")
-        ->needs(generated)
-        ->check([](const std::string& text) {
+        .option("--spp", o.samplesPerPixel,
+                "Maximum samples per pixel of a reference; fewer are traced where those suffice")
+        .needs(generated)
+        .within(2, 1 << 20);
+    command.option("--size", o.size, "Size of the pictures, WxH")
+        .needs(generated)
+        .check([](const std::string& text) {
             return sizeOf(text) ? "" : fmt::format("\"{}\" is not WxH", text);
         });
-#ifdef LIMN_HAS_VIEWPORT
-    auto* viewport =
-        command.add_flag("--viewport", o.viewport, "Also draw the pictures with Vulkan");
-    viewport->needs(generated);
+    Option viewport = command.flag("--viewport", o.viewport, "Also draw the pictures with Vulkan");
+    viewport.needs(generated);
     command
-        .add_option("--device", o.device,
-                    "Part of the Vulkan device's name; default: the best device")
-        ->needs(viewport);
-#endif
+        .option("--device", o.device, "Part of the Vulkan device's name; default: the best device")
+        .needs(viewport);
 }
 
 Exit runGeneratedBench(const GeneratedBench& o, const std::vector<BakeSettings>& settings) {
     DrawPicture draw;
-#ifdef LIMN_HAS_VIEWPORT
     if (o.viewport) {
         Result<DrawPicture> made = drawingOnGpu(o.device);
         if (!made)
             return failed(made.error().message);
         draw = std::move(*made);
     }
-#endif
     if (!o.json)
         printTitles(kGeneratedColumns);
     Json rows = Json::array();

@@ -21,7 +21,7 @@ struct GeneratedBench {
     std::string output;    ///< folder
     bool json = false;
 };
-void addGeneratedOptions(CLI::App& command, GeneratedBench& options);
+void addGeneratedOptions(Command& command, GeneratedBench& options);
 
 /// Writes a row per scene and settings, and the distribution per settings: over all seeds, over
 /// even and odd ones, and over each kind of scene.

@@ -4,13 +4,10 @@
 #include "app/bench/leak_room.h"
 #include "app/bench/light_place.h"
 #include "app/bench/measured_scene.h"
+#include "app/bench/place_on_device.h"
 #include "app/bench/scene_bench.h"
 #include "app/bench/techniques_page.h"
-#include "app/commands/number_range.h"
 #include "app/commands/scene_options.h"
-#ifdef LIMN_HAS_VIEWPORT
-#include "app/bench/place_on_device.h"
-#endif
 
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
@@ -75,11 +72,7 @@ Result<std::vector<LightPlace>> placesOf(const TechniquesBench& o) {
         places.push_back(placeOnCpu());
     if (on == MeasureOn::Cpu)
         return places;
-#ifdef LIMN_HAS_VIEWPORT
     Result<LightPlace> device = placeOnDevice(o.device);
-#else
-    Result<LightPlace> device = fail("this program was built without Vulkan");
-#endif
     if (device)
         places.push_back(std::move(*device));
     else if (on == MeasureOn::Auto && o.device.empty())
@@ -128,52 +121,52 @@ Exit runTechniquesBench(const TechniquesBench& o) {
 
 } // namespace
 
-void addTechniquesBench(CLI::App& bench, Run& run) {
+void addTechniquesBench(Command& bench) {
     const auto o = std::make_shared<TechniquesBench>();
     o->camera.width = 160;
     o->camera.height = 90;
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "techniques", "Time, memory and error of all techniques on the same scenes");
     command
-        ->add_option("scenes", o->scenes,
-                     "Scenes (.gltf, .glb), projects (.limn), names of sample projects, or "
-                     "generated:SEED")
-        ->required();
-    addLightOptions(*command, o->common);
-    addDynamicOption(*command, o->common);
-    addCameraOptions(*command, o->camera);
+        .option("scenes", o->scenes,
+                "Scenes (.gltf, .glb), projects (.limn), names of sample projects, or "
+                "generated:SEED")
+        .required();
+    addLightOptions(command, o->common);
+    addDynamicOption(command, o->common);
+    addCameraOptions(command, o->camera);
     std::vector<std::string> names;
     for (const Technique* technique : techniques())
         names.emplace_back(technique->name);
-    addList(*command, "--technique", o->bench.techniques,
-            "Techniques to measure, a list; default: all", CLI::IsMember(names));
     command
-        ->add_option("-o,--output", o->output,
-                     "Folder for techniques.csv, techniques.json and techniques.html")
-        ->required();
+        .option("--technique", o->bench.techniques, "Techniques to measure, a list; default: all")
+        .list()
+        .oneOf(names);
     command
-        ->add_option(
-            "--relight", o->relight,
-            "Where to light: cpu; gpu, a Vulkan device; both; or auto, both where there is "
-            "such a device")
-        ->check(oneOf(kMeasureOnNames));
-    command->add_option("--device", o->device, "Part of the Vulkan device's name");
+        .option("-o,--output", o->output,
+                "Folder for techniques.csv, techniques.json and techniques.html")
+        .required();
     command
-        ->add_option("--seconds", o->bench.seconds,
-                     "Time for the techniques of each scene, without its references [s]: settings "
-                     "that do not fit are skipped, and fewer updates are measured; default: no "
-                     "limit")
-        ->check(numberWithin(0.1, 1e6));
-    command->add_option("--spp", o->samplesPerPixel, "Samples per pixel of all references")
-        ->check(CLI::Range(4, 1 << 20));
+        .option("--relight", o->relight,
+                "Where to light: cpu; gpu, a Vulkan device; both; or auto, both where there is "
+                "such a device")
+        .oneOf(namesIn(kMeasureOnNames));
+    command.option("--device", o->device, "Part of the Vulkan device's name");
     command
-        ->add_option("--runs", o->bench.runs,
-                     "Maximum number of updates of each kind; their median counts")
-        ->check(CLI::Range(1, 1000));
-    command->add_option("--threads", o->threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runTechniquesBench(*o); }; });
+        .option("--seconds", o->bench.seconds,
+                "Time for the techniques of each scene, without its references [s]: settings "
+                "that do not fit are skipped, and fewer updates are measured; default: no "
+                "limit")
+        .within(0.1, 1e6);
+    command.option("--spp", o->samplesPerPixel, "Samples per pixel of all references")
+        .within(4, 1 << 20);
+    command
+        .option("--runs", o->bench.runs,
+                "Maximum number of updates of each kind; their median counts")
+        .within(1, 1000);
+    command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runTechniquesBench(*o); });
 }
 
 } // namespace limn

@@ -6,6 +6,6 @@
 namespace limn {
 
 /// Adds `limn bench techniques`: all techniques on the same scenes, by time, memory and error.
-void addTechniquesBench(CLI::App& bench, Run& run);
+void addTechniquesBench(Command& bench);
 
 } // namespace limn

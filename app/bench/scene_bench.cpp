@@ -208,7 +208,7 @@ PageScene SceneBench::page(const Plan& plan) {
             if (of != technique)
                 continue;
             page.rows.push_back(point.row);
-            if (!best || point.row["nrmse"] < best->row["nrmse"])
+            if (!best || point.row["nrmse"].get<double>() < best->row["nrmse"].get<double>())
                 best = &point;
         }
         if (!best)

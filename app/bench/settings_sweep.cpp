@@ -3,6 +3,7 @@
 
 #include "engine/scene/bake_settings_fields.h"
 
+#include <algorithm>
 #include <array>
 
 namespace limn {
@@ -11,17 +12,17 @@ namespace limn {
 static constexpr std::array<std::string_view, 6> kTracesNothing = {
     "bands", "chromaBands", "storage", "clustering", "cut", "links"};
 
-void addSweepOptions(CLI::App& command, SettingsSweep& sweep) {
+void addSweepOptions(Command& command, SettingsSweep& sweep) {
     const BakeSettings defaults;
     visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
         const std::string key = setting.key;
         command
-            .add_option_function<std::vector<std::string>>(
+            .listOption(
                 setting.flag,
                 [&sweep, key](const std::vector<std::string>& values) { sweep[key] = values; },
                 std::string(setting.help) + ", a list")
-            ->delimiter(',')
-            ->check([key](const std::string& text) {
+            .list()
+            .check([key](const std::string& text) {
                 BakeSettings scratch;
                 return setBakeSetting(scratch, key, text);
             });

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/commands/command_line.h"
 #include "engine/scene/bake_settings.h"
-
-#include <CLI/CLI.hpp>
 
 #include <map>
 #include <string>
@@ -17,7 +16,7 @@ using SettingsSweep = std::map<std::string, std::vector<std::string>>;
 
 /// Adds an option with a comma-separated list for every setting. Given values
 /// replace those in `sweep`.
-void addSweepOptions(CLI::App& command, SettingsSweep& sweep);
+void addSweepOptions(Command& command, SettingsSweep& sweep);
 
 /// One row of settings per combination. Settings that need no new rays vary fastest, so that rows
 /// reuse the stages of the rows before them.

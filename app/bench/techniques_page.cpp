@@ -145,7 +145,7 @@ std::string winners(const std::vector<Json>& rows, const std::string& key, doubl
 }
 
 std::string number(const Json& value, const char* format, double unit = 1) {
-    return value.is_null() ? "" : fmt::format(fmt::runtime(format), value.get<double>() / unit);
+    return value.isNull() ? "" : fmt::format(fmt::runtime(format), value.get<double>() / unit);
 }
 
 std::string allRows(const std::vector<Json>& rows) {
@@ -198,7 +198,8 @@ std::vector<std::pair<std::string, std::vector<Json>>> byDevice(const std::vecto
 const Json* bestWithin(const std::vector<Json>& rows, const std::string& key, double budget) {
     const Json* best = nullptr;
     for (const Json& row : rows)
-        if (row[key].get<double>() <= budget && (!best || row["nrmse"] < (*best)["nrmse"]))
+        if (row[key].get<double>() <= budget &&
+            (!best || row["nrmse"].get<double>() < (*best)["nrmse"].get<double>()))
             best = &row;
     return best;
 }

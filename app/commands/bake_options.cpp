@@ -2,6 +2,7 @@
 #include "app/commands/bake_options.h"
 
 #include "engine/core/hash.h"
+#include "engine/json/json.h"
 #include "engine/scene/bake_settings_fields.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <type_traits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -31,32 +31,31 @@ static const BakePreset* presetNamed(const std::string& name) {
     return at == kBakePresets.end() ? nullptr : at;
 }
 
-void addBakeOptions(CLI::App& command, BakeOptions& o) {
+void addBakeOptions(Command& command, BakeOptions& o) {
     command
-        .add_option_function<std::string>(
+        .option(
             "--preset", [&o](const std::string& name) { o.preset = presetNamed(name); },
             "Surfels, links, rays and lightmap caches that go together: " + presetNames() +
                 "; other options replace single ones")
-        ->check([](const std::string& name) {
+        .check([](const std::string& name) {
             return presetNamed(name) ? "" : fmt::format("\"{}\" is not {}", name, presetNames());
         });
     const BakeSettings defaults;
-    std::map<std::string, CLI::Option*> byKey;
+    std::map<std::string, Option> byKey;
     visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
-        byKey[setting.key] = addSettingOption(
-            command, o.given, setting,
-            [](const std::string& key, const std::string& text) {
-                BakeSettings scratch;
-                return setBakeSetting(scratch, key, text);
-            },
-            limits...);
+        byKey.emplace(setting.key, addSettingOption(
+                                       command, o.given, setting,
+                                       [](const std::string& key, const std::string& text) {
+                                           BakeSettings scratch;
+                                           return setBakeSetting(scratch, key, text);
+                                       },
+                                       limits...));
     });
     visitBakeSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
         if (setting.replaces)
-            byKey[setting.replaces]->excludes(byKey[setting.key]);
+            byKey.at(setting.replaces).excludes(byKey.at(setting.key));
     });
-    command.add_option("--threads", o.threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
+    command.option("--threads", o.threads, "Threads to use; 0: all").within(0, 1024);
 }
 
 void applyBakeOptions(const BakeOptions& o, BakeSettings& s) {
@@ -82,8 +81,8 @@ static std::string snakeCase(const std::string& key) {
     return snake;
 }
 
-nlohmann::ordered_json settingsJson(const BakeSettings& settings) {
-    nlohmann::ordered_json json;
+Json settingsJson(const BakeSettings& settings) {
+    Json json;
     visitBakeSettings(settings, [&](const Setting& s, const auto& value, const auto&... limits) {
         auto& out = json[snakeCase(s.key)];
         if constexpr (requires { value.x; })
@@ -96,22 +95,22 @@ nlohmann::ordered_json settingsJson(const BakeSettings& settings) {
     return json;
 }
 
-static nlohmann::json countsSummary(const std::vector<LightingCounter>& counters) {
-    nlohmann::json json;
+static Json countsSummary(const std::vector<LightingCounter>& counters) {
+    Json json;
     for (const LightingCounter& counter : counters)
         json[counter.id] = std::uint64_t(counter.value);
     return json;
 }
 
-nlohmann::json bytesSummary(const std::vector<LightingCounter>& bytes) {
-    nlohmann::json json = countsSummary(bytes);
+Json bytesSummary(const std::vector<LightingCounter>& bytes) {
+    Json json = countsSummary(bytes);
     json["total"] = std::uint64_t(totalOf(bytes));
     return json;
 }
 
-nlohmann::json bakeSummary(const Precomputed& bake) {
+Json bakeSummary(const Precomputed& bake) {
     const PrecomputedReport report = bake.report();
-    nlohmann::json seconds;
+    Json seconds;
     for (const auto& [stage, s] : report.seconds)
         seconds[stage] = s;
     seconds["total"] = totalOf(report.seconds);

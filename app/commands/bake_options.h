@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/commands/command_line.h"
 #include "app/commands/setting_options.h"
+#include "engine/json/json.h"
 #include "engine/lighting/precomputed.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace limn {
 
@@ -20,7 +18,7 @@ struct BakeOptions {
     const BakePreset* preset = nullptr;
     int threads = 0; ///< 0: all
 };
-void addBakeOptions(CLI::App& command, BakeOptions& options);
+void addBakeOptions(Command& command, BakeOptions& options);
 
 /// Applies the options, which were checked by the command line, to `settings`.
 void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
@@ -29,12 +27,12 @@ void applyBakeOptions(const BakeOptions& options, BakeSettings& settings);
 bool hasOption(const BakeOptions& options, std::string_view key);
 
 /// Every setting by its key in snake case: numbers, names, and [x, y, z] for a grid.
-nlohmann::ordered_json settingsJson(const BakeSettings& settings);
+Json settingsJson(const BakeSettings& settings);
 
 /// Each part's bytes by its id, and "total".
-nlohmann::json bytesSummary(const std::vector<LightingCounter>& bytes);
+Json bytesSummary(const std::vector<LightingCounter>& bytes);
 
 /// {"seconds", "counts", "bytes", "notes", "hash"}.
-nlohmann::json bakeSummary(const Precomputed& bake);
+Json bakeSummary(const Precomputed& bake);
 
 } // namespace limn

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/bake_options.h"
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
 #include "app/commands/output_file.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
@@ -10,6 +9,7 @@
 #include "engine/core/memory_budget.h"
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
+#include "engine/json/json.h"
 #include "engine/measure/bake_to_error.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/technique_table.h"
@@ -20,7 +20,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -38,20 +37,20 @@ struct BakeCommand {
     bool json = false;
 };
 
-void printBytes(const nlohmann::json& bytes) {
-    for (const auto& [name, count] : bytes.items())
+void printBytes(const Json& bytes) {
+    for (const auto& [name, count] : bytes.members())
         fmt::print("{:<10} {:8.2f} MiB\n", name, double(count.get<std::uint64_t>()) / (1 << 20));
 }
 
 /// {"caches", "least_texels", "file_bytes", "peak_bytes"}; the peak is the process'.
-nlohmann::json summaryOf(const Prediction& p) {
+Json summaryOf(const Prediction& p) {
     return {{"caches", p.caches},
             {"least_texels", p.minTexels},
             {"file_bytes", p.file},
             {"peak_bytes", std::max(residentMemory() + p.working, peakMemory())}};
 }
 
-void print(const BakeSettings& settings, const nlohmann::json& predicted) {
+void print(const BakeSettings& settings, const Json& predicted) {
     if (const auto least = predicted["least_texels"].get<std::uint64_t>())
         fmt::print("{} texels are asked for, but the objects need at least about {}: one for each "
                    "direction that an object faces\n",
@@ -64,12 +63,12 @@ void print(const BakeSettings& settings, const nlohmann::json& predicted) {
 }
 
 void print(const Precomputed& bake, std::uint64_t file, std::uint64_t peak) {
-    const nlohmann::json summary = bakeSummary(bake);
+    const Json summary = bakeSummary(bake);
     const PrecomputedReport report = bake.report();
     for (const auto& [stage, seconds] : report.seconds)
         fmt::print("{:<10} {:8.2f} s\n", stage, seconds);
     fmt::print("{:<10} {:8.2f} s\n", "total", summary["seconds"]["total"].get<double>());
-    for (const auto& [name, count] : summary["counts"].items())
+    for (const auto& [name, count] : summary["counts"].members())
         fmt::print("{:<16} {:>12}\n", name, count.get<std::uint64_t>());
     printBytes(summary["bytes"]);
     printBytes({{"file", file}, {"peak", peak}});
@@ -78,14 +77,14 @@ void print(const Precomputed& bake, std::uint64_t file, std::uint64_t peak) {
     fmt::print("hash {}\n", summary["hash"].get<std::string>());
 }
 
-nlohmann::json summaryOf(const Comparison& error) {
+Json summaryOf(const Comparison& error) {
     return {{"nrmse", error.nrmse},
             {"nrmse_noise", error.nrmseNoise},
             {"nrmse_without_worst_percent", error.nrmseMost},
             {"bias", error.bias}};
 }
 
-nlohmann::json countsOf(const BakeSettings& s) {
+Json countsOf(const BakeSettings& s) {
     return {{"surfels", s.surfels},
             {"links", s.links},
             {"rays", s.rays},
@@ -156,7 +155,7 @@ Exit runBake(const BakeCommand& command) {
     releaseFreedMemory(); // what reading the scene left behind; residentMemory() would count it
     const Technique& technique = precomputingTechnique(scene.technique);
     const Prediction prediction = technique.precomputation->predict(scene, !command.noStore);
-    const nlohmann::json predicted = summaryOf(prediction);
+    const Json predicted = summaryOf(prediction);
     if (!command.json)
         print(scene.bake, predicted);
     const Result<MeasuredBake> made =
@@ -173,7 +172,7 @@ Exit runBake(const BakeCommand& command) {
     const std::uintmax_t size = std::filesystem::file_size(command.output, error);
     const std::uint64_t file = error ? 0 : size, peak = peakMemory();
     if (command.json) {
-        nlohmann::json summary = bakeSummary(baked);
+        Json summary = bakeSummary(baked);
         if (command.error > 0) {
             summary["error"] = summaryOf(made->error);
             summary["settings"] = countsOf(baked.settings());
@@ -192,32 +191,30 @@ Exit runBake(const BakeCommand& command) {
 
 } // namespace
 
-void addBakeCommand(CLI::App& app, Run& run) {
+void addBakeCommand(Command& app) {
     auto command = std::make_shared<BakeCommand>();
-    CLI::App* sub = app.add_subcommand("bake", "Precompute a scene's light transport");
-    addSceneOptions(*sub, command->scene);
-    addBakeOptions(*sub, command->bake);
-    CLI::Option* folder = sub->add_option(
+    Command sub = app.addCommand("bake", "Precompute a scene's light transport");
+    addSceneOptions(sub, command->scene);
+    addBakeOptions(sub, command->bake);
+    Option folder = sub.option(
         "--cache", command->store.folder,
         "Folder that keeps finished stages for later bakes; default: ~/.cache/limn/bake");
-    sub->add_option("--cache-size", command->storeGib, "Maximum size of that folder [GiB]")
-        ->check(numberWithin(0.001, 1e6));
-    sub->add_flag("--no-cache", command->noStore, "Bake every stage, and keep none")
-        ->excludes(folder);
-    sub->add_option("-o,--output", command->output, "File to write, .limnbake")->required();
-    CLI::Option* error =
-        sub->add_option(
-               "--error", command->error,
-               "Maximum nRMSE of the irradiance that the camera sees in the scene's light. "
-               "Counts start from those of draft, or those given, and grow until the "
-               "bake reaches it")
-            ->check(numberWithin(1e-3, 10.));
-    addViewOptions(*sub, command->camera);
+    sub.option("--cache-size", command->storeGib, "Maximum size of that folder [GiB]")
+        .within(0.001, 1e6);
+    sub.flag("--no-cache", command->noStore, "Bake every stage, and keep none").excludes(folder);
+    sub.option("-o,--output", command->output, "File to write, .limnbake").required();
+    Option error =
+        sub.option("--error", command->error,
+                   "Maximum nRMSE of the irradiance that the camera sees in the scene's light. "
+                   "Counts start from those of draft, or those given, and grow until the "
+                   "bake reaches it")
+            .within(1e-3, 10.);
+    addViewOptions(sub, command->camera);
     for (const char* view : {"--camera", "--eye", "--target", "--fov"})
-        sub->get_option(view)->needs(error);
-    error->excludes(sub->get_option("--texels-per-metre"));
-    sub->add_flag("--json", command->json, "Print one JSON object to stdout");
-    sub->callback([command, &run] { run = [command] { return runBake(*command); }; });
+        sub.get(view).needs(error);
+    error.excludes(sub.get("--texels-per-metre"));
+    sub.flag("--json", command->json, "Print one JSON object to stdout");
+    sub.onRun([command] { return runBake(*command); });
 }
 
 } // namespace limn

@@ -18,12 +18,12 @@ std::string csvOf(const Json& rows) {
     std::string csv;
     for (const Json& row : rows) {
         if (csv.empty()) {
-            for (const auto& [key, value] : row.items())
+            for (const auto& [key, value] : row.members())
                 csv += (csv.empty() ? "" : ",") + key;
             csv += '\n';
         }
         std::string line;
-        for (const auto& [key, value] : row.items())
+        for (const auto& [key, value] : row.members())
             line += (line.empty() ? "" : ",") + value.dump();
         csv += line + '\n';
     }
@@ -38,11 +38,11 @@ static std::string padded(const std::string& text, int width) {
 }
 
 static std::string shown(const Json& value, const Column& column) {
-    if (value.is_null())
+    if (value.isNull())
         return "-";
-    if (value.is_string())
+    if (value.isString())
         return value.get<std::string>();
-    if (value.is_number_float() || column.scale != 1)
+    if (value.isFloat() || column.scale != 1)
         return fmt::format("{:.{}f}", value.get<double>() * column.scale, column.decimals);
     return value.dump();
 }
@@ -75,12 +75,12 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
     return Exit::Done;
 }
 
-void addBenchCommand(CLI::App& app, Run& run) {
-    CLI::App* bench = app.add_subcommand("bench", "Run a benchmark and write its table");
-    bench->require_subcommand(1);
-    addTechniquesBench(*bench, run);
+void addBenchCommand(Command& app) {
+    Command bench = app.addCommand("bench", "Run a benchmark and write its table");
+    bench.requireCommand();
+    addTechniquesBench(bench);
     for (const TechniqueProgram* program : techniquePrograms())
-        program->addBenches(*bench, run);
+        program->addBenches(bench);
 }
 
 } // namespace limn

@@ -3,12 +3,12 @@
 #include "app/commands/output_file.h"
 
 #include "engine/files/image_file.h"
+#include "engine/json/json.h"
 #include "engine/measure/compare.h"
 
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -19,8 +19,8 @@ struct CompareCommand {
     bool json = false;
 };
 
-nlohmann::ordered_json report(const Comparison& c, bool twoReferences) {
-    nlohmann::ordered_json json;
+Json report(const Comparison& c, bool twoReferences) {
+    Json json;
     json["nrmse"] = c.nrmse; // null: the reference is black
     json["nrmse_without_worst_percent"] = c.nrmseMost;
     json["relmse"] = c.relmse;
@@ -63,30 +63,30 @@ Exit runCompare(const CompareCommand& o) {
         if (const Result<void> written = writePng(o.heatmap, errorHeatmap(*test, truth)); !written)
             return failed(written.error().message);
     }
-    const nlohmann::ordered_json json = report(*c, two);
+    const Json json = report(*c, two);
     if (o.json)
         fmt::print("{}\n", json.dump());
     else
-        for (const auto& [key, value] : json.items())
+        for (const auto& [key, value] : json.members())
             fmt::print("{:<28} {}\n", key, value.dump());
     return Exit::Done;
 }
 
 } // namespace
 
-void addCompareCommand(CLI::App& app, Run& run) {
+void addCompareCommand(Command& app) {
     const auto o = std::make_shared<CompareCommand>();
-    CLI::App* command =
-        app.add_subcommand("compare", "Measure the error of a render against a reference");
-    command->add_option("test", o->test, "Linear image to judge, .exr or .hdr")->required();
-    command->add_option("reference", o->reference, "Reference of the same size")->required();
-    command->add_option("--reference2", o->reference2,
-                        "Second reference with another seed, so that the noise of both is not "
-                        "counted as error");
-    command->add_option("--heatmap", o->heatmap,
-                        "Error map to write, .png: blue is too dark, orange too bright");
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runCompare(*o); }; });
+    Command command =
+        app.addCommand("compare", "Measure the error of a render against a reference");
+    command.option("test", o->test, "Linear image to judge, .exr or .hdr").required();
+    command.option("reference", o->reference, "Reference of the same size").required();
+    command.option("--reference2", o->reference2,
+                   "Second reference with another seed, so that the noise of both is not "
+                   "counted as error");
+    command.option("--heatmap", o->heatmap,
+                   "Error map to write, .png: blue is too dark, orange too bright");
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runCompare(*o); });
 }
 
 } // namespace limn

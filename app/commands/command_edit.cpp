@@ -17,28 +17,28 @@ static bool parseSize(const std::string& text, EditorAppOptions& options) {
            options.height <= 16384;
 }
 
-void addEditCommand(CLI::App& app, Run& run) {
+void addEditCommand(Command& app) {
     auto options = std::make_shared<EditorAppOptions>();
-    CLI::App* command = app.add_subcommand("edit", "Open the editor");
+    Command command = app.addCommand("edit", "Open the editor");
     command
-        ->add_option("scene", options->scene,
-                     "Scene (.gltf, .glb), project (.limn), or name of a sample project")
-        ->default_str("cornell");
-    command->add_option_function<std::string>(
-        "--size",
-        [options](const std::string& text) {
-            if (!parseSize(text, *options))
-                throw CLI::ValidationError("--size",
-                                           "not WIDTHxHEIGHT from 320x240 to 16384x16384");
-        },
-        "Size of the window, WIDTHxHEIGHT [pixels]");
-    command->add_option(
+        .option("scene", options->scene,
+                "Scene (.gltf, .glb), project (.limn), or name of a sample project")
+        .showDefault("cornell");
+    command
+        .option(
+            "--size", [options](const std::string& text) { parseSize(text, *options); },
+            "Size of the window, WIDTHxHEIGHT [pixels]")
+        .check([](const std::string& text) {
+            EditorAppOptions scratch;
+            return parseSize(text, scratch) ? "" : "not WIDTHxHEIGHT from 320x240 to 16384x16384";
+        });
+    command.option(
         "--stats-json", options->statsPath,
         "File for counters and the longest frame, written whenever all work is done and on exit");
-    command->add_flag("--validate", options->validate,
-                      "Enable Vulkan validation; fail if it reports a message");
+    command.flag("--validate", options->validate,
+                 "Enable Vulkan validation; fail if it reports a message");
     command
-        ->add_option_function<std::string>(
+        .option(
             "--relight",
             [options](const std::string& name) {
                 options->relightOn =
@@ -47,17 +47,14 @@ void addEditCommand(CLI::App& app, Run& run) {
             },
             "Where bounced light is computed: cpu, gpu (the Vulkan device that draws), or auto, "
             "whichever is faster on this machine")
-        ->check(CLI::IsMember(
-            std::vector<std::string>(kRelightOnNames.begin(), kRelightOnNames.end())));
-    addImportOptions(*command, options->import);
-    command->add_flag("--no-bake", options->noBake, "Do not bake a scene as soon as it is opened");
-    command->callback([options, &run] {
-        run = [options] {
-            options->projectsFolder = projectsFolder();
-            options->exportFolders = exportFolders();
-            const Result<void> done = runEditor(*options);
-            return done ? Exit::Done : failed(done.error().message);
-        };
+        .oneOf(std::vector<std::string>(kRelightOnNames.begin(), kRelightOnNames.end()));
+    addImportOptions(command, options->import);
+    command.flag("--no-bake", options->noBake, "Do not bake a scene as soon as it is opened");
+    command.onRun([options] {
+        options->projectsFolder = projectsFolder();
+        options->exportFolders = exportFolders();
+        const Result<void> done = runEditor(*options);
+        return done ? Exit::Done : failed(done.error().message);
     });
 }
 

@@ -5,6 +5,7 @@
 #include "app/commands/scene_options.h"
 #include "app/commands/technique_options.h"
 
+#include "engine/json/json.h"
 #include "engine/math/luminance.h"
 #include "engine/picture/explain_pixel.h"
 #include "engine/scene/surface/reflection_lobe.h"
@@ -17,7 +18,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -35,7 +35,7 @@ struct ExplainCommand {
     bool json = false;
 };
 
-constexpr std::array<const char*, 2> kLightNames = {"radiance", "irradiance"};
+constexpr std::array<const char*, 2> kPixelLightNames = {"radiance", "irradiance"};
 constexpr std::array<const char*, 2> kUnits = {"W m^-2 sr^-1", "W m^-2"};
 
 std::uint32_t depthOf(const std::vector<LightRow>& rows, const LightRow& row) {
@@ -54,9 +54,11 @@ Result<Muted> mutedOf(const std::vector<std::string>& names, const Scene& scene)
     for (const std::string& name : names) {
         const std::size_t colon = name.find(':');
         const std::string kind = name.substr(0, colon);
-        std::uint32_t index = 0;
+        const std::optional<double> number =
+            colon != std::string::npos ? numberOf(name.substr(colon + 1)) : std::nullopt;
         const bool numbered =
-            colon != std::string::npos && CLI::detail::lexical_cast(name.substr(colon + 1), index);
+            number && *number >= 0 && *number < 1e9 && *number == std::floor(*number);
+        const auto index = numbered ? std::uint32_t(*number) : 0;
         if (name == nameOf(LightRowKind::Sky))
             muted.sky = true;
         else if (kind == nameOf(LightRowKind::Light) && numbered && index < scene.lights.size())
@@ -81,18 +83,17 @@ void printTable(const char* title, const std::vector<LightRow>& rows, glm::vec3 
     }
 }
 
-nlohmann::ordered_json rgbJson(glm::vec3 rgb) {
+Json rgbJson(glm::vec3 rgb) {
     return {rgb.x, rgb.y, rgb.z};
 }
 
-nlohmann::ordered_json tableJson(const std::vector<LightRow>& rows, glm::vec3 total) {
-    auto json = nlohmann::ordered_json::array();
+Json tableJson(const std::vector<LightRow>& rows, glm::vec3 total) {
+    auto json = Json::array();
     for (const LightRow& row : rows) {
-        nlohmann::ordered_json r = {{"kind", nameOf(row.kind)}, {"label", row.label}};
+        Json r = {{"kind", nameOf(row.kind)}, {"label", row.label}};
         if (row.index != LightRow::kNone)
             r["index"] = row.index;
-        r["parent"] = row.parent == LightRow::kNone ? nlohmann::ordered_json()
-                                                    : nlohmann::ordered_json(row.parent);
+        r["parent"] = row.parent == LightRow::kNone ? Json() : Json(row.parent);
         r["value"] = rgbJson(row.value);
         r["luminance"] = luminance(glm::dvec3(row.value));
         r["share"] = shareOf(row.value, total);
@@ -103,18 +104,18 @@ nlohmann::ordered_json tableJson(const std::vector<LightRow>& rows, glm::vec3 to
 
 void printJson(const ExplainCommand& options, const PixelExplanation& e,
                const std::optional<glm::vec3>& without, std::size_t unit, double ms) {
-    nlohmann::ordered_json json = {{"pick", options.pick},
-                                   {"width", options.camera.width},
-                                   {"height", options.camera.height},
-                                   {"light", options.light},
-                                   {"unit", kUnits[unit]},
-                                   {"total", rgbJson(e.total)},
-                                   {"luminance", luminance(glm::dvec3(e.total))},
-                                   {"objects", e.seen},
-                                   {"bounces", e.tables.bounces},
-                                   {"ms", ms},
-                                   {"by_origin", tableJson(e.tables.byOrigin, e.total)},
-                                   {"by_sender", tableJson(e.tables.bySender, e.total)}};
+    Json json = {{"pick", options.pick},
+                 {"width", options.camera.width},
+                 {"height", options.camera.height},
+                 {"light", options.light},
+                 {"unit", kUnits[unit]},
+                 {"total", rgbJson(e.total)},
+                 {"luminance", luminance(glm::dvec3(e.total))},
+                 {"objects", e.seen},
+                 {"bounces", e.tables.bounces},
+                 {"ms", ms},
+                 {"by_origin", tableJson(e.tables.byOrigin, e.total)},
+                 {"by_sender", tableJson(e.tables.bySender, e.total)}};
     if (without)
         json["without"] = {{"muted", options.mute}, {"value", rgbJson(*without)}};
     fmt::print("{}\n", json.dump());
@@ -143,7 +144,7 @@ Exit runExplain(const ExplainCommand& options) {
     const Result<Muted> muted = mutedOf(options.mute, *lit->scene);
     if (!muted)
         return failed(muted.error().message);
-    const std::size_t unit = options.light == kLightNames[0] ? 0 : 1;
+    const std::size_t unit = options.light == kPixelLightNames[0] ? 0 : 1;
     const PixelQuestion question{.camera = *camera,
                                  .width = options.camera.width,
                                  .height = options.camera.height,
@@ -176,39 +177,38 @@ Exit runExplain(const ExplainCommand& options) {
 
 } // namespace
 
-void addExplainCommand(CLI::App& app, Run& run) {
+void addExplainCommand(Command& app) {
     const auto options = std::make_shared<ExplainCommand>();
-    CLI::App* command = app.add_subcommand(
+    Command command = app.addCommand(
         "explain", "Says where the light of a pixel comes from, in tables that sum to all of it");
-    addSceneOptions(*command, options->scene);
-    addTimeOption(*command, options->scene);
-    addCameraOptions(*command, options->camera);
+    addSceneOptions(command, options->scene);
+    addTimeOption(command, options->scene);
+    addCameraOptions(command, options->camera);
     command
-        ->add_option("--pick", options->pick,
-                     "X,Y of the pixel in a picture of --width and --height; 0,0 is the upper left")
-        ->delimiter(',')
-        ->expected(2)
-        ->required();
-    command->add_option("--bake", options->bake,
-                        ".limnbake of this scene; without it, one is made in memory if needed");
-    addTechniqueOptions(*command, options->technique);
+        .option("--pick", options->pick,
+                "X,Y of the pixel in a picture of --width and --height; 0,0 is the upper left")
+        .list(2)
+        .required();
+    command.option("--bake", options->bake,
+                   ".limnbake of this scene; without it, one is made in memory if needed");
+    addTechniqueOptions(command, options->technique);
     command
-        ->add_option("--quantity", options->light,
-                     "radiance that reaches the eye, as limn render --device cpu shows it, or "
-                     "irradiance that arrives at what the pixel shows")
-        ->check(CLI::IsMember({"radiance", "irradiance"}));
-    command->add_option("--mute", options->mute,
-                        "sky, light:N or surface:N, as the tables name it: also says what the "
-                        "pixel would be without that light, or were that surface black; may be "
-                        "repeated");
+        .option("--quantity", options->light,
+                "radiance that reaches the eye, as limn render --device cpu shows it, or "
+                "irradiance that arrives at what the pixel shows")
+        .oneOf({"radiance", "irradiance"});
+    command.option("--mute", options->mute,
+                   "sky, light:N or surface:N, as the tables name it: also says what the "
+                   "pixel would be without that light, or were that surface black; may be "
+                   "repeated");
     command
-        ->add_option("--rows", options->rows,
-                     "number of objects, of clusters of each and of surfels of each cluster that "
-                     "are listed; one row sums up the others")
-        ->check(CLI::Range(1, 1 << 20));
-    addRelightOptions(*command, options->relighting);
-    command->add_flag("--json", options->json, "one JSON object on stdout");
-    command->callback([options, &run] { run = [options] { return runExplain(*options); }; });
+        .option("--rows", options->rows,
+                "number of objects, of clusters of each and of surfels of each cluster that "
+                "are listed; one row sums up the others")
+        .within(1, 1 << 20);
+    addRelightOptions(command, options->relighting);
+    command.flag("--json", options->json, "one JSON object on stdout");
+    command.onRun([options] { return runExplain(*options); });
 }
 
 } // namespace limn

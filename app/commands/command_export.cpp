@@ -13,6 +13,7 @@
 #include "engine/core/parallel.h"
 #include "engine/export/export_table.h"
 #include "engine/export/lightmap_file.h"
+#include "engine/json/json.h"
 #include "engine/lighting/converged_light.h"
 #include "engine/scene/export_settings_fields.h"
 #include "engine/scene/setting_text.h"
@@ -25,7 +26,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -63,14 +63,14 @@ const char* flagOf(std::string_view key) {
 }
 
 Exit listFormats(const ExportCommand& options) {
-    auto json = nlohmann::ordered_json::array();
+    auto json = Json::array();
     for (const ExportFormat* format : exportFormats()) {
         if (options.json)
             json.push_back({{"name", format->name},
                             {"label", format->label},
                             {"summary", format->summary},
-                            {"extensions", format->extensions},
-                            {"settings", format->settings}});
+                            {"extensions", namesIn(format->extensions)},
+                            {"settings", namesIn(format->settings)}});
         else
             fmt::print("{:<12} {} ({}). {}\n", format->name, format->label,
                        format->extensions.empty()
@@ -79,7 +79,7 @@ Exit listFormats(const ExportCommand& options) {
                        format->summary);
     }
     if (options.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"formats", json}}.dump());
+        fmt::print("{}\n", Json{{"formats", json}}.dump());
     return Exit::Done;
 }
 
@@ -130,7 +130,7 @@ std::string lightmapText(const ExportForecast& f) {
     return fmt::format(", lightmap of {}{} x {} texels", pages, f.width, f.height);
 }
 
-nlohmann::ordered_json forecastJson(const ExportForecast& forecast) {
+Json forecastJson(const ExportForecast& forecast) {
     return {{"bytes", forecast.bytes},
             {"pages", forecast.pages},
             {"width", forecast.width},
@@ -139,10 +139,10 @@ nlohmann::ordered_json forecastJson(const ExportForecast& forecast) {
 }
 
 /// {"format", "seconds", "bytes", "forecast", "files": [{"name", "bytes"}]}.
-nlohmann::ordered_json reportJson(const ExportFormat& format, const ExportForecast& forecast,
-                                  const std::vector<ExportedFile>& files, double seconds) {
+Json reportJson(const ExportFormat& format, const ExportForecast& forecast,
+                const std::vector<ExportedFile>& files, double seconds) {
     std::uint64_t bytes = 0;
-    auto list = nlohmann::ordered_json::array();
+    auto list = Json::array();
     for (const ExportedFile& file : files) {
         bytes += file.bytes;
         list.push_back({{"name", file.name}, {"bytes", file.bytes}});
@@ -207,11 +207,11 @@ Exit runExport(const ExportCommand& options) {
     return Exit::Done;
 }
 
-void addSettingOptions(CLI::App& command, ExportCommand& options) {
+void addSettingOptions(Command& command, ExportCommand& options) {
     const ExportSettings defaults;
     visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
         if constexpr (sizeof...(limits) == 0)
-            command.add_flag_callback(
+            command.flag(
                 setting.flag,
                 [&options, key = std::string(setting.key)] {
                     options.given.emplace_back(key, "true");
@@ -230,29 +230,31 @@ void addSettingOptions(CLI::App& command, ExportCommand& options) {
 
 } // namespace
 
-void addExportCommand(CLI::App& app, Run& run) {
+void addExportCommand(Command& app) {
     const auto o = std::make_shared<ExportCommand>();
-    CLI::App* command = app.add_subcommand("export", "Write a scene's light for other programs");
-    addSceneOptions(*command, o->scene);
-    addBakeOptions(*command, o->bake);
-    addRelightOptions(*command, o->relight);
-    CLI::Option* list = command->add_flag("--list", o->list, "List the formats");
-    command->get_option("scene")->required(false);
-    CLI::Option* format = command->add_option("--format", o->format, "Format to write")
-                              ->check(CLI::IsMember(formatNames()));
-    command->add_option("--bake", o->bakeFile,
-                        "Bake of the scene, .limnbake; default: a bake is made in memory");
-    command->add_option("-o,--output", o->output, "File to write, or a folder");
-    addSettingOptions(*command, *o);
-    command->add_option("--three", o->folders.three, "Folder of the npm package three, for web");
-    command->add_option("--web-runtime", o->folders.webRuntime,
-                        "Folder of limn_runtime.wasm, for web; ./run --web makes it");
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run, list, format] {
-        if (!*list && (o->scene.scene.empty() || !*format || o->output.empty()))
-            throw CLI::RequiredError("A scene, --format and --output, or --list,");
-        run = [o] { return runExport(*o); };
-    });
+    Command command = app.addCommand("export", "Write a scene's light for other programs");
+    addSceneOptions(command, o->scene);
+    addBakeOptions(command, o->bake);
+    addRelightOptions(command, o->relight);
+    Option list = command.flag("--list", o->list, "List the formats");
+    command.get("scene").required(false);
+    Option format = command.option("--format", o->format, "Format to write").oneOf(formatNames());
+    command.option("--bake", o->bakeFile,
+                   "Bake of the scene, .limnbake; default: a bake is made in memory");
+    command.option("-o,--output", o->output, "File to write, or a folder");
+    addSettingOptions(command, *o);
+    command.option("--three", o->folders.three, "Folder of the npm package three, for web");
+    command.option("--web-runtime", o->folders.webRuntime,
+                   "Folder of limn_runtime.wasm, for web; ./run --web makes it");
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runExport(*o); },
+                  [o, list, format] {
+                      const bool missing =
+                          !list.isGiven() &&
+                          (o->scene.scene.empty() || !format.isGiven() || o->output.empty());
+                      return missing ? "A scene, --format and --output, or --list, is required"
+                                     : std::string();
+                  });
 }
 
 } // namespace limn

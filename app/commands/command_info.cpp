@@ -8,6 +8,7 @@
 #include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
+#include "engine/json/json.h"
 #include "engine/scene/origin.h"
 #include "engine/techniques/technique_table.h"
 
@@ -17,11 +18,8 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
-
-using Json = nlohmann::ordered_json;
 
 static std::uint64_t bytesOf(const Mesh& mesh) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
@@ -125,19 +123,19 @@ static Result<Json> describeFile(const std::string& file) {
 }
 
 static std::string valueText(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
+    return value.isString() ? value.get<std::string>() : value.dump();
 }
 
 static void printForPeople(const Json& json) {
-    for (const auto& [key, value] : json.items()) {
+    for (const auto& [key, value] : json.members()) {
         if (std::ranges::any_of(techniquePrograms(), [&](const TechniqueProgram* program) {
                 return program->print(key, value);
             }))
             continue;
-        if (value.is_object()) {
-            for (const auto& [inner, number] : value.items())
+        if (value.isObject()) {
+            for (const auto& [inner, number] : value.members())
                 fmt::print("{:<12} {} {}\n", key, inner, valueText(number));
-        } else if (value.is_array()) {
+        } else if (value.isArray()) {
             for (const Json& line : value)
                 fmt::print("{:<12} {}\n", key, valueText(line));
         } else {
@@ -146,27 +144,25 @@ static void printForPeople(const Json& json) {
     }
 }
 
-void addInfoCommand(CLI::App& app, Run& run) {
+void addInfoCommand(Command& app) {
     struct Options {
         std::string file;
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "info", "Print what a scene, project, bake, transport or image contains");
-    command->add_option("file", options->file, "File, or name of a sample project")->required();
-    command->add_flag("--json", options->json, "Print one JSON object to stdout");
-    command->callback([options, &run] {
-        run = [options] {
-            const Result<Json> json = describeFile(options->file);
-            if (!json)
-                return failed(json.error().message);
-            if (options->json)
-                fmt::print("{}\n", json->dump(-1, ' ', false, Json::error_handler_t::replace));
-            else
-                printForPeople(*json);
-            return Exit::Done;
-        };
+    Command command =
+        app.addCommand("info", "Print what a scene, project, bake, transport or image contains");
+    command.option("file", options->file, "File, or name of a sample project").required();
+    command.flag("--json", options->json, "Print one JSON object to stdout");
+    command.onRun([options] {
+        const Result<Json> json = describeFile(options->file);
+        if (!json)
+            return failed(json.error().message);
+        if (options->json)
+            fmt::print("{}\n", json->dump());
+        else
+            printForPeople(*json);
+        return Exit::Done;
     });
 }
 

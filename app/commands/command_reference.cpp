@@ -6,6 +6,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/files/image_file.h"
+#include "engine/json/json.h"
 #include "engine/measure/compare.h"
 #include "engine/reference/reference.h"
 
@@ -13,13 +14,10 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ReferenceCommand {
     SceneOptions scene;
@@ -91,28 +89,25 @@ Exit runReference(ReferenceCommand& o) {
 
 } // namespace
 
-void addReferenceCommand(CLI::App& app, Run& run) {
+void addReferenceCommand(Command& app) {
     const auto o = std::make_shared<ReferenceCommand>();
-    CLI::App* command = app.add_subcommand("reference", "Path-trace ground truth");
-    addSceneOptions(*command, o->scene);
-    addTimeOption(*command, o->scene);
-    addCameraOptions(*command, o->camera);
+    Command command = app.addCommand("reference", "Path-trace ground truth");
+    addSceneOptions(command, o->scene);
+    addTimeOption(command, o->scene);
+    addCameraOptions(command, o->camera);
+    command.option("--view", o->view, "What to show: lit, direct, indirect, irradiance or albedo")
+        .oneOf({"lit", "direct", "indirect", "irradiance", "albedo"});
+    command.option("--spp", o->reference.samplesPerPixel, "Samples per pixel").within(1, 1 << 24);
     command
-        ->add_option("--view", o->view, "What to show: lit, direct, indirect, irradiance or albedo")
-        ->check(CLI::IsMember({"lit", "direct", "indirect", "irradiance", "albedo"}));
-    command->add_option("--spp", o->reference.samplesPerPixel, "Samples per pixel")
-        ->check(CLI::Range(1, 1 << 24));
-    command
-        ->add_option("--bounces", o->reference.maxBounces,
-                     "Maximum path segments after the first surface")
-        ->check(CLI::Range(0, 100000));
-    command->add_option("--seed", o->reference.seed,
-                        "Seed of the random numbers; another seed gives other noise");
-    command->add_option("--threads", o->threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
-    command->add_option("-o,--output", o->output, "Linear 32-bit image to write, .exr")->required();
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runReference(*o); }; });
+        .option("--bounces", o->reference.maxBounces,
+                "Maximum path segments after the first surface")
+        .within(0, 100000);
+    command.option("--seed", o->reference.seed,
+                   "Seed of the random numbers; another seed gives other noise");
+    command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
+    command.option("-o,--output", o->output, "Linear 32-bit image to write, .exr").required();
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runReference(*o); });
 }
 
 } // namespace limn

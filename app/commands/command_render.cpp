@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
 #include "app/commands/output_file.h"
 #include "app/commands/overlay_options.h"
 #include "app/commands/progress_line.h"
@@ -12,6 +11,7 @@
 
 #include "engine/core/log.h"
 #include "engine/files/image_file.h"
+#include "engine/json/json.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/compare.h"
 #include "engine/techniques/technique_table.h"
@@ -23,7 +23,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -190,7 +189,6 @@ Result<DrawPicture> chooseDrawing(const RenderCommand& options) {
                            !inspects(options) && options.relight != "gpu";
     if (options.device == "cpu")
         return renderOnCpu;
-#ifdef LIMN_HAS_VIEWPORT
     Result<DrawPicture> onGpu = drawingOnGpu(options.device == "auto" ? "" : options.device);
     if (!cpuWillDo)
         return onGpu;
@@ -206,11 +204,6 @@ Result<DrawPicture> chooseDrawing(const RenderCommand& options) {
             logWarning(fmt::format("drawing on the CPU: {}", image.error().message));
             return renderOnCpu(scene, request);
         };
-#else
-    if (!cpuWillDo)
-        return fail("--device: this program was built without Vulkan; there is: cpu");
-    return renderOnCpu;
-#endif
 }
 
 RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const Camera& camera,
@@ -240,12 +233,12 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
 }
 
 /// {"device", "ms", "bounces", "converged", "grows"}, the steps' "STEP_ms", and the counters.
-nlohmann::ordered_json lightingJson(const std::string& device, const LightingReport& report) {
-    nlohmann::ordered_json json = {{"device", device},
-                                   {"ms", report.totalMs},
-                                   {"bounces", report.bounces},
-                                   {"converged", report.converged},
-                                   {"grows", report.diverges}};
+Json lightingJson(const std::string& device, const LightingReport& report) {
+    Json json = {{"device", device},
+                 {"ms", report.totalMs},
+                 {"bounces", report.bounces},
+                 {"converged", report.converged},
+                 {"grows", report.diverges}};
     for (const LightingStep& step : report.steps)
         json[std::string(step.id) + "_ms"] = step.ms;
     for (const LightingCounter& counter : report.counters)
@@ -256,9 +249,9 @@ nlohmann::ordered_json lightingJson(const std::string& device, const LightingRep
     return json;
 }
 
-nlohmann::ordered_json reportJson(const RenderCommand& options, const RenderedImage& image,
-                                  const OverlayData* overlay, double seconds) {
-    nlohmann::ordered_json json;
+Json reportJson(const RenderCommand& options, const RenderedImage& image,
+                const OverlayData* overlay, double seconds) {
+    Json json;
     json["seconds"] = seconds; // without reading the scene
     json["device"] = image.device;
     json["view"] = options.view;
@@ -323,7 +316,7 @@ Result<void> renderFrames(const RenderCommand& options, const Document& document
     if (!draw)
         return tl::make_unexpected(draw.error());
     const RenderRequest request = requestOf(options, scene, camera, *baked);
-    auto frames = nlohmann::ordered_json::array();
+    auto frames = Json::array();
     for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
         const double time = options.scene.seconds + frame / options.framesPerSecond;
         showTime(scene, document, time);
@@ -348,9 +341,7 @@ Result<void> renderFrames(const RenderCommand& options, const Document& document
         start = Clock::now();
     }
     if (options.json)
-        fmt::print(
-            "{}\n",
-            (options.frames > 1 ? nlohmann::ordered_json{{"frames", frames}} : frames[0]).dump());
+        fmt::print("{}\n", (options.frames > 1 ? Json{{"frames", frames}} : frames[0]).dump());
     return {};
 }
 
@@ -377,68 +368,64 @@ Exit runRender(const RenderCommand& options) {
 
 } // namespace
 
-void addRenderCommand(CLI::App& app, Run& run) {
+void addRenderCommand(Command& app) {
     const auto options = std::make_shared<RenderCommand>();
-    CLI::App* command = app.add_subcommand(
+    Command command = app.addCommand(
         "render", "Draw a picture, or the frames of an animation, as the viewport does");
-    addSceneOptions(*command, options->scene);
-    addTimeOption(*command, options->scene);
+    addSceneOptions(command, options->scene);
+    addTimeOption(command, options->scene);
     command
-        ->add_option("--frames", options->frames,
-                     "Number of pictures, from --time on; each picture's number is inserted before "
-                     "the extension of the output")
-        ->check(CLI::Range(1, 100000));
-    command->add_option("--fps", options->framesPerSecond, "Pictures per second of --frames [1/s]")
-        ->check(numberWithin(0.001, 10000.0));
-    addCameraOptions(*command, options->camera);
-    command->add_option("--spp", options->samplesPerPixel, "Samples per pixel")
-        ->check(CLI::Range(1, 65536));
+        .option("--frames", options->frames,
+                "Number of pictures, from --time on; each picture's number is inserted before "
+                "the extension of the output")
+        .within(1, 100000);
+    command.option("--fps", options->framesPerSecond, "Pictures per second of --frames [1/s]")
+        .within(0.001, 10000.0);
+    addCameraOptions(command, options->camera);
+    command.option("--spp", options->samplesPerPixel, "Samples per pixel").within(1, 65536);
     command
-        ->add_option("--near-rays", options->nearRays,
-                     "Rays of each sample that look for surfaces within half a texel, whose own "
-                     "light then takes the place of the lightmap's, where --gather-rays is 0 or "
-                     "something is drawn over the picture; 0: none")
-        ->check(CLI::Range(0, 1024));
+        .option("--near-rays", options->nearRays,
+                "Rays of each sample that look for surfaces within half a texel, whose own "
+                "light then takes the place of the lightmap's, where --gather-rays is 0 or "
+                "something is drawn over the picture; 0: none")
+        .within(0, 1024);
     command
-        ->add_option("--gather-rays", options->gatherRays,
-                     "Rays of each sample that gather light from whatever they meet, which takes "
-                     "the place of the lightmap's where that is worse; 0: none")
-        ->check(CLI::Range(0, 1024));
-    addOverlayFlags(*command, options->overlay);
-    command->add_option(
-        "--bake", options->bake,
-        "Bake of this scene, .limnbake; default: a bake is made in memory where needed");
+        .option("--gather-rays", options->gatherRays,
+                "Rays of each sample that gather light from whatever they meet, which takes "
+                "the place of the lightmap's where that is worse; 0: none")
+        .within(0, 1024);
+    addOverlayFlags(command, options->overlay);
+    command.option("--bake", options->bake,
+                   "Bake of this scene, .limnbake; default: a bake is made in memory where needed");
     command
-        ->add_option("-o,--output", options->output,
-                     "Picture to write, .exr (linear) or .png (tone-mapped)")
-        ->required();
-    addTechniqueOptions(*command, options->technique);
-    command->add_option("--view", options->view, "What to show")
-        ->check(CLI::IsMember(strings(kViewNames)));
+        .option("-o,--output", options->output,
+                "Picture to write, .exr (linear) or .png (tone-mapped)")
+        .required();
+    addTechniqueOptions(command, options->technique);
+    command.option("--view", options->view, "What to show").oneOf(namesIn(kViewNames));
     command
-        ->add_option("--inspect", options->inspection,
-                     "Draw over a .png to find faults: the edges of all triangles, or pixels with "
-                     "a NaN or Inf")
-        ->check(CLI::IsMember(strings(kInspectionNames)));
-    command->add_option("--exposure", options->exposureEv, "Exposure before tone mapping [EV]")
-        ->check(numberWithin(-64.0, 64.0));
-    command->add_option("--tonemap", options->tonemap, "Tone-mapping curve of a .png")
-        ->check(CLI::IsMember(strings(kTonemapNames)));
-    command->add_option("--device", options->device,
-                        "What draws: auto, cpu, or part of a Vulkan device's name");
+        .option("--inspect", options->inspection,
+                "Draw over a .png to find faults: the edges of all triangles, or pixels with "
+                "a NaN or Inf")
+        .oneOf(namesIn(kInspectionNames));
+    command.option("--exposure", options->exposureEv, "Exposure before tone mapping [EV]")
+        .within(-64.0, 64.0);
+    command.option("--tonemap", options->tonemap, "Tone-mapping curve of a .png")
+        .oneOf(namesIn(kTonemapNames));
+    command.option("--device", options->device,
+                   "What draws: auto, cpu, or part of a Vulkan device's name");
     command
-        ->add_option(
+        .option(
             "--relight", options->relight,
             "Where bounced light is computed: cpu, gpu (the Vulkan device that draws), or auto, "
             "whichever the editor has measured to be faster here; cpu where it has not")
-        ->check(CLI::IsMember(strings(kRelightOnNames)));
-    addRelightOptions(*command, options->relighting);
-    command->add_flag(
-        "--all-caches", options->allCaches,
-        "Light the whole lightmap, not only the texels that the picture reads; near rays "
-        "and gathering have it lit anyway");
-    command->add_flag("--json", options->json, "Print one JSON object to stdout");
-    command->callback([options, &run] { run = [options] { return runRender(*options); }; });
+        .oneOf(namesIn(kRelightOnNames));
+    addRelightOptions(command, options->relighting);
+    command.flag("--all-caches", options->allCaches,
+                 "Light the whole lightmap, not only the texels that the picture reads; near rays "
+                 "and gathering have it lit anyway");
+    command.flag("--json", options->json, "Print one JSON object to stdout");
+    command.onRun([options] { return runRender(*options); });
 }
 
 } // namespace limn

@@ -10,8 +10,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 static Json describe(const runtime::TransportView& view, std::uint64_t fileBytes) {
     const runtime::Dims& d = view.dims;
     Json json, sections = Json::object();

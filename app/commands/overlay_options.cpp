@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/overlay_options.h"
 
+#include "engine/json/json.h"
 #include "engine/techniques/technique_table.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
-void addOverlayFlags(CLI::App& command, OverlayFlags& flags) {
+void addOverlayFlags(Command& command, OverlayFlags& flags) {
     std::vector<std::string> names = {"none"};
     for (const OverlayKind* kind : overlayKinds())
         names.emplace_back(kind->name);
-    command.add_option("--overlay", flags.name, "What the technique computed, to draw over a .png")
-        ->check(CLI::IsMember(names));
-    command.add_option("--overlay-depth", flags.depth,
-                       "Depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
-                       "(default: 6)");
-    CLI::Option* pick =
-        command.add_option("--pick", flags.pick, "Pixel x,y whose cache, cell or probe is shown")
-            ->delimiter(',')
-            ->expected(2);
-    command.add_option("--cache", flags.cache, "Number of the cache, cell or probe that is shown")
-        ->excludes(pick);
+    command.option("--overlay", flags.name, "What the technique computed, to draw over a .png")
+        .oneOf(names);
+    command.option("--overlay-depth", flags.depth,
+                   "Depth of the tree that 'clusters' and 'lit-clusters' show; 0: the root "
+                   "(default: 6)");
+    Option pick =
+        command.option("--pick", flags.pick, "Pixel x,y whose cache, cell or probe is shown")
+            .list(2);
+    command.option("--cache", flags.cache, "Number of the cache, cell or probe that is shown")
+        .excludes(pick);
 }
 
 const OverlayKind* overlayKindOf(const OverlayFlags& flags) {
@@ -104,10 +103,10 @@ static std::string hexColor(std::uint32_t c) {
     return fmt::format("#{:02x}{:02x}{:02x}", c & 255, c >> 8 & 255, c >> 16 & 255);
 }
 
-nlohmann::ordered_json legendJson(const OverlayLegend& legend) {
-    nlohmann::ordered_json json;
+Json legendJson(const OverlayLegend& legend) {
+    Json json;
     json["title"] = legend.title;
-    json["colors"] = nlohmann::ordered_json::array();
+    json["colors"] = Json::array();
     for (const OverlayLegend::Entry& e : legend.entries)
         json["colors"].push_back({{"color", hexColor(e.color)}, {"meaning", e.text}});
     json["notes"] = legend.notes;

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/commands/command_line.h"
 #include "engine/core/result.h"
+#include "engine/json/json.h"
 #include "engine/lighting/overlay_source.h"
 #include "engine/lighting/technique.h"
 #include "engine/trace/trace_scene.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace limn {
 
@@ -25,7 +23,7 @@ struct OverlayFlags {
 
     bool wanted() const { return name != "none"; }
 };
-void addOverlayFlags(CLI::App& command, OverlayFlags& flags);
+void addOverlayFlags(Command& command, OverlayFlags& flags);
 
 /// Fails if a flag does not apply to the named overlay or a flag that it needs is missing.
 Result<void> checkOverlayFlags(const OverlayFlags& flags);
@@ -43,7 +41,7 @@ Result<OverlayRequest> overlayRequest(const OverlayFlags& flags, const OverlaySo
                                       std::uint32_t width, std::uint32_t height);
 
 /// Title, colours as #rrggbb with their meaning, and notes.
-nlohmann::ordered_json legendJson(const OverlayLegend& legend);
+Json legendJson(const OverlayLegend& legend);
 std::string legendText(const OverlayLegend& legend);
 
 } // namespace limn

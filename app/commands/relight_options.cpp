@@ -3,7 +3,7 @@
 
 namespace limn {
 
-void addRelightOptions(CLI::App& command, GivenSettings& given) {
+void addRelightOptions(Command& command, GivenSettings& given) {
     const RelightSettings defaults;
     visitRelightSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
         addSettingOption(
@@ -14,7 +14,7 @@ void addRelightOptions(CLI::App& command, GivenSettings& given) {
             },
             limits...);
     });
-    command.add_flag_callback(
+    command.flag(
         "--no-dimming", [&given] { given.emplace_back("dynamicOcclusion", "false"); },
         "The same as --dynamic-occlusion false");
 }

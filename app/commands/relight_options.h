@@ -7,7 +7,7 @@
 namespace limn {
 
 /// Adds flags that replace the document's relight settings. `given` must outlive the command.
-void addRelightOptions(CLI::App& command, GivenSettings& given);
+void addRelightOptions(Command& command, GivenSettings& given);
 
 /// Applies the options, which were checked by the command line, to `settings`.
 void applyRelightOptions(const GivenSettings& given, RelightSettings& settings);

@@ -73,7 +73,7 @@ using DrawPicture =
 /// Draws with the Vulkan viewport on the device whose name contains `device`; empty selects the
 /// best. Fails if there is none. Drawing fails if the picture is larger than the device allows,
 /// and, where RelightOn::Gpu is asked for, if the technique lights on the CPU only or the bake is
-/// too large for the device. Only in builds with Vulkan.
+/// too large for the device. Fails in a program without Vulkan.
 Result<DrawPicture> drawingOnGpu(const std::string& device);
 
 /// The same picture without Vulkan: ray-traced.

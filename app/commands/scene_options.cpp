@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/scene_options.h"
-#include "app/commands/number_range.h"
 #include "app/resources.h"
 
 #include "engine/core/log.h"
@@ -23,61 +22,58 @@
 
 namespace limn {
 
-void addSceneOptions(CLI::App& command, SceneOptions& options) {
+void addSceneOptions(Command& command, SceneOptions& options) {
     command
-        .add_option(
-            "scene", options.scene,
-            "Scene (.gltf, .glb), project (.limn), name of a sample project, or generated:SEED")
-        ->required();
+        .option("scene", options.scene,
+                "Scene (.gltf, .glb), project (.limn), name of a sample project, or generated:SEED")
+        .required();
     addLightOptions(command, options);
     addDynamicOption(command, options);
 }
 
-void addImportOptions(CLI::App& command, ImportOptions& options) {
+void addImportOptions(Command& command, ImportOptions& options) {
     command
-        .add_option_function<double>(
+        .numberOption(
             "--memory",
             [&options](double gib) { options.memory.most = std::uint64_t(gib * double(1 << 30)); },
             "Maximum memory for scenes, pictures and bakes [GiB]; default: half of the machine's")
-        ->check(numberWithin(0.001, 1e6));
-    command.add_flag_callback(
+        .within(0.001, 1e6);
+    command.flag(
         "--outside-files", [&options] { options.reach = FileReach::Anywhere; },
         "Allow a .gltf to name files outside its own folder");
 }
 
-void addDynamicOption(CLI::App& command, SceneOptions& options) {
+void addDynamicOption(Command& command, SceneOptions& options) {
     command
-        .add_option("--dynamic", options.dynamics,
-                    "Object that may move without a new bake, NAME or NAME@x,y,z to move it by "
-                    "x,y,z [m]: it is lit from the grid, casts shadows and sends no bounced "
-                    "light; may be repeated")
-        ->allow_extra_args(false)
-        ->take_all();
+        .option("--dynamic", options.dynamics,
+                "Object that may move without a new bake, NAME or NAME@x,y,z to move it by "
+                "x,y,z [m]: it is lit from the grid, casts shadows and sends no bounced "
+                "light; may be repeated")
+        .repeatable();
 }
 
-void addLightOptions(CLI::App& command, SceneOptions& options) {
+void addLightOptions(Command& command, SceneOptions& options) {
     command
-        .add_option("--light", options.lights,
-                    "Light to add: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
-                    "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
-                    "color=r,g,b and name= if wanted; may be repeated")
-        ->allow_extra_args(false)
-        ->take_all();
-    command.add_option("--sky", options.sky,
-                       "Sky instead of the scene's: r,g,b [nits] | gradient up=r,g,b horizon=r,g,b "
-                       "ground=r,g,b | FILE.hdr or FILE.exr, a panorama");
-    command.add_option("--sky-strength", options.skyStrength, "Factor of the panorama's radiance")
-        ->check(numberWithin(0., double(kMaxLight)));
+        .option("--light", options.lights,
+                "Light to add: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
+                "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
+                "color=r,g,b and name= if wanted; may be repeated")
+        .repeatable();
+    command.option("--sky", options.sky,
+                   "Sky instead of the scene's: r,g,b [nits] | gradient up=r,g,b horizon=r,g,b "
+                   "ground=r,g,b | FILE.hdr or FILE.exr, a panorama");
+    command.option("--sky-strength", options.skyStrength, "Factor of the panorama's radiance")
+        .within(0., double(kMaxLight));
     addImportOptions(command, options.import);
     command
-        .add_option("--sky-rotation", options.skyRotation,
-                    "Rotation of the panorama about +Y, from +Z towards +X [degrees]")
-        ->check(numberWithin(-1e6, 1e6));
+        .option("--sky-rotation", options.skyRotation,
+                "Rotation of the panorama about +Y, from +Z towards +X [degrees]")
+        .within(-1e6, 1e6);
 }
 
-void addTimeOption(CLI::App& command, SceneOptions& options) {
-    command.add_option("--time", options.seconds, "Time at which animated textures are shown [s]")
-        ->check(numberWithin(-1e6, 1e6));
+void addTimeOption(Command& command, SceneOptions& options) {
+    command.option("--time", options.seconds, "Time at which animated textures are shown [s]")
+        .within(-1e6, 1e6);
 }
 
 static Result<Sky> openSky(const std::string& spec, const MemoryBudget& memory) {
@@ -153,29 +149,22 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
     return scene;
 }
 
-void addViewOptions(CLI::App& command, CameraOptions& options) {
-    CLI::Option* name =
-        command.add_option("--camera", options.name, "Name of the scene's camera to use");
-    CLI::Option* eye =
-        command.add_option("--eye", options.eye, "Position of the camera, x,y,z [m]")
-            ->delimiter(',')
-            ->expected(3);
-    CLI::Option* target =
-        command.add_option("--target", options.target, "Point that the camera looks at, x,y,z [m]")
-            ->delimiter(',')
-            ->expected(3);
-    eye->needs(target)->excludes(name);
-    target->needs(eye);
-    command.add_option("--fov", options.fovDegrees, "Vertical field of view [degrees]")
-        ->check(numberWithin(0.1, 179.0));
+void addViewOptions(Command& command, CameraOptions& options) {
+    Option name = command.option("--camera", options.name, "Name of the scene's camera to use");
+    Option eye = command.option("--eye", options.eye, "Position of the camera, x,y,z [m]").list(3);
+    Option target =
+        command.option("--target", options.target, "Point that the camera looks at, x,y,z [m]")
+            .list(3);
+    eye.needs(target).excludes(name);
+    target.needs(eye);
+    command.option("--fov", options.fovDegrees, "Vertical field of view [degrees]")
+        .within(0.1, 179.0);
 }
 
-void addCameraOptions(CLI::App& command, CameraOptions& options) {
+void addCameraOptions(Command& command, CameraOptions& options) {
     addViewOptions(command, options);
-    command.add_option("--width", options.width, "Width of the picture [pixels]")
-        ->check(CLI::Range(1, 16384));
-    command.add_option("--height", options.height, "Height of the picture [pixels]")
-        ->check(CLI::Range(1, 16384));
+    command.option("--width", options.width, "Width of the picture [pixels]").within(1, 16384);
+    command.option("--height", options.height, "Height of the picture [pixels]").within(1, 16384);
 }
 
 Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/commands/command_line.h"
 #include "engine/core/result.h"
 #include "engine/gltf/gltf_import.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -26,17 +25,17 @@ struct SceneOptions {
     std::vector<std::string> dynamics;
     ImportOptions import;
 };
-void addSceneOptions(CLI::App& command, SceneOptions& options);
+void addSceneOptions(Command& command, SceneOptions& options);
 
 /// Adds all flags except the scene.
-void addLightOptions(CLI::App& command, SceneOptions& options);
+void addLightOptions(Command& command, SceneOptions& options);
 
-void addDynamicOption(CLI::App& command, SceneOptions& options);
+void addDynamicOption(Command& command, SceneOptions& options);
 
 /// Adds --memory and --outside-files.
-void addImportOptions(CLI::App& command, ImportOptions& options);
+void addImportOptions(Command& command, ImportOptions& options);
 
-void addTimeOption(CLI::App& command, SceneOptions& options);
+void addTimeOption(Command& command, SceneOptions& options);
 
 /// The generated scene as if it had been imported. The dark room's camera is the second one.
 ImportedScene importedScene(const GeneratedScene& generated);
@@ -51,8 +50,8 @@ struct CameraOptions {
     std::optional<float> fovDegrees; ///< vertical
     std::uint32_t width = 1280, height = 720;
 };
-void addCameraOptions(CLI::App& command, CameraOptions& options);
-void addViewOptions(CLI::App& command, CameraOptions& options); ///< all but the picture's size
+void addCameraOptions(Command& command, CameraOptions& options);
+void addViewOptions(Command& command, CameraOptions& options); ///< all but the picture's size
 
 /// Fails when the named camera does not exist.
 Result<Camera> chooseCamera(const Scene& scene, const CameraOptions& options);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/commands/command_line.h"
 #include "engine/scene/setting.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 #include <utility>
@@ -32,13 +31,13 @@ inline std::string typeName() {
 /// Adds the option of a setting that has a flag. Its texts are appended to `given`, which must
 /// outlive the command. `defectOf(key, text)` describes what is wrong with a text; empty: nothing.
 template <class DefectOf, class... Limits>
-CLI::Option* addSettingOption(CLI::App& command, GivenSettings& given, const Setting& setting,
-                              const DefectOf& defectOf, const Limits&... limits) {
+Option addSettingOption(Command& command, GivenSettings& given, const Setting& setting,
+                        const DefectOf& defectOf, const Limits&... limits) {
     const std::string key = setting.key;
-    CLI::Option* option = command.add_option_function<std::string>(
+    Option option = command.option(
         setting.flag, [&given, key](const std::string& text) { given.emplace_back(key, text); },
         setting.help);
-    option->type_name(typeName(limits...))->check([key, defectOf](const std::string& text) {
+    option.typeName(typeName(limits...)).check([key, defectOf](const std::string& text) {
         return defectOf(key, text);
     });
     return option;

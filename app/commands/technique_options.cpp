@@ -9,17 +9,17 @@
 
 namespace limn {
 
-void addTechniqueOptions(CLI::App& command, TechniqueOptions& options) {
+void addTechniqueOptions(Command& command, TechniqueOptions& options) {
     command
-        .add_option("--technique", options.technique,
-                    "Technique that computes bounced light, instead of the document's: " +
-                        techniqueNames())
-        ->check([](const std::string& name) {
+        .option("--technique", options.technique,
+                "Technique that computes bounced light, instead of the document's: " +
+                    techniqueNames())
+        .check([](const std::string& name) {
             return findTechnique(name) ? std::string()
                                        : fmt::format("\"{}\" is not {}", name, techniqueNames());
         });
-    command.add_option("--set", options.settings,
-                       "Setting of the technique, KEY=NUMBER; may be repeated");
+    command.option("--set", options.settings,
+                   "Setting of the technique, KEY=NUMBER; may be repeated");
 }
 
 Result<void> chooseTechnique(const TechniqueOptions& options, TechniqueChoice& choice) {
@@ -27,11 +27,11 @@ Result<void> chooseTechnique(const TechniqueOptions& options, TechniqueChoice& c
         choice.technique = options.technique;
     for (const std::string& setting : options.settings) {
         const std::size_t equals = setting.find('=');
-        double value = 0;
-        if (equals == std::string::npos ||
-            !CLI::detail::lexical_cast(setting.substr(equals + 1), value) || !std::isfinite(value))
+        const std::optional<double> value =
+            equals != std::string::npos ? numberOf(setting.substr(equals + 1)) : std::nullopt;
+        if (!value || !std::isfinite(*value))
             return fail(fmt::format("--set: \"{}\" is not KEY=NUMBER", setting));
-        choice.settings[setting.substr(0, equals)] = value;
+        choice.settings[setting.substr(0, equals)] = *value;
     }
     const std::string defect = choiceDefect(choice);
     return defect.empty() ? Result<void>{} : fail(defect);

@@ -10,12 +10,12 @@
 #include "engine/core/log.h"
 #include "engine/core/replace_file.h"
 #include "engine/core/user_folder.h"
+#include "engine/json/json.h"
 #include "engine/stages/stage_store.h"
 
 #include <imgui.h>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -62,14 +62,14 @@ double msBetween(Clock::time_point from, Clock::time_point to) {
 }
 
 /// Milliseconds of a frame, all of it and by part.
-nlohmann::json frameJson(const FrameTime& frame) {
+Json frameJson(const FrameTime& frame) {
     return {{"total_ms", frame.total()},     {"beyond_viewport_ms", frame.beyondViewport()},
             {"panels_ms", frame.panels},     {"jobs_ms", frame.jobs},
             {"viewport_ms", frame.viewport}, {"window_ms", frame.window}};
 }
 
 /// How far the picture is from the reference; null where there is none of this view.
-nlohmann::json comparisonJson(const Session& session) {
+Json comparisonJson(const Session& session) {
     const ReferenceStatus& reference = session.state.compare.reference;
     if (!reference.error)
         return nullptr;
@@ -245,10 +245,10 @@ void EditorApp::writeStats() const {
     if (m_options.statsPath.empty())
         return;
     const EditorState& s = m_session.state;
-    nlohmann::json during;
+    Json during;
     for (std::size_t i = 0; i < kWorkNames.size(); ++i)
         during[kWorkNames[i]] = frameJson(s.frame.frames.during[i]);
-    const nlohmann::json json = {
+    const Json json = {
         {"device", m_device->properties.deviceName},
         {"frames", s.frame.uiFrames},
         {"pictures", s.frame.pictures},

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "app/commands/command.h"
+#include "engine/json/json.h"
 #include "engine/lighting/technique.h"
 
 #include <span>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -16,12 +15,12 @@ namespace limn {
 struct TechniqueProgram {
     const Technique* technique;
     /// What `limn info` says of a file of precomputed data of the technique.
-    nlohmann::ordered_json (*describe)(const Precomputed& data);
+    Json (*describe)(const Precomputed& data);
     /// Prints a value of describe() for people. Returns false, and prints nothing, if the value
     /// needs no form of its own.
-    bool (*print)(const std::string& key, const nlohmann::ordered_json& value);
+    bool (*print)(const std::string& key, const Json& value);
     /// Adds the benchmarks of the method's parts to `limn bench`.
-    void (*addBenches)(CLI::App& bench, Run& run);
+    void (*addBenches)(Command& bench);
 };
 
 std::span<const TechniqueProgram* const> techniquePrograms();

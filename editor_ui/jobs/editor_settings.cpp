@@ -5,17 +5,14 @@
 #include "engine/core/log.h"
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
+#include "engine/json/json.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iterator>
 
-#include <nlohmann/json.hpp>
-
 namespace limn {
-
-using nlohmann::json;
 
 static constexpr std::array kSpaceNames{"world", "local", "view"};
 static constexpr std::array kCompareNames{"off",  "reference", "difference",
@@ -52,7 +49,7 @@ void useSettings(EditorState& state, const EditorSettings& settings) {
     state.keys = settings.keys;
 }
 
-static json workspaceJson(const WorkspaceState& w) {
+static Json workspaceJson(const WorkspaceState& w) {
     return {{"left", w.layout.left},
             {"right", w.layout.right},
             {"bottom", w.layout.bottom},
@@ -63,62 +60,63 @@ static json workspaceJson(const WorkspaceState& w) {
 }
 
 std::string settingsToJson(const EditorSettings& s) {
-    json workspaces;
+    Json workspaces;
     for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
         workspaces[kWorkspaceNames[i]] = workspaceJson(s.workspaces[i]);
-    json keys = json::object();
+    Json keys = Json::object();
     for (const auto& [id, shortcut] : s.keys)
         keys[id] = shortcutText(shortcut);
-    const json out = {{"workspace", kWorkspaceNames[std::size_t(s.workspace)]},
-                      {"workspaces", workspaces},
-                      {"closedCards", s.closedCards},
-                      {"view", kViewNames[std::size_t(s.view)]},
-                      {"tonemap", kTonemapNames[std::size_t(s.tonemap)]},
-                      {"exposure", s.exposureEv},
-                      {"automaticExposure", s.autoExposure},
-                      {"aperture", s.physical.aperture},
-                      {"iso", s.physical.iso},
-                      {"lightIcons", s.showLights},
-                      {"lightTheme", s.lightTheme},
-                      {"gizmoAxes", kSpaceNames[std::size_t(s.gizmo.space)]},
-                      {"snap", s.gizmo.snap},
-                      {"moveStep", s.gizmo.moveStep},
-                      {"rotateStep", s.gizmo.rotateStep},
-                      {"scaleStep", s.gizmo.scaleStep},
-                      {"blenderKeys", s.gizmo.blenderKeys},
-                      {"bakeWhenNeeded", s.autoBake},
-                      {"keys", keys}};
+    const Json out = {
+        {"workspace", kWorkspaceNames[std::size_t(s.workspace)]},
+        {"workspaces", workspaces},
+        {"closedCards", std::vector<std::string>(s.closedCards.begin(), s.closedCards.end())},
+        {"view", kViewNames[std::size_t(s.view)]},
+        {"tonemap", kTonemapNames[std::size_t(s.tonemap)]},
+        {"exposure", s.exposureEv},
+        {"automaticExposure", s.autoExposure},
+        {"aperture", s.physical.aperture},
+        {"iso", s.physical.iso},
+        {"lightIcons", s.showLights},
+        {"lightTheme", s.lightTheme},
+        {"gizmoAxes", kSpaceNames[std::size_t(s.gizmo.space)]},
+        {"snap", s.gizmo.snap},
+        {"moveStep", s.gizmo.moveStep},
+        {"rotateStep", s.gizmo.rotateStep},
+        {"scaleStep", s.gizmo.scaleStep},
+        {"blenderKeys", s.gizmo.blenderKeys},
+        {"bakeWhenNeeded", s.autoBake},
+        {"keys", keys}};
     return out.dump(2) + '\n';
 }
 
-static void readNumber(const json& in, const char* key, float lower, float upper, float& value) {
-    const auto at = in.find(key);
-    if (at == in.end() || !at->is_number())
+static void readNumber(const Json& in, const char* key, float lower, float upper, float& out) {
+    const Json& value = in[key];
+    if (!value.isNumber())
         return;
-    const double number = at->get<double>();
+    const double number = value.get<double>();
     if (number >= double(lower) && number <= double(upper)) // not of NaN either
-        value = float(number);
+        out = float(number);
 }
 
-static void readFlag(const json& in, const char* key, bool& value) {
-    if (const auto at = in.find(key); at != in.end() && at->is_boolean())
-        value = at->get<bool>();
+static void readFlag(const Json& in, const char* key, bool& value) {
+    if (const Json& flag = in[key]; flag.isBoolean())
+        value = flag.get<bool>();
 }
 
-static std::string readText(const json& in, const char* key) {
-    const auto at = in.find(key);
-    return at != in.end() && at->is_string() ? at->get<std::string>() : std::string();
+static std::string readText(const Json& in, const char* key) {
+    const Json& text = in[key];
+    return text.isString() ? text.get<std::string>() : std::string();
 }
 
 template <class T, class Names>
-static void readName(const json& in, const char* key, const Names& names, T& value) {
+static void readName(const Json& in, const char* key, const Names& names, T& value) {
     const std::string text = readText(in, key);
     if (const auto at = std::ranges::find(names, text); at != names.end())
         value = T(std::distance(names.begin(), at));
 }
 
-static void readWorkspace(const json& in, WorkspaceState& w) {
-    if (!in.is_object())
+static void readWorkspace(const Json& in, WorkspaceState& w) {
+    if (!in.isObject())
         return;
     constexpr float kWidest = 10000;
     readNumber(in, "left", 0, kWidest, w.layout.left);
@@ -132,15 +130,13 @@ static void readWorkspace(const json& in, WorkspaceState& w) {
 
 /// Reads the user's keys. Unknown actions are ignored; of several actions with the same key, only
 /// the first one in the table of actions gets it.
-static void readKeys(const json& in, KeyMap& keys) {
-    const auto at = in.find("keys");
-    if (at == in.end() || !at->is_object())
-        return;
+static void readKeys(const Json& in, KeyMap& keys) {
+    const Json& given = in["keys"];
     for (const Action& action : actions()) {
-        const auto text = at->find(action.id);
-        if (text == at->end() || !text->is_string())
+        const Json& text = given[action.id];
+        if (!text.isString())
             continue;
-        const auto shortcut = shortcutFromText(text->get<std::string>());
+        const auto shortcut = shortcutFromText(text.get<std::string>());
         const bool none = shortcut == Shortcut{};
         const auto same = [&](const auto& chosen) { return chosen.second == shortcut; };
         if (none || (shortcut && isAssignable(*shortcut) && std::ranges::none_of(keys, same)))
@@ -150,20 +146,14 @@ static void readKeys(const json& in, KeyMap& keys) {
 
 EditorSettings settingsFromJson(const std::string& text) {
     EditorSettings s;
-    constexpr int kMaxDepth = 8; // the parser calls itself, and the stack ends
-    const json in = json::parse(
-        text, [](int depth, json::parse_event_t, json&) { return depth <= kMaxDepth; }, false);
-    if (!in.is_object())
-        return s;
+    constexpr int kMaxDepth = 8; // what is deeper was not written by us
+    const Json in = parseJson(text, kMaxDepth).value_or(Json());
     readName(in, "workspace", kWorkspaceNames, s.workspace);
-    if (const auto at = in.find("workspaces"); at != in.end() && at->is_object())
-        for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
-            if (const auto one = at->find(kWorkspaceNames[i]); one != at->end())
-                readWorkspace(*one, s.workspaces[i]);
-    if (const auto at = in.find("closedCards"); at != in.end() && at->is_array())
-        for (const json& title : *at)
-            if (title.is_string())
-                s.closedCards.insert(title.get<std::string>());
+    for (std::size_t i = 0; i < kWorkspaceNames.size(); ++i)
+        readWorkspace(in["workspaces"][kWorkspaceNames[i]], s.workspaces[i]);
+    for (const Json& title : in["closedCards"])
+        if (title.isString())
+            s.closedCards.insert(title.get<std::string>());
     readNumber(in, "exposure", -kMaxExposureEv, kMaxExposureEv, s.exposureEv);
     readFlag(in, "automaticExposure", s.autoExposure);
     readNumber(in, "aperture", kMinAperture, kMaxAperture, s.physical.aperture);

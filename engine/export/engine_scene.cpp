@@ -17,7 +17,7 @@ static void replaceAll(std::string& text, std::string_view what, std::string_vie
 }
 
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
-                                         nlohmann::ordered_json extras, const std::string& name,
+                                         Json extras, const std::string& name,
                                          const Progress& progress) {
     const Result<LightmapPages> pages = exportPages(scene, settings);
     if (!pages)
@@ -32,7 +32,7 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
         return tl::make_unexpected(lightmap.error());
     GltfOptions options{.pages = &*pages, .extras = {}};
     options.extras["lightmap"] = lightmapJson(images->front(), settings, *lightmap);
-    if (!extras.is_null())
+    if (!extras.isNull())
         options.extras.update(extras);
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
     if (files)
@@ -41,8 +41,8 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
 }
 
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
-                                         nlohmann::ordered_json extras, const Loader& loader,
-                                         const std::string& name, const Progress& progress) {
+                                         Json extras, const Loader& loader, const std::string& name,
+                                         const Progress& progress) {
     auto files = litScene(scene, settings, std::move(extras), name, progress);
     const std::string stem = stemOf(name);
     if (files)

@@ -3,13 +3,12 @@
 
 #include "engine/core/progress.h"
 #include "engine/export/export_format.h"
+#include "engine/json/json.h"
 
 #include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -18,7 +17,7 @@ namespace limn {
 /// settings.maxSize becomes several textures. asset.extras.limn describes the lightmap and holds
 /// the members of `extras`.
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
-                                         nlohmann::ordered_json extras, const std::string& name,
+                                         Json extras, const std::string& name,
                                          const Progress& progress);
 
 /// The program that loads an export.
@@ -29,8 +28,8 @@ struct Loader {
 
 /// The same with that program beside it.
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
-                                         nlohmann::ordered_json extras, const Loader& loader,
-                                         const std::string& name, const Progress& progress);
+                                         Json extras, const Loader& loader, const std::string& name,
+                                         const Progress& progress);
 
 /// About the size of its files.
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/json/json.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -8,7 +10,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -16,8 +17,8 @@ namespace limn {
 /// with a buffer view of its own, aligned to 4 bytes, and returns the accessor's index.
 struct GltfBuffer {
     std::string bytes;
-    nlohmann::ordered_json views = nlohmann::ordered_json::array();
-    nlohmann::ordered_json accessors = nlohmann::ordered_json::array();
+    Json views = Json::array();
+    Json accessors = Json::array();
 
     /// Vertex attributes. The accessor of positions states their bounds, as glTF demands.
     std::size_t add(std::span<const glm::vec2> values);

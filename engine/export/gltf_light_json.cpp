@@ -11,8 +11,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 /// A frame at `position` whose -Z axis is `direction` and whose X axis is `across`.

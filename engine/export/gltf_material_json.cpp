@@ -5,8 +5,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 // Numbers of the glTF 2.0 specification.

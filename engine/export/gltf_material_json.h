@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/json/json.h"
 #include "engine/scene/surface/material.h"
 
 #include <cstdint>
@@ -9,8 +10,6 @@
 #include <string>
 #include <tuple>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -22,9 +21,9 @@ inline std::uint32_t exportedTexCoord(std::uint32_t texCoord) {
 
 /// Materials of a glTF file with the textures and samplers that they use.
 struct GltfMaterials {
-    nlohmann::ordered_json materials = nlohmann::ordered_json::array();
-    nlohmann::ordered_json textures = nlohmann::ordered_json::array();
-    nlohmann::ordered_json samplers = nlohmann::ordered_json::array();
+    Json materials = Json::array();
+    Json textures = Json::array();
+    Json samplers = Json::array();
     std::vector<std::int32_t> images; ///< index into Assets::images of each glTF image
     std::set<std::string> extensions; ///< that they use
 
@@ -38,7 +37,7 @@ struct GltfMaterials {
 private:
     std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, std::size_t> m_known;
 
-    nlohmann::ordered_json texture(const TextureRef& ref);
+    Json texture(const TextureRef& ref);
 };
 
 } // namespace limn

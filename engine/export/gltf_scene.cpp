@@ -19,8 +19,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 /// Which of a mesh's surfaces a primitive holds.
@@ -163,7 +161,7 @@ void GltfScene::addLightmapped(std::uint32_t i) {
         Json list = Json::array();
         for (std::size_t side = 0; side < sides.size(); ++side) {
             Json json = onPage(sides[side], i, side == 1, page);
-            if (json.is_null())
+            if (json.isNull())
                 continue;
             json["material"] =
                 materials.index(in.scene.materialOf(instance), instance.material, both, page);
@@ -238,7 +236,7 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName,
     gltf.nodes.push_back(std::move(root));
 
     Json json = {{"asset", {{"version", "2.0"}, {"generator", "Limn"}}}};
-    if (!gltf.options.extras.is_null())
+    if (!gltf.options.extras.isNull())
         json["asset"]["extras"]["limn"] = gltf.options.extras;
     std::set<std::string>& used = gltf.materials.extensions;
     if (!gltf.lights.empty()) {
@@ -246,7 +244,7 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName,
         json["extensions"]["KHR_lights_punctual"]["lights"] = std::move(gltf.lights);
     }
     if (!used.empty())
-        json["extensionsUsed"] = used;
+        json["extensionsUsed"] = std::vector<std::string>(used.begin(), used.end());
     json["scene"] = 0;
     json["scenes"] = {{{"nodes", {gltf.nodes.size() - 1}}}};
     addArray(json, "nodes", gltf.nodes);

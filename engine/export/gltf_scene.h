@@ -4,12 +4,11 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
+#include "engine/json/json.h"
 #include "engine/lightmap/lightmap_pages.h"
 
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -18,7 +17,7 @@ struct GltfOptions {
     /// Where TEXCOORD_1 leads, and which texture each material reads. Null: there is no lightmap,
     /// and two-sided surfaces stay as they are.
     const LightmapPages* pages = nullptr;
-    nlohmann::ordered_json extras; ///< asset.extras.limn: what the light beside the file means
+    Json extras; ///< asset.extras.limn: what the light beside the file means
 };
 
 /// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files. Each instance is a node

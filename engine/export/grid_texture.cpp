@@ -11,8 +11,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 constexpr std::uint32_t kGroups = 7;

@@ -5,11 +5,10 @@
 #include "engine/export/export_format.h"
 #include "engine/export/sh_conventions.h"
 #include "engine/field/indirect_field.h"
+#include "engine/json/json.h"
 
 #include <cstdint>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -34,9 +33,9 @@ std::uint64_t gridKtx2Bytes(const IndirectField& field);
 
 /// Describes the grid for loaders: place, size, units, conventions, equation and mean probe.
 /// `texture` is the name of the file from gridKtx2(). Precondition: the field has a grid.
-nlohmann::ordered_json gridJson(const ExportScene& scene, const std::string& texture);
+Json gridJson(const ExportScene& scene, const std::string& texture);
 
 /// Nine colours as lists of three numbers.
-nlohmann::ordered_json shJson(const Sh3& c);
+Json shJson(const Sh3& c);
 
 } // namespace limn

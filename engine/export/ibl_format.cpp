@@ -14,8 +14,6 @@
 namespace limn {
 namespace ibl_format {
 
-using Json = nlohmann::ordered_json;
-
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 
 /// Texels along each side of the cube map's faces, a power of two, and its number of mips.
@@ -124,7 +122,7 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene, const Exp
     if (!light)
         return tl::make_unexpected(light.error());
     const std::string stem = stemOf(name), rightHanded = stem + "-right-handed";
-    const Json gltf = Json::parse(files->front().bytes);
+    const Json gltf = *parseJson(files->front().bytes); // that gltfFiles() wrote
     for (const auto& [world, file] : {std::pair(BabylonWorld::LeftHanded, stem),
                                       std::pair(BabylonWorld::RightHanded, rightHanded)}) {
         ExportFile images{file + "-specular.bin", {}};

@@ -17,8 +17,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 namespace json_format {
 namespace {
 

@@ -87,14 +87,14 @@ Result<std::vector<ExportFile>> lightmapFiles(const std::vector<LightmapImage>& 
     return files;
 }
 
-nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
-                                    const std::vector<ExportFile>& files) {
+Json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
+                  const std::vector<ExportFile>& files) {
     constexpr std::array<const char*, 3> kUnits = {"W m^-2", "W m^-2 sr^-1", "W m^-2 sr^-1"};
     constexpr std::array<const char*, 3> kEquations = {"L = albedo / pi * texel",
                                                        "L = albedo * texel", "L = texel"};
     const auto quantity = std::size_t(settings.quantity);
     const bool harmonics = image.layers > 1;
-    nlohmann::ordered_json json;
+    Json json;
     if (files.size() == 1)
         json["uri"] = uriOf(files.front().name);
     else

@@ -3,12 +3,11 @@
 
 #include "engine/export/export_format.h"
 #include "engine/export/lightmap_image.h"
+#include "engine/json/json.h"
 
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -34,7 +33,7 @@ TextureEncoding encodingFor(const ExportSettings& settings, std::string_view nam
 /// What a lightmap means, for asset.extras.limn.lightmap of a glTF file. `image` is any of its
 /// pages and `files` are those of all. One file is its `uri`; several are `uris`, of which a
 /// material's extras.limn.lightmapPage chooses one, the first where it has none.
-nlohmann::ordered_json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
-                                    const std::vector<ExportFile>& files);
+Json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
+                  const std::vector<ExportFile>& files);
 
 } // namespace limn

@@ -24,7 +24,7 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    nlohmann::ordered_json extras = nlohmann::ordered_json::object();
+    Json extras = Json::object();
     if (!scene.field.grid.empty())
         extras["probe"]["ambientSH"] = shJson(playcanvasAmbient(meanProbe(scene.field)));
     return litScene(scene, ownSettings(settings), std::move(extras),

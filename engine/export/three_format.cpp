@@ -28,7 +28,7 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const std::string& name, const Progress& progress) {
     const std::string stem = stemOf(name);
     const bool hasGrid = !scene.field.grid.empty();
-    nlohmann::ordered_json extras = nlohmann::ordered_json::object();
+    Json extras = Json::object();
     if (hasGrid)
         extras["grid"]["uri"] = uriOf(stem + "-grid.json");
     Result<std::vector<ExportFile>> files =

@@ -5,12 +5,12 @@
 #include "engine/export/export_resource.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/limnrt_format.h"
+#include "engine/json/json.h"
 
 #include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -79,7 +79,7 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
         gltfFiles(scene, {.pages = &page, .extras = {}}, "scene.gltf", progress);
     if (!gltf)
         return gltf;
-    const nlohmann::ordered_json description = {
+    const Json description = {
         {"title", name}, {"scene", "scene.gltf"}, {"transport", "scene.limnrt"}};
     files.push_back({"scene.json", description.dump(1) + "\n"});
     files.push_back({"scene.limnrt", std::move(*transport)});

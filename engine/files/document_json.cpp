@@ -4,6 +4,7 @@
 #include "engine/core/hash.h"
 #include "engine/files/document_fields.h"
 #include "engine/files/project_file.h"
+#include "engine/json/json.h"
 #include "engine/scene/find_object.h"
 #include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
@@ -13,15 +14,13 @@
 #include <cmath>
 #include <concepts>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
-
-using Json = nlohmann::ordered_json;
 
 /// The double with the fewest digits that convert back to the same float: 0.1f becomes 0.1.
 static double shortest(float value) {
@@ -102,7 +101,7 @@ class FieldReader {
 public:
     FieldReader(const Json& in, std::string path, std::string& problem, const glm::dvec3& origin)
         : m_in(in), m_path(std::move(path)), m_problem(problem), m_origin(origin) {
-        if (!in.is_object())
+        if (!in.isObject())
             report("", "not an object");
     }
 
@@ -137,7 +136,7 @@ public:
     /// Reports fields of the JSON object that were not read.
     void finish() {
         if (m_problem.empty())
-            for (const auto& [key, value] : m_in.items())
+            for (const auto& [key, value] : m_in.members())
                 if (std::ranges::find(m_known, key) == m_known.end())
                     return report(key, "unknown field");
     }
@@ -152,15 +151,14 @@ private:
     }
     const Json* take(const char* name) {
         m_known.emplace_back(name);
-        if (!m_problem.empty() || !m_in.is_object())
+        if (!m_problem.empty() || !m_in.isObject())
             return nullptr;
-        const auto found = m_in.find(name);
-        return found == m_in.end() ? nullptr : &*found;
+        return m_in.find(name);
     }
 
     template <std::floating_point T>
     void read(const Json& json, const std::string& name, T& value, FieldRange range = {}) {
-        if (!json.is_number() || !std::isfinite(float(json.get<double>())))
+        if (!json.isNumber() || !std::isfinite(float(json.get<double>())))
             return report(name, "not a number");
         value = T(json.get<double>());
         checkRange(name, double(value), range);
@@ -168,19 +166,19 @@ private:
     template <class T>
     requires std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::int32_t>
     void read(const Json& json, const std::string& name, T& value, FieldRange range = {}) {
-        const auto wide = json.is_number_integer() ? json.get<std::int64_t>() : 0;
-        if (!json.is_number_integer() || std::int64_t(T(wide)) != wide)
+        const std::optional<T> integer = json.integerWithin<T>();
+        if (!integer)
             return report(name, std::is_signed_v<T> ? "not an integer" : "not an integer >= 0");
-        value = T(wide);
+        value = *integer;
         checkRange(name, double(value), range);
     }
     void read(const Json& json, const std::string& name, bool& value) {
-        if (!json.is_boolean())
+        if (!json.isBoolean())
             return report(name, "not true or false");
         value = json.get<bool>();
     }
     void read(const Json& json, const std::string& name, std::string& value) {
-        if (!json.is_string())
+        if (!json.isString())
             return report(name, "not a string");
         value = json.get<std::string>();
     }
@@ -188,24 +186,24 @@ private:
     requires std::is_enum_v<T>
     void read(const Json& json, const std::string& name, T& value,
               std::span<const std::string_view> names) {
-        const std::string text = json.is_string() ? json.get<std::string>() : "";
+        const std::string text = json.isString() ? json.get<std::string>() : "";
         const auto found = std::ranges::find(names, text);
         if (found == names.end())
             return report(name, fmt::format("not one of {}", fmt::join(names, ", ")));
         value = T(found - names.begin());
     }
     void read(const Json& json, const std::string& name, std::vector<std::uint32_t>& value) {
-        if (!json.is_array())
+        if (!json.isArray())
             return report(name, "not an array");
         value.assign(json.size(), 0);
         for (std::size_t i = 0; i < json.size() && m_problem.empty(); ++i)
             read(json[i], fmt::format("{}[{}]", name, i), value[i]);
     }
     void read(const Json& json, const std::string& name, std::map<std::string, double>& value) {
-        if (!json.is_object())
+        if (!json.isObject())
             return report(name, "not an object");
         value.clear();
-        for (const auto& [key, number] : json.items()) {
+        for (const auto& [key, number] : json.members()) {
             double& to = value[key];
             read(number, name + "." + key, to);
         }
@@ -214,7 +212,7 @@ private:
     template <class V>
     requires requires { V::length(); }
     void read(const Json& json, const std::string& name, V& value, FieldRange range = {}) {
-        if (!json.is_array() || json.size() != std::size_t(V::length()))
+        if (!json.isArray() || json.size() != std::size_t(V::length()))
             return report(name, fmt::format("not {} numbers", int(V::length())));
         for (int c = 0; c < V::length() && m_problem.empty(); ++c) {
             typename V::value_type number{};
@@ -288,8 +286,8 @@ static Result<Object> readObject(const Json& json, const std::string& path,
                                         "technique, relighting or export");
     for (const Object& kind : kinds)
         describeObject(kind, [&](const char* name, auto object, const auto& describe) {
-            const auto found = json.find(name);
-            if (found == json.end() || (!result && result.error().message.starts_with(path + ".")))
+            const Json* found = json.find(name);
+            if (!found || (!result && result.error().message.starts_with(path + ".")))
                 return;
             std::string problem;
             FieldReader fields(*found, path + "." + name, problem, origin);
@@ -312,9 +310,9 @@ static Result<std::optional<RelightSettings>>
 takeFormerRelightSettings(Json& bakeSettings, const std::string& path, const glm::dvec3& origin) {
     Json taken = Json::object();
     for (const char* key : {"maxBounces", "dimming"})
-        if (const auto at = bakeSettings.find(key); at != bakeSettings.end()) {
-            taken[key] = *at;
-            bakeSettings.erase(at);
+        if (const Json* setting = bakeSettings.find(key)) {
+            taken[key] = *setting;
+            bakeSettings.erase(key);
         }
     if (taken.empty())
         return std::nullopt;
@@ -331,11 +329,10 @@ takeFormerRelightSettings(Json& bakeSettings, const std::string& path, const glm
 }
 
 static Result<void> readEntry(const Json& json, const std::string& path, Document& document) {
-    if (!json.is_object())
+    if (!json.isObject())
         return fail(path + ": not an object");
-    const auto id = json.find("id");
-    if (id == json.end() || !id->is_number_unsigned() || id->get<std::uint64_t>() == 0 ||
-        id->get<std::uint64_t>() >= ~ObjectId(0))
+    const std::optional<ObjectId> id = json["id"].integerWithin<ObjectId>();
+    if (!id || *id == 0 || *id == ~ObjectId(0))
         return fail(path + ".id: not a positive integer");
     Result<Object> object = readObject(json, path, document.origin);
     if (!object)
@@ -348,12 +345,12 @@ static Result<void> readEntry(const Json& json, const std::string& path, Documen
             });
             return same;
         };
-        for (const auto& [key, value] : json.items())
+        for (const auto& [key, value] : json.members())
             if (!known(key))
                 return fail(fmt::format("{}.{}: unknown field", path, key));
     }
-    if (!document.objects.emplace(id->get<ObjectId>(), std::move(*object)).second)
-        return fail(fmt::format("{}.id: {} is there twice", path, id->get<ObjectId>()));
+    if (!document.objects.emplace(*id, std::move(*object)).second)
+        return fail(fmt::format("{}.id: {} is there twice", path, *id));
     return {};
 }
 
@@ -380,14 +377,14 @@ static Result<void> checkTree(const Document& document) {
 }
 
 static Result<void> checkVersion(const Json& json) {
-    const auto version = json.find("version");
-    if (version == json.end())
+    const Json* version = json.find("version");
+    if (!version)
         return fail("version: missing; this is no Limn project");
-    if (!version->is_number_integer())
+    if (!version->isInteger())
         return fail("version: not an integer");
-    if (version->get<std::int64_t>() != kProjectVersion)
-        return fail(fmt::format("version: {} is unknown, this Limn reads {}",
-                                version->get<std::int64_t>(), kProjectVersion));
+    if (*version != kProjectVersion)
+        return fail(fmt::format("version: {} is unknown, this Limn reads {}", version->dump(),
+                                kProjectVersion));
     return {};
 }
 
@@ -396,9 +393,10 @@ static Result<void> readHead(const Json& json, Document& document) {
     std::int32_t version = 0;
     std::uint32_t nextId = 0;
     {
-        Json rest = json;
-        rest.erase("objects");
-        rest.erase("files");
+        Json rest = Json::object();
+        for (const auto& [key, value] : json.members())
+            if (key != "objects" && key != "files")
+                rest[key] = value;
         FieldReader fields(rest, "", problem, document.origin);
         fields("version", version);
         fields("scene", document.scenePath);
@@ -418,10 +416,10 @@ static Result<void> readHead(const Json& json, Document& document) {
 }
 
 static Result<void> readFiles(const Json& json, Document& document) {
-    const auto files = json.find("files");
-    if (files == json.end())
+    const Json* files = json.find("files");
+    if (!files)
         return {};
-    if (!files->is_array())
+    if (!files->isArray())
         return fail("files: not an array");
     for (std::size_t i = 0; i < files->size(); ++i) {
         std::string problem;
@@ -436,8 +434,8 @@ static Result<void> readFiles(const Json& json, Document& document) {
     return {};
 }
 
-static Result<ProjectText> readProject(Json& json) {
-    if (!json.is_object())
+static Result<ProjectText> readProject(Json json) {
+    if (!json.isObject())
         return fail("JSON: not an object");
     if (Result<void> version = checkVersion(json); !version)
         return tl::make_unexpected(version.error());
@@ -446,17 +444,17 @@ static Result<ProjectText> readProject(Json& json) {
         return tl::make_unexpected(head.error());
     if (Result<void> files = readFiles(json, project.document); !files)
         return tl::make_unexpected(files.error());
-    const auto objects = json.find("objects");
-    project.hasObjects = objects != json.end();
+    project.hasObjects = json.contains("objects");
     if (!project.hasObjects)
         return project;
-    if (!objects->is_array())
+    Json& objects = json["objects"];
+    if (!objects.isArray())
         return fail("objects: not an array");
     std::optional<RelightSettings> former;
-    for (std::size_t i = 0; i < objects->size(); ++i) {
-        Json& entry = (*objects)[i];
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        Json& entry = objects[i];
         const std::string path = fmt::format("objects[{}]", i);
-        if (entry.is_object() && entry.contains("bakeSettings")) {
+        if (entry.isObject() && entry.contains("bakeSettings")) {
             auto taken = takeFormerRelightSettings(entry["bakeSettings"], path + ".bakeSettings",
                                                    project.document.origin);
             if (!taken)
@@ -485,22 +483,9 @@ static Result<ProjectText> readProject(Json& json) {
 }
 
 Result<ProjectText> readProjectText(const std::string& json) {
-    // Deeper than any project. nlohmann parses values without recursion, but copies them
-    // recursively.
-    constexpr int kMaxDepth = 16;
-    bool tooDeep = false;
-    const auto limit = [&](int depth, Json::parse_event_t, Json&) {
-        tooDeep = tooDeep || depth > kMaxDepth;
-        return depth <= kMaxDepth;
-    };
-    try {
-        Json parsed = Json::parse(json, limit);
-        return tooDeep ? fail("JSON: nested too deeply") : readProject(parsed);
-    } catch (const Json::exception& e) {
-        const std::string_view what = e.what();
-        return fail(
-            fmt::format("JSON: {}", what.substr(std::min(what.find(']') + 2, what.size()))));
-    }
+    constexpr int kMaxDepth = 16; // deeper than any project
+    Result<Json> parsed = parseJson(json, kMaxDepth);
+    return parsed ? readProject(std::move(*parsed)) : fail("JSON: " + parsed.error().message);
 }
 
 std::string documentToJson(const Document& document) {
@@ -512,7 +497,8 @@ std::string documentToJson(const Document& document) {
     if (document.origin != glm::dvec3(0))
         json["origin"] = {document.origin.x, document.origin.y, document.origin.z};
     for (const AssetFile& file : document.files) {
-        FieldWriter fields{json["files"].emplace_back(Json::object()), document.origin};
+        json["files"].push_back(Json::object());
+        FieldWriter fields{json["files"].back(), document.origin};
         describeAssetFile(fields, file);
     }
     json["objects"] = Json::array();
@@ -525,7 +511,7 @@ std::string documentToJson(const Document& document) {
         });
         json["objects"].push_back(std::move(entry));
     }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(1) + "\n";
 }
 
 Result<Document> documentFromJson(const std::string& json) {

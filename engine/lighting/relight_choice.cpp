@@ -3,6 +3,7 @@
 
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
+#include "engine/json/json.h"
 #include "engine/stages/stage_store.h"
 
 #include <cmath>
@@ -10,12 +11,10 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -25,15 +24,14 @@ constexpr int kVersion = 1;
 /// unusable.
 Json readTimes(const std::string& file) {
     const Result<std::string> text = readFile(file);
-    Json json = text ? Json::parse(*text, nullptr, false) : Json();
-    const bool known = json.is_object() && json.value("version", Json()) == kVersion &&
-                       json.value("times", Json()).is_object();
+    const Json json = text ? parseJson(*text).value_or(Json()) : Json();
+    const bool known = json["version"] == kVersion && json["times"].isObject();
     return known ? json : Json{{"version", kVersion}, {"times", Json::object()}};
 }
 
 double msOf(const Json& times, const char* key) {
-    const auto at = times.find(key);
-    const double ms = at != times.end() && at->is_number() ? at->get<double>() : 0;
+    const Json& time = times[key];
+    const double ms = time.isNumber() ? time.get<double>() : 0;
     return std::isfinite(ms) ? ms : 0;
 }
 
@@ -55,11 +53,9 @@ std::string relightTimesKey(const std::string& device, std::uint32_t driverVersi
 
 std::optional<RelightTimes> rememberedRelightTimes(const std::string& file,
                                                    const std::string& key) {
-    const Json all = readTimes(file)["times"];
-    const auto at = all.find(key);
-    if (at == all.end() || !at->is_object())
-        return {};
-    const RelightTimes times{msOf(*at, "cpu_ms"), msOf(*at, "gpu_ms")};
+    const Json all = readTimes(file);
+    const Json& known = all["times"][key];
+    const RelightTimes times{msOf(known, "cpu_ms"), msOf(known, "gpu_ms")};
     if (!(times.cpuMs > 0) || !(times.gpuMs > 0))
         return {};
     return times;

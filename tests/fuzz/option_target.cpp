@@ -21,7 +21,7 @@ void remember(std::string_view input) {
 }
 
 void runCommand(std::string_view input) {
-    CLI::App app("limn");
+    Command app("limn", "");
     SceneOptions scene;
     CameraOptions camera;
     BakeOptions bake;
@@ -35,12 +35,8 @@ void runCommand(std::string_view input) {
         arguments.emplace_back(input.substr(begin, end - begin));
         begin = end + 1;
     }
-    std::ranges::reverse(arguments); // as CLI11 takes them
-    try {
-        app.parse(arguments);
-    } catch (const CLI::ParseError&) {
+    if (app.parse(arguments).status != Exit::Done)
         return;
-    }
     static const std::string path = scratchFile("options.glb", projectScene());
     scene.scene = path;
     scene.import.memory = kFuzzMemory;

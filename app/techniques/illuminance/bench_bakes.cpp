@@ -13,22 +13,23 @@
 
 namespace limn {
 
-CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& o) {
-    CLI::Option* scenes = command.add_option(
+Option addBenchBakes(Command& command, BenchBakes& o) {
+    Option scenes = command.option(
         "scenes", o.scenes, "Scenes (.gltf, .glb), projects (.limn), or names of sample projects");
-    scenes->required();
+    scenes.required();
     addLightOptions(command, o.common);
-    addList(command, "--surfels", o.surfels, "Surfels n_S, a list", CLI::Range(64, 1 << 20));
-    addList(command, "--links", o.links, "Links per cache n_L, a list", CLI::Range(1, 4096));
-    addList(command, "--bands", o.bands, "SH bands of the caches, a list", CLI::Range(2, 8));
-    addList(command, "--chroma-bands", o.chromaBands, "SH bands that keep colour, a list; 0: all",
-            CLI::Range(0, 8));
-    addList(command, "--storage", o.storages, "How links are stored, a list", oneOf(kStorageNames));
-    command.add_option("--rays", o.rays, "Rays per cache")->check(CLI::Range(16, 65536));
-    command.add_option("--lightmap", o.lightmap, "Target number of lightmap caches")
-        ->check(CLI::Range(1, 1 << 24));
-    command.add_option("--threads", o.threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
+    command.option("--surfels", o.surfels, "Surfels n_S, a list").list().within(64, 1 << 20);
+    command.option("--links", o.links, "Links per cache n_L, a list").list().within(1, 4096);
+    command.option("--bands", o.bands, "SH bands of the caches, a list").list().within(2, 8);
+    command.option("--chroma-bands", o.chromaBands, "SH bands that keep colour, a list; 0: all")
+        .list()
+        .within(0, 8);
+    command.option("--storage", o.storages, "How links are stored, a list")
+        .list()
+        .oneOf(namesIn(kStorageNames));
+    command.option("--rays", o.rays, "Rays per cache").within(16, 65536);
+    command.option("--lightmap", o.lightmap, "Target number of lightmap caches").within(1, 1 << 24);
+    command.option("--threads", o.threads, "Threads to use; 0: all").within(0, 1024);
     return scenes;
 }
 

@@ -23,7 +23,7 @@ struct BenchBakes {
     int threads = 0; ///< 0: all
 };
 /// Adds the options to `command`. Returns the option of the scenes, which is required.
-CLI::Option* addBenchBakes(CLI::App& command, BenchBakes& options);
+Option addBenchBakes(Command& command, BenchBakes& options);
 
 struct BenchBake {
     std::string name; ///< of the scene: its file name without extension

@@ -121,24 +121,22 @@ Exit runEnergyBench(const EnergyBench& o) {
 
 } // namespace
 
-void addEnergyBench(CLI::App& bench, Run& run) {
+void addEnergyBench(Command& bench) {
     const auto o = std::make_shared<EnergyBench>();
     o->camera.width = 160;
     o->camera.height = 90;
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "energy", "Energy that each step from path-traced light to the picture gains or loses");
-    addSceneOptions(*command, o->scene);
-    addCameraOptions(*command, o->camera);
-    addBakeOptions(*command, o->bake);
+    addSceneOptions(command, o->scene);
+    addCameraOptions(command, o->camera);
+    addBakeOptions(command, o->bake);
     command
-        ->add_option("-o,--output", o->output,
-                     "Folder for energy.csv and .json, senders.csv and .json")
-        ->required();
-    command->add_option("--paths", o->paths, "Paths per pixel and per surfel")
-        ->check(CLI::Range(1, 1 << 20));
-    command->add_option("--seed", o->seed, "Seed of the paths");
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runEnergyBench(*o); }; });
+        .option("-o,--output", o->output, "Folder for energy.csv and .json, senders.csv and .json")
+        .required();
+    command.option("--paths", o->paths, "Paths per pixel and per surfel").within(1, 1 << 20);
+    command.option("--seed", o->seed, "Seed of the paths");
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runEnergyBench(*o); });
 }
 
 } // namespace limn

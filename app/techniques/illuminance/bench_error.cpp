@@ -7,6 +7,7 @@
 #include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/core/parallel.h"
+#include "engine/json/json.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/measure/seams.h"
 #include "engine/scene/bake_settings_fields.h"
@@ -20,7 +21,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace limn {
 
@@ -174,40 +174,41 @@ Exit runErrorBench(const ErrorBench& o) {
 
 } // namespace
 
-void addErrorBench(CLI::App& bench, Run& run) {
+void addErrorBench(Command& bench) {
     const auto o = std::make_shared<ErrorBench>();
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "error",
         "Error of the caches' irradiance against a converged gather, over a sweep of settings");
-    command->add_option("scenes", o->scenes,
-                        "Scenes (.gltf, .glb), projects (.limn), names of sample projects, or "
-                        "generated:SEED");
-    addGeneratedOptions(*command, o->generated);
-    addLightOptions(*command, o->common);
-    command->add_option("-o,--output", o->output, "Folder for error.csv and error.json")
-        ->required();
-    addSweepOptions(*command, o->sweep);
-    command->add_option("--caches", o->caches, "Number of caches to compare")
-        ->check(CLI::Range(1, 1 << 24));
+    command.option("scenes", o->scenes,
+                   "Scenes (.gltf, .glb), projects (.limn), names of sample projects, or "
+                   "generated:SEED");
+    addGeneratedOptions(command, o->generated);
+    addLightOptions(command, o->common);
+    command.option("-o,--output", o->output, "Folder for error.csv and error.json").required();
+    addSweepOptions(command, o->sweep);
+    command.option("--caches", o->caches, "Number of caches to compare").within(1, 1 << 24);
     command
-        ->add_option("--reference-rays", o->referenceRays,
-                     "Rays of the reference for each compared cache")
-        ->check(CLI::Range(64, 1 << 24));
-    command->add_option("--threads", o->threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, command, &run] {
-        if (o->scenes.empty() == (o->generated.scenes == 0))
-            throw CLI::ValidationError("scenes", "give either scenes or --generated");
-        if (o->generated.scenes == 0) {
+        .option("--reference-rays", o->referenceRays,
+                "Rays of the reference for each compared cache")
+        .within(64, 1 << 24);
+    command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun(
+        [o] {
+            o->generated.output = o->output;
+            o->generated.json = o->json;
+            return runErrorBench(*o);
+        },
+        [o]() -> std::string {
+            if (o->scenes.empty() == (o->generated.scenes == 0))
+                return "scenes: give either scenes or --generated";
+            if (o->generated.scenes > 0)
+                return {};
             o->sweep.insert(kUsualSweep.begin(), kUsualSweep.end());
-            if (o->sweep["rays"].size() != 1 || o->sweep["lightmapCaches"].size() != 1)
-                throw CLI::ValidationError("--rays, --lightmap", "are lists with --generated only");
-        }
-        o->generated.output = o->output;
-        o->generated.json = o->json;
-        run = [o] { return runErrorBench(*o); };
-    });
+            return o->sweep["rays"].size() == 1 && o->sweep["lightmapCaches"].size() == 1
+                       ? ""
+                       : "--rays, --lightmap: are lists with --generated only";
+        });
 }
 
 } // namespace limn

@@ -235,35 +235,38 @@ Exit runFrameBench(const FrameBench& o) {
 
 } // namespace
 
-void addFrameBench(CLI::App& bench, Run& run) {
+void addFrameBench(Command& bench) {
     const auto o = std::make_shared<FrameBench>();
     o->bakes.storages = {"rtp"};
-    CLI::App* command =
-        bench.add_subcommand("frame", "Time of each pass of the viewport while all lights move");
-    addBenchBakes(*command, o->bakes);
-    addCameraOptions(*command, o->camera);
-    command->add_option("-o,--output", o->output, "Folder for frame.csv and frame.json")
-        ->required();
-    command->add_option("--view", o->view, "What the viewport shows")->check(oneOf(kViewNames));
-    addList(*command, "--lights", o->lights,
-            "Number of moving point lights, a list; 0: the lights of the scene",
-            CLI::Range(0, 4096));
-    addList(*command, "--relight", o->relightOn,
-            "Where bounced light is computed, gpu or cpu, a list",
-            CLI::IsMember(std::vector<std::string>{"gpu", "cpu"}));
-    addList(*command, "--caches", o->caches,
-            "Which caches are lit: those that the picture reads (seen), or all; a list",
-            CLI::IsMember(std::vector<std::string>{"all", "seen"}));
-    command->add_option("--bounces", o->bounces, "Bounces per frame")->check(CLI::Range(1, 64));
-    command->add_option("--device", o->device, "Part of the Vulkan device's name");
-    command->add_option("--runs", o->runs, "Number of frames; their median is printed")
-        ->check(CLI::Range(9, 100000));
-    command->add_flag("--coarse-shadows", o->coarse,
-                      "Draw shadow maps of half the width, as the editor does while things move");
-    command->add_flag("--moving-camera", o->movingCamera,
-                      "Move the camera by 10 cm per frame, so that every frame draws triangles");
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runFrameBench(*o); }; });
+    Command command =
+        bench.addCommand("frame", "Time of each pass of the viewport while all lights move");
+    addBenchBakes(command, o->bakes);
+    addCameraOptions(command, o->camera);
+    command.option("-o,--output", o->output, "Folder for frame.csv and frame.json").required();
+    command.option("--view", o->view, "What the viewport shows").oneOf(namesIn(kViewNames));
+    command
+        .option("--lights", o->lights,
+                "Number of moving point lights, a list; 0: the lights of the scene")
+        .list()
+        .within(0, 4096);
+    command.option("--relight", o->relightOn, "Where bounced light is computed, gpu or cpu, a list")
+        .list()
+        .oneOf({"gpu", "cpu"});
+    command
+        .option("--caches", o->caches,
+                "Which caches are lit: those that the picture reads (seen), or all; a list")
+        .list()
+        .oneOf({"all", "seen"});
+    command.option("--bounces", o->bounces, "Bounces per frame").within(1, 64);
+    command.option("--device", o->device, "Part of the Vulkan device's name");
+    command.option("--runs", o->runs, "Number of frames; their median is printed")
+        .within(9, 100000);
+    command.flag("--coarse-shadows", o->coarse,
+                 "Draw shadow maps of half the width, as the editor does while things move");
+    command.flag("--moving-camera", o->movingCamera,
+                 "Move the camera by 10 cm per frame, so that every frame draws triangles");
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runFrameBench(*o); });
 }
 
 } // namespace limn

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
-#include "app/commands/number_range.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
 #include "app/techniques/illuminance/illuminance_program.h"
@@ -243,34 +242,33 @@ Exit runGlossyBench(const GlossyBench& o) {
 
 } // namespace
 
-void addGlossyBench(CLI::App& bench, Run& run) {
+void addGlossyBench(Command& bench) {
     const auto o = std::make_shared<GlossyBench>();
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "glossy",
         "Error of reflections in a metal object against the reference, over its roughness "
         "and the bands of bounced light");
-    addSceneOptions(*command, o->scene);
-    addCameraOptions(*command, o->camera);
-    command->add_option("--object", o->object, "Name of the node to make metal")->required();
-    command->add_option("-o,--output", o->output, "Folder for glossy.csv and glossy.json")
-        ->required();
-    const auto list = [&](const char* flag, auto& values, const char* text, const auto& check) {
-        command->add_option(flag, values, text)->delimiter(',')->check(check);
-    };
-    list("--roughness", o->roughnesses, "Roughness of the metal, a list", numberWithin(0.0, 1.0));
-    list("--bands", o->bands, "SH bands of the caches, a list", CLI::Range(2, 8));
-    list("--storage", o->storages, "How links are stored, a list", oneOf(kStorageNames));
-    command->add_option("--spp", o->samplesPerPixel, "Samples per pixel of the reference")
-        ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--surfels", o->surfels, "Surfels n_S")->check(CLI::Range(64, 1 << 20));
-    command->add_option("--links", o->links, "Links per cache n_L")->check(CLI::Range(1, 4096));
-    command->add_option("--lightmap", o->lightmap, "Target number of lightmap caches")
-        ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--threads", o->threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--pictures", o->pictures, "Also write every picture, tone-mapped");
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runGlossyBench(*o); }; });
+    addSceneOptions(command, o->scene);
+    addCameraOptions(command, o->camera);
+    command.option("--object", o->object, "Name of the node to make metal").required();
+    command.option("-o,--output", o->output, "Folder for glossy.csv and glossy.json").required();
+    command.option("--roughness", o->roughnesses, "Roughness of the metal, a list")
+        .list()
+        .within(0.0, 1.0);
+    command.option("--bands", o->bands, "SH bands of the caches, a list").list().within(2, 8);
+    command.option("--storage", o->storages, "How links are stored, a list")
+        .list()
+        .oneOf(namesIn(kStorageNames));
+    command.option("--spp", o->samplesPerPixel, "Samples per pixel of the reference")
+        .within(1, 1 << 24);
+    command.option("--surfels", o->surfels, "Surfels n_S").within(64, 1 << 20);
+    command.option("--links", o->links, "Links per cache n_L").within(1, 4096);
+    command.option("--lightmap", o->lightmap, "Target number of lightmap caches")
+        .within(1, 1 << 24);
+    command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
+    command.flag("--pictures", o->pictures, "Also write every picture, tone-mapped");
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runGlossyBench(*o); });
 }
 
 } // namespace limn

@@ -128,26 +128,25 @@ Exit runLinksBench(const LinksBench& o) {
 
 } // namespace
 
-void addLinksBench(CLI::App& bench, Run& run) {
+void addLinksBench(Command& bench) {
     const auto o = std::make_shared<LinksBench>();
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "links", "Error of links as cones and as harmonics against links of many more rays");
     command
-        ->add_option("scenes", o->scenes,
-                     "Scenes (.gltf, .glb), projects (.limn), or names of sample projects")
-        ->required();
-    addLightOptions(*command, o->common);
-    addBakeOptions(*command, o->bake);
-    command->add_option("-o,--output", o->output, "Folder for links.csv and links.json")
-        ->required();
-    command->add_option("--caches", o->caches, "Maximum number of measured caches of each kind")
-        ->check(CLI::Range(1, 1 << 20));
+        .option("scenes", o->scenes,
+                "Scenes (.gltf, .glb), projects (.limn), or names of sample projects")
+        .required();
+    addLightOptions(command, o->common);
+    addBakeOptions(command, o->bake);
+    command.option("-o,--output", o->output, "Folder for links.csv and links.json").required();
+    command.option("--caches", o->caches, "Maximum number of measured caches of each kind")
+        .within(1, 1 << 20);
     command
-        ->add_option("--reference-rays", o->multiple,
-                     "Rays of the reference, as a multiple of the bake's")
-        ->check(CLI::Range(1, 1024));
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runLinksBench(*o); }; });
+        .option("--reference-rays", o->multiple,
+                "Rays of the reference, as a multiple of the bake's")
+        .within(1, 1024);
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runLinksBench(*o); });
 }
 
 } // namespace limn

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/techniques/illuminance/bench_oracles.h"
 
-#include "app/commands/number_range.h"
-#ifdef LIMN_HAS_VIEWPORT
 #include "app/techniques/illuminance/device_oracle.h"
-#endif
+
 #include "engine/core/log.h"
 #include "engine/techniques/illuminance/stress/case_file.h"
 #include "engine/techniques/illuminance/stress/minimise.h"
@@ -85,8 +83,8 @@ Exit report(const OracleBench& o, const std::vector<CaseResult>& cases,
         printTitles(kOracleColumns);
         for (const Json& row : rows)
             printRow(kOracleColumns, row);
-        for (const auto& [key, value] : ends.items())
-            if (!value.is_array() || !value.empty())
+        for (const auto& [key, value] : ends.members())
+            if (!value.isArray() || !value.empty())
                 fmt::print("{:<16}{}\n", key, value.dump());
     }
     std::string broken;
@@ -120,11 +118,9 @@ Result<void> keepFailing(const OracleBench& o, const StressCase& stressCase,
     return {};
 }
 
-std::vector<Oracle> oraclesOf([[maybe_unused]] const OracleBench& o) {
+std::vector<Oracle> oraclesOf(const OracleBench& o) {
     std::vector<Oracle> oracles = engineOracles();
-#ifdef LIMN_HAS_VIEWPORT
     oracles.push_back(deviceOracle(o.device, o.deviceShare));
-#endif
     return oracles;
 }
 
@@ -143,18 +139,18 @@ Exit runCaseFile(const OracleBench& o) {
 
 } // namespace
 
-void addOracleOptions(CLI::App& command, OracleBench& o) {
-    auto* generated = command.add_option("--generated", o.scenes,
-                                         "Judge this many hostile scenes by oracles instead");
-    generated->check(CLI::Range(1, 100000000));
-    command.add_option("--first-seed", o.firstSeed, "Seed of the first generated scene")
-        ->needs(generated);
-    command.add_option("--case", o.caseFile, "Case to judge, a file that an earlier run kept")
-        ->excludes(generated);
-    command.add_option("--case-seconds", o.caseSeconds, "Time after which a case is stopped [s]")
-        ->check(numberWithin(0.1, 1e5));
-    command.add_option("--device-share", o.deviceShare,
-                       "Relight one scene in this many on the device too; 0: none");
+void addOracleOptions(Command& command, OracleBench& o) {
+    Option generated = command.option("--generated", o.scenes,
+                                      "Judge this many hostile scenes by oracles instead");
+    generated.within(1, 100000000);
+    command.option("--first-seed", o.firstSeed, "Seed of the first generated scene")
+        .needs(generated);
+    command.option("--case", o.caseFile, "Case to judge, a file that an earlier run kept")
+        .excludes(generated);
+    command.option("--case-seconds", o.caseSeconds, "Time after which a case is stopped [s]")
+        .within(0.1, 1e5);
+    command.option("--device-share", o.deviceShare,
+                   "Relight one scene in this many on the device too; 0: none");
 }
 
 Exit runOracleBench(const OracleBench& o) {

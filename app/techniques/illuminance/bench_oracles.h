@@ -19,7 +19,7 @@ struct OracleBench {
     std::string output;             ///< folder
     bool json = false;
 };
-void addOracleOptions(CLI::App& command, OracleBench& options);
+void addOracleOptions(Command& command, OracleBench& options);
 
 /// Continues where an earlier run in the same folder ended. Fails if an oracle failed or a case
 /// crashed.

@@ -256,28 +256,26 @@ Exit runPredictBench(const PredictBench& o) {
 
 } // namespace
 
-void addPredictBench(CLI::App& bench, Run& run) {
+void addPredictBench(Command& bench) {
     const auto o = std::make_shared<PredictBench>();
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "predict", "Predicted against measured seconds, memory and relighting time of 12 settings");
     command
-        ->add_option("scenes", o->scenes,
-                     "Scenes (.gltf, .glb), projects (.limn), or names of sample projects")
-        ->required();
-    addLightOptions(*command, o->common);
+        .option("scenes", o->scenes,
+                "Scenes (.gltf, .glb), projects (.limn), or names of sample projects")
+        .required();
+    addLightOptions(command, o->common);
     std::vector<std::string> presets;
     for (const BakePreset& preset : kBakePresets)
         presets.emplace_back(preset.name);
-    command->add_option("--preset", o->preset, "Bake that is measured first; the settings vary it")
-        ->check(CLI::IsMember(presets));
-    command->add_option("-o,--output", o->output, "Folder for predict.csv and predict.json")
-        ->required();
-    command->add_option("--runs", o->runs, "Number of rounds of updates; the fastest update counts")
-        ->check(CLI::Range(1, 1000));
-    command->add_option("--threads", o->threads, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runPredictBench(*o); }; });
+    command.option("--preset", o->preset, "Bake that is measured first; the settings vary it")
+        .oneOf(presets);
+    command.option("-o,--output", o->output, "Folder for predict.csv and predict.json").required();
+    command.option("--runs", o->runs, "Number of rounds of updates; the fastest update counts")
+        .within(1, 1000);
+    command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runPredictBench(*o); });
 }
 
 } // namespace limn

@@ -192,16 +192,12 @@ Result<std::vector<Measured>> runsOn(const std::string& device, const RelightBen
                                      const Scene& scene, const BenchBake& baked) {
     if (device == "cpu")
         return relightOnCpu(o, scene, baked);
-#ifdef LIMN_HAS_VIEWPORT
     Result<GpuRuns> gpu =
         relightOnGpu(device == "gpu" ? "" : device, baked.trace, baked.bake, o.lit, o.bounces,
                      o.runs, [&](int k) { return sceneAt(o, scene, k); });
     if (!gpu)
         return tl::make_unexpected(gpu.error());
     return std::vector<Measured>{{gpu->device, "all", std::move(gpu->runs), {}}};
-#else
-    return fail("this build has no Vulkan");
-#endif
 }
 
 Result<void> measureBake(const RelightBench& o, const BenchBake& baked, Json& rows) {
@@ -240,38 +236,40 @@ Exit runRelightBench(const RelightBench& o) {
 
 } // namespace
 
-void addRelightBench(CLI::App& bench, Run& run) {
+void addRelightBench(Command& bench) {
     const auto o = std::make_shared<RelightBench>();
-    CLI::App* command = bench.add_subcommand(
+    Command command = bench.addCommand(
         "relight", "Time of each step of relighting while all lights and dynamic objects move");
-    addBenchBakes(*command, o->bakes);
-    addDynamicOption(*command, o->bakes.common);
-    command->add_option("-o,--output", o->output, "Folder for relight.csv and relight.json")
-        ->required();
-    addList(*command, "--lights", o->lights,
-            "Number of moving point lights, a list; 0: the lights of the scene",
-            CLI::Range(0, 4096));
+    addBenchBakes(command, o->bakes);
+    addDynamicOption(command, o->bakes.common);
+    command.option("-o,--output", o->output, "Folder for relight.csv and relight.json").required();
     command
-        ->add_option("--device", o->devices,
-                     "Where to relight: cpu, gpu, or part of a device's name; a list")
-        ->delimiter(',');
-    command->add_flag_callback(
+        .option("--lights", o->lights,
+                "Number of moving point lights, a list; 0: the lights of the scene")
+        .list()
+        .within(0, 4096);
+    command
+        .option("--device", o->devices,
+                "Where to relight: cpu, gpu, or part of a device's name; a list")
+        .list();
+    command.flag(
         "--needed-bands", [o] { o->lit = LitBands::Needed; },
         "Light only the bands that the scene's surfaces need; default: all");
-    addList(*command, "--caches", o->caches,
-            "Which caches are lit: all, or those that the camera's picture reads (seen, cpu "
-            "only); a list. With both, nrmse compares their light where it is seen",
-            CLI::IsMember(std::vector<std::string>{"all", "seen"}));
-    addCameraOptions(*command, o->camera);
-    command->add_option("--bounces", o->bounces, "Bounces per run")->check(CLI::Range(1, 64));
-    command->add_flag("--anew", o->anew,
-                      fmt::format("Start each run without bounced light, as --max-bounces up to "
-                                  "{} does",
-                                  kFewBounces));
-    command->add_option("--runs", o->runs, "Number of runs; their median is printed")
-        ->check(CLI::Range(1, 100000));
-    command->add_flag("--json", o->json, "Print one JSON object to stdout");
-    command->callback([o, &run] { run = [o] { return runRelightBench(*o); }; });
+    command
+        .option("--caches", o->caches,
+                "Which caches are lit: all, or those that the camera's picture reads (seen, cpu "
+                "only); a list. With both, nrmse compares their light where it is seen")
+        .list()
+        .oneOf({"all", "seen"});
+    addCameraOptions(command, o->camera);
+    command.option("--bounces", o->bounces, "Bounces per run").within(1, 64);
+    command.flag("--anew", o->anew,
+                 fmt::format("Start each run without bounced light, as --max-bounces up to "
+                             "{} does",
+                             kFewBounces));
+    command.option("--runs", o->runs, "Number of runs; their median is printed").within(1, 100000);
+    command.flag("--json", o->json, "Print one JSON object to stdout");
+    command.onRun([o] { return runRelightBench(*o); });
 }
 
 } // namespace limn

@@ -2,7 +2,6 @@
 #include "app/techniques/illuminance/bench_shake.h"
 
 #include "app/bench/random_scene.h"
-#include "app/commands/number_range.h"
 
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
@@ -231,25 +230,24 @@ Exit runShakeBench(const ShakeBench& o) {
     return written == Exit::Done && !defect.empty() ? failed(defect) : written;
 }
 
-void addShakeOptions(CLI::App& command, ShakeBench& o) {
+void addShakeOptions(Command& command, ShakeBench& o) {
     o.bakes.surfels = {4096};
     o.bakes.storages = {"rtp"};
     o.bakes.lightmap = 2000;
     o.bakes.rays = 256;
     o.camera.width = 160;
     o.camera.height = 120;
-    addBenchBakes(command, o.bakes)->required(false);
+    addBenchBakes(command, o.bakes).required(false);
     addCameraOptions(command, o.camera);
-    command.add_option("--seconds", o.seconds, "Duration for each bake [s]")
-        ->check(numberWithin(0.1, 1e6));
-    command.add_option("--frames", o.frames, "Minimum number of frames, however long they take")
-        ->check(CLI::Range(1, 1000000));
-    command.add_option("--seed", o.seed, "Seed of the changes");
+    command.option("--seconds", o.seconds, "Duration for each bake [s]").within(0.1, 1e6);
+    command.option("--frames", o.frames, "Minimum number of frames, however long they take")
+        .within(1, 1000000);
+    command.option("--seed", o.seed, "Seed of the changes");
     command
-        .add_option("--growth", o.growthMiB,
-                    "Maximum growth of resident memory after a fifth of the time and 100 frames "
-                    "[MiB]")
-        ->check(numberWithin(0.0, 1e6));
+        .option("--growth", o.growthMiB,
+                "Maximum growth of resident memory after a fifth of the time and 100 frames "
+                "[MiB]")
+        .within(0.0, 1e6);
 }
 
 } // namespace limn

@@ -20,7 +20,7 @@ struct ShakeBench {
 };
 
 /// Adds the options with their defaults, except for scenes, output folder, device and --json.
-void addShakeOptions(CLI::App& command, ShakeBench& options);
+void addShakeOptions(Command& command, ShakeBench& options);
 
 Exit runShakeBench(const ShakeBench& options);
 

@@ -16,8 +16,6 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 // Memory of the bake's links and of the whole bake in either storage, as Table 4 of Jendersie,
 // Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance Composition with
 // Chrominance Compression. 2016
@@ -54,8 +52,8 @@ static Json describeBake(const Precomputed& data) {
     json["tree"] = {
         {"most_depth", tree.maxDepth}, {"mean_depth", tree.meanDepth}, {"balance", tree.balance}};
     json["input"] = hexHash(bake.sceneHash);
-    const nlohmann::json summary = bakeSummary(data);
-    for (const auto& [key, value] : summary.items())
+    const Json summary = bakeSummary(data);
+    for (const auto& [key, value] : summary.members())
         json[key] = value;
     json["storage_bytes"] = storageTable(bake);
     return json;
@@ -80,17 +78,15 @@ static bool print(const std::string& key, const Json& value) {
     return true;
 }
 
-static void addBenches(CLI::App& bench, Run& run) {
-    addEnergyBench(bench, run);
-    addErrorBench(bench, run);
-    addGlossyBench(bench, run);
-    addLinksBench(bench, run);
-    addPredictBench(bench, run);
-    addRelightBench(bench, run);
-    addStressBench(bench, run);
-#ifdef LIMN_HAS_VIEWPORT
-    addFrameBench(bench, run);
-#endif
+static void addBenches(Command& bench) {
+    addEnergyBench(bench);
+    addErrorBench(bench);
+    addGlossyBench(bench);
+    addLinksBench(bench);
+    addPredictBench(bench);
+    addRelightBench(bench);
+    addStressBench(bench);
+    addFrameBench(bench);
 }
 
 constinit const TechniqueProgram kIlluminanceProgram = {.technique = &kIlluminanceTechnique,

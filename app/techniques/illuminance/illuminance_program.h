@@ -9,13 +9,13 @@ namespace limn {
 extern const TechniqueProgram kIlluminanceProgram;
 
 // Each adds a benchmark of a part of the method, bench_NAME.cpp.
-void addEnergyBench(CLI::App& bench, Run& run);
-void addErrorBench(CLI::App& bench, Run& run);
-void addFrameBench(CLI::App& bench, Run& run);
-void addGlossyBench(CLI::App& bench, Run& run);
-void addLinksBench(CLI::App& bench, Run& run);
-void addPredictBench(CLI::App& bench, Run& run);
-void addRelightBench(CLI::App& bench, Run& run);
-void addStressBench(CLI::App& bench, Run& run);
+void addEnergyBench(Command& bench);
+void addErrorBench(Command& bench);
+void addFrameBench(Command& bench);
+void addGlossyBench(Command& bench);
+void addLinksBench(Command& bench);
+void addPredictBench(Command& bench);
+void addRelightBench(Command& bench);
+void addStressBench(Command& bench);
 
 } // namespace limn

@@ -8,16 +8,14 @@
 
 namespace limn {
 
-using Json = nlohmann::ordered_json;
-
 static Json describeProbes(const Precomputed& data) {
     Json json;
     json["kind"] = "sparse probes";
     json["settings"] = settingsJson(data.settings());
     json["lightmap"] = {{"width", data.layout().width}, {"height", data.layout().height}};
     json["input"] = hexHash(data.inputHash());
-    const nlohmann::json summary = bakeSummary(data);
-    for (const auto& [key, value] : summary.items())
+    const Json summary = bakeSummary(data);
+    for (const auto& [key, value] : summary.members())
         json[key] = value;
     return json;
 }
@@ -26,6 +24,6 @@ constinit const TechniqueProgram kSparseProbesProgram = {
     .technique = &kSparseProbesTechnique,
     .describe = describeProbes,
     .print = [](const std::string&, const Json&) { return false; },
-    .addBenches = [](CLI::App&, Run&) {}};
+    .addBenches = [](Command&) {}};
 
 } // namespace limn

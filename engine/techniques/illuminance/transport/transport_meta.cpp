@@ -2,18 +2,15 @@
 #include "engine/techniques/illuminance/transport/transport_meta.h"
 
 #include "engine/core/hash.h"
+#include "engine/json/json.h"
 #include "engine/scene/bake_settings_fields.h"
 
 #include <algorithm>
 #include <type_traits>
 
-#include <nlohmann/json.hpp>
-
 namespace limn {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json settingsOf(const BakeSettings& settings) {
     Json json;
@@ -81,7 +78,7 @@ std::string transportMeta(const TransportInput& input, const OccluderTree& occlu
                        {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
                        {"receipt", receiptOf(input)}};
     // Names may hold bytes that are not UTF-8; they are replaced.
-    return meta.dump(1, ' ', false, Json::error_handler_t::replace);
+    return meta.dump(1);
 }
 
 } // namespace limn

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "app/program_version.h"
+
+#include "generated/app/build_facts.h"
+
+namespace limn {
+
+std::string programVersion() {
+    return std::string("limn ") + kProgramVersion;
+}
+
+} // namespace limn
