@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# docs/gallery.sh: renders the pictures of docs/gallery, those of the README among them, and writes the page docs/gallery.md that
+# docs/gallery.sh: renders the pictures of docs/gallery, those of the README and of other pages among them, and writes the page docs/gallery.md that
 # shows them. Pictures of the editor's window need Xvfb and xdotool. Takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -61,7 +61,7 @@ render lit-surfels "What surfels send" "${cornell[@]}" --overlay lit-surfels
 render lobes "Light that reaches the caches from each side, in its own colour" "${cornell[@]}" --overlay lobes
 render wireframe "The edges of all triangles" "${atrium[@]}" --inspect wireframe
 
-section "Measured" "A path tracer that shares nothing with the method is the reference; figures are free of its noise."
+section "Measured" "The reference is a path tracer ([what it shares](architecture.md#what-the-reference-shares) with the pictures); figures are free of its noise."
 exr=("${square[@]}" --view lit)
 "$limn" render cornell --bake "$work/cornell.limnbake" "${exr[@]}" -o "$work/test.exr" >"$work/test.txt"
 for seed in 1 2; do
@@ -93,7 +93,7 @@ render probe-reflections "Reflections marched from what one probe sees: teal one
 render sparse-negative "Texels to which few bands of harmonics bring less than no light are magenta" cornell "${square[@]}" \
     --technique sparse-probes --overlay sparse-negative
 
-section "The editor" "Every part of the window is described in the README."
+section "The editor" "[The editor](editor.md) says how to work with it."
 build/release/journeys --gtest_filter='Gallery.*'
 cp build/journeys/GalleryOfWindows/*.png "$out/"
 show editor "The workspace Light on the sample \"atrium\""
