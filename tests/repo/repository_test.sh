@@ -62,30 +62,103 @@ may_include() {
         $1 == "reach" { print folder[$2], folder[$3] }'
 }
 
-# The rooms and their edges, those that follow from others left out, as docs/architecture.md shows them.
+# The tiers of the drawing of rooms, from the top down: a title, a colon and the tier's rooms, by their targets without "limn_".
+# A new room needs a place in one of these lines and a row in a table of docs/architecture.md.
+tiers_of_rooms='
+Program: app editor_ui
+Vulkan device: device_techniques gpu illuminance_gpu lpv_gpu probes_gpu render sparse_probes_gpu
+Pictures, measures and exports: export illuminance_measure illuminance_stress measure picture reference
+Techniques of bounced light: ambient illuminance illuminance_bake illuminance_overlay illuminance_relight illuminance_transport lpv probes sparse_probes techniques
+Light in a scene: field lattice lighting lightmap rsm shading trace
+Scenes and ground: core files gallery gltf math overlay runtime scene stages
+'
+# The same as lines "title TIER TITLE" and "tier TIER TARGET", tiers being numbered from the top.
+room_tiers() {
+    awk -F ': *' 'NF == 2 {
+        print "title", ++tier, $1
+        n = split($2, rooms, " ")
+        for (i = 1; i <= n; i++) print "tier", tier, "limn_" rooms[i]
+    }' <<<"$tiers_of_rooms"
+}
+
+# Every room lies in one tier, and depends on rooms of its own tier and of lower ones only.
+rooms_lie_in_tiers() {
+    { room_tiers; rooms_and_reach; } | awk -v script=tests/repo/repository_test.sh '
+        function short(target) { sub(/^limn_/, "", target); return target }
+        $1 == "title" { number = $2; sub(/^[^ ]+ [^ ]+ /, ""); title[number] = $0; next }
+        $1 == "tier" {
+            if ($3 in tier) { print script ": tiers_of_rooms names " short($3) " twice"; bad = 1 }
+            tier[$3] = $2
+        }
+        $1 == "room" {
+            known[$3]
+            if (!($3 in tier)) {
+                print $2 ": in no tier: add " short($3) " to a line of tiers_of_rooms in " script
+                bad = 1
+            }
+        }
+        $1 == "edge" && ($2 in tier) && ($3 in tier) && tier[$2] > tier[$3] {
+            print short($2) " (" title[tier[$2]] ") depends on " short($3) ", which lies in a higher tier (" title[tier[$3]] \
+                "): move one of them in tiers_of_rooms in " script ", or what " short($2) " needs to a lower room"
+            bad = 1
+        }
+        END {
+            for (target in tier)
+                if (!(target in known)) { print script ": tiers_of_rooms names " short(target) ", which is no room"; bad = 1 }
+            exit bad
+        }'
+}
+
+# The rooms in their tiers and their edges, those that follow from others left out, as docs/architecture.md shows them. Edges within
+# a tier are arrows; what a room needs of lower tiers is named below it, so that the tiers stack.
 rooms_drawing() {
     echo '```mermaid'
     echo 'flowchart TD'
-    rooms_and_reach | awk '
-        $1 == "room" { name = $2; sub(/^engine\//, "", name); rooms[++n] = $3; print "    " $3 "[\"" name "\"]" }
-        $1 == "edge" { direct[$2, $3] = 1 }
+    { rooms_and_reach; room_tiers; } | awk '
+        function short(target) { sub(/^limn_/, "", target); return target }
+        # The label of a room: its folder, and the rooms of lower tiers that it needs.
+        function label(room,    text, lower, i) {
+            for (i = 1; i <= n; i++)
+                if (edge[room, rooms[i]] && tier[rooms[i]] != tier[room]) lower = lower (lower ? ", " : "") name[rooms[i]]
+            text = name[room] (lower ? "<br>→ " lower : "")
+            return text == short(room) ? text : short(room) "[\"" text "\"]"
+        }
+        $1 == "room" { rooms[++n] = $3; name[$3] = $2; sub(/^engine\//, "", name[$3]); sub(/^techniques\//, "", name[$3]) }
+        $1 == "edge" { edge[$2, $3] = 1 }
         $1 == "reach" { reach[$2, $3] = 1 }
+        $1 == "title" { tiers = $2; sub(/^[^ ]+ [^ ]+ /, ""); title[tiers] = $0 }
+        $1 == "tier" { tier[$3] = $2; rooms_of[$2, ++count[$2]] = $3 }
         END {
             for (i = 1; i <= n; i++)
-                for (j = 1; j <= n; j++) {
-                    if (!direct[rooms[i], rooms[j]]) continue
-                    implied = 0
+                for (j = 1; j <= n; j++)
                     for (k = 1; k <= n; k++)
-                        if (direct[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) implied = 1
-                    if (!implied) print "    " rooms[i] " --> " rooms[j]
-                }
-        }' | sort | sed 's/limn_//g'
+                        if (edge[rooms[i], rooms[k]] && reach[rooms[k], rooms[j]]) implied[rooms[i], rooms[j]] = 1
+            for (pair in implied) delete edge[pair]
+            for (t = 1; t <= tiers; t++) {
+                print "    subgraph tier" t "[\"" title[t] "\"]"
+                print "        direction TB"
+                for (i = 1; i <= count[t]; i++) print "        " label(rooms_of[t, i])
+                for (i = 1; i <= count[t]; i++)
+                    for (j = 1; j <= count[t]; j++)
+                        if (edge[rooms_of[t, i], rooms_of[t, j]]) print "        " short(rooms_of[t, i]) " --> " short(rooms_of[t, j])
+                print "    end"
+                if (t > 1) print "    tier" t - 1 " --> tier" t
+            }
+        }'
     echo '```'
 }
 # A drawing that is committed goes stale, unless something compares it.
 drawing_of_rooms_is_current() {
+    rooms_lie_in_tiers || return 1
     diff <(sed -n '/^```mermaid$/,/^```$/p' docs/architecture.md) <(rooms_drawing) ||
         { echo "docs/architecture.md: its drawing is not what tests/repo/repository_test.sh rooms_drawing prints"; return 1; }
+}
+
+# The tables of rooms in docs/architecture.md have a row for each room, and none for a room that is gone.
+rooms_are_described() {
+    diff <(rooms_and_reach | awk '$1 == "room" { print $2 "/" }' | sort) \
+        <(sed -nE 's/^\| `(app|editor_ui|engine)(.*\/)` \|.*/\1\2/p' docs/architecture.md | sort) ||
+        { echo "docs/architecture.md: its tables of rooms need a row for each folder marked <, and none for those marked >"; return 1; }
 }
 
 layers_point_downward() {
