@@ -277,6 +277,18 @@ names_no_machine_path() {
         xargs grep -nE "(^|[^A-Za-z0-9_.-])/(wo""rk|tm""p|ro""ot|ho""me)/"
 }
 
+# Relative links and pictures of every page lead to files of the repository and to headings in them.
+links_lead_somewhere() {
+    files | python3 tests/repo/markdown_links.py
+}
+
+# Two screens: what a stranger needs first. The rest has its own pages in docs/.
+readme_is_short() {
+    local size
+    size=$(wc -c <README.md)
+    [ "$size" -le 8192 ] || { echo "README.md: $size bytes, more than 8192: move something to a page in docs/"; return 1; }
+}
+
 shell_scripts_parse() {
     local bad=0
     while read -r file; do
