@@ -70,7 +70,7 @@ Vulkan device: device_techniques gpu illuminance_gpu lpv_gpu probes_gpu render s
 Pictures, measures and exports: export illuminance_measure illuminance_stress measure picture reference
 Techniques of bounced light: ambient illuminance illuminance_bake illuminance_overlay illuminance_relight illuminance_transport lpv probes sparse_probes techniques
 Light in a scene: field lattice lighting lightmap rsm shading trace
-Scenes and ground: core files gallery gltf math overlay runtime scene stages
+Scenes and ground: core files gallery gltf json math overlay runtime scene stages
 '
 # The same as lines "title TIER TITLE" and "tier TIER TARGET", tiers being numbered from the top.
 room_tiers() {
