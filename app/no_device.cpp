@@ -1,44 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What a program that is linked without Vulkan has in place of its device, its window and their
-// benchmarks: functions that add no option, and fail.
+// What a program that is linked without Vulkan has in place of its window and its device.
 #include "app/bench/place_on_device.h"
 #include "app/commands/command.h"
 #include "app/commands/render_image.h"
-#include "app/techniques/illuminance/bench_relight_gpu.h"
-#include "app/techniques/illuminance/bench_shake.h"
-#include "app/techniques/illuminance/device_oracle.h"
-#include "app/techniques/illuminance/illuminance_program.h"
 
 namespace limn {
 
-static constexpr const char* kNoVulkan = "this program was built without Vulkan; there is: cpu";
-
 void addEditCommand(Command& /*program*/) {}
-void addFrameBench(Command& /*bench*/) {}
-void addShakeOptions(Command& /*command*/, ShakeBench& /*options*/) {}
-
-Exit runShakeBench(const ShakeBench& /*options*/) {
-    return failed(kNoVulkan);
-}
-
-Oracle deviceOracle(const std::string& /*device*/, std::uint32_t /*share*/) {
-    return {"device", "The device relights as the CPU does.",
-            [](const Subject&) { return notJudged(); }};
-}
-
-Result<GpuRuns> relightOnGpu(const std::string& /*device*/, const TraceScene& /*trace*/,
-                             const std::shared_ptr<const Bake>& /*bake*/, LitBands /*wanted*/,
-                             std::uint32_t /*bounces*/, int /*runs*/,
-                             const std::function<Scene(int k)>& /*sceneAt*/) {
-    return fail(kNoVulkan);
-}
 
 Result<LightPlace> placeOnDevice(const std::string& /*name*/) {
-    return fail(kNoVulkan);
+    return fail("this program was built without Vulkan");
 }
 
 Result<DrawPicture> drawingOnGpu(const std::string& /*device*/) {
-    return fail(std::string("--device: ") + kNoVulkan);
+    return fail("--device: this program was built without Vulkan; there is: cpu");
 }
 
 } // namespace limn

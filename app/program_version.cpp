@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/program_version.h"
 
-#include "generated/app/build_facts.h"
+#include <generated/build_facts.h>
 
 namespace limn {
 

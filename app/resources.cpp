@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/resources.h"
 
-#include "generated/app/build_facts.h"
-
 #include <filesystem>
 #include <system_error>
+
+#include <generated/build_facts.h>
 
 namespace limn {
 

@@ -86,9 +86,10 @@ set(LIMN_TEST_ENVIRONMENT LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/ls
 
 # limn_test(scene_light_test SOURCES light_test.cpp DEPENDS limn_scene)
 # The tests of a folder become one program, and each test a ctest entry that runs the tests of its first source.
-# Arguments that follow LABELS are ctest labels. ALONE: a program of its own, for what changes the whole program.
+# Arguments that follow LABELS are ctest labels. RUNS: a program that the test starts. ALONE: a program of its own, for what changes
+# the whole program.
 function(limn_test name)
-  cmake_parse_arguments(TEST "ALONE" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "ALONE" "RUNS" "SOURCES;DEPENDS;LABELS" ${ARGN})
   if(TEST_ALONE)
     set(program ${name})
   else()
@@ -107,6 +108,17 @@ function(limn_test name)
   cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
   add_test(NAME ${name} COMMAND ${program} ${file})
   set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 600 ENVIRONMENT "${LIMN_TEST_ENVIRONMENT}")
+  if(TEST_RUNS)
+    add_dependencies(${program} ${TEST_RUNS})
+    list(APPEND TEST_DEPENDS limn_app)
+  endif()
+  limn_list_test(${name} ${program} ${TEST_DEPENDS})
+endfunction()
+
+# Lists a test with the program that must be built for it and the libraries that it tests, for tests/repo/select_tests.py.
+function(limn_list_test name program)
+  list(JOIN ARGN " " libraries)
+  set_property(GLOBAL APPEND_STRING PROPERTY LIMN_TESTS "${name} ${program} ${libraries}\n")
 endfunction()
 
 # The name of the program that limn_test makes of this folder: tests/techniques/lpv is techniques_lpv_tests.

@@ -56,7 +56,6 @@ public:
 
     static Json array(std::initializer_list<Json> values = {});
     static Json object();
-
     bool isNull() const { return m_kind == Kind::Null; }
     bool isBoolean() const { return m_kind == Kind::Boolean; }
     bool isInteger() const { return m_kind == Kind::Integer || m_kind == Kind::Unsigned; }
@@ -102,7 +101,6 @@ public:
         return m_elements[std::size_t(index)];
     }
     Json& back() { return m_elements.back(); }
-    const Json& back() const { return m_elements.back(); }
     auto begin() { return m_elements.begin(); }
     auto end() { return m_elements.end(); }
     auto begin() const { return m_elements.begin(); }
@@ -111,9 +109,7 @@ public:
     // Objects. Null becomes an object when a member is named, which is null until it is assigned.
     Json& operator[](std::string_view key);
     const Json& operator[](std::string_view key) const; ///< null if there is no such member
-    Json& operator[](const char* key) { return (*this)[std::string_view(key)]; }
-    const Json& operator[](const char* key) const { return (*this)[std::string_view(key)]; }
-    const Json* find(std::string_view key) const; ///< null: there is no such member
+    const Json* find(std::string_view key) const;       ///< null: there is no such member
     bool contains(std::string_view key) const { return find(key) != nullptr; }
     std::span<const JsonMember> members() const;
     void update(const Json& object); ///< adds or replaces each of its members
@@ -127,16 +123,7 @@ public:
     friend bool operator==(const Json& a, const Json& b);
 
 private:
-    enum class Kind : std::uint8_t {
-        Null,
-        Boolean,
-        Integer,
-        Unsigned,
-        Float,
-        String,
-        Array,
-        Members
-    };
+    enum class Kind { Null, Boolean, Integer, Unsigned, Float, String, Array, Members };
 
     bool boolean() const;
     double number() const;
