@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/lighting/technique.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/picture/field_render.h"
 
 #include <functional>

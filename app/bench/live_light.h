@@ -3,7 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/lighting/lighting_driver.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/picture/field_render.h"
 #include "engine/reference/reference.h"
 

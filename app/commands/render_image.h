@@ -6,7 +6,7 @@
 #include "engine/lighting/precomputed.h"
 #include "engine/lighting/relight_choice.h"
 #include "engine/lighting/technique.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editor_ui/jobs/relight_job.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 
 #include <memory>
 #include <string>

@@ -4,7 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/field/indirect_field.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/document.h"
 #include "engine/scene/export_settings.h"
 #include "engine/scene/scene.h"

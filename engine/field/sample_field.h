@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/math/sh.h"
 #include "engine/scene/scene.h"
 

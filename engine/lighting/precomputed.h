@@ -4,7 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/lighting/lighting_report.h"
 #include "engine/lighting/overlay_source.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"
 #include "engine/trace/trace_scene.h"
 

@@ -8,7 +8,7 @@
 #include "engine/lightmap/density_fields.h"
 #include "engine/lightmap/fine_texels.h"
 #include "engine/lightmap/lamp_texels.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/lightmap/texel_sides.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/stages/stage_archive.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/mesh/mesh.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/lightmap/mesh_density.h"
 
 namespace limn {

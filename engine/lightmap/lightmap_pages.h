@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/lightmap/plain_lightmap.h"
 #include "engine/scene/scene.h"
 

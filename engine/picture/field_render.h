@@ -3,7 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/field/indirect_field.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/view.h"
 #include "engine/trace/trace_scene.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/shading/sampler.h"
 #include "engine/shading/surface_point.h"
 #include "engine/trace/trace_scene.h"

@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/field/indirect_field.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/render/gpu_field.h"
 #include "engine/render/shadowed_lights.h"
 #include "engine/render/surface_map.h"

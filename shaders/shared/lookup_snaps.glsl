@@ -3,7 +3,7 @@
 
 layout(set = 0, binding = 12, std430) readonly buffer LookupSnaps { uint lookupSnaps[]; };
 
-// kFineLookup, kFineCells, kFineLevels of engine/lightmap/lightmap_layout.h.
+// kFineLookup, kFineCells, kFineLevels of engine/lightmap/layout/lightmap_layout.h.
 const uint kFineLookup = 1u << 31;
 const float kFineCells = 4.0;
 const int kFineLevels = 5;

@@ -10,7 +10,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Texels {
     uint width, height;
     uint texel[]; // bytes R, G, B, A, sRGB-encoded; A = 0: not painted; followed by OverlayData::finer, if any
 };
-// Of engine/lightmap/lightmap_layout.h.
+// Of engine/lightmap/layout/lightmap_layout.h.
 const float kFineCells = 4.0;
 const int kFineLevels = 5;
 

@@ -69,7 +69,7 @@ Program: app editor_ui
 Vulkan device: device_techniques gpu illuminance_gpu lpv_gpu probes_gpu render sparse_probes_gpu
 Pictures, measures and exports: export illuminance_measure illuminance_stress measure picture reference
 Techniques of bounced light: ambient illuminance illuminance_bake illuminance_overlay illuminance_relight illuminance_transport lpv probes sparse_probes techniques
-Light in a scene: field lattice lighting lightmap rsm shading trace
+Light in a scene: field lattice lighting lightmap lightmap_layout rsm shading trace
 Scenes and ground: core files gallery gltf json math overlay runtime scene stages
 '
 # The same as lines "title TIER TITLE" and "tier TIER TARGET", tiers being numbered from the top.

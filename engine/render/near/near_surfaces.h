@@ -3,7 +3,7 @@
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/descriptors.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 #include "engine/core/hash.h"
 #include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas_stage.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/reach.h"
 #include "engine/stages/stage_archive.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/bake_settings_archive.h"
 #include "engine/stages/chunk_file.h"
 #include "engine/stages/stage_archive.h"

@@ -4,7 +4,7 @@
 #include "engine/core/memory_budget.h"
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"
 #include "engine/techniques/illuminance/bake/surfel_arrays.h"
 #include "engine/trace/trace_scene.h"

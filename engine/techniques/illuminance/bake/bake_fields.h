@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/field/grid_depth.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/stages/stage_archive.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/bake/senders/tree_rules.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/hash.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/bake_settings_archive.h"
 #include "engine/techniques/illuminance/bake/bake.h"
 

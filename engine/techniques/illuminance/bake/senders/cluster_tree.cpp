@@ -3,7 +3,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/stages/stage_archive.h"
 #include "engine/stages/stage_keys.h"
 #include "engine/techniques/illuminance/bake/senders/clustering.h"

@@ -4,7 +4,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 #include "engine/lightmap/density_fields.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/mesh/mesh_topology.h"

@@ -4,7 +4,7 @@
 #include "engine/core/archive.h"
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/mesh/input_hash.h"
 
 #include <algorithm>

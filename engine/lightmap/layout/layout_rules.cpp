@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/lightmap/layout_rules.h"
+#include "engine/lightmap/layout/layout_rules.h"
 
 #include "engine/core/hash.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/field_rule.h"
-#include "engine/lightmap/lightmap_layout.h"
+#include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/reach.h"
 #include "engine/scene/scene.h"
