@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/jobs/relight_job.h"
 
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"

@@ -6,6 +6,7 @@
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,8 @@
 #include "engine/files/project_file.h"
 #include "engine/lighting/relight_choice.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/trace/simple_scene.h"
 

@@ -2,9 +2,9 @@
 // A bake file. An input that begins as one is given to the reader with its checksums put right;
 // any other is a list of changes to a valid bake, which is then written, read again and lit.
 #include "engine/core/hash.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
-#include "engine/techniques/illuminance/bake/bake_fields.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_fields.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 #include "tests/fuzz/changes.h"
 #include "tests/fuzz/exercise.h"
 #include "tests/fuzz/small_room.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/trace/trace_scene.h"
 #include "tests/fuzz/target.h"

@@ -4,6 +4,7 @@
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/measure/compare.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/core/source_path.h"
 

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/measure/compare.h"
 #include "engine/reference/reference.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/trace/simple_scene.h"
 

@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/overlay/overlay.h"
 
 #include "engine/overlay/palette.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/render/viewport_fixture.h"
 
 #include <limits>

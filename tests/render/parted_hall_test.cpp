@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/sample_field.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/illuminance/bake/house_on_ground.h"

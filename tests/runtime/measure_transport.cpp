@@ -8,7 +8,7 @@
 #include "engine/files/project_file.h"
 #include "engine/measure/compare.h"
 #include "engine/picture/field_render.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 #include "engine/trace/trace_scene.h"
 #include "tests/core/source_path.h"
 #include "tests/runtime/open_file.h"

@@ -4,6 +4,7 @@
 // the first lighting with a sheet below the lamp that has holes.
 #include "engine/core/replace_file.h"
 #include "engine/files/project_file.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/transport/transport_file.h"
 #include "tests/core/source_path.h"

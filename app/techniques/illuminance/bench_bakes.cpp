@@ -6,6 +6,7 @@
 #include "engine/core/parallel.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 
 #include <filesystem>
 

@@ -3,7 +3,7 @@
 
 #include "app/bench/bench.h"
 #include "app/commands/scene_options.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>

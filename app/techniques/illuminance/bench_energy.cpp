@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/measure/energy_chain.h"
 
 #include <cmath>

@@ -12,7 +12,8 @@
 #include "engine/measure/seams.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/mesh/input_hash.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_bytes.h"
 #include "engine/techniques/illuminance/measure/cache_error.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 

@@ -12,6 +12,7 @@
 #include "engine/scene/tone_map.h"
 #include "engine/shading/pixel_rays.h"
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 
 #include <cmath>

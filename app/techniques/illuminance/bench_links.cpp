@@ -8,6 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/measure/baked_senders.h"
 #include "engine/techniques/illuminance/measure/link_error.h"
 #include "engine/techniques/illuminance/relight/relight.h"

@@ -4,10 +4,10 @@
 #include "app/commands/bake_options.h"
 
 #include "engine/core/hash.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
-#include "engine/techniques/illuminance/bake/surfel_spacing.h"
-#include "engine/techniques/illuminance/bake/tree_shape.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
+#include "engine/techniques/illuminance/format/bake_bytes.h"
+#include "engine/techniques/illuminance/format/surfel_spacing.h"
+#include "engine/techniques/illuminance/format/tree_shape.h"
 #include "engine/techniques/illuminance/illuminance.h"
 
 #include <algorithm>

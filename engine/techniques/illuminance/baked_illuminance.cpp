@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/baked_illuminance.h"
 
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
 #include "engine/techniques/illuminance/bake/bake_cost.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/bake/bake_prediction.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 #include "engine/techniques/illuminance/illuminance.h"
 #include "engine/techniques/illuminance/illuminance_snapshot.h"
 #include "engine/techniques/illuminance/overlay/cut_text.h"

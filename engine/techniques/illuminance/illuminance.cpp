@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/illuminance.h"
 
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/cpu_illuminance.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 #include "engine/techniques/illuminance/overlay/overlay.h"
 
 #include <utility>

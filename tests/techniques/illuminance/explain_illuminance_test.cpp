@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/explain_illuminance.h"
 
 #include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 
 #include <gtest/gtest.h>

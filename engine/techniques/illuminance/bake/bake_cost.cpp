@@ -3,7 +3,7 @@
 
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/scene/surface/receiver_bands.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/bake/bake_prediction.h"
 
 #include <algorithm>
 #include <array>

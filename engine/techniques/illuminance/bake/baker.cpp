@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "engine/field/grid_placement.h"
-#include "engine/techniques/illuminance/bake/bake.h"
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
 #include "engine/field/grid_depth.h"
+#include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/mesh/input_hash.h"
@@ -14,7 +13,7 @@
 #include "engine/stages/stage_archive.h"
 #include "engine/stages/stage_clock.h"
 #include "engine/stages/stage_keys.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
+#include "engine/techniques/illuminance/bake/bake_prediction.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/receivers/fill_invalid.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
@@ -28,6 +27,7 @@
 #include "engine/techniques/illuminance/bake/transport/surfel_gain.h"
 #include "engine/techniques/illuminance/bake/transport/trace_record.h"
 #include "engine/techniques/illuminance/bake/transport/trace_stage.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
 
 #include <algorithm>
 #include <optional>

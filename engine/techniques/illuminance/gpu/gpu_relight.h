@@ -6,7 +6,7 @@
 #include "engine/field/grid_placement.h"
 #include "engine/render/gpu_field.h"
 #include "engine/render/shadowed_lights.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/caches/cache_runs.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 

@@ -4,7 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/buffer.h"
 #include "engine/render/gpu_field.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/caches/light_links.h"
 #include "shaders/shared/gpu_relight.h"
 

@@ -3,8 +3,8 @@
 
 #include "engine/core/parallel.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
 #include "engine/techniques/illuminance/bake/transport/seen_hits.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "engine/math/luminance.h"
 #include "engine/math/sh.h"
 #include "engine/overlay/palette.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 #include "engine/techniques/illuminance/overlay/texel_overlay.h"
 
 #include <algorithm>

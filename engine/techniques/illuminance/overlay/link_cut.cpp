@@ -2,7 +2,7 @@
 #include "engine/techniques/illuminance/overlay/link_cut.h"
 
 #include "engine/lightmap/atlas.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>
 #include <map>

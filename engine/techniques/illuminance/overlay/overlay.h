@@ -3,7 +3,7 @@
 
 #include "engine/overlay/overlay_data.h"
 #include "engine/overlay/overlay_kind.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 #include <array>
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include "engine/overlay/overlay_kind.h"
 #include "engine/techniques/illuminance/overlay/overlay.h"
+#include "engine/trace/trace_scene.h"
 
 #include <vector>
 

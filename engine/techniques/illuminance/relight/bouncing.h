@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/lighting/convergence.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/caches/light_links.h"
 
 #include <algorithm>

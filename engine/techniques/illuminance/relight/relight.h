@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/progress.h"
 #include "engine/field/indirect_field.h"
 #include "engine/lighting/direct_irradiance.h"
 #include "engine/math/sh.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/caches/cache_runs.h"
 #include "engine/techniques/illuminance/relight/caches/light_links.h"
 

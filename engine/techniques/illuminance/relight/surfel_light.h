@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/lighting/direct_irradiance.h"
-#include "engine/techniques/illuminance/bake/surfel_arrays.h"
+#include "engine/techniques/illuminance/format/surfel_arrays.h"
 
 namespace limn {
 

@@ -2,7 +2,7 @@
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 
 #include "engine/core/parallel.h"
-#include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/format/sky_cells.h"
 
 #include <algorithm>
 #include <functional>

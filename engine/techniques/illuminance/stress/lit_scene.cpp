@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/stress/lit_scene.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/trace/trace_scene.h"
 

@@ -2,7 +2,8 @@
 #include "engine/core/parallel.h"
 #include "engine/gallery/random_stream.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 #include "engine/techniques/illuminance/stress/oracle.h"
 
 #include <cstring>

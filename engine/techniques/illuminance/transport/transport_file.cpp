@@ -2,7 +2,7 @@
 #include "engine/techniques/illuminance/transport/transport_file.h"
 
 #include "engine/scene/light/light_parts.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/transport/occluder_tree.h"
 #include "engine/techniques/illuminance/transport/transport_meta.h"

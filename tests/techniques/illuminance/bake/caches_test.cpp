@@ -3,6 +3,7 @@
 #include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/receivers/fill_invalid.h"
 #include "engine/techniques/illuminance/bake/transport/trace_stage.h"

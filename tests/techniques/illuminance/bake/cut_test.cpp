@@ -2,7 +2,7 @@
 #include "engine/techniques/illuminance/bake/transport/cut.h"
 
 #include "engine/techniques/illuminance/bake/transport/cut_worth.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 #include "tests/techniques/illuminance/bake/traced_room.h"
 
 #include <gtest/gtest.h>

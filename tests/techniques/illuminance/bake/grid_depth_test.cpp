@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/field/grid_depth.h"
 
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lighting/direct_irradiance.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "tests/techniques/illuminance/bake/parted_hall.h"
 
 #include <gtest/gtest.h>

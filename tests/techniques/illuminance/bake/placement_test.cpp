@@ -5,7 +5,7 @@
 #include "engine/techniques/illuminance/bake/senders/surface_walk.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_owners.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
-#include "engine/techniques/illuminance/bake/surfel_spacing.h"
+#include "engine/techniques/illuminance/format/surfel_spacing.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

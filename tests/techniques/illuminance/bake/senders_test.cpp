@@ -4,7 +4,7 @@
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/senders/owner_tables.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
-#include "engine/techniques/illuminance/bake/tree_shape.h"
+#include "engine/techniques/illuminance/format/tree_shape.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

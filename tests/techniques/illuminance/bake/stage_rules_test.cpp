@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kept stages with right checksums and wrong contents: whoever can write to the folder leads no
 // bake astray.
-#include "engine/techniques/illuminance/bake/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/techniques/illuminance/bake/staged_room.h"
 #include "tests/techniques/illuminance/bake/window_room.h"

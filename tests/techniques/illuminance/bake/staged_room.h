@@ -2,7 +2,8 @@
 #pragma once
 
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

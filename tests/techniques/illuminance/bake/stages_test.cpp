@@ -5,10 +5,11 @@
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 #include "engine/techniques/illuminance/bake/transport/light_points.h"
 #include "engine/techniques/illuminance/bake/transport/training_light.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "tests/techniques/illuminance/bake/house_on_ground.h"
 #include "tests/techniques/illuminance/bake/staged_room.h"
 

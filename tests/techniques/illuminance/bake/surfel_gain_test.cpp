@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/transport/surfel_gain.h"
 
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 #include "tests/techniques/illuminance/relight/relit.h"
 #include "tests/trace/simple_scene.h"
 

@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/measure/energy_chain.h"
 
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

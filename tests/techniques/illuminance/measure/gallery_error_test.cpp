@@ -3,6 +3,7 @@
 #include "engine/measure/compare.h"
 #include "engine/measure/reference_set.h"
 #include "engine/picture/field_render.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/core/sweep.h"
 

@@ -4,6 +4,7 @@
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/bake/senders/patch_sides.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "tests/trace/simple_scene.h"

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/overlay/overlay.h"
 
+#include "engine/core/result.h"
 #include "engine/math/packing.h"
 #include "engine/overlay/palette.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 #include "engine/techniques/illuminance/overlay/dependencies.h"
 #include "engine/techniques/illuminance/overlay/link_cut.h"
 #include "engine/techniques/illuminance/overlay/surface_text.h"
 #include "engine/techniques/illuminance/overlay/texel_overlay.h"
+#include "engine/trace/trace_scene.h"
 #include "tests/trace/simple_scene.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,8 @@
 #include "engine/math/packing.h"
 #include "engine/math/sh.h"
 #include "engine/math/ycocg.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 #include "engine/techniques/illuminance/relight/surfel_read.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 

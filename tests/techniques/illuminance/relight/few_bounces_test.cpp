@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/trace/simple_scene.h"

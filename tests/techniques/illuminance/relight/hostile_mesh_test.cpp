@@ -3,7 +3,8 @@
 // refused in words.
 #include "engine/math/packing.h"
 #include "engine/math/sh.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/trace/simple_scene.h"
 

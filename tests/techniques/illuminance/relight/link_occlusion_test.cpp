@@ -5,6 +5,7 @@
 #include "engine/math/packing.h"
 #include "engine/math/sampling.h"
 #include "engine/math/sh.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/occlusion/link_cone.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/trace/simple_scene.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Relighting writes to memory that it has: counted by operator new.
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 

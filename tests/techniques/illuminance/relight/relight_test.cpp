@@ -6,6 +6,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/ycocg.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/core/sweep.h"
 #include "tests/trace/simple_scene.h"
 

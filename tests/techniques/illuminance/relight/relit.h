@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/math/sh.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 
 #include <gtest/gtest.h>

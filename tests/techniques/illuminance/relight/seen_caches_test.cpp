@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 
+#include "engine/core/result.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/techniques/illuminance/relight/differing_caches.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/lightmap/texel_points.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 namespace limn {
 

@@ -7,7 +7,7 @@
 #include "engine/stages/stage_archive.h"
 #include "engine/stages/stage_keys.h"
 #include "engine/techniques/illuminance/bake/senders/clustering.h"
-#include "engine/techniques/illuminance/bake/senders/tree_rules.h"
+#include "engine/techniques/illuminance/format/tree_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,6 @@
 namespace limn {
 
 namespace {
-
-static_assert(kSkyBands * kSkySectors == kSkyCells);
 
 ClusterMetric metricOf(const BakeSettings& settings, glm::vec3 size) {
     return {std::max(glm::length(size), 1e-20f), settings.clusterNormalWeight,
@@ -133,23 +131,6 @@ void fillWeightsAndParents(const Surfels& surfels, ClusterTree& tree) {
     }
 }
 
-std::uint32_t skyCellOf(glm::vec3 d) {
-    const float turn = std::atan2(d.z, d.x) / (2 * std::numbers::pi_v<float>)+0.5f;
-    const float height = (d.y + 1) / 2; // equal heights are equal solid angles
-    const auto cell = [](float x, std::uint32_t n) {
-        return std::min(std::uint32_t(std::max(x, 0.f) * float(n)), n - 1);
-    };
-    return cell(height, kSkyBands) * kSkySectors + cell(turn, kSkySectors);
-}
-
-glm::vec3 skyCellDirection(std::uint32_t cell) {
-    const float height = (float(cell / kSkySectors) + 0.5f) / kSkyBands * 2 - 1;
-    const float angle =
-        ((float(cell % kSkySectors) + 0.5f) / kSkySectors - 0.5f) * 2 * std::numbers::pi_v<float>;
-    const float r = std::sqrt(1 - height * height);
-    return {r * std::cos(angle), height, r * std::sin(angle)};
-}
-
 /// The surfels on the front of a two-sided mesh.
 static MeshSurfels frontOf(const MeshSurfels& both) {
     MeshSurfels front = both;
@@ -203,15 +184,6 @@ ClusterTree buildClusterTree(const Scene& scene, const SurfelSet& set, const Pro
     joinRoots(roots, scene, appendSky(tree), progress, tree);
     fillWeightsAndParents(set.surfels, tree);
     return tree;
-}
-
-std::vector<bool> skyNodes(const ClusterTree& tree) {
-    std::vector<bool> sky(tree.size());
-    for (std::uint32_t i = tree.surfels; i < tree.leaves(); ++i)
-        sky[i] = true;
-    for (std::uint32_t k = 0; k < tree.left.size(); ++k)
-        sky[tree.leaves() + k] = sky[tree.left[k]] && sky[tree.right[k]];
-    return sky;
 }
 
 } // namespace limn

@@ -3,7 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/scene/mesh/triangle_geometry.h"
-#include "engine/techniques/illuminance/bake/surfel_spacing.h"
+#include "engine/techniques/illuminance/format/surfel_spacing.h"
 
 #include <algorithm>
 #include <cmath>

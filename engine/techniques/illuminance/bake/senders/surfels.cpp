@@ -12,7 +12,7 @@
 #include "engine/stages/stage_archive.h"
 #include "engine/stages/stage_keys.h"
 #include "engine/techniques/illuminance/bake/senders/relaxation.h"
-#include "engine/techniques/illuminance/bake/surfel_spacing.h"
+#include "engine/techniques/illuminance/format/surfel_spacing.h"
 
 #include <algorithm>
 #include <cassert>

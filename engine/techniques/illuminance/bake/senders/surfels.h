@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/progress.h"
 #include "engine/lightmap/mesh_density.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 #include <cstdint>
 #include <span>

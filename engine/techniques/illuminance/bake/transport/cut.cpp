@@ -6,10 +6,10 @@
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/transport/cut_worth.h"
 #include "engine/techniques/illuminance/bake/transport/link_harmonics.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
 #include "engine/techniques/illuminance/bake/transport/seen_hits.h"
 #include "engine/techniques/illuminance/bake/transport/sky_sights.h"
 #include "engine/techniques/illuminance/bake/transport/visible_tree.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/techniques/illuminance/bake/bake.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "engine/math/horizon.h"
 #include "engine/math/sh.h"
 #include "engine/math/sh_basis.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/horizon.h"
-#include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
+#include "engine/techniques/illuminance/format/sky_cells.h"
 
 #include <algorithm>
 #include <atomic>

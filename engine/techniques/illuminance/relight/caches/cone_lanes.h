@@ -2,7 +2,7 @@
 // Reads links of LinkStorage::Rtp, one per lane. Included once for each kind of vector unit, after
 // <hwy/highway.h>.
 #include "engine/math/packing.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/caches/monic_harmonics.h"
 
 #include <type_traits>

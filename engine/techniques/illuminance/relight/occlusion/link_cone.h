@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/math/packing.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/bake/bake_prediction.h"
 
 #include "engine/field/grid_depth.h"
 #include "engine/field/grid_placement.h"
@@ -12,8 +12,8 @@
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
 #include "engine/techniques/illuminance/bake/transport/cut_worth.h"
 #include "engine/techniques/illuminance/bake/transport/gather.h"
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
 #include "engine/techniques/illuminance/bake/transport/training_light.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>
 #include <bit>
@@ -24,31 +24,6 @@ namespace limn {
 
 namespace {
 
-constexpr auto kBytes = [](const auto&... arrays) {
-    return ((std::uint64_t(arrays.size()) * sizeof arrays[0]) + ... + 0);
-};
-constexpr auto kBytesPerEntry = [](const auto&... arrays) {
-    return (std::uint64_t(sizeof arrays[0]) + ... + 0);
-};
-
-// The arrays with one entry per surfel, inner node, node, and cache.
-
-template <class Use>
-std::uint64_t surfelArrays(const Surfels& s, Use use) {
-    return use(s.position, s.normal, s.area, s.instance, s.triangle, s.barycentric, s.cache,
-               s.cacheWeight);
-}
-
-template <class Use>
-std::uint64_t innerNodeArrays(const ClusterTree& t, Use use) {
-    return use(t.left, t.right, t.leftWeight);
-}
-
-template <class Use>
-std::uint64_t cacheArrays(const Caches& c, Use use) {
-    return use(c.kind, c.position, c.normal, c.texel);
-}
-
 /// Number of the axes' six directions that are the main direction of some triangle.
 std::uint32_t waysFaced(const Mesh& mesh) {
     std::uint32_t faced = 0;
@@ -58,12 +33,6 @@ std::uint32_t waysFaced(const Mesh& mesh) {
         faced |= 1U << (2 * axis + (n[axis] < 0 ? 1 : 0));
     }
     return std::uint32_t(std::popcount(faced));
-}
-
-std::uint64_t linkBytes(const BakeSettings& s, std::uint64_t caches, double links) {
-    const Caches c;
-    return (caches + 1) * kBytesPerEntry(c.linkBegin) + caches * kBytesPerEntry(c.linkExponent) +
-           std::uint64_t(double(caches) * links) * bytesPerLink(s.storage, s.bands);
 }
 
 /// Estimates of what depends on the rays of a bake, and the sizes that its scene adds.
@@ -112,10 +81,8 @@ Expected expect(const Scene& scene) {
 
 /// Bytes of MeshCharts and InstanceLightmap.
 std::uint64_t chartBytes(const Expected& e) {
-    const MeshCharts m;
-    return 3 * e.triangles * kBytesPerEntry(m.indices) +
-           e.triangles * kBytesPerEntry(m.chartOfTriangle) +
-           e.meshVertices * kBytesPerEntry(m.sourceVertex, m.chartUv) + e.uv * sizeof(glm::vec2);
+    constexpr std::uint64_t kIndex = sizeof(std::uint32_t), kUv = sizeof(glm::vec2);
+    return e.triangles * 4 * kIndex + e.meshVertices * (kIndex + kUv) + e.uv * kUv;
 }
 
 /// Size of the file, from the mean ratios to which zstd compressed each part of the measured
@@ -157,44 +124,6 @@ std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const
 }
 
 } // namespace
-
-BakeBytes bytesOf(const Bake& bake) {
-    const ClusterTree& t = bake.tree;
-    const Caches& c = bake.caches;
-    BakeBytes b;
-    b.surfels = surfelArrays(bake.surfels, kBytes) +
-                kBytes(bake.surfels.lightPoints, bake.surfels.lightNormals);
-    b.clusters = innerNodeArrays(t, kBytes) + kBytes(t.parent, t.skyDirection);
-    b.links = kBytes(c.linkBegin, c.linkExponent, c.links, c.shNode, c.shCoefficients);
-    b.caches = cacheArrays(c, kBytes) + kBytes(c.fillBegin, c.fillSource, c.fillWeight) +
-               kBytes(bake.gridDepth);
-    return b;
-}
-
-BakeBytes bytesOf(const Bake& bake, LinkStorage storage, std::uint32_t bands) {
-    const Caches& c = bake.caches;
-    BakeBytes b = bytesOf(bake);
-    b.links = kBytes(c.linkBegin, c.linkExponent) + c.linkCount() * bytesPerLink(storage, bands);
-    return b;
-}
-
-BakeBytes predictBytes(const BakeSettings& settings, std::uint64_t surfels, std::uint64_t caches) {
-    const ClusterTree t;
-    const Caches c;
-    const std::uint64_t leaves = surfels + kSkyCells, inner = leaves - 1;
-    BakeBytes b;
-    b.surfels = surfels * (surfelArrays({}, kBytesPerEntry) + kLightPoints * 2 * sizeof(glm::vec3));
-    b.clusters = inner * innerNodeArrays(t, kBytesPerEntry) +
-                 (leaves + inner) * kBytesPerEntry(t.parent) +
-                 kSkyCells * kBytesPerEntry(t.skyDirection);
-    b.links = (caches + 1) * kBytesPerEntry(c.linkBegin) +
-              caches * (kBytesPerEntry(c.linkExponent) +
-                        settings.links * bytesPerLink(settings.storage, settings.bands));
-    b.caches = caches * cacheArrays(c, kBytesPerEntry) + (caches + 1) * kBytesPerEntry(c.fillBegin);
-    b.caches += std::uint64_t(settings.grid.x) * settings.grid.y * settings.grid.z *
-                kGridDepthTexels * sizeof(std::uint16_t);
-    return b;
-}
 
 static std::uint64_t expectedGrid(const Scene& scene) {
     LightmapLayout layout; // filled only as to which instances have a lightmap

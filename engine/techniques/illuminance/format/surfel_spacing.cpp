@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/surfel_spacing.h"
+#include "engine/techniques/illuminance/format/surfel_spacing.h"
 
 #include "engine/core/parallel.h"
 #include "engine/math/nearest_point.h"

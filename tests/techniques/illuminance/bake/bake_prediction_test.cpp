@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/bake_bytes.h"
+#include "engine/techniques/illuminance/bake/bake_prediction.h"
 
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 
 #include "engine/core/archive.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
-#include "engine/techniques/illuminance/bake/bake_fields.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_fields.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/techniques/illuminance/bake/parted_hall.h"
 #include "tests/trace/simple_scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/tree_shape.h"
+#include "engine/techniques/illuminance/format/tree_shape.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/bake_file.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
 
 #include "engine/stages/chunk_file.h"
-#include "engine/techniques/illuminance/bake/bake_defect.h"
-#include "engine/techniques/illuminance/bake/bake_fields.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_fields.h"
 
 #include <fmt/format.h>
 

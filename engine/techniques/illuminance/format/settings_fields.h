@@ -3,7 +3,7 @@
 
 #include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/bake_settings_archive.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 namespace limn {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/bake_defect.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
 
 #include "engine/math/packing.h"
-#include "engine/techniques/illuminance/bake/bake_fields.h"
+#include "engine/techniques/illuminance/format/bake_fields.h"
 
 #include <cmath>
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/core/memory_budget.h"
-#include "engine/core/progress.h"
-#include "engine/core/result.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"
-#include "engine/techniques/illuminance/bake/surfel_arrays.h"
-#include "engine/trace/trace_scene.h"
+#include "engine/techniques/illuminance/format/surfel_arrays.h"
+#include "shaders/shared/grid_lookup.h"
 
 #include <cstdint>
 #include <string>
@@ -18,8 +15,6 @@
 #include <glm/vec4.hpp>
 
 namespace limn {
-
-class StageStore;
 
 /// The senders as one binary tree. Nodes [0, surfels) are the surfels, then [surfels, surfels +
 /// sky) the sky cells, then inner nodes, every parent after its children; the last node is the
@@ -91,6 +86,9 @@ struct BakeCounts {
     bool operator==(const BakeCounts&) const = default;
 };
 
+/// Number of depths around each of the grid's cells.
+inline constexpr std::uint32_t kDepthsPerCell = GRID_DEPTH_SIDE * GRID_DEPTH_SIDE;
+
 /// Everything that relighting needs. The same document gives the same bytes at any number of
 /// threads.
 struct Bake {
@@ -99,7 +97,7 @@ struct Bake {
     LightmapLayout lightmap;
     glm::uvec3 gridSize{0};
     Bounds gridBounds;
-    std::vector<std::uint16_t> gridDepth; ///< kGridDepthTexels per cell, see field/grid_depth.h
+    std::vector<std::uint16_t> gridDepth; ///< kDepthsPerCell per cell, see field/grid_depth.h
     Surfels surfels;
     ClusterTree tree;
     Caches caches;
@@ -120,13 +118,5 @@ struct Bake {
 /// Hash of everything a bake reads: geometry, instances, alpha masks, sidedness, settings. Excludes
 /// lights, albedo, emission and the places of dynamic instances.
 std::uint64_t bakeInputHash(const Scene& scene);
-
-/// Bakes a scene. Stages reported: charts, surfels, clusters, caches, trace, training, cut. Stages
-/// found in `store` are reused: the result is the same, and counts.rays counts the rays traced now.
-/// `settings` replace the scene's own. Fails on an empty scene, on settings out of range, when
-/// cancelled ("cancelled"), and where predictBake() expects more than `memory`.
-Result<Bake> bake(const TraceScene& trace, const Progress& progress = {},
-                  StageStore* store = nullptr, const BakeSettings* settings = nullptr,
-                  const MemoryBudget& memory = {});
 
 } // namespace limn

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/field/grid_depth.h"
 #include "engine/lightmap/layout/layout_rules.h"
 #include "engine/stages/stage_archive.h"
-#include "engine/techniques/illuminance/bake/bake.h"
-#include "engine/techniques/illuminance/bake/senders/tree_rules.h"
-#include "engine/techniques/illuminance/bake/settings_fields.h"
+#include "engine/techniques/illuminance/format/bake.h"
+#include "engine/techniques/illuminance/format/settings_fields.h"
+#include "engine/techniques/illuminance/format/tree_rules.h"
 
 namespace limn {
 
@@ -98,7 +97,7 @@ void cacheFields(A& a, B& b) {
 template <class A, class B>
 void gridDepthFields(A& a, B& b) {
     a("gridDepth", b.gridDepth,
-      rule::count((b.caches.size() - b.caches.lightmapCount) * kGridDepthTexels));
+      rule::count((b.caches.size() - b.caches.lightmapCount) * kDepthsPerCell));
 }
 
 /// Calls visit(name, fields) for every chunk; `fields(archive, bake)` lists its fields.

@@ -2,7 +2,7 @@
 #include "engine/core/hash.h"
 #include "engine/lightmap/layout/layout_rules.h"
 #include "engine/scene/mesh/input_hash.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 namespace limn {
 

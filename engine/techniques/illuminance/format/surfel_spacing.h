@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 #include <cmath>
 #include <cstdint>

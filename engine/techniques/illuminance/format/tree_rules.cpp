@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/senders/tree_rules.h"
+#include "engine/techniques/illuminance/format/tree_rules.h"
 
 namespace limn {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/transport/link_storage.h"
+#include "engine/techniques/illuminance/format/link_storage.h"
 
 #include "engine/core/large_pages.h"
 #include "engine/math/cone.h"
