@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/files/relight_choice.h"
 #include "engine/lighting/lighting.h"
 #include "engine/lighting/precomputed.h"
-#include "engine/lighting/relight_choice.h"
 #include "engine/lighting/technique.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/scene.h"

@@ -3,8 +3,8 @@
 
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
+#include "engine/files/relight_choice.h"
 #include "engine/gltf/gltf_import.h"
-#include "engine/lighting/relight_choice.h"
 
 #include <cstdint>
 #include <string>

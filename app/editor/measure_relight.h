@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/files/relight_choice.h"
 #include "engine/lighting/lighting.h"
-#include "engine/lighting/relight_choice.h"
 #include "engine/render/viewport.h"
 
 #include <optional>

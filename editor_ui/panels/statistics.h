@@ -3,9 +3,9 @@
 
 #include "editor_ui/panels/frame_record.h"
 #include "editor_ui/panels/time_history.h"
+#include "engine/files/relight_choice.h"
 #include "engine/lighting/lighting_report.h"
 #include "engine/lighting/precomputed.h"
-#include "engine/lighting/relight_choice.h"
 
 #include <cstdint>
 #include <optional>

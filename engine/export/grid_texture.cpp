@@ -2,8 +2,8 @@
 #include "engine/export/grid_texture.h"
 
 #include "engine/export/gltf_scene.h"
-#include "engine/export/ktx2.h"
 #include "engine/export/vector_json.h"
+#include "engine/files/ktx2.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include "engine/export/lightmap_file.h"
 
 #include "engine/export/gltf_scene.h"
-#include "engine/export/ktx2.h"
 #include "engine/files/image_file.h"
+#include "engine/files/ktx2.h"
 #include "engine/scene/export_settings_fields.h"
 
 #include <algorithm>

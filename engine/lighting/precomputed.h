@@ -38,9 +38,20 @@ struct PrecomputedCost {
 };
 
 /// Sum of the counters' values.
-double totalOf(const std::vector<LightingCounter>& counters);
+inline double totalOf(const std::vector<LightingCounter>& counters) {
+    double total = 0;
+    for (const LightingCounter& counter : counters)
+        total += counter.value;
+    return total;
+}
+
 /// Sum of the stages' durations [s].
-double totalOf(const StageSeconds& seconds);
+inline double totalOf(const StageSeconds& seconds) {
+    double total = 0;
+    for (const auto& [stage, s] : seconds)
+        total += s;
+    return total;
+}
 
 /// Estimate of a precomputation, made before it starts.
 struct Prediction {

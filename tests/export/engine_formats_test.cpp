@@ -2,9 +2,9 @@
 #include "engine/export/engine_formats.h"
 
 #include "engine/export/export_table.h"
-#include "engine/export/ktx2.h"
 #include "engine/export/lightmap_image.h"
 #include "engine/export/sh_conventions.h"
+#include "engine/files/ktx2.h"
 #include "engine/math/sh.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/export/gltf_rules.h"

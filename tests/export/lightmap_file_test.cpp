@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/lightmap_file.h"
 
-#include "engine/export/ktx2.h"
+#include "engine/files/ktx2.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Killed at any moment, each writer leaves one whole file, and nothing beside it.
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
-#include "engine/lighting/relight_choice.h"
+#include "engine/files/relight_choice.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/format/bake_file.h"

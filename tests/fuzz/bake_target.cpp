@@ -2,9 +2,11 @@
 // A bake file. An input that begins as one is given to the reader with its checksums put right;
 // any other is a list of changes to a valid bake, which is then written, read again and lit.
 #include "engine/core/hash.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/format/bake_defect.h"
 #include "engine/techniques/illuminance/format/bake_fields.h"
 #include "engine/techniques/illuminance/format/bake_file.h"
+#include "tests/core/source_path.h"
 #include "tests/fuzz/changes.h"
 #include "tests/fuzz/exercise.h"
 #include "tests/fuzz/small_room.h"
@@ -18,19 +20,13 @@ namespace {
 /// The valid bakes that changes start from: links of both kinds, a scene of both sides.
 struct Starts {
     Scene scene = smallRoom();
-    TraceScene trace{scene};
-    Bake rtp, sh;
+    Bake rtp = start("cones"), sh = start("harmonics");
 
-    Starts() {
-        const auto made = [&](LinkStorage storage) {
-            BakeSettings settings = smallBake();
-            settings.storage = storage;
-            Result<Bake> result = bake(trace, {}, nullptr, &settings);
-            require(result.has_value(), "the small room bakes");
-            return std::move(*result);
-        };
-        rtp = made(LinkStorage::Rtp);
-        sh = made(LinkStorage::Sh);
+    Bake start(const std::string& name) const {
+        Result<Bake> read = readBake(sourcePath("tests/corpus/starts/" + name + ".bake"));
+        require(read.has_value(), "a start is a bake of this version; fuzz_seeds writes one");
+        require(bakeDefect(*read, &scene).empty(), "a start is a bake of the small room");
+        return std::move(*read);
     }
 };
 
@@ -77,6 +73,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Scene scene = starts.scene;
     scene.bake = read->settings; // as limn render does
     if (bakeDefect(*read, &scene).empty())
-        relight(scene, starts.trace, std::move(*read));
+        light(scene, *read);
     return 0;
 }

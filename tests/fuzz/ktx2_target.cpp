@@ -2,7 +2,7 @@
 // KTX2 textures.
 #include "tests/fuzz/target.h"
 
-#include "engine/export/ktx2.h"
+#include "engine/files/ktx2.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // is the file of remembered relighting times.
 #include "app/commands/bake_options.h"
 #include "app/commands/scene_options.h"
-#include "engine/lighting/relight_choice.h"
+#include "engine/files/relight_choice.h"
 #include "tests/fuzz/exercise.h"
 #include "tests/fuzz/project_files.h"
 

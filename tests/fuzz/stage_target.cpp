@@ -2,8 +2,12 @@
 // Finished stages of a bake that are damaged, or of another bake, under a right checksum: a list of
 // changes to what a bake keeps, which a second bake then finds.
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_defect.h"
+#include "engine/trace/trace_scene.h"
 #include "tests/fuzz/changes.h"
 #include "tests/fuzz/exercise.h"
+#include "tests/fuzz/small_bake.h"
 #include "tests/fuzz/small_room.h"
 
 #include <cstring>
@@ -91,7 +95,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     for (const Stage& stage : stages)
         store.put(stage.key, stage.bytes);
     const BakeSettings settings = settingsOf(0);
-    if (Result<Bake> made = bake(starts.trace, {}, &store, &settings, kFuzzMemory))
-        relight(starts.scene, starts.trace, std::move(*made));
+    if (const Result<Bake> made = bake(starts.trace, {}, &store, &settings, kFuzzMemory)) {
+        require(bakeDefect(*made, &starts.scene).empty(), "a bake of damaged stages is sound");
+        light(starts.scene, *made);
+    }
     return 0;
 }

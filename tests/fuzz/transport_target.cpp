@@ -3,36 +3,16 @@
 // any other is a list of words to be written into the sections of a valid file. What is accepted is
 // lit, and its light must be finite.
 #include "engine/runtime/limn_runtime.h"
-#include "engine/techniques/illuminance/transport/transport_file.h"
-#include "tests/fuzz/exercise.h"
-#include "tests/fuzz/small_room.h"
+#include "tests/core/source_path.h"
+#include "tests/fuzz/target.h"
 #include "tests/runtime/transport_bytes.h"
+
+#include <algorithm>
+#include <cmath>
 
 using namespace limn;
 
 namespace {
-
-/// The small room, whose sheet has holes.
-Scene roomWithHoles() {
-    Scene scene = smallRoom();
-    const auto assets = std::make_shared<Assets>(*scene.assets);
-    assets->images.push_back({"holes", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
-    scene.assets = assets;
-    scene.materials[1].alphaMode = AlphaMode::Mask;
-    scene.materials[1].baseColorTexture.image = 0;
-    return scene;
-}
-
-std::string roomFile() {
-    const Scene scene = roomWithHoles();
-    const TraceScene trace(scene);
-    const BakeSettings settings = smallBake();
-    const Result<Bake> made = bake(trace, {}, nullptr, &settings);
-    require(made.has_value(), "the small room bakes");
-    const Result<std::string> file = transportFile({*made, scene, nullptr, "fuzz"});
-    require(file.has_value(), "the small room is written");
-    return *file;
-}
 
 /// A word to be written into a section.
 struct Change {
@@ -98,7 +78,7 @@ void light(limnrt_scene* scene) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     useOneThread();
-    static const std::string room = roomFile();
+    static const std::string room = fileBytes(sourcePath("tests/corpus/starts/room.limnrt"));
     const std::string_view input = textOf(data, size);
     std::string file = input.starts_with("LIMNRT") ? std::string(input) : changed(room, input);
     rehash(file);

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 // write_seeds FOLDER: writes the valid examples from which fuzzing starts, FOLDER/TARGET/NAME.
-#include "engine/export/ktx2.h"
 #include "engine/files/image_file.h"
+#include "engine/files/ktx2.h"
 #include "engine/files/project_file.h"
-#include "tests/fuzz/project_files.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_file.h"
+#include "engine/techniques/illuminance/transport/transport_file.h"
+#include "tests/fuzz/small_bake.h"
+#include "tests/fuzz/small_room.h"
+#include "tests/fuzz/target.h"
+#include "tests/gltf/gltf_builder.h"
+#include "tests/scene/small_png.h"
 
 #include <filesystem>
 #include <string>
@@ -128,6 +135,25 @@ void writeFloatImages(const TemporaryFolder& folder, const auto& write) {
     }
 }
 
+/// Two textured triangles that a lamp lights: project_files.h reads the file.
+std::string plainScene() {
+    GltfBuilder b;
+    const int position = b.vec3({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    const int uv = b.accessor(b.view(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}), "VEC2",
+                              GltfBuilder::kFloat, 4);
+    const int normal = b.vec3(std::vector<glm::vec3>(4, {0, 0, 1}));
+    b.mesh({{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}}},
+            {"indices", b.indices({0, 1, 2, 0, 2, 3})},
+            {"material", 0}});
+    b.json["images"] = {{{"bufferView", b.view(greyPng())}, {"mimeType", "image/png"}}};
+    b.json["textures"] = {{{"source", 0}}};
+    b.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 5}}};
+    b.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+    return b.glb();
+}
+
 /// A floor and a lamp's panel above it, with as much of glTF as fits on them.
 GltfBuilder richScene() {
     GltfBuilder b;
@@ -201,7 +227,7 @@ GltfBuilder richScene() {
 
 void writeScenes(const TemporaryFolder&, const auto& write) {
     write("triangle.glb", triangleScene().glb());
-    write("plain.glb", projectScene());
+    write("plain.glb", plainScene());
     write("rich.glb", richScene().glb());
     // As text; the buffer is zeros: degenerate triangles to be mended.
     nlohmann::json text = triangleScene().json;
@@ -223,7 +249,7 @@ void writeScenes(const TemporaryFolder&, const auto& write) {
 }
 
 void writeProjects(const TemporaryFolder& folder, const auto& write) {
-    writeFile(folder.file("scene.glb"), projectScene());
+    writeFile(folder.file("scene.glb"), plainScene());
     ImportedScene scene = *importGltf(folder.file("scene.glb"));
     Document& document = scene.document;
     Light spot;
@@ -319,6 +345,38 @@ void writeOptions(const TemporaryFolder&, const auto& write) {
     write("times", R"({"version": 1, "times": {"k": {"cpu_ms": 2.5, "gpu_ms": 1}}})");
 }
 
+/// The small room, whose sheet has holes.
+Scene roomWithHoles() {
+    Scene scene = smallRoom();
+    const auto assets = std::make_shared<Assets>(*scene.assets);
+    assets->images.push_back({"holes", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
+    scene.assets = assets;
+    scene.materials[1].alphaMode = AlphaMode::Mask;
+    scene.materials[1].baseColorTexture.image = 0;
+    return scene;
+}
+
+Bake smallBakeOf(const Scene& scene, LinkStorage storage) {
+    BakeSettings settings = smallBake();
+    settings.storage = storage;
+    Bake made = bake(TraceScene(scene), {}, nullptr, &settings).value();
+    made.seconds.clear(); // the same file each time
+    return made;
+}
+
+/// Valid files to which bake_target.cpp and transport_target.cpp make the changes of their inputs.
+void writeStarts(const TemporaryFolder& folder, const auto& write) {
+    for (const auto& [name, storage] : {std::pair("cones.bake", LinkStorage::Rtp),
+                                        std::pair("harmonics.bake", LinkStorage::Sh)}) {
+        require(writeBake(folder.file(name), smallBakeOf(smallRoom(), storage)).has_value(),
+                "a small bake is written");
+        write(name, fileBytes(folder.file(name)));
+    }
+    const Scene scene = roomWithHoles();
+    const Bake made = smallBakeOf(scene, LinkStorage::Rtp);
+    write("room.limnrt", transportFile({made, scene, nullptr, "fuzz"}).value());
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -341,5 +399,6 @@ int main(int argc, char** argv) {
     writeTextures(temporary, into("ktx2"));
     writeOptions(temporary, into("option"));
     writeTransports(temporary, into("transport"));
+    writeStarts(temporary, into("starts"));
     return 0;
 }

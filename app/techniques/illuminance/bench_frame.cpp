@@ -3,9 +3,9 @@
 #include "app/techniques/illuminance/bench_bakes.h"
 #include "app/techniques/illuminance/illuminance_program.h"
 
+#include "engine/files/relight_choice.h"
 #include "engine/gpu/device.h"
 #include "engine/lighting/fastest_update.h"
-#include "engine/lighting/relight_choice.h"
 #include "engine/techniques/illuminance/gpu/viewport_relighter.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/lighting/relight_choice.h"
+#include "engine/files/relight_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/export/ktx2_layout.h"
+#include "engine/files/ktx2_layout.h"
 
 #include <bit>
 #include <vector>

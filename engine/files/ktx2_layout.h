@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/export/ktx2.h"
+#include "engine/files/ktx2.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/export/ktx2.h"
+#include "engine/files/ktx2.h"
 
 #include "engine/core/hash.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/export/ktx2.h"
+#include "engine/files/ktx2.h"
 
-#include "engine/export/ktx2_layout.h"
+#include "engine/files/ktx2_layout.h"
 #include "engine/math/packing.h"
 
 #include <algorithm>
