@@ -6,13 +6,13 @@
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/techniques/illuminance/bake/cut/cut_worth.h"
+#include "engine/techniques/illuminance/bake/cut/training_light.h"
+#include "engine/techniques/illuminance/bake/rays/gather.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/bake/senders/surfels.h"
-#include "engine/techniques/illuminance/bake/transport/cut_worth.h"
-#include "engine/techniques/illuminance/bake/transport/gather.h"
-#include "engine/techniques/illuminance/bake/transport/training_light.h"
 #include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>

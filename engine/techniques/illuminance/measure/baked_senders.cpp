@@ -3,8 +3,8 @@
 
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/stages/stage_store.h"
+#include "engine/techniques/illuminance/bake/rays/trace_record.h"
 #include "engine/techniques/illuminance/bake/senders/patch_sides.h"
-#include "engine/techniques/illuminance/bake/transport/trace_record.h"
 
 namespace limn {
 

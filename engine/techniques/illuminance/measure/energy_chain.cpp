@@ -5,8 +5,8 @@
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/seen_points.h"
 #include "engine/shading/direct_light.h"
+#include "engine/techniques/illuminance/bake/rays/gather.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
-#include "engine/techniques/illuminance/bake/transport/gather.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 

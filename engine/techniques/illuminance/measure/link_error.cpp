@@ -2,8 +2,8 @@
 #include "engine/techniques/illuminance/measure/link_error.h"
 
 #include "engine/core/parallel.h"
-#include "engine/techniques/illuminance/bake/transport/gather.h"
-#include "engine/techniques/illuminance/bake/transport/seen_hits.h"
+#include "engine/techniques/illuminance/bake/rays/gather.h"
+#include "engine/techniques/illuminance/bake/rays/seen_hits.h"
 #include "engine/techniques/illuminance/format/link_storage.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/charts.h"
 #include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/bake/rays/trace_stage.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
-#include "engine/techniques/illuminance/bake/transport/trace_stage.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/texel_sides.h"
 #include "engine/math/sampling.h"
-#include "engine/techniques/illuminance/bake/transport/seen_hits.h"
+#include "engine/techniques/illuminance/bake/rays/seen_hits.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/field/grid_depth.h"
-#include "engine/techniques/illuminance/bake/transport/gather.h"
+#include "engine/techniques/illuminance/bake/rays/gather.h"
 
 #include <cstdint>
 #include <vector>
