@@ -3,7 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lightmap/near_reach.h"
-#include "engine/picture/final_gather_read.h"
+#include "engine/picture/final_gather_walk.h"
 #include "engine/shading/direct_light.h"
 
 #include <algorithm>
@@ -67,17 +67,16 @@ double FinalGather::meanLight() const {
     return sum / (kColumns * kRows);
 }
 
-/// Sums the light that is read. Unless `rays` is null, adds to it each ray and the light it brings.
-struct FinalGather::GatherReader {
+/// Adds up the light of each part: draws. One light is sampled for all. Unless `rays` is null, adds
+/// to it each ray and the light it brings.
+struct FinalGather::PartSink {
     const TraceScene& trace;
     std::vector<RayLight>* rays = nullptr;
     std::array<glm::vec3, kGatherParts> sums{};
     RayLight* ray = nullptr; ///< the last of `rays` while it is followed
 
-    /// Whether an instance that the pixel shows, or that a ray met, reflects light.
-    static bool shows(std::uint32_t /*instance*/) { return true; }
-    static bool reflects(std::uint32_t /*instance*/) { return true; }
-    /// A ray from the pixel brings all light that is read between these two calls.
+    static constexpr bool reflects(std::uint32_t /*instance*/) { return true; }
+
     void rayBegins(const StraightSample& found) {
         if (rays && found.weight > 0)
             ray = &rays->emplace_back(RayLight{found.direction, found.found[2].pdf, 0});
@@ -88,22 +87,19 @@ struct FinalGather::GatherReader {
         if (ray)
             ray->light += channelSum(light);
     }
-    /// Weight times a field's irradiance.
-    void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart part) {
-        add(weight * sampleIrradiance(at), part);
+    void fieldIrradiance(const FieldPoint& point, glm::vec3 weight, GatherPart part) {
+        add(weight * sampleIrradiance(point), part);
     }
-    /// Weight times direct light where a ray ends. `via`: the instance that it met first.
-    void directLight(const StraightSample& met, const Sampler& own, glm::vec3 weight,
-                     std::uint32_t /*via*/) {
+    void gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers, glm::vec3 weight,
+                             std::uint32_t /*via*/) {
         std::uint64_t shadowRays = 0;
-        add(weight * sampleDirectLight(trace, *met.point, own.pair(0).x, own.pair(1), shadowRays)
-                         .irradiance,
+        add(weight *
+                sampleDirectLight(trace, p, numbers.pick, numbers.onLight, shadowRays).irradiance,
             Bounced);
     }
-    /// Light from the sky or an emissive surface.
-    void arrives(const FoundLight& /*from*/, glm::vec3 value, GatherPart part,
-                 std::uint32_t /*via*/) {
-        add(value, part);
+    void gatheredEmission(const FoundLight& /*found*/, glm::vec3 light, GatherPart part,
+                          std::uint32_t /*via*/) {
+        add(light, part);
     }
 };
 
@@ -114,13 +110,13 @@ GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_
     Shares whole;
     whole.fill(glm::vec3(1));
     for (std::uint32_t s = 0; s < count; ++s) {
-        GatherReader reader{m_trace, learned};
-        taken.weight += sample(at, begin + s, guide, whole, reader);
+        PartSink sink{m_trace, learned};
+        taken.weight += walkSample(at, begin + s, guide, whole, sink);
         const bool half = s < count / 2;
         glm::vec3 all(0);
         for (std::uint32_t part = 0; part < kGatherParts; ++part) {
-            taken.parts[part].add(reader.sums[part], half);
-            all += reader.sums[part];
+            taken.parts[part].add(sink.sums[part], half);
+            all += sink.sums[part];
         }
         taken.all.add(all, half);
     }

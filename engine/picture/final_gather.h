@@ -7,6 +7,7 @@
 #include "engine/picture/field_render.h"
 #include "engine/picture/gather_tile.h"
 #include "engine/picture/gathered_light.h"
+#include "engine/picture/light_sink.h"
 #include "engine/picture/pixel_sample.h"
 #include "engine/picture/straight_light.h"
 
@@ -54,15 +55,15 @@ public:
     std::uint32_t tileRows() const { return (m_options.height + kGatherTile - 1) / kGatherTile; }
     PixelRect picture() const { return {{0, 0}, {m_options.width, m_options.height}}; }
 
-    /// The light that addTo() adds to one pixel, piece by piece: calls of `reader`, whose sum it
-    /// is, as GatherReader of final_gather.cpp does. In final_gather_read.h. Precondition: any().
-    template <class Reader>
-    void read(std::uint32_t x, std::uint32_t y, Reader& reader) const;
+    /// Walks the light that addTo() adds to one pixel: hands each of its terms to a sink. In
+    /// final_gather_walk.h. Precondition: any().
+    template <GatherSink Sink>
+    void walk(std::uint32_t x, std::uint32_t y, Sink& sink) const;
 
 private:
     /// Factors by which the parts of a sample count.
     using Shares = std::array<glm::vec3, kGatherParts>;
-    struct GatherReader;
+    struct PartSink;
 
     const IndirectField& straight() const { return *m_options.straight; }
     FieldPoint pointOf(const IndirectField& field, const Hit& hit, const SurfacePoint& p) const {
@@ -74,18 +75,17 @@ private:
     GatherSamples take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, std::vector<RayLight>* learned) const;
     std::uint32_t further(double variance) const;
-    /// Reads sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of a
+    /// Walks sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of a
     /// further sample; null for the first ones.
-    template <class Reader>
-    glm::vec3 sample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide, const Shares& shares,
-                     Reader& reader) const;
-    /// Reads all samples of a pixel of the tile.
-    template <class Reader>
-    void readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
-                   Reader& reader) const;
-    template <class Reader>
-    void readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
-                     Reader& reader) const;
+    template <GatherSink Sink>
+    glm::vec3 walkSample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
+                         const Shares& shares, Sink& sink) const;
+    /// Walks all samples of a pixel of the tile.
+    template <GatherSink Sink>
+    void walkPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+                   Sink& sink) const;
+    template <GatherSink Sink>
+    void walkBounced(StraightSample met, const Sampler& own, glm::vec3 weight, Sink& sink) const;
 
     const TraceScene& m_trace;
     const IndirectField& m_field;

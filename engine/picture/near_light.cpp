@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/picture/near_light.h"
 
-#include "engine/field/sample_field.h"
 #include "engine/lightmap/near_reach.h"
-#include "engine/picture/field_lobe.h"
-#include "engine/shading/direct_light.h"
+#include "engine/picture/value_sink.h"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 
 namespace limn {
 
@@ -46,26 +43,11 @@ std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
     return found;
 }
 
-/// Radiance towards the point that found it.
-static glm::vec3 radianceOf(const NearLight& near, const NearSurface& s) {
-    if (!s.point)
-        return glm::vec3(0);
-    std::uint64_t rays = 0;
-    const glm::vec3 direct = sampleDirectLight(near.trace, *s.point, s.sampler.pair(kNearPick).x,
-                                               s.sampler.pair(kNearOnLight), rays)
-                                 .irradiance;
-    const glm::vec3 bounced =
-        sampleIrradiance(fieldPoint(near.field, near.layout, near.trace.scene(), s.hit, *s.point));
-    return s.point->albedo / glm::pi<float>() * (direct + bounced);
-}
-
 glm::vec3 nearCorrection(const NearLight& near, const Hit& hit, const SurfacePoint& p,
                          const Sampler& sampler) {
-    const FieldPoint at = fieldPoint(near.field, near.layout, near.trace.scene(), hit, p);
-    glm::vec3 sum(0);
-    for (const NearSurface& s : findNearSurfaces(near, hit, p, sampler))
-        sum += s.weight * (radianceOf(near, s) - sampleRadiance(at, s.direction));
-    return sum;
+    ValueSink value{near.trace};
+    walkNearLight(near, hit, p, sampler, value);
+    return value.sum;
 }
 
 } // namespace limn

@@ -3,6 +3,7 @@
 
 #include "engine/field/indirect_field.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
+#include "engine/picture/light_sink.h"
 #include "engine/shading/sampler.h"
 #include "engine/shading/surface_point.h"
 #include "engine/trace/trace_scene.h"
@@ -10,6 +11,8 @@
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include <glm/gtc/constants.hpp>
 
 namespace limn {
 
@@ -40,15 +43,35 @@ inline constexpr std::uint32_t kNearPick = 1, kNearOnLight = 2;
 std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
                                           const SurfacePoint& p, const Sampler& sampler);
 
-/// Unbiased estimate of the irradiance [W m^-2] to add to the field's at point `p`: of each near
-/// surface its own light, less what the field says arrives from its direction. Its own light is
-/// direct light with traced shadows and the field there. The estimate may be negative; added to
-/// the field's irradiance, its mean is so only as far as the field's harmonics ring. 0 where
-/// nothing is near.
+/// Walks an unbiased estimate of the irradiance [W m^-2] to add to the field's at point `p`: of
+/// each near surface its own light, less what the field says arrives from its direction. Its own
+/// light is direct light with traced shadows and the field there. The estimate may be negative;
+/// added to the field's irradiance, its mean is so only as far as the field's harmonics ring. There
+/// is none where nothing is near.
 ///
 /// Irradiance is parted into near and far as in: Arikan, Forsyth, O'Brien. Fast and Detailed
 /// Approximate Global Illumination by Irradiance Decomposition. 2005. There, distant light is
 /// sampled without what is near; here the field has both, so what is near is exchanged.
+template <PixelSink Sink>
+void walkNearLight(const NearLight& near, const Hit& hit, const SurfacePoint& p,
+                   const Sampler& sampler, Sink& sink) {
+    const Scene& scene = near.trace.scene();
+    const FieldPoint receiver = fieldPoint(near.field, near.layout, scene, hit, p);
+    const auto ownLight = [&](const NearSurface& s) {
+        const LightNumbers numbers{s.sampler.pair(kNearPick).x, s.sampler.pair(kNearOnLight)};
+        sink.nearDirectLight(*s.point, numbers, s.hit.instance);
+        sink.fieldIrradiance(fieldPoint(near.field, near.layout, scene, s.hit, *s.point),
+                             glm::vec3(1), GatherPart::Shown);
+    };
+    for (const NearSurface& s : findNearSurfaces(near, hit, p, sampler))
+        sink.scaled(glm::vec3(s.weight), [&] {
+            if (s.point && sink.reflects(s.hit.instance))
+                sink.scaled(s.point->albedo / glm::pi<float>(), [&] { ownLight(s); });
+            sink.fieldRadiance(receiver, s.direction, glm::vec3(-1));
+        });
+}
+
+/// The value of that estimate.
 glm::vec3 nearCorrection(const NearLight& near, const Hit& hit, const SurfacePoint& p,
                          const Sampler& sampler);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/picture/light_sink.h"
 #include "engine/shading/pixel_rays.h"
 #include "engine/shading/sampler.h"
 
@@ -11,10 +12,9 @@ namespace limn {
 /// Sample s of a pixel of a picture that is drawn on the CPU from a field.
 struct PixelSample {
     Ray ray;
-    float pickLight;   ///< for sampleDirectLight()
-    glm::vec2 onLight; ///< the same
-    Sampler near;      ///< for nearCorrection()
-    Sampler gather;    ///< for FinalGather
+    LightNumbers light; ///< for direct light
+    Sampler near;       ///< for walkNearLight()
+    Sampler gather;     ///< for FinalGather
 
     /// They set those rays apart from others.
     static constexpr std::uint32_t kNearSeed = 0x6e656172, kGatherSeed = 0x67617468;
@@ -25,8 +25,7 @@ struct PixelSample {
         const auto width = std::uint32_t(rays.size.x);
         const glm::vec2 corner(float(pixel % width), float(pixel / width));
         ray = rays.through(corner + sampler.pair(0));
-        pickLight = sampler.pair(1).x;
-        onLight = sampler.pair(kOnLightDimension);
+        light = {sampler.pair(1).x, sampler.pair(kOnLightDimension)};
         near = {mixBits(sampler.seed, kNearSeed), s};
         gather = {mixBits(sampler.seed, kGatherSeed), s};
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/picture/final_gather_read.h"
+#include "engine/picture/final_gather_walk.h"
 
 #include "engine/core/parallel.h"
 #include "engine/measure/compare.h"
@@ -240,16 +240,16 @@ TEST(FinalGather, DoesNothingWhereItIsNotAskedFor) {
 TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
     struct Sum {
         glm::dvec3 value{0}; // of a million terms
-        static bool shows(std::uint32_t) { return true; }
         static bool reflects(std::uint32_t) { return true; }
         void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart) {
             value += glm::dvec3(weight * sampleIrradiance(at));
         }
-        void directLight(const StraightSample&, const Sampler&, glm::vec3, std::uint32_t) {
-        } // there is no light
+        // There is no light.
+        void gatheredDirectLight(const SurfacePoint&, const LightNumbers&, glm::vec3,
+                                 std::uint32_t) {}
         void rayBegins(const StraightSample&) {}
         void rayEnds() {}
-        void arrives(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {
+        void gatheredEmission(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {
             value += glm::dvec3(found);
         }
     };
@@ -266,7 +266,7 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
     EXPECT_EQ(one.rgb, many.rgb);
     for (const std::uint32_t pixel : {0U, 100U, 377U, 719U}) {
         Sum sum;
-        gather.read(pixel % 36, pixel / 36, sum);
+        gather.walk(pixel % 36, pixel / 36, sum);
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(sum.value[k], one.rgb[pixel][k], 1e-4f);
     }

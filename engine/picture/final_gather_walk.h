@@ -18,38 +18,38 @@ inline constexpr float kFewestTexels = 4;
 inline constexpr float kLeastReflected = 0.03f;
 inline constexpr std::uint32_t kMostGatherBounces = 64;
 
-template <class Reader>
-void FinalGather::readBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
-                              Reader& reader) const {
+template <GatherSink Sink>
+void FinalGather::walkBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
+                              Sink& sink) const {
     const std::uint32_t via = met.hit.instance;
     float reflected = 1;
-    for (std::uint32_t bounce = 1; met.point && reader.reflects(met.hit.instance); ++bounce) {
+    for (std::uint32_t bounce = 1; met.point && sink.reflects(met.hit.instance); ++bounce) {
         const glm::vec3 albedo = met.point->albedo;
         weight *= albedo / glm::pi<float>();
         reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
-        reader.directLight(met, {mixBits(own.seed, kOnLightDimension + bounce), own.index}, weight,
-                           via);
+        const Sampler light{mixBits(own.seed, kOnLightDimension + bounce), own.index};
+        sink.gatheredDirectLight(*met.point, {light.pair(0).x, light.pair(1)}, weight, via);
         if (reflected < kLeastReflected || bounce == kMostGatherBounces ||
             !(met.hit.t < kFewestTexels * m_widths[met.hit.instance])) {
-            reader.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
+            sink.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
             return;
         }
         met = sampleStraightLight(m_trace, m_sources, *met.point,
                                   {mixBits(own.seed, bounce), own.index});
         for (const FoundLight& f : met.found)
             if (f.irradiance != glm::vec3(0))
-                reader.arrives(f, weight * f.irradiance, Bounced, via);
+                sink.gatheredEmission(f, weight * f.irradiance, Bounced, via);
         weight *= met.weight;
     }
 }
 
-template <class Reader>
-glm::vec3 FinalGather::sample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
-                              const Shares& shares, Reader& reader) const {
+template <GatherSink Sink>
+glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
+                                  const Shares& shares, Sink& sink) const {
     const PixelSample pixel(m_rays, m_options.seed, at.y * m_options.width + at.x, s);
     const Hit hit = m_trace.closestHit(pixel.ray);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
-    if (!p || !reader.shows(hit.instance))
+    if (!p || !(m_options.view == View::Irradiance || sink.reflects(hit.instance)))
         return glm::vec3(0);
     const glm::vec3 weight = weightOf(*p);
     Shares weights;
@@ -57,33 +57,33 @@ glm::vec3 FinalGather::sample(glm::uvec2 at, std::uint32_t s, const LightGuide* 
         weights[part] = shares[part] * weight;
     const FieldPoint here = pointOf(m_field, hit, *p), straightHere = pointOf(straight(), hit, *p);
     if (shares[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
-        reader.fieldIrradiance(here, weights[Shown], Shown);
-    reader.fieldIrradiance(straightHere, -weights[Straight], Straight);
-    reader.fieldIrradiance(straightHere, weights[Bounced], Bounced);
-    reader.fieldIrradiance(here, -weights[Bounced], Bounced);
+        sink.fieldIrradiance(here, weights[Shown], Shown);
+    sink.fieldIrradiance(straightHere, -weights[Straight], Straight);
+    sink.fieldIrradiance(straightHere, weights[Bounced], Bounced);
+    sink.fieldIrradiance(here, -weights[Bounced], Bounced);
     const std::uint32_t rays = m_options.gatherRays;
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
         const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
         const auto arrives = [&](const FoundLight& f) {
             if (f.irradiance != glm::vec3(0))
-                reader.arrives(f, weights[Straight] / float(rays) * f.irradiance, Straight,
-                               f.instance);
+                sink.gatheredEmission(f, weights[Straight] / float(rays) * f.irradiance, Straight,
+                                      f.instance);
         };
         arrives(found.found[0]);
         arrives(found.found[1]);
-        reader.rayBegins(found);
+        sink.rayBegins(found);
         arrives(found.found[2]);
         if (found.weight > 0 && found.hit)
-            readBounced(found, own, found.weight / float(rays) * weights[Bounced], reader);
-        reader.rayEnds();
+            walkBounced(found, own, found.weight / float(rays) * weights[Bounced], sink);
+        sink.rayEnds();
     }
     return weight;
 }
 
-template <class Reader>
-void FinalGather::readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
-                            Reader& reader) const {
+template <GatherSink Sink>
+void FinalGather::walkPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+                            Sink& sink) const {
     if (shares == Shares{})
         return;
     const std::uint32_t p = (pixel.y - tile.y) * kGatherTile + pixel.x - tile.x,
@@ -98,13 +98,13 @@ void FinalGather::readPixel(const GatherTile& tile, glm::uvec2 pixel, const Shar
         return each;
     };
     for (std::uint32_t s = 0; s < first; ++s)
-        sample(pixel, s, nullptr, ofOne(false), reader);
+        walkSample(pixel, s, nullptr, ofOne(false), sink);
     for (std::uint32_t s = 0; s < more; ++s)
-        sample(pixel, first + s, &tile.guide, ofOne(true), reader);
+        walkSample(pixel, first + s, &tile.guide, ofOne(true), sink);
 }
 
-template <class Reader>
-void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
+template <GatherSink Sink>
+void FinalGather::walk(std::uint32_t x, std::uint32_t y, Sink& sink) const {
     const PixelRect window = windowAround({x, y}, kGatherRadius, picture()),
                     near = windowAround({x, y}, kNearRadius, picture());
     const glm::uvec2 begin = window.begin / kGatherTile * kGatherTile;
@@ -128,7 +128,7 @@ void FinalGather::read(std::uint32_t x, std::uint32_t y, Reader& reader) const {
             shares[part] = kept[part].factorOf(isNear, isItself, weight);
         shares[Shown] = glm::vec3(isItself ? 1 : 0);
         const glm::uvec2 tile = (at - begin) / kGatherTile;
-        readPixel(tiles[tile.y * columns + tile.x], at, shares, reader);
+        walkPixel(tiles[tile.y * columns + tile.x], at, shares, sink);
     });
 }
 

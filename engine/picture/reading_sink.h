@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/field_reading.h"
+#include "engine/lighting/converged_light.h"
+#include "engine/picture/light_sink.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// What a pixel shows, by where the light comes from.
+struct PixelParts {
+    glm::vec3 sky{0};               ///< seen itself
+    glm::vec3 emission{0};          ///< of the surfaces that are seen
+    std::vector<glm::vec3> byLight; ///< direct light of each of Scene::lights
+    /// Direct light of each of them by way of near surfaces, which the field is too coarse for.
+    std::vector<glm::vec3> nearByLight;
+    std::vector<glm::vec3> nearBySurface; ///< the same by way of each of Scene::instances
+    /// Light that gathering found: straight from the sky and each of Scene::instances, and what
+    /// else is not the field's, by where it comes from and by the instance that sends it here.
+    struct Gathered {
+        glm::vec3 sky{0};
+        std::vector<glm::vec3> bySurface, byLight;
+    };
+    Gathered straight, bounced;
+    std::vector<glm::vec3> bouncedVia;
+    FieldReading reading;            ///< of the field: all other light
+    FieldReading straightReading;    ///< of the straight field
+    std::vector<std::uint32_t> seen; ///< instances that the pixel shows, each once
+
+    explicit PixelParts(const Scene& scene);
+};
+
+/// Keeps apart the terms of walkPixel() and FinalGather::walk(): explains. Every light is sampled.
+class ReadingSink {
+public:
+    PixelParts parts;
+
+    /// Instances in `black` reflect no diffuse light. The arguments outlive the object.
+    ReadingSink(const ConvergedLight& lit, const std::vector<std::uint32_t>& black)
+        : parts(lit.trace->scene()), m_lit(lit), m_black(black) {}
+
+    bool reflects(std::uint32_t instance) const;
+    void meets(std::uint32_t instance);
+
+    template <class Body>
+    void scaled(glm::vec3 factor, const Body& body) {
+        const glm::vec3 before = m_factor;
+        m_factor *= factor;
+        body();
+        m_factor = before;
+    }
+
+    void background(glm::vec3 radiance) { parts.sky += m_factor * radiance; }
+    void emission(glm::vec3 radiance) { parts.emission += m_factor * radiance; }
+
+    template <class Response>
+    void directLight(const SurfacePoint& p, const LightNumbers& numbers, const Response& response) {
+        forEachLight(p, numbers, [&](std::size_t light, const DirectSample& sample) {
+            parts.byLight[light] += m_factor * response(sample);
+        });
+    }
+    void nearDirectLight(const SurfacePoint& p, const LightNumbers& numbers, std::uint32_t via);
+
+    void fieldIrradiance(const FieldPoint& point, glm::vec3 weight, GatherPart part);
+    void fieldRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight);
+    void fieldLobe(const FieldPoint& point, const FieldLobe& lobe);
+    void marched(const MarchedMaps& maps, const MarchedReflection& reflection);
+
+    // Only guides learn from single rays.
+    static void rayBegins(const StraightSample& /*ray*/) {}
+    static void rayEnds() {}
+    void gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers, glm::vec3 weight,
+                             std::uint32_t via);
+    void gatheredEmission(const FoundLight& found, glm::vec3 light, GatherPart part,
+                          std::uint32_t via);
+
+private:
+    /// Calls add(index, sample) for each of Scene::lights.
+    template <class Add>
+    void forEachLight(const SurfacePoint& p, const LightNumbers& numbers, const Add& add) const {
+        std::uint64_t rays = 0;
+        const std::vector<Light>& lights = m_lit.trace->scene().lights;
+        for (std::size_t l = 0; l < lights.size(); ++l)
+            add(l, sampleDirectLightFrom(*m_lit.trace, p, lights[l], numbers.onLight, rays));
+    }
+    FieldReading& readingOf(const FieldPoint& point);
+
+    const ConvergedLight& m_lit;
+    const std::vector<std::uint32_t>& m_black;
+    glm::vec3 m_factor{1}; ///< of the terms
+};
+
+} // namespace limn
