@@ -35,7 +35,9 @@ struct ReferenceResult {
 /// interpolated vertex normals, without normal maps; the triangle itself bounds the visible
 /// hemisphere. The back of a one-sided surface is black, to the camera and to paths, and blocks
 /// light. Emission leaves the front only, unless the material is double-sided. Nothing is clamped
-/// and fireflies are not removed. Box pixel filter. The result is identical for any number of
+/// and fireflies are not removed. Surface points, direct light, emitters and the sky are those of
+/// engine/shading, which pictures use as well; tests/reference holds them to closed forms.
+/// Box pixel filter. The result is identical for any number of
 /// threads. A cancelled call returns the samples so far.
 ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions& options,
                                 const Progress& progress = {});

@@ -3,7 +3,7 @@
 #include "engine/shading/direct_light.h"
 
 #include "engine/math/sh.h"
-#include "engine/scene/light/rectangle_light.h"
+#include "tests/shading/light_formulas.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(DirectHarmonics, OfARectangleHaveItsSolidAngleAndVectorIrradiance) {
     const double a = 0.75, b = 0.5, d = 2;
     const double omega = 4 * std::asin(a * b / std::sqrt((a * a + d * d) * (b * b + d * d)));
     EXPECT_NEAR(c[0].x, 3 * omega * std::sqrt(1 / (4 * kPi)), 1e-3 * double(c[0].x));
-    const double up = double(rectangleIrradiance(lightRectangle(panel), {0, 0, 0}, {0, 1, 0}));
+    const double up = formulas::polygonIrradiance(formulas::cornersOf(panel, {0, 0, 0}), {0, 1, 0});
     EXPECT_NEAR(c[1].x, 3 * up * std::sqrt(3 / (4 * kPi)), 1e-3 * double(c[1].x));
     EXPECT_NEAR(c[3].x, 0, 1e-3 * double(c[1].x));
     panel.enabled = false;
