@@ -97,7 +97,7 @@ ImageF drawn(const Measured& m, const Camera& camera, const Lighting& lighting,
     options.samplesPerPixel = kFileSamples.perPixel; // as limn render draws
     options.nearRays = kFileSamples.nearRays;
     options.gatherRays = kFileSamples.gatherRays;
-    options.straight = lighting.straightField(m.scene);
+    options.emitted = lighting.emittedField(m.scene);
     return renderField(m.trace, *lighting.field(), layout, options);
 }
 
@@ -136,7 +136,7 @@ Result<Json> measure(Measured& m, const BakeSettings& settings, const DrawPictur
         request.layout = {prepared.data, &layout};
         request.prepared = prepared;
         request.relight = [&](bool) { return CpuLight{*lighting->field(), lit}; };
-        request.straight = [&] { return lighting->straightField(m.scene); };
+        request.emitted = [&] { return lighting->emittedField(m.scene); };
         const Result<RenderedImage> picture = (*draw)(m.scene, request);
         if (!picture)
             return tl::make_unexpected(picture.error());

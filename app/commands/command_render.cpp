@@ -222,7 +222,7 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
         request.relight = [&](bool marched) { return relight(scene, baked, marched); };
-    request.straight = [&] { return baked.lighting->straightField(scene); };
+    request.emitted = [&] { return baked.lighting->emittedField(scene); };
     request.layout = baked.layout;
     request.technique = baked.technique;
     request.prepared = baked.prepared;

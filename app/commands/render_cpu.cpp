@@ -37,8 +37,8 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
         field = &light.field;
         result.relightDevice = "cpu";
         result.relight = light.report;
-        if (request.straight && options.gatherRays > 0)
-            options.straight = request.straight();
+        if (request.emitted && options.gatherRays > 0)
+            options.emitted = request.emitted();
     }
     MarchedCounts marched;
     options.marched = &marched;

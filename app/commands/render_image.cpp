@@ -65,10 +65,10 @@ std::unique_ptr<const Gathering> gatheringOf(const GpuDrawing& drawing, const Sc
                                              const RenderRequest& request) {
     FieldRenderOptions options = fieldOptions(request);
     if (options.gatherRays > 0 && request.relight)
-        options.straight = drawing.lighting   ? drawing.lighting->straightField(scene)
-                           : request.straight ? request.straight()
-                                              : nullptr;
-    if (!options.straight)
+        options.emitted = drawing.lighting  ? drawing.lighting->emittedField(scene)
+                          : request.emitted ? request.emitted()
+                                            : nullptr;
+    if (!options.emitted)
         return nullptr;
     auto gathering = std::make_unique<const Gathering>(drawing, scene, request, std::move(options));
     return gathering->gather.any() ? std::move(gathering) : nullptr;

@@ -41,8 +41,8 @@ struct RenderRequest {
     /// Computes the light on the CPU; `marched` as LightingInput::marched. Empty: no indirect
     /// light.
     std::function<CpuLight(bool marched)> relight;
-    /// Lighting::straightField() of the light that `relight` computed; empty: there is none.
-    std::function<std::shared_ptr<const IndirectField>()> straight;
+    /// Lighting::emittedField() of the light that `relight` computed; empty: there is none.
+    std::function<std::shared_ptr<const IndirectField>()> emitted;
     const Technique* technique = nullptr; ///< of the light, on either device; null: there is none
     Prepared prepared;                    ///< by the technique, where it precomputes
     bool lightAll = false;                ///< on a device, light also what the picture hides

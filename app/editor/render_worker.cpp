@@ -203,15 +203,15 @@ bool RenderWorker::takeGatheredFrom() {
         m_from.trace = std::make_shared<const TraceScene>(scene, *shown.lit.trace);
         m_from.layout = {shown.lit.bake, &shown.lit.bake->layout()}; // lives as long as the bake
         const Lighting* here = m_driver.lighting();
-        m_from.straight = here ? here->straightField(scene)
-                               : shown.technique->light(shown.lit.prepared())->straightField(scene);
+        m_from.emitted = here ? here->emittedField(scene)
+                              : shown.technique->light(shown.lit.prepared())->emittedField(scene);
         m_fromScene = shown.scene;
         m_fromBake = shown.lit.bake;
     }
     m_from.field = m_driver.lighting()
                        ? std::make_shared<const IndirectField>(m_driver.lighting()->readField())
                        : shown.field;
-    return m_from.straight && m_from.field;
+    return m_from.emitted && m_from.field;
 }
 
 bool RenderWorker::beginGathering(const std::atomic<bool>& hurry) {

@@ -10,13 +10,13 @@ namespace limn {
 
 using Clock = std::chrono::steady_clock;
 
-static FieldRenderOptions withStraight(FieldRenderOptions options, const GatheredFrom& from) {
-    options.straight = from.straight;
+static FieldRenderOptions withEmittedField(FieldRenderOptions options, const GatheredFrom& from) {
+    options.emitted = from.emitted;
     return options;
 }
 
 RestGather::RestGather(GatheredFrom from, FieldRenderOptions options)
-    : m_from(std::move(from)), m_options(withStraight(std::move(options), m_from)),
+    : m_from(std::move(from)), m_options(withEmittedField(std::move(options), m_from)),
       m_gather(*m_from.trace, *m_from.field, *m_from.layout, m_options),
       m_light(any() ? m_gather.picture() : PixelRect{}) {}
 

@@ -13,15 +13,15 @@ namespace limn {
 struct GatheredFrom {
     std::shared_ptr<const TraceScene> trace;
     std::shared_ptr<const LightmapLayout> layout;
-    std::shared_ptr<const IndirectField> field;    ///< all of it is lit
-    std::shared_ptr<const IndirectField> straight; ///< Lighting::straightField()
+    std::shared_ptr<const IndirectField> field;   ///< all of it is lit
+    std::shared_ptr<const IndirectField> emitted; ///< Lighting::emittedField()
 };
 
 /// Final gathering of a picture that stands still, some rows at a time, so that those that are done
 /// can be shown meanwhile.
 class RestGather {
 public:
-    /// For a picture that is drawn with `options`; their `straight` is replaced by that of `from`.
+    /// For a picture that is drawn with `options`; their `emitted` is replaced by that of `from`.
     RestGather(GatheredFrom from, FieldRenderOptions options);
 
     /// FinalGather::any(). If not, no other function may be called.

@@ -34,8 +34,8 @@ struct FieldReading {
     };
     std::vector<Marched> marched;
 
-    /// The same of Lighting::straightField().
-    std::vector<Entry> straight;
+    /// The same of Lighting::emittedField().
+    std::vector<Entry> emitted;
 };
 
 /// Adds weight * sampleIrradiance(at) to the reading. Where a colour of that is clamped to 0, it

@@ -39,7 +39,7 @@ struct LightRow {
 /// Where light comes from, split in two ways. The top rows of each table sum to all of it.
 struct Explanation {
     std::vector<LightRow> byOrigin; ///< lights, sky and emissive surfaces, over all bounces
-    std::vector<LightRow> bySender; ///< what light arrives from straight, however it got there
+    std::vector<LightRow> bySender; ///< what light arrives from directly, however it got there
     std::uint32_t bounces = 0;      ///< number that byOrigin follows
 };
 

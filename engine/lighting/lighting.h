@@ -48,10 +48,11 @@ public:
     /// been an update.
     virtual IndirectField readField() const { return *field(); }
 
-    /// The part of the light that arrives straight from the sky and emissive surfaces of `scene`,
-    /// the scene of the last update, on the CPU wherever the light exists: final gathering
-    /// exchanges it apart from the rest. Null if the technique cannot tell it from that.
-    virtual std::shared_ptr<const IndirectField> straightField(const Scene& /*scene*/) const {
+    /// The emitted light in field(): the part that arrives from the sky and emissive surfaces of
+    /// `scene`, the scene of the last update, without a bounce. It is on the CPU wherever the light
+    /// exists. Final gathering treats it apart from the rest. Null if the technique cannot tell it
+    /// from that.
+    virtual std::shared_ptr<const IndirectField> emittedField(const Scene& /*scene*/) const {
         return nullptr;
     }
 

@@ -26,7 +26,7 @@ std::uint32_t times(std::uint32_t count, double factor, std::uint32_t most) {
     return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(most))));
 }
 
-/// Reference at the visible points: irradiance straight from lights, and irradiance with all
+/// Reference at the visible points: direct irradiance, and irradiance with all
 /// bounces, estimated twice by independent paths. Images of one row.
 struct Truth {
     std::vector<SeenPoint> points;

@@ -25,7 +25,7 @@ FieldRenderOptions pictureOptions(const ConvergedLight& lit, const PixelQuestion
     options.nearRays = q.nearRays;
     options.gatherRays = q.gatherRays;
     if (q.gatherRays > 0)
-        options.straight = lit.lighting->straightField(*lit.scene);
+        options.emitted = lit.lighting->emittedField(*lit.scene);
     return options;
 }
 
@@ -48,7 +48,7 @@ std::vector<LightRow> lightRows(const Scene& scene, const std::vector<glm::vec3>
 }
 
 /// The rows that both tables begin with.
-std::vector<LightRow> straightRows(const Scene& scene, const PixelParts& parts) {
+std::vector<LightRow> seenRows(const Scene& scene, const PixelParts& parts) {
     std::vector<LightRow> rows;
     if (parts.sky != glm::vec3(0))
         addRow(rows, {.kind = LightRowKind::Sky, .label = "Sky behind", .value = parts.sky});
@@ -80,7 +80,7 @@ std::vector<LightRow> gatheredRows(const Scene& scene, const PixelParts::Gathere
 }
 
 constexpr const char* kNearLabel = "Direct light on what is near";
-constexpr const char* kStraightLabel = "Straight from sky and emissive surfaces";
+constexpr const char* kEmittedLabel = "Emitted light from sky and surfaces";
 constexpr const char* kBouncedLabel = "Gathered from what rays met";
 
 PixelParts readPixel(const ConvergedLight& lit, const PixelQuestion& question,
@@ -109,16 +109,16 @@ PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& qu
                               const ExplainOptions& options) {
     const Scene& scene = lit.trace->scene();
     PixelParts parts = readPixel(lit, question, options);
-    parts.reading.straight = std::move(parts.straightReading.entries);
+    parts.reading.emitted = std::move(parts.emittedReading.entries);
     PixelExplanation result;
     const Explanation indirect = lit.lighting->explain(scene, parts.reading, options);
-    result.tables.byOrigin = result.tables.bySender = straightRows(scene, parts);
+    result.tables.byOrigin = result.tables.bySender = seenRows(scene, parts);
     addGroup(result.tables.byOrigin, kNearLabel, lightRows(scene, parts.nearByLight));
     addGroup(result.tables.bySender, kNearLabel,
              strongest(surfaceRows(scene, parts.nearBySurface), options.rows));
-    const std::vector<LightRow> straight = gatheredRows(scene, parts.straight);
-    addGroup(result.tables.byOrigin, kStraightLabel, straight);
-    addGroup(result.tables.bySender, kStraightLabel, strongest(straight, options.rows));
+    const std::vector<LightRow> emitted = gatheredRows(scene, parts.emitted);
+    addGroup(result.tables.byOrigin, kEmittedLabel, emitted);
+    addGroup(result.tables.bySender, kEmittedLabel, strongest(emitted, options.rows));
     addGroup(result.tables.byOrigin, kBouncedLabel, gatheredRows(scene, parts.bounced));
     addGroup(result.tables.bySender, kBouncedLabel,
              strongest(surfaceRows(scene, parts.bouncedVia), options.rows));

@@ -28,10 +28,10 @@ struct FieldRenderOptions {
     /// Rays of each sample that look for near surfaces (near_light.h), unless the picture gathers;
     /// 0: light is the field's.
     std::uint32_t nearRays = 0;
-    /// The part of the field's light that arrives straight from the sky and emissive surfaces
-    /// (Lighting::straightField()). With it, `gatherRays` rays of each sample gather what is better
-    /// than the field's light (final_gather.h); null or 0: light is the field's.
-    std::shared_ptr<const IndirectField> straight;
+    /// The part of the field's light that arrives from the sky and emissive surfaces without a
+    /// bounce (Lighting::emittedField()). With it, `gatherRays` rays of each sample gather what is
+    /// better than the field's light (final_gather.h); null or 0: light is the field's.
+    std::shared_ptr<const IndirectField> emitted;
     std::uint32_t gatherRays = 0;
     MarchedCounts* marched = nullptr; ///< adds to it; null: nothing is counted
     // For comparisons:

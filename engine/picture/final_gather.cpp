@@ -21,7 +21,7 @@ static constexpr double kErrorOfOneMore = 0.125, kMostMore = 255;
 static constexpr std::uint32_t kFewestRays = 16;
 
 static bool asksForIt(const FieldRenderOptions& options) {
-    return options.straight && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
+    return options.emitted && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
            showsBouncedLight(options.view);
 }
 
@@ -35,7 +35,7 @@ static std::vector<float> texelWidths(const Scene& scene, const LightmapLayout& 
 FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
                          const LightmapLayout& layout, const FieldRenderOptions& options)
     : m_trace(trace), m_field(field), m_layout(layout), m_options(options),
-      m_sources(asksForIt(options) ? findStraightSources(trace) : StraightSources{}),
+      m_sources(asksForIt(options) ? findEmittedLightSources(trace) : EmittedLightSources{}),
       m_any(asksForIt(options) &&
             (m_sources.shine || std::ranges::any_of(trace.scene().lights, shines))),
       m_widths(m_any ? texelWidths(trace.scene(), layout) : std::vector<float>()),
@@ -77,7 +77,7 @@ struct FinalGather::PartSink {
 
     static constexpr bool reflects(std::uint32_t /*instance*/) { return true; }
 
-    void rayBegins(const StraightSample& found) {
+    void rayBegins(const EmittedLightSample& found) {
         if (rays && found.weight > 0)
             ray = &rays->emplace_back(RayLight{found.direction, found.found[2].pdf, 0});
     }

@@ -3,13 +3,13 @@
 
 #include "engine/core/progress.h"
 #include "engine/field/sample_field.h"
+#include "engine/picture/emitted_light.h"
 #include "engine/picture/field_lobe.h"
 #include "engine/picture/field_render.h"
 #include "engine/picture/gather_tile.h"
 #include "engine/picture/gathered_light.h"
 #include "engine/picture/light_sink.h"
 #include "engine/picture/pixel_sample.h"
-#include "engine/picture/straight_light.h"
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace limn {
 /// far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights and Viewer
 /// Position. 1992
 ///
-/// Light that arrives straight from the sky and emissive surfaces is sampled. Bounced light is the
+/// Light that the sky and emissive surfaces emit is sampled. Bounced light is the
 /// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
 /// where it is seen. Where a ray is shorter than some of these texels' widths, it goes on from
 /// there. So light that comes from near surfaces needs no rays of its own (near_light.h).
@@ -65,7 +65,7 @@ private:
     using Shares = std::array<glm::vec3, kGatherParts>;
     struct PartSink;
 
-    const IndirectField& straight() const { return *m_options.straight; }
+    const IndirectField& emittedField() const { return *m_options.emitted; }
     FieldPoint pointOf(const IndirectField& field, const Hit& hit, const SurfacePoint& p) const {
         return fieldPoint(field, m_layout, m_trace.scene(), hit, p);
     }
@@ -85,13 +85,14 @@ private:
     void walkPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
                    Sink& sink) const;
     template <GatherSink Sink>
-    void walkBounced(StraightSample met, const Sampler& own, glm::vec3 weight, Sink& sink) const;
+    void walkBounced(EmittedLightSample met, const Sampler& own, glm::vec3 weight,
+                     Sink& sink) const;
 
     const TraceScene& m_trace;
     const IndirectField& m_field;
     const LightmapLayout& m_layout;
     const FieldRenderOptions& m_options;
-    StraightSources m_sources;
+    EmittedLightSources m_sources;
     bool m_any;
     std::vector<float> m_widths; ///< twice the nearReaches() [m]
     PixelRays m_rays;

@@ -19,7 +19,7 @@ inline constexpr float kLeastReflected = 0.03f;
 inline constexpr std::uint32_t kMostGatherBounces = 64;
 
 template <GatherSink Sink>
-void FinalGather::walkBounced(StraightSample met, const Sampler& own, glm::vec3 weight,
+void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::vec3 weight,
                               Sink& sink) const {
     const std::uint32_t via = met.hit.instance;
     float reflected = 1;
@@ -34,8 +34,8 @@ void FinalGather::walkBounced(StraightSample met, const Sampler& own, glm::vec3 
             sink.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
             return;
         }
-        met = sampleStraightLight(m_trace, m_sources, *met.point,
-                                  {mixBits(own.seed, bounce), own.index});
+        met = sampleEmittedLight(m_trace, m_sources, *met.point,
+                                 {mixBits(own.seed, bounce), own.index});
         for (const FoundLight& f : met.found)
             if (f.irradiance != glm::vec3(0))
                 sink.gatheredEmission(f, weight * f.irradiance, Bounced, via);
@@ -55,19 +55,20 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGui
     Shares weights;
     for (std::uint32_t part = 0; part < kGatherParts; ++part)
         weights[part] = shares[part] * weight;
-    const FieldPoint here = pointOf(m_field, hit, *p), straightHere = pointOf(straight(), hit, *p);
+    const FieldPoint here = pointOf(m_field, hit, *p),
+                     emittedHere = pointOf(emittedField(), hit, *p);
     if (shares[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
         sink.fieldIrradiance(here, weights[Shown], Shown);
-    sink.fieldIrradiance(straightHere, -weights[Straight], Straight);
-    sink.fieldIrradiance(straightHere, weights[Bounced], Bounced);
+    sink.fieldIrradiance(emittedHere, -weights[Emitted], Emitted);
+    sink.fieldIrradiance(emittedHere, weights[Bounced], Bounced);
     sink.fieldIrradiance(here, -weights[Bounced], Bounced);
     const std::uint32_t rays = m_options.gatherRays;
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
-        const StraightSample found = sampleStraightLight(m_trace, m_sources, *p, own, guide);
+        const EmittedLightSample found = sampleEmittedLight(m_trace, m_sources, *p, own, guide);
         const auto arrives = [&](const FoundLight& f) {
             if (f.irradiance != glm::vec3(0))
-                sink.gatheredEmission(f, weights[Straight] / float(rays) * f.irradiance, Straight,
+                sink.gatheredEmission(f, weights[Emitted] / float(rays) * f.irradiance, Emitted,
                                       f.instance);
         };
         arrives(found.found[0]);
@@ -117,14 +118,14 @@ void FinalGather::walk(std::uint32_t x, std::uint32_t y, Sink& sink) const {
         for (std::uint32_t i = begin.x; i < light.rect.end.x; i += kGatherTile)
             light.set(tiles.emplace_back(tileOf(i, j)));
     std::array<KeptExchange, kExchanges> kept;
-    for (const GatherPart part : {Straight, Bounced})
+    for (const GatherPart part : {Emitted, Bounced})
         kept[part] = keptExchange(light, part, {x, y});
     const std::uint32_t columns = (light.rect.end.x - begin.x + kGatherTile - 1) / kGatherTile;
     const glm::vec3 weight = light.at({x, y}).weight;
     window.forEach([&](glm::uvec2 at) {
         const bool isNear = near.contains(at), isItself = at == glm::uvec2(x, y);
         Shares shares{};
-        for (const GatherPart part : {Straight, Bounced})
+        for (const GatherPart part : {Emitted, Bounced})
             shares[part] = kept[part].factorOf(isNear, isItself, weight);
         shares[Shown] = glm::vec3(isItself ? 1 : 0);
         const glm::uvec2 tile = (at - begin) / kGatherTile;

@@ -108,7 +108,7 @@ static void setNoise(GatherTile& tile, GatherPart part, double worth) {
 }
 
 void weighSamples(GatherTile& tile) {
-    for (const GatherPart part : {Straight, Bounced, Shown}) {
+    for (const GatherPart part : {Emitted, Bounced, Shown}) {
         const double worth = worthOfMore(tile, part);
         for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
             const double more = worth * tile.more[p].count;

@@ -14,9 +14,9 @@ namespace limn {
 inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kGatherTile;
 
 /// Parts of the light that a picture gets. Two are exchanges, each of which is kept as far as that
-/// is worth its noise: of what arrives straight from the sky and emissive surfaces, and of the
+/// is worth its noise: of what the sky and emissive surfaces emit, without a bounce, and of the
 /// rest. Shown is what the field shows, of which all is kept.
-enum GatherPart : std::uint32_t { Straight, Bounced, Shown };
+enum GatherPart : std::uint32_t { Emitted, Bounced, Shown };
 inline constexpr std::uint32_t kGatherParts = 3, kExchanges = 2;
 
 /// Mean of the colours, of which variances are taken.

@@ -21,7 +21,7 @@ void GatheredLight::set(const GatherTile& tile) {
             GatheredPixel& pixel = pixels[rect.numberOf({tile.x + i, tile.y + j})];
             pixel.weight = (first.weight + more.weight) / double(first.count + more.count);
             pixel.shown = tile.meanOf(p, Shown);
-            for (const GatherPart part : {Straight, Bounced}) {
+            for (const GatherPart part : {Emitted, Bounced}) {
                 pixel.exchange[part] = tile.meanOf(p, part);
                 pixel.noise[part] = float(tile.noise[part][p]);
             }
@@ -117,7 +117,7 @@ void addGathered(ImageF& image, const GatheredLight& light, const PixelRect& pix
         PixelRect{{pixels.begin.x, y}, {pixels.end.x, y + 1}}.forEach([&](glm::uvec2 at) {
             const GatheredPixel& p = light.at(at);
             glm::vec3 sum = p.shown;
-            for (const GatherPart part : {Straight, Bounced})
+            for (const GatherPart part : {Emitted, Bounced})
                 sum += keptExchange(light, part, at).lightIn(p, part);
             image.rgb[std::size_t(at.y) * image.width + at.x] += sum;
         });

@@ -3,9 +3,9 @@
 
 #include "engine/field/march_ray.h"
 #include "engine/field/sample_field.h"
+#include "engine/picture/emitted_light.h"
 #include "engine/picture/field_lobe.h"
 #include "engine/picture/gather_tile.h"
-#include "engine/picture/straight_light.h"
 #include "engine/shading/direct_light.h"
 
 #include <concepts>
@@ -70,8 +70,8 @@ concept PixelSink = LightSink<Sink> &&
 template <class Sink>
 concept GatherSink = LightSink<Sink> &&
     requires(Sink& sink, const SurfacePoint& surface, const LightNumbers& numbers,
-             const StraightSample& ray, const FoundLight& found, glm::vec3 light, GatherPart part,
-             std::uint32_t via) {
+             const EmittedLightSample& ray, const FoundLight& found, glm::vec3 light,
+             GatherPart part, std::uint32_t via) {
     /// A ray from the pixel brings all light that is handed over between these two calls.
     sink.rayBegins(ray);
     sink.rayEnds();

@@ -7,8 +7,8 @@ namespace limn {
 
 PixelParts::PixelParts(const Scene& scene)
     : byLight(scene.lights.size(), glm::vec3(0)), nearByLight(byLight),
-      nearBySurface(scene.instances.size(), glm::vec3(0)), straight{.bySurface = nearBySurface,
-                                                                    .byLight = {}},
+      nearBySurface(scene.instances.size(), glm::vec3(0)), emitted{.bySurface = nearBySurface,
+                                                                   .byLight = {}},
       bounced{.bySurface = nearBySurface, .byLight = byLight}, bouncedVia(nearBySurface) {}
 
 bool ReadingSink::reflects(std::uint32_t instance) const {
@@ -29,7 +29,7 @@ void ReadingSink::nearDirectLight(const SurfacePoint& p, const LightNumbers& num
 }
 
 FieldReading& ReadingSink::readingOf(const FieldPoint& point) {
-    return &point.field == &m_lit.field() ? parts.reading : parts.straightReading;
+    return &point.field == &m_lit.field() ? parts.reading : parts.emittedReading;
 }
 
 void ReadingSink::fieldIrradiance(const FieldPoint& point, glm::vec3 weight, GatherPart /*part*/) {
@@ -58,7 +58,7 @@ void ReadingSink::gatheredDirectLight(const SurfacePoint& p, const LightNumbers&
 
 void ReadingSink::gatheredEmission(const FoundLight& found, glm::vec3 light, GatherPart part,
                                    std::uint32_t via) {
-    PixelParts::Gathered& gathered = part == Straight ? parts.straight : parts.bounced;
+    PixelParts::Gathered& gathered = part == Emitted ? parts.emitted : parts.bounced;
     (found.instance == ~0U ? gathered.sky : gathered.bySurface[found.instance]) += m_factor * light;
     if (part == Bounced)
         parts.bouncedVia[via] += m_factor * light;

@@ -18,16 +18,16 @@ struct PixelParts {
     /// Direct light of each of them by way of near surfaces, which the field is too coarse for.
     std::vector<glm::vec3> nearByLight;
     std::vector<glm::vec3> nearBySurface; ///< the same by way of each of Scene::instances
-    /// Light that gathering found: straight from the sky and each of Scene::instances, and what
+    /// Light that gathering found: emitted by the sky and each of Scene::instances, and what
     /// else is not the field's, by where it comes from and by the instance that sends it here.
     struct Gathered {
         glm::vec3 sky{0};
         std::vector<glm::vec3> bySurface, byLight;
     };
-    Gathered straight, bounced;
+    Gathered emitted, bounced;
     std::vector<glm::vec3> bouncedVia;
     FieldReading reading;            ///< of the field: all other light
-    FieldReading straightReading;    ///< of the straight field
+    FieldReading emittedReading;     ///< of the emitted light of the field
     std::vector<std::uint32_t> seen; ///< instances that the pixel shows, each once
 
     explicit PixelParts(const Scene& scene);
@@ -70,7 +70,7 @@ public:
     void marched(const MarchedMaps& maps, const MarchedReflection& reflection);
 
     // Only guides learn from single rays.
-    static void rayBegins(const StraightSample& /*ray*/) {}
+    static void rayBegins(const EmittedLightSample& /*ray*/) {}
     static void rayEnds() {}
     void gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers, glm::vec3 weight,
                              std::uint32_t via);

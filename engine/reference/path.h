@@ -27,12 +27,12 @@ struct PathContext {
 inline constexpr std::uint32_t kFirstPathDimension = 2;
 
 /// One unbiased estimate of the irradiance [W m^-2] at `first` from bounces, emissive surfaces and
-/// sky: everything but light straight from directional, point, spot and rectangle lights.
+/// sky: everything but direct light from directional, point, spot and rectangle lights.
 glm::vec3 sampleIndirectIrradiance(const PathContext& context, const SurfacePoint& first,
                                    const Sampler& sampler, std::uint64_t& rays);
 
 /// One unbiased estimate of the radiance [W m^-2 sr^-1] that `p` reflects specularly to the eye,
-/// from everything but light straight from directional, point, spot and rectangle lights.
+/// from everything but direct light from directional, point, spot and rectangle lights.
 /// Directions below the triangle's horizon contribute nothing.
 glm::vec3 sampleReflectedRadiance(const PathContext& context, const GlossyPoint& p,
                                   const Sampler& sampler, std::uint64_t& rays);

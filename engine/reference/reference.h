@@ -37,8 +37,8 @@ struct ReferenceResult {
 /// light. Emission leaves the front only, unless the material is double-sided. Nothing is clamped
 /// and fireflies are not removed. Surface points, direct light, emitters and the sky are those of
 /// engine/shading, which pictures use as well; tests/reference holds them to closed forms.
-/// Box pixel filter. The result is identical for any number of
-/// threads. A cancelled call returns the samples so far.
+/// The pixel filter is a box. The result is identical for any number of threads. A cancelled call
+/// returns the samples so far.
 ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions& options,
                                 const Progress& progress = {});
 

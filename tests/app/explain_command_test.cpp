@@ -53,7 +53,7 @@ TEST_F(ExplainCommand, SaysWhatThePixelWouldBeWithoutALight) {
     EXPECT_EQ(with["without"]["muted"], (nlohmann::json{"light:0", "sky"}));
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_GT(double(with["total"][k]), 1.1 * double(without["total"][k]));
-        // Straight light has fewer samples where other light is brighter.
+        // Direct light has fewer samples where other light is brighter.
         EXPECT_NEAR(double(with["without"]["value"][k]), double(without["total"][k]),
                     0.03 * double(without["total"][k]));
     }

@@ -180,7 +180,7 @@ TEST_F(RenderWorkerTest, GathersTheLightOfAPictureThatStandsStill) {
     options.width = request.options.width;
     options.height = request.options.height;
     options.gatherRays = kScreenSamples.gatherRays;
-    options.straight = lit->lighting->straightField(*first);
+    options.emitted = lit->lighting->emittedField(*first);
     const ImageF whole = renderField(*trace, lit->field(), *lit->layout, options);
     EXPECT_LT(compareImages(images.linear->image, whole)->nrmse, 1e-3);
     EXPECT_GT(compareImages(alone, whole)->nrmse, 0.02);
@@ -260,7 +260,7 @@ TEST_F(RenderWorkerTest, RowsThatAreNotGatheredYetStayAsDrawn) {
     const ImageF drawn{20, 20, std::vector<glm::vec3>(400, before)},
         rest{20, 20, std::vector<glm::vec3>(400, glm::vec3(0))};
     const GatheredFrom from{trace, lit->layout, std::make_shared<const IndirectField>(lit->field()),
-                            lit->lighting->straightField(*first)};
+                            lit->lighting->emittedField(*first)};
     RestGather gather(from, options);
     gather.begin(drawn, rest);
     for (const std::size_t rows : {0U, 8U, 20U}) { // the last ones learn from each other

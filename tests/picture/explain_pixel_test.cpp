@@ -363,7 +363,7 @@ FieldRenderOptions gathered(const ConvergedLight& lit, View view) {
     FieldRenderOptions options = pictureOf(inMixedRoom(), view);
     options.nearRays = kNear;
     options.gatherRays = 4;
-    options.straight = lit.lighting->straightField(*lit.scene);
+    options.emitted = lit.lighting->emittedField(*lit.scene);
     return options;
 }
 
@@ -382,7 +382,7 @@ TEST(ExplainPixel, SumsToThePictureThatIsGathered) {
                                          gathered(lit, View::Irradiance)),
                      seen = renderField(*lit.trace, lit.field(), *lit.layout,
                                         gathered(lit, View::Lit));
-        std::size_t straight = 0, bounced = 0;
+        std::size_t emitted = 0, bounced = 0;
         for (const Pixel p : randomPixels(40)) {
             SCOPED_TRACE(testing::Message() << "pixel " << p.x << ", " << p.y);
             const PixelExplanation arrives = explainPixel(
@@ -401,16 +401,16 @@ TEST(ExplainPixel, SumsToThePictureThatIsGathered) {
                        "L");
             expectRowsSum(arrives.tables.byOrigin, mean);
             expectRowsSum(arrives.tables.bySender, mean);
-            straight += rowOf(arrives.tables.byOrigin, LightRowKind::Sky, LightRow::kNone,
-                              "Straight from sky and emissive surfaces")
-                            ? 1U
-                            : 0U;
+            emitted += rowOf(arrives.tables.byOrigin, LightRowKind::Sky, LightRow::kNone,
+                             "Emitted light from sky and surfaces")
+                           ? 1U
+                           : 0U;
             bounced += rowOf(arrives.tables.byOrigin, LightRowKind::Light, 0,
                              "Gathered from what rays met")
                            ? 1U
                            : 0U;
         }
-        EXPECT_GT(straight, 10U);
+        EXPECT_GT(emitted, 10U);
         EXPECT_GT(bounced, 10U);
     }
 }

@@ -18,7 +18,7 @@ namespace limn::final_gather_test {
 namespace {
 
 /// A plane of coarse texels below a black plate of 4 m, under an even sky. The field has the same
-/// straight light everywhere on the plane. Nothing reflects.
+/// emitted light everywhere on the plane. Nothing reflects.
 struct BelowAPlate {
     TwoPlates plates{plateAbove(1), 0};
     Scene scene;
@@ -37,7 +37,7 @@ struct BelowAPlate {
         options.height = 20;
         options.samplesPerPixel = 64;
         options.gatherRays = 1;
-        options.straight = std::make_shared<const IndirectField>(plates.field);
+        options.emitted = std::make_shared<const IndirectField>(plates.field);
     }
     ImageF drawn(const FieldRenderOptions& by) const {
         return renderField(TraceScene(scene), plates.field, *plates.layout, by);
@@ -117,7 +117,7 @@ double errorBelowStripes(float radiance) {
     options.height = 24;
     options.samplesPerPixel = 16;
     options.gatherRays = 1;
-    options.straight = std::make_shared<const IndirectField>(field);
+    options.emitted = std::make_shared<const IndirectField>(field);
     const TraceScene trace(scene);
     const ImageF image = renderField(trace, field, {}, options);
     double squared = 0;
@@ -158,7 +158,7 @@ double belowAGreyPlate(float height, float light) {
     options.gatherRays = 16;
     IndirectField dark = plates.field;
     std::ranges::fill(dark.lightmap, glm::vec4(0));
-    options.straight = std::make_shared<const IndirectField>(dark);
+    options.emitted = std::make_shared<const IndirectField>(dark);
     return meanOf(
         renderField(TraceScene(plates.builder.build()), plates.field, *plates.layout, options));
 }
@@ -224,7 +224,7 @@ TEST(FinalGather, DoesNothingWhereItIsNotAskedFor) {
     o.samplesPerPixel = 1;
     EXPECT_FALSE(any(o));
     o = s.options;
-    o.straight = nullptr;
+    o.emitted = nullptr;
     EXPECT_FALSE(any(o));
     for (const View view : {View::Direct, View::Albedo, View::Normals}) {
         o = s.options;
@@ -247,7 +247,7 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
         // There is no light.
         void gatheredDirectLight(const SurfacePoint&, const LightNumbers&, glm::vec3,
                                  std::uint32_t) {}
-        void rayBegins(const StraightSample&) {}
+        void rayBegins(const EmittedLightSample&) {}
         void rayEnds() {}
         void gatheredEmission(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {
             value += glm::dvec3(found);

@@ -17,13 +17,13 @@ float uniform() {
     return std::uniform_real_distribution<float>()(random());
 }
 
-/// Samples of Straight whose mean is 1.
+/// Samples of Emitted whose mean is 1.
 template <class Sample>
 GatherSamples samplesOf(std::uint32_t count, const Sample& sample) {
     GatherSamples samples;
     samples.count = count;
     for (std::uint32_t s = 0; s < count; ++s)
-        samples.parts[Straight].add(glm::vec3(sample(s)), s < count / 2);
+        samples.parts[Emitted].add(glm::vec3(sample(s)), s < count / 2);
     return samples;
 }
 
@@ -46,10 +46,10 @@ Measured measured(const First& first, const More& more) {
             tile.more[p] = samplesOf(128, more);
         }
         weighSamples(tile);
-        mean.shareOfMore += tile.shareOfMore[Straight][0] / kTiles;
+        mean.shareOfMore += tile.shareOfMore[Emitted][0] / kTiles;
         for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
-            mean.noise += tile.noise[Straight][p] / (kTiles * kGatherPixels);
-            mean.error += std::pow(tile.meanOf(p, Straight).x - 1, 2) / (kTiles * kGatherPixels);
+            mean.noise += tile.noise[Emitted][p] / (kTiles * kGatherPixels);
+            mean.error += std::pow(tile.meanOf(p, Emitted).x - 1, 2) / (kTiles * kGatherPixels);
         }
     }
     return mean;

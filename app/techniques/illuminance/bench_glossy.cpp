@@ -44,7 +44,7 @@ struct GlossyView {
     std::vector<bool> shown;
     std::uint32_t pixels = 0; ///< shown
     ImageF truth;
-    double mean = 0;  ///< of what the truth shows there besides straight light
+    double mean = 0;  ///< of what the truth shows there besides direct light
     double noise = 0; ///< standard error of `truth` there, over `mean`
 };
 
@@ -110,11 +110,11 @@ void findTruth(GlossyView& view, const GlossyBench& o, const TraceScene& trace) 
         options.seed = k + 1;
         half[k] = renderReference(trace, options, progressOnStderr()).image;
     }
-    FieldRenderOptions straight;
-    straight.camera = view.camera;
-    straight.width = o.camera.width;
-    straight.height = o.camera.height;
-    const ImageF lights = renderField(trace, {}, {}, straight); // there is no bounced light
+    FieldRenderOptions direct;
+    direct.camera = view.camera;
+    direct.width = o.camera.width;
+    direct.height = o.camera.height;
+    const ImageF lights = renderField(trace, {}, {}, direct); // there is no bounced light
     endProgressLine();
     view.truth = half[0];
     double sum = 0, square = 0;

@@ -3,8 +3,8 @@
 
 #include "engine/techniques/illuminance/explain_illuminance.h"
 #include "engine/techniques/illuminance/illuminance_snapshot.h"
+#include "engine/techniques/illuminance/relight/emitted_field.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
-#include "engine/techniques/illuminance/relight/straight_field.h"
 
 namespace limn {
 
@@ -15,8 +15,8 @@ LightingReport CpuIlluminance::update(const LightingInput& input, const Progress
     return reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
 }
 
-std::shared_ptr<const IndirectField> CpuIlluminance::straightField(const Scene& scene) const {
-    return std::make_shared<const IndirectField>(limn::straightField(m_bake, scene));
+std::shared_ptr<const IndirectField> CpuIlluminance::emittedField(const Scene& scene) const {
+    return std::make_shared<const IndirectField>(limn::emittedField(m_bake, scene));
 }
 
 std::shared_ptr<const LightSnapshot> CpuIlluminance::snapshot() const {

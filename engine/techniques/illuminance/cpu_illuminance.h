@@ -20,7 +20,7 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
 
     const IndirectField* field() const override { return &m_relighter.field(); }
-    std::shared_ptr<const IndirectField> straightField(const Scene& scene) const override;
+    std::shared_ptr<const IndirectField> emittedField(const Scene& scene) const override;
     std::shared_ptr<const LightSnapshot> snapshot() const override;
     Explanation explain(const Scene& scene, const FieldReading& reading,
                         const ExplainOptions& options) const override;

@@ -69,11 +69,11 @@ private:
 /// The weights of a reading in all passes.
 struct ReadingWeights {
     Passes passes;
-    std::vector<Weights> linked;   ///< of nodes, as links' senders
-    std::vector<Weights> straight; ///< of leaves, which light the reading straight
-    std::vector<Weights> bounced;  ///< of leaves, over all bounces after that
-    /// Of what nodes and leaves send without reflecting, in the reading of the straight field.
-    std::vector<Weights> linkedAlone, straightAlone;
+    std::vector<Weights> linked;  ///< of nodes, as links' senders
+    std::vector<Weights> direct;  ///< of leaves, which light the reading directly
+    std::vector<Weights> bounced; ///< of leaves, over all bounces after that
+    /// Of what nodes and leaves emit, in the reading of the emitted field.
+    std::vector<Weights> linkedEmitted, directEmitted;
     glm::vec3 remainder{0};    ///< value of the bounces that were not followed
     std::uint32_t bounces = 1; ///< followed
 
@@ -102,22 +102,22 @@ ReadingWeights weigh(const RelightState& state, const FieldReading& reading, dou
                      const std::vector<std::uint8_t>& black) {
     const ClusterTree& tree = state.bake.tree;
     ReadingWeights w{Passes(state, cachesOf(state.bake.caches, reading.entries))};
-    const Passes alone(state, cachesOf(state.bake.caches, reading.straight));
+    const Passes emitted(state, cachesOf(state.bake.caches, reading.emitted));
     glm::vec3 all(0);
     for (std::size_t p = 0; p < w.passes.size(); ++p) {
         w.linked.push_back(linkedNodes(state, w.passes.caches(p)));
-        w.straight.push_back(w.linked.back());
-        pushWeights(tree, w.straight.back());
-        w.straight.back().resize(tree.leaves());
+        w.direct.push_back(w.linked.back());
+        pushWeights(tree, w.direct.back());
+        w.direct.back().resize(tree.leaves());
         w.bounced.emplace_back(tree.leaves(), glm::vec3(0));
-        w.linkedAlone.push_back(linkedNodes(state, alone.caches(p)));
-        w.straightAlone.push_back(w.linkedAlone.back());
-        pushWeights(tree, w.straightAlone.back());
+        w.linkedEmitted.push_back(linkedNodes(state, emitted.caches(p)));
+        w.directEmitted.push_back(w.linkedEmitted.back());
+        pushWeights(tree, w.directEmitted.back());
     }
     for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf)
-        all += w.value(w.straight, leaf, state.radiosity[leaf]);
+        all += w.value(w.direct, leaf, state.radiosity[leaf]);
     const BounceAdjoint back(state);
-    std::vector<Weights> latest = w.straight;
+    std::vector<Weights> latest = w.direct;
     for (; w.bounces < state.maxBounces; ++w.bounces) {
         for (Weights& leaves : latest)
             leaves = irradianceWeights(state, leaves, black);
@@ -158,7 +158,7 @@ struct OriginTable {
             for (std::uint32_t s = 0; s < surfels; ++s)
                 if (reflects(s))
                     reflected[p][s] =
-                        (weights.straight[p][s] + weights.bounced[p][s]) * state.albedo[s];
+                        (weights.direct[p][s] + weights.bounced[p][s]) * state.albedo[s];
         }
         std::size_t traced = 0; // DirectIrradiance holds the lights that shine and reach surfels
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
@@ -179,36 +179,36 @@ struct OriginTable {
         }
     }
 
-    /// A row with what arrives straight and what has bounced.
-    void addSplit(LightRow row, glm::vec3 straight, glm::vec3 bounced) {
-        row.value = straight + bounced;
+    /// A row with what arrives as it was emitted and what has bounced.
+    void addSplit(LightRow row, glm::vec3 emitted, glm::vec3 bounced) {
+        row.value = emitted + bounced;
         const std::uint32_t parent = addRow(rows, std::move(row));
-        addRow(rows, {.label = "straight", .parent = parent, .value = straight});
+        addRow(rows, {.label = "emitted", .parent = parent, .value = emitted});
         addRow(rows, {.label = "bounced", .parent = parent, .value = bounced});
     }
 
     void addSky() {
         const ClusterTree& tree = state.bake.tree;
-        glm::vec3 straight(0), bounced(0);
+        glm::vec3 emitted(0), bounced(0);
         for (std::uint32_t n = tree.surfels; n < tree.leaves(); ++n) {
-            straight += weights.value(weights.straight, n, state.radiosity[n]) +
-                        weights.value(weights.straightAlone, n, state.radiosity[n]);
+            emitted += weights.value(weights.direct, n, state.radiosity[n]) +
+                       weights.value(weights.directEmitted, n, state.radiosity[n]);
             bounced += weights.value(weights.bounced, n, state.radiosity[n]);
         }
-        if (absoluteSum(straight) + absoluteSum(bounced) > 0)
-            addSplit({.kind = LightRowKind::Sky, .label = "Sky"}, straight, bounced);
+        if (absoluteSum(emitted) + absoluteSum(bounced) > 0)
+            addSplit({.kind = LightRowKind::Sky, .label = "Sky"}, emitted, bounced);
     }
 
     void addEmitters() {
-        ObjectValues straight, bounced;
+        ObjectValues emitted, bounced;
         for (std::uint32_t s = 0; s < state.bake.tree.surfels; ++s)
             if (state.emitted[s] != glm::vec3(0)) {
                 const std::uint32_t object = state.bake.surfels.instance[s];
-                straight[object] += weights.value(weights.straight, s, state.emitted[s]) +
-                                    weights.value(weights.straightAlone, s, state.emitted[s]);
+                emitted[object] += weights.value(weights.direct, s, state.emitted[s]) +
+                                   weights.value(weights.directEmitted, s, state.emitted[s]);
                 bounced[object] += weights.value(weights.bounced, s, state.emitted[s]);
             }
-        for (const auto& [object, value] : straight)
+        for (const auto& [object, value] : emitted)
             addSplit({.kind = LightRowKind::Surface,
                       .label = objectLabel(scene, object),
                       .index = object},
@@ -263,7 +263,7 @@ struct SenderTable {
         for (std::uint32_t node = 0; node < tree.size(); ++node) {
             const auto isZero = [&](const Weights& w) { return w[node] == glm::vec3(0); };
             if (std::ranges::all_of(weights.linked, isZero) &&
-                std::ranges::all_of(weights.linkedAlone, isZero))
+                std::ranges::all_of(weights.linkedEmitted, isZero))
                 continue;
             std::map<std::uint32_t, LinkPart> parts;
             forEachLeaf(node, [&](std::uint32_t leaf, float share) {
@@ -272,7 +272,7 @@ struct SenderTable {
                 LinkPart& part = parts[state.bake.surfels.instance[leaf]];
                 const glm::vec3 value =
                     share * (weights.value(weights.linked, node, state.radiosity[leaf]) +
-                             weights.value(weights.linkedAlone, node, state.emitted[leaf]));
+                             weights.value(weights.linkedEmitted, node, state.emitted[leaf]));
                 part.value += value;
                 part.surfels.emplace_back(leaf, value);
             });
@@ -341,8 +341,8 @@ struct SenderTable {
         LightRow sky{.kind = LightRowKind::Sky, .label = "Sky"};
         std::vector<LightRow> cells;
         for (std::uint32_t n = tree.surfels; n < tree.leaves(); ++n) {
-            const glm::vec3 value = weights.value(weights.straight, n, state.radiosity[n]) +
-                                    weights.value(weights.straightAlone, n, state.radiosity[n]);
+            const glm::vec3 value = weights.value(weights.direct, n, state.radiosity[n]) +
+                                    weights.value(weights.directEmitted, n, state.radiosity[n]);
             if (value == glm::vec3(0))
                 continue;
             const glm::vec3 d = tree.skyDirection[n - tree.surfels];

@@ -122,10 +122,10 @@ Explanation SparseLighting::explain(const Scene& scene, const FieldReading& read
             break;
         addTransposed(bake, next.receivers, next.probes);
         const Weights sent = radianceWeights(bake, m_basis, next.probes);
-        const glm::dvec3 straight = skyValue(bake, m_skyAtProbes, next.probes);
-        sky += straight;
+        const glm::dvec3 direct = skyValue(bake, m_skyAtProbes, next.probes);
+        sky += direct;
         if (bounce == 0) {
-            whole = straight + valueOf(sent, m_radiance);
+            whole = direct + valueOf(sent, m_radiance);
             std::map<std::uint32_t, glm::dvec3> senders;
             for (std::size_t r = 0; r < sent.size(); ++r)
                 senders[instanceOf[r]] += glm::dvec3(sent[r] * m_radiance[r]);

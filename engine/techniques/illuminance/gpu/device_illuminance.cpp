@@ -3,8 +3,8 @@
 
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/illuminance/illuminance_snapshot.h"
+#include "engine/techniques/illuminance/relight/emitted_field.h"
 #include "engine/techniques/illuminance/relight/relight_report.h"
-#include "engine/techniques/illuminance/relight/straight_field.h"
 
 namespace limn {
 
@@ -24,9 +24,9 @@ LightingReport DeviceIlluminance::update(const LightingInput& input, const Progr
     return reportOf(m_relighter->relight(m_viewport, input.scene, input.bounces, progress, seen));
 }
 
-std::shared_ptr<const IndirectField> DeviceIlluminance::straightField(const Scene& scene) const {
+std::shared_ptr<const IndirectField> DeviceIlluminance::emittedField(const Scene& scene) const {
     return std::make_shared<const IndirectField>(
-        limn::straightField(m_relighter->gpu().bake(), scene));
+        limn::emittedField(m_relighter->gpu().bake(), scene));
 }
 
 std::shared_ptr<const LightSnapshot> DeviceIlluminance::snapshot() const {

@@ -25,7 +25,7 @@ public:
 
     const IndirectField* field() const override { return nullptr; }
     IndirectField readField() const override { return m_relighter->gpu().readField(); }
-    std::shared_ptr<const IndirectField> straightField(const Scene& scene) const override;
+    std::shared_ptr<const IndirectField> emittedField(const Scene& scene) const override;
     /// Waits for the device.
     std::shared_ptr<const LightSnapshot> snapshot() const override;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/picture/straight_light.h"
+#include "engine/picture/emitted_light.h"
 
 #include "engine/reference/path.h"
 #include "tests/trace/simple_scene.h"
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-namespace limn::straight_light_test {
+namespace limn::emitted_light_test {
 namespace {
 
 using namespace simple;
@@ -24,10 +24,10 @@ SurfacePoint pointOnFloor() {
 
 glm::dvec3 meanAt(const TraceScene& trace, const SurfacePoint& p, std::uint32_t samples,
                   const LightGuide* guide = nullptr) {
-    const StraightSources sources = findStraightSources(trace);
+    const EmittedLightSources sources = findEmittedLightSources(trace);
     glm::dvec3 sum(0);
     for (std::uint32_t k = 0; k < samples; ++k)
-        for (const FoundLight& f : sampleStraightLight(trace, sources, p, {5, k}, guide).found)
+        for (const FoundLight& f : sampleEmittedLight(trace, sources, p, {5, k}, guide).found)
             sum += glm::dvec3(f.irradiance);
     return sum / double(samples);
 }
@@ -61,7 +61,7 @@ double formFactor(double a, double h) {
     return 4 * a / (kPi * r) * std::atan(a / r);
 }
 
-TEST(StraightLight, OfTheSkyThroughAHoleIsItsFormFactor) {
+TEST(EmittedLight, OfTheSkyThroughAHoleIsItsFormFactor) {
     const TraceScene trace(belowAHole());
     const double expected = kPi * formFactor(0.5, 2);
     const LightGuide up = guideTo({0.01f, 1, 0.01f}), aside = guideTo({1, 0.3f, 0});
@@ -72,16 +72,16 @@ TEST(StraightLight, OfTheSkyThroughAHoleIsItsFormFactor) {
     }
 }
 
-TEST(StraightLight, AGuideToTheHoleSavesNoise) {
+TEST(EmittedLight, AGuideToTheHoleSavesNoise) {
     const TraceScene trace(belowAHole());
-    const StraightSources sources = findStraightSources(trace);
+    const EmittedLightSources sources = findEmittedLightSources(trace);
     LightGuide learned;
     const auto squares = [&](const LightGuide* guide, LightGuide* learns) {
         double sum = 0;
         for (std::uint32_t k = 0; k < 4096; ++k) {
             double value = 0;
             for (const FoundLight& f :
-                 sampleStraightLight(trace, sources, pointOnFloor(), {9, k}, guide).found) {
+                 sampleEmittedLight(trace, sources, pointOnFloor(), {9, k}, guide).found) {
                 value += double(f.irradiance.x);
                 if (learns && f.irradiance.x > 0)
                     learns->add(f.toLight, f.irradiance.x);
@@ -97,7 +97,7 @@ TEST(StraightLight, AGuideToTheHoleSavesNoise) {
     EXPECT_LT(squares(&learned, nullptr), 0.35 * before);
 }
 
-TEST(StraightLight, OfAPanelIsItsFormFactorHoweverItIsFound) {
+TEST(EmittedLight, OfAPanelIsItsFormFactorHoweverItIsFound) {
     for (const float half : {0.05f, 0.5f, 5.f}) {
         SceneBuilder b;
         b.addMaterial(lambert(glm::vec3(0), {4, 5, 6}));
@@ -107,13 +107,13 @@ TEST(StraightLight, OfAPanelIsItsFormFactorHoweverItIsFound) {
         const double expected = kPi * formFactor(double(half), 1);
         EXPECT_NEAR(E.x, 4 * expected, 0.02 * expected) << half;
         EXPECT_NEAR(E.z, 6 * expected, 0.03 * expected) << half;
-        const StraightSample one =
-            sampleStraightLight(trace, findStraightSources(trace), pointOnFloor(), {5, 0});
+        const EmittedLightSample one =
+            sampleEmittedLight(trace, findEmittedLightSources(trace), pointOnFloor(), {5, 0});
         EXPECT_EQ(one.found[0].instance, 0U);
     }
 }
 
-TEST(StraightLight, IsThatOfPathsWhereNothingReflects) {
+TEST(EmittedLight, IsThatOfPathsWhereNothingReflects) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0)));
     b.addMaterial(lambert(glm::vec3(0), {3, 1, 2}));
@@ -124,7 +124,7 @@ TEST(StraightLight, IsThatOfPathsWhereNothingReflects) {
     b.scene.sky.kind = SkyKind::Image;
     b.scene.sky.panorama = makeSkyImage(std::move(image));
     const TraceScene trace(b.build());
-    const StraightSources sources = findStraightSources(trace);
+    const EmittedLightSources sources = findEmittedLightSources(trace);
     const PathContext context{trace, sources.emitters, sources.sky};
     constexpr std::uint32_t kSamples = 1 << 16;
     glm::dvec3 paths(0);
@@ -139,18 +139,18 @@ TEST(StraightLight, IsThatOfPathsWhereNothingReflects) {
     }
 }
 
-TEST(StraightSources, ShineWhereTheSkyOrASurfaceDoes) {
+TEST(EmittedLightSources, ShineWhereTheSkyOrASurfaceDoes) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f)));
     b.add(quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
     b.scene.lights.resize(1);
-    EXPECT_FALSE(findStraightSources(TraceScene(b.build())).shine);
+    EXPECT_FALSE(findEmittedLightSources(TraceScene(b.build())).shine);
     b.scene.sky.radiance = {0, 0, 1e-3f};
-    EXPECT_TRUE(findStraightSources(TraceScene(b.build())).shine);
+    EXPECT_TRUE(findEmittedLightSources(TraceScene(b.build())).shine);
     b.scene.sky = {};
     b.scene.materials[0].emission = {0, 1, 0};
-    EXPECT_TRUE(findStraightSources(TraceScene(b.build())).shine);
+    EXPECT_TRUE(findEmittedLightSources(TraceScene(b.build())).shine);
 }
 
 } // namespace
-} // namespace limn::straight_light_test
+} // namespace limn::emitted_light_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/picture/straight_light.h"
+#include "engine/picture/emitted_light.h"
 
 #include <algorithm>
 
@@ -13,17 +13,17 @@ static float balanceWeight(float pdf, float other) {
     return pdf / (pdf + other);
 }
 
-StraightSources findStraightSources(const TraceScene& trace) {
-    StraightSources sources{findEmitters(trace), findSkyLight(trace.scene().sky), false};
+EmittedLightSources findEmittedLightSources(const TraceScene& trace) {
+    EmittedLightSources sources{findEmitters(trace), findSkyLight(trace.scene().sky), false};
     const auto shines = [](glm::vec3 radiance) { return channelSum(radiance) > 0; };
     sources.shine = !sources.emitters.empty() ||
                     std::ranges::any_of(skyCellRadiance(trace.scene().sky), shines);
     return sources;
 }
 
-StraightSample sampleStraightLight(const TraceScene& trace, const StraightSources& sources,
-                                   const SurfacePoint& p, const Sampler& sampler,
-                                   const LightGuide* guide) {
+EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLightSources& sources,
+                                      const SurfacePoint& p, const Sampler& sampler,
+                                      const LightGuide* guide) {
     const float aimed = guide ? guide->share() : 0;
     // Of the ray below, for each direction.
     const auto density = [&](glm::vec3 d) {
@@ -31,7 +31,7 @@ StraightSample sampleStraightLight(const TraceScene& trace, const StraightSource
             (1 - aimed) * std::max(glm::dot(p.normal, d), 0.f) / glm::pi<float>();
         return aimed > 0 ? byCosine + aimed * guide->pdf(d) : byCosine;
     };
-    StraightSample s;
+    EmittedLightSample s;
     std::uint64_t rays = 0;
     s.found[0] =
         emitterLightAt(trace, sources.emitters, p, sampler.pair(0).x, sampler.pair(1), rays);

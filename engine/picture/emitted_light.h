@@ -12,16 +12,16 @@
 
 namespace limn {
 
-/// Whatever sends light straight to surfaces without being a light: emissive surfaces and the sky.
-struct StraightSources {
+/// What emits light without being one of Scene::lights: emissive surfaces and the sky.
+struct EmittedLightSources {
     Emitters emitters;
     SkyLight sky;       ///< of its image
     bool shine = false; ///< whether there is any
 };
-StraightSources findStraightSources(const TraceScene& trace);
+EmittedLightSources findEmittedLightSources(const TraceScene& trace);
 
-/// One sample of the light that arrives at a surface straight from these.
-struct StraightSample {
+/// One sample of the light that arrives at a surface from these without a bounce.
+struct EmittedLightSample {
     /// What a point on an emitter, a direction of the sky's image and the ray below found; each is
     /// weighted against the others, and their sum is an unbiased estimate of the irradiance.
     std::array<FoundLight, 3> found;
@@ -35,8 +35,8 @@ struct StraightSample {
 /// Uses `sampler`'s pairs 0 to 3. `guide`: aims some of the rays, if there is one; they follow the
 /// cosine otherwise. Combined as in Veach, Guibas. Optimally Combining Sampling Techniques for
 /// Monte Carlo Rendering. 1995
-StraightSample sampleStraightLight(const TraceScene& trace, const StraightSources& sources,
-                                   const SurfacePoint& p, const Sampler& sampler,
-                                   const LightGuide* guide = nullptr);
+EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLightSources& sources,
+                                      const SurfacePoint& p, const Sampler& sampler,
+                                      const LightGuide* guide = nullptr);
 
 } // namespace limn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/straight_field.h"
+#include "engine/techniques/illuminance/relight/emitted_field.h"
 
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/techniques/illuminance/relight/relit.h"
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace limn::straight_field_test {
+namespace limn::emitted_field_test {
 namespace {
 
 /// The hall with a window under a sky, a glowing block and a dynamic box, lit by a lamp as well.
@@ -57,43 +57,43 @@ IndirectField litAlone(const std::shared_ptr<const Bake>& baked, Scene scene) {
     return relighter.field();
 }
 
-TEST(StraightField, IsTheFieldOfASceneThatReflectsNothing) {
+TEST(EmittedField, IsTheFieldOfASceneThatReflectsNothing) {
     for (const LinkStorage storage : {LinkStorage::Rtp, LinkStorage::Sh})
         for (const std::uint32_t bands : {2U, 3U, 4U}) {
             SCOPED_TRACE(testing::Message() << int(storage) << ", " << bands << " bands");
             const Scene scene = glowingHall(storage, bands);
             const auto baked = bakeOf(TraceScene(scene));
-            const IndirectField straight = straightField(baked, scene),
+            const IndirectField emitted = emittedField(baked, scene),
                                 expected = litAlone(baked, scene);
-            ASSERT_EQ(straight.lightmap.size(), expected.lightmap.size());
-            ASSERT_EQ(straight.gridSize, expected.gridSize);
-            ASSERT_EQ(straight.grid.size(), expected.grid.size());
-            EXPECT_EQ(straight.bands, expected.bands);
-            EXPECT_EQ(straight.chroma(), expected.chroma());
-            EXPECT_TRUE(straight.continues);
+            ASSERT_EQ(emitted.lightmap.size(), expected.lightmap.size());
+            ASSERT_EQ(emitted.gridSize, expected.gridSize);
+            ASSERT_EQ(emitted.grid.size(), expected.grid.size());
+            EXPECT_EQ(emitted.bands, expected.bands);
+            EXPECT_EQ(emitted.chroma(), expected.chroma());
+            EXPECT_TRUE(emitted.continues);
             EXPECT_GT(brightest(expected.lightmap), 1);
-            EXPECT_LT(difference(straight.lightmap, expected.lightmap),
+            EXPECT_LT(difference(emitted.lightmap, expected.lightmap),
                       1e-5 * brightest(expected.lightmap));
-            EXPECT_LT(difference(straight.grid, expected.grid), 1e-5 * brightest(expected.grid));
+            EXPECT_LT(difference(emitted.grid, expected.grid), 1e-5 * brightest(expected.grid));
         }
 }
 
-TEST(StraightField, LacksWhatDynamicObjectsHide) {
+TEST(EmittedField, LacksWhatDynamicObjectsHide) {
     Scene scene = glowingHall(LinkStorage::Rtp, 3);
     const auto baked = bakeOf(TraceScene(scene));
-    const IndirectField with = straightField(baked, scene);
+    const IndirectField with = emittedField(baked, scene);
     scene.relight.dynamicOcclusion = false;
-    const IndirectField without = straightField(baked, scene);
+    const IndirectField without = emittedField(baked, scene);
     EXPECT_GT(difference(with.lightmap, without.lightmap), 0.1);
 }
 
-TEST(StraightField, HasNoGridWhereNothingReadsOne) {
+TEST(EmittedField, HasNoGridWhereNothingReadsOne) {
     Scene scene = glowingHall(LinkStorage::Rtp, 3);
     scene.instances.pop_back();
-    const IndirectField straight = straightField(bakeOf(TraceScene(scene)), scene);
-    EXPECT_EQ(straight.cells(), 0U);
-    EXPECT_TRUE(straight.grid.empty());
+    const IndirectField emitted = emittedField(bakeOf(TraceScene(scene)), scene);
+    EXPECT_EQ(emitted.cells(), 0U);
+    EXPECT_TRUE(emitted.grid.empty());
 }
 
 } // namespace
-} // namespace limn::straight_field_test
+} // namespace limn::emitted_field_test

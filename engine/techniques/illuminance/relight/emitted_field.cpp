@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/relight/straight_field.h"
+#include "engine/techniques/illuminance/relight/emitted_field.h"
 
 #include "engine/core/flush_denormals.h"
 #include "engine/field/grid_placement.h"
@@ -25,7 +25,7 @@ static std::vector<glm::vec4> emittedRadiosity(const Bake& bake, const Scene& sc
     return radiosity;
 }
 
-IndirectField straightField(const std::shared_ptr<const Bake>& bake, const Scene& scene) {
+IndirectField emittedField(const std::shared_ptr<const Bake>& bake, const Scene& scene) {
     const FlushDenormals flush;
     const Caches& caches = bake->caches;
     const int bands = std::min(int(bake->settings.bands), kIrradianceBands);
