@@ -17,9 +17,9 @@
 
 namespace limn {
 
-/// Final gathering: the field's light is exchanged for what rays from a picture's pixels find, as
-/// far as that is better. Reichert. A Two-Pass Radiosity Method Driven by Lights and Viewer
-/// Position. 1992
+/// Final gathering: what rays from a picture's pixels find takes the place of the field's light, as
+/// far as that is better. The field's light is a control variate: samples estimate the difference.
+/// Reichert. A Two-Pass Radiosity Method Driven by Lights and Viewer Position. 1992
 ///
 /// Light that the sky and emissive surfaces emit is sampled. Bounced light is the
 /// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
@@ -31,8 +31,8 @@ namespace limn {
 /// Aspects of the Representative Method. 1934). Further samples are aimed at the light that the
 /// pixels of the same tile have found.
 ///
-/// Where the field is about right, the exchange would bring noise alone. So each pixel keeps only
-/// as much of it, and of the mean around it, as is worth its noise (keptExchange()).
+/// Where the field is about right, the difference is noise alone. So each pixel shows its
+/// difference, and the mean of those around it, times shrinkage factors (shrinkDifference()).
 class FinalGather {
 public:
     /// Of pictures that are drawn with these arguments, which outlive the object.

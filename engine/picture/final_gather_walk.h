@@ -117,16 +117,16 @@ void FinalGather::walk(std::uint32_t x, std::uint32_t y, Sink& sink) const {
     for (std::uint32_t j = begin.y; j < light.rect.end.y; j += kGatherTile)
         for (std::uint32_t i = begin.x; i < light.rect.end.x; i += kGatherTile)
             light.set(tiles.emplace_back(tileOf(i, j)));
-    std::array<KeptExchange, kExchanges> kept;
+    std::array<ShrunkDifference, kDifferences> shrunk;
     for (const GatherPart part : {Emitted, Bounced})
-        kept[part] = keptExchange(light, part, {x, y});
+        shrunk[part] = shrinkDifference(light, part, {x, y});
     const std::uint32_t columns = (light.rect.end.x - begin.x + kGatherTile - 1) / kGatherTile;
     const glm::vec3 weight = light.at({x, y}).weight;
     window.forEach([&](glm::uvec2 at) {
         const bool isNear = near.contains(at), isItself = at == glm::uvec2(x, y);
         Shares shares{};
         for (const GatherPart part : {Emitted, Bounced})
-            shares[part] = kept[part].factorOf(isNear, isItself, weight);
+            shares[part] = shrunk[part].factorOf(isNear, isItself, weight);
         shares[Shown] = glm::vec3(isItself ? 1 : 0);
         const glm::uvec2 tile = (at - begin) / kGatherTile;
         walkPixel(tiles[tile.y * columns + tile.x], at, shares, sink);

@@ -94,13 +94,13 @@ static double worthOfMore(const GatherTile& tile, GatherPart part) {
     return more > 0 ? std::min(first / more, kMostWorth) : 1;
 }
 
-/// Sets the noise of an exchange's means. `worth`: of a further sample, in first ones.
-static void setNoise(GatherTile& tile, GatherPart part, double worth) {
+/// Sets the variance of a difference's means. `worth`: of a further sample, in first ones.
+static void setVariance(GatherTile& tile, GatherPart part, double worth) {
     const double stratified = shareByStratification(tile.first, part);
     for (std::uint32_t j = 0; j < tile.height; ++j)
         for (std::uint32_t i = 0; i < tile.width; ++i) {
             const std::uint32_t p = j * kGatherTile + i;
-            tile.noise[part][p] =
+            tile.variance[part][p] =
                 stratified *
                 varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
                 (tile.first[p].count + worth * tile.more[p].count);
@@ -115,7 +115,7 @@ void weighSamples(GatherTile& tile) {
             tile.shareOfMore[part][p] = more > 0 ? more / (more + tile.first[p].count) : 0;
         }
         if (part != Shown)
-            setNoise(tile, part, worth);
+            setVariance(tile, part, worth);
     }
 }
 

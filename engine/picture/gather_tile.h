@@ -13,11 +13,12 @@ namespace limn {
 /// Width of the tiles of a picture whose pixels learn from each other [pixels].
 inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kGatherTile;
 
-/// Parts of the light that a picture gets. Two are exchanges, each of which is kept as far as that
-/// is worth its noise: of what the sky and emissive surfaces emit, without a bounce, and of the
-/// rest. Shown is what the field shows, of which all is kept.
+/// Parts of the light that a picture gets. Two are differences between gathered light and the
+/// field's, which is their control variate: Emitted of what the sky and emissive surfaces emit,
+/// without a bounce, and Bounced of the rest. Each is shrunk towards 0 as far as its variance is
+/// large. Shown is what the field shows.
 enum GatherPart : std::uint32_t { Emitted, Bounced, Shown };
-inline constexpr std::uint32_t kGatherParts = 3, kExchanges = 2;
+inline constexpr std::uint32_t kGatherParts = 3, kDifferences = 2;
 
 /// Mean of the colours, of which variances are taken.
 double greyOf(glm::vec3 light);
@@ -49,8 +50,8 @@ struct GatherTile {
     std::array<GatherSamples, kGatherPixels> first, more;
     /// Share of further samples in each part's mean over all samples.
     std::array<std::array<double, kGatherPixels>, kGatherParts> shareOfMore{};
-    /// Variance of the greys of each exchange's mean over all samples.
-    std::array<std::array<double, kGatherPixels>, kExchanges> noise{};
+    /// Variance of the greys of each difference's mean over all samples.
+    std::array<std::array<double, kGatherPixels>, kDifferences> variance{};
 
     /// Mean over all samples of a part of pixel p, which has some.
     glm::dvec3 meanOf(std::uint32_t p, GatherPart part) const;
@@ -61,7 +62,7 @@ struct GatherTile {
 /// window, they have none.
 double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);
 
-/// Weighs further samples against first ones: sets shareOfMore and noise.
+/// Weighs further samples against first ones: sets shareOfMore and variance.
 void weighSamples(GatherTile& tile);
 
 } // namespace limn

@@ -22,16 +22,16 @@ void GatheredLight::set(const GatherTile& tile) {
             pixel.weight = (first.weight + more.weight) / double(first.count + more.count);
             pixel.shown = tile.meanOf(p, Shown);
             for (const GatherPart part : {Emitted, Bounced}) {
-                pixel.exchange[part] = tile.meanOf(p, part);
-                pixel.noise[part] = float(tile.noise[part][p]);
+                pixel.difference[part] = tile.meanOf(p, part);
+                pixel.variance[part] = float(tile.variance[part][p]);
             }
         }
 }
 
 void GatheredMean::add(const GatheredPixel& pixel, GatherPart part) {
-    sum += pixel.exchange[part];
+    sum += pixel.difference[part];
     weights += pixel.weight;
-    noise += double(pixel.noise[part]);
+    variance += double(pixel.variance[part]);
 }
 
 glm::vec3 GatheredMean::factorFor(glm::vec3 weight) const {
@@ -43,73 +43,75 @@ glm::vec3 GatheredMean::factorFor(glm::vec3 weight) const {
 
 namespace {
 
-/// Squared differences over the pixels of a window, and what part of them is expected of noise.
-struct Difference {
-    double squared = 0, noise = 0, weights = 0; ///< of greys
-    double own = 0, ownNoise = 0;               ///< of the pixel in question
+/// Squared deviations over the pixels of a window, and what part of them is expected of variance.
+struct Deviations {
+    double squared = 0, variance = 0, weights = 0; ///< of greys
+    double pixelWeight = 0, pixelVariance = 0;     ///< of the pixel in question
 
-    void add(glm::vec3 differs, double itsNoise, glm::vec3 weight, bool isOwn) {
-        const double grey = greyOf(differs), w = greyOf(weight) * greyOf(weight);
+    void add(glm::vec3 deviation, double expected, glm::vec3 weight, bool isPixel) {
+        const double grey = greyOf(deviation), w = greyOf(weight) * greyOf(weight);
         squared += grey * grey;
-        noise += itsNoise;
+        variance += expected;
         weights += w;
-        if (isOwn) {
-            own = w;
-            ownNoise = itsNoise;
+        if (isPixel) {
+            pixelWeight = w;
+            pixelVariance = expected;
         }
     }
-    /// The share of its difference that the pixel in question keeps: signal / (signal + noise),
-    /// both squared. The signal is taken to be in proportion to the pixel's weight.
-    float kept() const {
-        const double signal = squared > noise ? (squared - noise) * own / weights : 0;
-        return signal > 0 ? float(signal / (signal + ownNoise)) : 0;
+    /// The shrinkage factor of the pixel in question: signal / (signal + variance). The signal is
+    /// taken to be in proportion to the pixel's squared weight.
+    float shrinkage() const {
+        const double signal = squared > variance ? (squared - variance) * pixelWeight / weights : 0;
+        return signal > 0 ? float(signal / (signal + pixelVariance)) : 0;
     }
 };
 
 } // namespace
 
-KeptExchange keptExchange(const GatheredLight& light, GatherPart part, glm::uvec2 pixel) {
+ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, glm::uvec2 pixel) {
     const PixelRect window = windowAround(pixel, kGatherRadius, light.rect);
     constexpr std::size_t kMost = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
     std::array<GatheredMean, kMost> near;
-    KeptExchange kept;
+    ShrunkDifference shrunk;
     window.forEach([&](glm::uvec2 at) {
-        kept.window.add(light.at(at), part);
+        shrunk.window.add(light.at(at), part);
         GatheredMean& mean = near[window.numberOf(at)];
         windowAround(at, kNearRadius, window).forEach([&](glm::uvec2 q) {
             mean.add(light.at(q), part);
         });
     });
-    kept.near = near[window.numberOf(pixel)];
-    Difference ofNear, ofPixel;
+    shrunk.near = near[window.numberOf(pixel)];
+    Deviations ofNear, ofPixel;
     window.forEach([&](glm::uvec2 at) {
         const GatheredPixel& p = light.at(at);
         const GatheredMean& mean = near[window.numberOf(at)];
         const double a = greyOf(mean.factorFor(p.weight)),
-                     b = greyOf(kept.window.factorFor(p.weight)), own = double(p.noise[part]);
-        ofNear.add(mean.in(p.weight) - kept.window.in(p.weight),
-                   (a - 2 * b) * a * mean.noise + b * b * kept.window.noise, p.weight, at == pixel);
-        ofPixel.add(p.exchange[part] - mean.in(p.weight), (1 - 2 * a) * own + a * a * mean.noise,
-                    p.weight, at == pixel);
+                     b = greyOf(shrunk.window.factorFor(p.weight)), own = double(p.variance[part]);
+        ofNear.add(mean.in(p.weight) - shrunk.window.in(p.weight),
+                   (a - 2 * b) * a * mean.variance + b * b * shrunk.window.variance, p.weight,
+                   at == pixel);
+        ofPixel.add(p.difference[part] - mean.in(p.weight),
+                    (1 - 2 * a) * own + a * a * mean.variance, p.weight, at == pixel);
     });
-    Difference ofWindow;
-    ofWindow.add(kept.window.sum, kept.window.noise, glm::vec3(1), true);
-    kept.ofWindow = ofWindow.kept();
-    kept.ofNear = ofNear.kept();
-    kept.ofPixel = ofPixel.kept();
-    return kept;
+    Deviations ofWindow;
+    ofWindow.add(shrunk.window.sum, shrunk.window.variance, glm::vec3(1), true);
+    shrunk.windowFactor = ofWindow.shrinkage();
+    shrunk.nearFactor = ofNear.shrinkage();
+    shrunk.pixelFactor = ofPixel.shrinkage();
+    return shrunk;
 }
 
-glm::vec3 KeptExchange::lightIn(const GatheredPixel& pixel, GatherPart part) const {
-    return (ofWindow - ofNear) * window.in(pixel.weight) +
-           (ofNear - ofPixel) * near.in(pixel.weight) + ofPixel * pixel.exchange[part];
+glm::vec3 ShrunkDifference::lightIn(const GatheredPixel& pixel, GatherPart part) const {
+    return (windowFactor - nearFactor) * window.in(pixel.weight) +
+           (nearFactor - pixelFactor) * near.in(pixel.weight) +
+           pixelFactor * pixel.difference[part];
 }
 
-glm::vec3 KeptExchange::factorOf(bool isNear, bool isItself, glm::vec3 weight) const {
-    glm::vec3 factor = (ofWindow - ofNear) * window.factorFor(weight);
+glm::vec3 ShrunkDifference::factorOf(bool isNear, bool isItself, glm::vec3 weight) const {
+    glm::vec3 factor = (windowFactor - nearFactor) * window.factorFor(weight);
     if (isNear)
-        factor += (ofNear - ofPixel) * near.factorFor(weight);
-    return isItself ? factor + ofPixel : factor;
+        factor += (nearFactor - pixelFactor) * near.factorFor(weight);
+    return isItself ? factor + pixelFactor : factor;
 }
 
 void addGathered(ImageF& image, const GatheredLight& light, const PixelRect& pixels) {
@@ -118,7 +120,7 @@ void addGathered(ImageF& image, const GatheredLight& light, const PixelRect& pix
             const GatheredPixel& p = light.at(at);
             glm::vec3 sum = p.shown;
             for (const GatherPart part : {Emitted, Bounced})
-                sum += keptExchange(light, part, at).lightIn(p, part);
+                sum += shrinkDifference(light, part, at).lightIn(p, part);
             image.rgb[std::size_t(at.y) * image.width + at.x] += sum;
         });
     };

@@ -18,8 +18,10 @@ namespace limn {
 struct GatheredPixel {
     glm::vec3 weight{0}; ///< what the picture shows for unit irradiance; 0 in the background
     glm::vec3 shown{0};  ///< the field's light
-    std::array<glm::vec3, kExchanges> exchange{};
-    std::array<float, kExchanges> noise{}; ///< variance of the exchange's grey
+    /// Gathered light less the field's light. The field is a control variate: the picture shows
+    /// its light and adds the difference that samples find.
+    std::array<glm::vec3, kDifferences> difference{};
+    std::array<float, kDifferences> variance{}; ///< of the difference's grey
 };
 
 /// Some pixels of a picture.
@@ -61,8 +63,8 @@ struct GatheredLight {
 
 /// Sums over some pixels, and with these the light of any pixel that had their mean irradiance.
 struct GatheredMean {
-    glm::vec3 sum{0}, weights{0}; ///< of the exchange, and of GatheredPixel::weight
-    double noise = 0;             ///< variance of the sum's grey
+    glm::vec3 sum{0}, weights{0}; ///< of the difference, and of GatheredPixel::weight
+    double variance = 0;          ///< of the sum's grey
 
     void add(const GatheredPixel& pixel, GatherPart part);
     /// The light of a pixel of this weight.
@@ -71,24 +73,26 @@ struct GatheredMean {
     glm::vec3 factorFor(glm::vec3 weight) const;
 };
 
-/// How much of an exchange a pixel gets: a share of the mean over its window, a share of the
-/// difference between the mean over its neighbourhood and that mean, and a share of the difference
-/// between the pixel itself and its neighbourhood.
-struct KeptExchange {
+/// The difference between gathered light and the field's that a pixel shows: a sum of three terms,
+/// each times a shrinkage factor in [0, 1]. They are the mean over the pixel's window, what the
+/// mean over its neighbourhood differs from that by, and what the pixel differs from its
+/// neighbourhood by.
+struct ShrunkDifference {
     GatheredMean window, near;
-    float ofWindow = 0, ofNear = 0, ofPixel = 0;
+    float windowFactor = 0, nearFactor = 0, pixelFactor = 0;
 
     glm::vec3 lightIn(const GatheredPixel& pixel, GatherPart part) const;
-    /// lightIn() is the sum over the window's pixels of their exchange times this. `weight`: that
-    /// of the pixel that gets the light. `isNear`: the summed pixel is in its neighbourhood.
+    /// Weight of the difference of one pixel of the window in lightIn(), which is their weighted
+    /// sum. `weight`: GatheredPixel::weight of the pixel that gets the light. `isNear`: the summed
+    /// pixel is in its neighbourhood.
     glm::vec3 factorOf(bool isNear, bool isItself, glm::vec3 weight) const;
 };
 
-/// Weighs the exchange of a pixel so that the expected squared error is least, given how far means
-/// and pixels of the window differ from each other, and the window's mean from nothing, beyond
-/// their noise.
+/// Chooses the shrinkage factors of a pixel so that the expected squared error is least. Each is
+/// signal / (signal + variance). The signal is how far means and pixels of the window differ from
+/// each other, or the window's mean from 0, beyond their variance.
 /// Efron, Morris. Stein's Estimation Rule and Its Competitors. 1973
-KeptExchange keptExchange(const GatheredLight& light, GatherPart part, glm::uvec2 pixel);
+ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, glm::uvec2 pixel);
 
 /// Adds the light of some pixels to the picture. All windows around them must be gathered.
 void addGathered(ImageF& image, const GatheredLight& light, const PixelRect& pixels);

@@ -51,7 +51,8 @@ std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
 ///
 /// Irradiance is parted into near and far as in: Arikan, Forsyth, O'Brien. Fast and Detailed
 /// Approximate Global Illumination by Irradiance Decomposition. 2005. There, distant light is
-/// sampled without what is near; here the field has both, so what is near is exchanged.
+/// sampled without what is near; here the field has both, so it is a control variate of
+/// what is near.
 template <PixelSink Sink>
 void walkNearLight(const NearLight& near, const Hit& hit, const SurfacePoint& p,
                    const Sampler& sampler, Sink& sink) {

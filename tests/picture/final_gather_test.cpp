@@ -56,7 +56,7 @@ struct BelowAPlate {
     }
 };
 
-TEST(FinalGather, ExchangesWhatTheFieldHasForWhatRaysFind) {
+TEST(FinalGather, ShowsWhatRaysFindInPlaceOfTheField) {
     for (const glm::vec3 lamp : {glm::vec3(0), glm::vec3(2, 1, 0.5f)}) {
         const BelowAPlate s(glm::vec3(0.4f, 0.8f, 1.2f), lamp);
         FieldRenderOptions without = s.options;
@@ -73,7 +73,7 @@ TEST(FinalGather, ExchangesWhatTheFieldHasForWhatRaysFind) {
 }
 
 /// Each sample finds exactly pi times the radiance, so further samples have nothing to add, and
-/// all of the exchange is kept.
+/// nothing is shrunk.
 TEST(FinalGather, IsExactUnderAnOpenSky) {
     BelowAPlate s(glm::vec3(0.2f));
     s.scene.instances[1].toWorld[3].y = -2; // the plate lies below

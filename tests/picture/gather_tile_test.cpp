@@ -30,8 +30,8 @@ GatherSamples samplesOf(std::uint32_t count, const Sample& sample) {
 /// Means over some tiles whose further samples were aimed, so that their variance may be another.
 struct Measured {
     double shareOfMore = 0;
-    double noise = 0; ///< as the tiles know it
-    double error = 0; ///< squared
+    double variance = 0; ///< as the tiles know it
+    double error = 0;    ///< squared
 };
 template <class First, class More>
 Measured measured(const First& first, const More& more) {
@@ -48,7 +48,7 @@ Measured measured(const First& first, const More& more) {
         weighSamples(tile);
         mean.shareOfMore += tile.shareOfMore[Emitted][0] / kTiles;
         for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
-            mean.noise += tile.noise[Emitted][p] / (kTiles * kGatherPixels);
+            mean.variance += tile.variance[Emitted][p] / (kTiles * kGatherPixels);
             mean.error += std::pow(tile.meanOf(p, Emitted).x - 1, 2) / (kTiles * kGatherPixels);
         }
     }
@@ -67,7 +67,7 @@ TEST(GatherTile, KnowsItsNoise) {
     const Measured mean = measured(independent, independent);
     EXPECT_NEAR(mean.shareOfMore, 0.8, 0.02);
     const double expected = 1. / 3 / 160; // variance of one sample over their number
-    EXPECT_NEAR(mean.noise, expected, 0.15 * expected);
+    EXPECT_NEAR(mean.variance, expected, 0.15 * expected);
     EXPECT_NEAR(mean.error, expected, 0.15 * expected);
 }
 
@@ -76,14 +76,14 @@ TEST(GatherTile, CountsFurtherSamplesByTheirVariance) {
         measured(independent, [](std::uint32_t) { return uniform() < 0.05f ? 20.f : 0.f; });
     // 1/3 against 19: a further sample is worth a fifty-seventh of a first one.
     EXPECT_NEAR(mean.shareOfMore, 128. / (128 + 57 * 32), 0.02);
-    EXPECT_NEAR(mean.error, mean.noise, 0.15 * mean.noise);
+    EXPECT_NEAR(mean.error, mean.variance, 0.15 * mean.variance);
 }
 
 /// Few samples that are well spread are worth more than many that are not.
 TEST(GatherTile, KnowsWhichSamplesAreWellSpread) {
     const Measured mean = measured(wellSpread, independent);
     EXPECT_LT(mean.shareOfMore, 0.1);
-    EXPECT_NEAR(mean.error, mean.noise, 0.15 * mean.noise);
+    EXPECT_NEAR(mean.error, mean.variance, 0.15 * mean.variance);
     EXPECT_GT(measured(independent, wellSpread).shareOfMore, 0.99);
 }
 

@@ -21,9 +21,9 @@ GatheredLight picture(double noise, const Weight& weight, const Irradiance& irra
         GatheredPixel& p = light.pixels[light.rect.numberOf(at)];
         p.weight = weight(at);
         const double error = normal(random) * noise;
-        p.exchange[Bounced] = p.weight * (irradiance(at) + float(error));
+        p.difference[Bounced] = p.weight * (irradiance(at) + float(error));
         const double grey = double(p.weight.x + p.weight.y + p.weight.z) / 3;
-        p.noise[Bounced] = float(noise * noise * grey * grey);
+        p.variance[Bounced] = float(noise * noise * grey * grey);
     });
     return light;
 }
@@ -110,15 +110,15 @@ TEST(GatheredLight, IsTheSumOfPixelsTimesTheirFactors) {
     };
     const GatheredLight light = picture(0.5, weight, wavy);
     for (const glm::uvec2 at : {glm::uvec2(0, 0), glm::uvec2(20, 9), glm::uvec2(39, 29)}) {
-        const KeptExchange kept = keptExchange(light, Bounced, at);
+        const ShrunkDifference shrunk = shrinkDifference(light, Bounced, at);
         glm::vec3 sum(0);
         windowAround(at, kGatherRadius, light.rect).forEach([&](glm::uvec2 q) {
             const bool isNear = std::max(std::abs(int(q.x) - int(at.x)),
                                          std::abs(int(q.y) - int(at.y))) <= int(kNearRadius);
-            sum +=
-                kept.factorOf(isNear, q == at, light.at(at).weight) * light.at(q).exchange[Bounced];
+            sum += shrunk.factorOf(isNear, q == at, light.at(at).weight) *
+                   light.at(q).difference[Bounced];
         });
-        const glm::vec3 whole = kept.lightIn(light.at(at), Bounced);
+        const glm::vec3 whole = shrunk.lightIn(light.at(at), Bounced);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(sum[c], whole[c], 1e-5f);
     }
