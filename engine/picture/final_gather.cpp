@@ -13,12 +13,12 @@
 
 namespace limn {
 
-/// A pixel whose first samples have a standard error of this part of the picture's mean light gets
-/// as many again, and others in proportion, up to kMostMore times as many.
-static constexpr double kErrorOfOneMore = 0.125, kMostMore = 255;
+/// A pixel whose first stage has a standard error of this part of the picture's mean light gets as
+/// many samples again, and others in proportion, up to kMaxSecondStage times as many.
+static constexpr double kErrorToDouble = 0.125, kMaxSecondStage = 255;
 
-/// Rays of the further samples of a pixel; fewer are not worth taking.
-static constexpr std::uint32_t kFewestRays = 16;
+/// Rays of a pixel's second stage; fewer are not worth taking.
+static constexpr std::uint32_t kMinRays = 16;
 
 static bool asksForIt(const FieldRenderOptions& options) {
     return options.emitted && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
@@ -107,7 +107,7 @@ GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_
                                 const LightGuide* guide, std::vector<RayLight>* learned) const {
     GatherSamples taken;
     taken.count = count;
-    Shares whole;
+    PartWeights whole;
     whole.fill(glm::vec3(1));
     for (std::uint32_t s = 0; s < count; ++s) {
         PartSink sink{m_trace, learned};
@@ -123,14 +123,14 @@ GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_
     return taken;
 }
 
-/// The number of further samples of a pixel whose first samples have this variance.
-std::uint32_t FinalGather::further(double variance) const {
+/// The number of second-stage samples of a pixel whose first-stage samples have this variance.
+std::uint32_t FinalGather::secondStageCount(double variance) const {
     if (!(m_meanLight > 0))
         return 0;
-    const std::uint32_t first = m_options.samplesPerPixel;
-    const double times = std::sqrt(variance / first) / (kErrorOfOneMore * m_meanLight);
-    const auto count = std::uint32_t(std::min(times, kMostMore) * first);
-    return count * m_options.gatherRays < kFewestRays ? 0 : count;
+    const std::uint32_t count = m_options.samplesPerPixel;
+    const double times = std::sqrt(variance / count) / (kErrorToDouble * m_meanLight);
+    const auto second = std::uint32_t(std::min(times, kMaxSecondStage) * count);
+    return second * m_options.gatherRays < kMinRays ? 0 : second;
 }
 
 /// The tile whose upper left pixel is (x, y), with all of its samples.
@@ -147,14 +147,15 @@ GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
                 body(i, j, j * kGatherTile + i);
     };
     forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
-        tile.first[p] = take({x + i, y + j}, 0, count, nullptr, &learned[(i + j) % 2]);
+        tile.firstStage[p] = take({x + i, y + j}, 0, count, nullptr, &learned[(i + j) % 2]);
     });
     tile.guide = learnGuide(learned[0], learned[1]);
     forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
         const double variance = varianceAround(tile, i, j);
-        tile.more[p] = take({x + i, y + j}, count, further(variance), &tile.guide, nullptr);
+        tile.secondStage[p] =
+            take({x + i, y + j}, count, secondStageCount(variance), &tile.guide, nullptr);
     });
-    weighSamples(tile);
+    weighStages(tile);
     return tile;
 }
 

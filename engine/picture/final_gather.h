@@ -26,10 +26,11 @@ namespace limn {
 /// where it is seen. Where a ray is shorter than some of these texels' widths, it goes on from
 /// there. So light that comes from near surfaces needs no rays of its own (near_light.h).
 ///
-/// Pixels have as many samples as the picture, and more where these are noisy: in proportion to
-/// their standard deviation, which brings most for a given number (Neyman. On the Two Different
-/// Aspects of the Representative Method. 1934). Further samples are aimed at the light that the
-/// pixels of the same tile have found.
+/// Samples are taken in two stages. In the first, pixels have as many samples as the picture. In
+/// the second, they have samples in proportion to the standard deviation of the first ones, which
+/// reduces variance most for a given number (Neyman. On the Two Different Aspects of the
+/// Representative Method. 1934). A guide aims the second stage's rays at the light that the pixels
+/// of the same tile have found.
 ///
 /// Where the field is about right, the difference is noise alone. So each pixel shows its
 /// difference, and the mean of those around it, times shrinkage factors (shrinkDifference()).
@@ -61,8 +62,8 @@ public:
     void walk(std::uint32_t x, std::uint32_t y, Sink& sink) const;
 
 private:
-    /// Factors by which the parts of a sample count.
-    using Shares = std::array<glm::vec3, kGatherParts>;
+    /// Weights of the parts of a sample's light.
+    using PartWeights = std::array<glm::vec3, kGatherParts>;
     struct PartSink;
 
     const IndirectField& emittedField() const { return *m_options.emitted; }
@@ -74,15 +75,15 @@ private:
     GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
     GatherSamples take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, std::vector<RayLight>* learned) const;
-    std::uint32_t further(double variance) const;
-    /// Walks sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of a
-    /// further sample; null for the first ones.
+    std::uint32_t secondStageCount(double variance) const;
+    /// Walks sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of
+    /// the second stage; null in the first one.
     template <GatherSink Sink>
     glm::vec3 walkSample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
-                         const Shares& shares, Sink& sink) const;
+                         const PartWeights& partWeights, Sink& sink) const;
     /// Walks all samples of a pixel of the tile.
     template <GatherSink Sink>
-    void walkPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
+    void walkPixel(const GatherTile& tile, glm::uvec2 pixel, const PartWeights& partWeights,
                    Sink& sink) const;
     template <GatherSink Sink>
     void walkBounced(EmittedLightSample met, const Sampler& own, glm::vec3 weight,

@@ -45,19 +45,19 @@ void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::v
 
 template <GatherSink Sink>
 glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
-                                  const Shares& shares, Sink& sink) const {
+                                  const PartWeights& partWeights, Sink& sink) const {
     const PixelSample pixel(m_rays, m_options.seed, at.y * m_options.width + at.x, s);
     const Hit hit = m_trace.closestHit(pixel.ray);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
     if (!p || !(m_options.view == View::Irradiance || sink.reflects(hit.instance)))
         return glm::vec3(0);
     const glm::vec3 weight = weightOf(*p);
-    Shares weights;
+    PartWeights weights;
     for (std::uint32_t part = 0; part < kGatherParts; ++part)
-        weights[part] = shares[part] * weight;
+        weights[part] = partWeights[part] * weight;
     const FieldPoint here = pointOf(m_field, hit, *p),
                      emittedHere = pointOf(emittedField(), hit, *p);
-    if (shares[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
+    if (partWeights[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
         sink.fieldIrradiance(here, weights[Shown], Shown);
     sink.fieldIrradiance(emittedHere, -weights[Emitted], Emitted);
     sink.fieldIrradiance(emittedHere, weights[Bounced], Bounced);
@@ -83,25 +83,24 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGui
 }
 
 template <GatherSink Sink>
-void FinalGather::walkPixel(const GatherTile& tile, glm::uvec2 pixel, const Shares& shares,
-                            Sink& sink) const {
-    if (shares == Shares{})
+void FinalGather::walkPixel(const GatherTile& tile, glm::uvec2 pixel,
+                            const PartWeights& partWeights, Sink& sink) const {
+    if (partWeights == PartWeights{})
         return;
     const std::uint32_t p = (pixel.y - tile.y) * kGatherTile + pixel.x - tile.x,
-                        first = tile.first[p].count, more = tile.more[p].count;
-    // Of one of the first samples, or of a further one.
-    const auto ofOne = [&](bool further) {
-        Shares each;
+                        first = tile.firstStage[p].count, second = tile.secondStage[p].count;
+    const auto weightsOfOne = [&](bool inSecondStage) {
+        PartWeights each;
         for (std::uint32_t part = 0; part < kGatherParts; ++part) {
-            const double w = tile.shareOfMore[part][p];
-            each[part] = float(further ? w / more : (1 - w) / first) * shares[part];
+            const double w = tile.secondStageWeight[part][p];
+            each[part] = float(inSecondStage ? w / second : (1 - w) / first) * partWeights[part];
         }
         return each;
     };
     for (std::uint32_t s = 0; s < first; ++s)
-        walkSample(pixel, s, nullptr, ofOne(false), sink);
-    for (std::uint32_t s = 0; s < more; ++s)
-        walkSample(pixel, first + s, &tile.guide, ofOne(true), sink);
+        walkSample(pixel, s, nullptr, weightsOfOne(false), sink);
+    for (std::uint32_t s = 0; s < second; ++s)
+        walkSample(pixel, first + s, &tile.guide, weightsOfOne(true), sink);
 }
 
 template <GatherSink Sink>
@@ -124,12 +123,12 @@ void FinalGather::walk(std::uint32_t x, std::uint32_t y, Sink& sink) const {
     const glm::vec3 weight = light.at({x, y}).weight;
     window.forEach([&](glm::uvec2 at) {
         const bool isNear = near.contains(at), isItself = at == glm::uvec2(x, y);
-        Shares shares{};
+        PartWeights partWeights{};
         for (const GatherPart part : {Emitted, Bounced})
-            shares[part] = shrunk[part].factorOf(isNear, isItself, weight);
-        shares[Shown] = glm::vec3(isItself ? 1 : 0);
+            partWeights[part] = shrunk[part].factorOf(isNear, isItself, weight);
+        partWeights[Shown] = glm::vec3(isItself ? 1 : 0);
         const glm::uvec2 tile = (at - begin) / kGatherTile;
-        walkPixel(tiles[tile.y * columns + tile.x], at, shares, sink);
+        walkPixel(tiles[tile.y * columns + tile.x], at, partWeights, sink);
     });
 }
 

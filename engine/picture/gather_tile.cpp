@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// Of a further sample, in first ones.
-static constexpr double kMostWorth = 100;
+/// Upper limit of secondStageEfficiency().
+static constexpr double kMaxEfficiency = 100;
 
 double greyOf(glm::vec3 light) {
     return double(channelSum(light)) / 3;
@@ -40,12 +40,12 @@ template <class Of>
 static double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j,
                              const Of& of) {
     double variance = 0;
-    for (const GatherSamples& samples : tile.first)
+    for (const GatherSamples& samples : tile.firstStage)
         variance += of(samples).variance(samples.count) / (tile.width * tile.height);
     int pixels = 1;
     for (std::uint32_t y = j - std::min(j, 1U); y <= std::min(j + 1, tile.height - 1); ++y)
         for (std::uint32_t x = i - std::min(i, 1U); x <= std::min(i + 1, tile.width - 1); ++x) {
-            const GatherSamples& samples = tile.first[y * kGatherTile + x];
+            const GatherSamples& samples = tile.firstStage[y * kGatherTile + x];
             variance += of(samples).variance(samples.count);
             ++pixels;
         }
@@ -57,17 +57,17 @@ double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j) 
 }
 
 glm::dvec3 GatherTile::meanOf(std::uint32_t p, GatherPart part) const {
-    const double w = shareOfMore[part][p];
-    glm::dvec3 mean = (1 - w) / first[p].count * first[p].parts[part].sum;
-    if (more[p].count > 0)
-        mean += w / more[p].count * more[p].parts[part].sum;
+    const double w = secondStageWeight[part][p];
+    glm::dvec3 mean = (1 - w) / firstStage[p].count * firstStage[p].parts[part].sum;
+    if (secondStage[p].count > 0)
+        mean += w / secondStage[p].count * secondStage[p].parts[part].sum;
     return mean;
 }
 
-/// Ratio of the variance of pixels' means to what it would be if samples were independent; below 1
-/// where they are stratified.
-static double shareByStratification(const std::array<GatherSamples, kGatherPixels>& samples,
-                                    GatherPart part) {
+/// Ratio of the variance of pixels' means to what it would be if samples were independent. It is
+/// below 1 where they are stratified.
+static double stratification(const std::array<GatherSamples, kGatherPixels>& samples,
+                             GatherPart part) {
     double independent = 0, byHalves = 0;
     for (const GatherSamples& s : samples)
         if (s.count > 0) {
@@ -77,45 +77,46 @@ static double shareByStratification(const std::array<GatherSamples, kGatherPixel
     return independent > 0 ? std::min(byHalves / independent, 1.0) : 1;
 }
 
-/// The number of first samples that a further one is worth in a part: the ratio of their variances.
-/// The guide makes it more where the part's light comes from few directions, and less where it
-/// comes from all.
-static double worthOfMore(const GatherTile& tile, GatherPart part) {
+/// The number of first-stage samples that a second-stage sample is worth in a part: the ratio of
+/// their variances. The guide makes it more where the part's light comes from few directions, and
+/// less where it comes from all.
+static double secondStageEfficiency(const GatherTile& tile, GatherPart part) {
     if (part == Shown || !(tile.guide.share() > 0)) // both are sampled alike
         return 1;
-    double first = 0, more = 0;
+    double firstVariance = 0, secondVariance = 0;
     for (std::uint32_t p = 0; p < kGatherPixels; ++p)
-        if (tile.more[p].count > 0) {
-            first += tile.first[p].parts[part].variance(tile.first[p].count);
-            more += tile.more[p].parts[part].variance(tile.more[p].count);
+        if (tile.secondStage[p].count > 0) {
+            firstVariance += tile.firstStage[p].parts[part].variance(tile.firstStage[p].count);
+            secondVariance += tile.secondStage[p].parts[part].variance(tile.secondStage[p].count);
         }
-    first *= shareByStratification(tile.first, part);
-    more *= shareByStratification(tile.more, part);
-    return more > 0 ? std::min(first / more, kMostWorth) : 1;
+    firstVariance *= stratification(tile.firstStage, part);
+    secondVariance *= stratification(tile.secondStage, part);
+    return secondVariance > 0 ? std::min(firstVariance / secondVariance, kMaxEfficiency) : 1;
 }
 
-/// Sets the variance of a difference's means. `worth`: of a further sample, in first ones.
-static void setVariance(GatherTile& tile, GatherPart part, double worth) {
-    const double stratified = shareByStratification(tile.first, part);
+/// Sets the variance of a difference's means. `efficiency`: secondStageEfficiency().
+static void setVariance(GatherTile& tile, GatherPart part, double efficiency) {
+    const double ratio = stratification(tile.firstStage, part);
     for (std::uint32_t j = 0; j < tile.height; ++j)
         for (std::uint32_t i = 0; i < tile.width; ++i) {
             const std::uint32_t p = j * kGatherTile + i;
             tile.variance[part][p] =
-                stratified *
+                ratio *
                 varianceAround(tile, i, j, [&](const GatherSamples& s) { return s.parts[part]; }) /
-                (tile.first[p].count + worth * tile.more[p].count);
+                (tile.firstStage[p].count + efficiency * tile.secondStage[p].count);
         }
 }
 
-void weighSamples(GatherTile& tile) {
+void weighStages(GatherTile& tile) {
     for (const GatherPart part : {Emitted, Bounced, Shown}) {
-        const double worth = worthOfMore(tile, part);
+        const double efficiency = secondStageEfficiency(tile, part);
         for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
-            const double more = worth * tile.more[p].count;
-            tile.shareOfMore[part][p] = more > 0 ? more / (more + tile.first[p].count) : 0;
+            const double second = efficiency * tile.secondStage[p].count;
+            tile.secondStageWeight[part][p] =
+                second > 0 ? second / (second + tile.firstStage[p].count) : 0;
         }
         if (part != Shown)
-            setVariance(tile, part, worth);
+            setVariance(tile, part, efficiency);
     }
 }
 

@@ -43,13 +43,14 @@ struct GatherSamples {
     std::uint32_t count = 0;
 };
 /// The samples of a tile's pixels; pixel (i, j) has number j * kGatherTile + i. Those beyond the
-/// picture have none.
+/// picture have none. Samples are taken in two stages: the second one follows what the first one
+/// tells of variances and of where light comes from.
 struct GatherTile {
     std::uint32_t x = 0, y = 0, width = 0, height = 0; ///< [pixels]
     LightGuide guide;
-    std::array<GatherSamples, kGatherPixels> first, more;
-    /// Share of further samples in each part's mean over all samples.
-    std::array<std::array<double, kGatherPixels>, kGatherParts> shareOfMore{};
+    std::array<GatherSamples, kGatherPixels> firstStage, secondStage;
+    /// Weight of the second stage's mean in each part's mean over all samples.
+    std::array<std::array<double, kGatherPixels>, kGatherParts> secondStageWeight{};
     /// Variance of the greys of each difference's mean over all samples.
     std::array<std::array<double, kGatherPixels>, kDifferences> variance{};
 
@@ -57,12 +58,12 @@ struct GatherTile {
     glm::dvec3 meanOf(std::uint32_t p, GatherPart part) const;
 };
 
-/// The variance of a first sample of pixel (i, j), of all parts together: the mean over its
+/// The variance of a first-stage sample of pixel (i, j), of all parts together: the mean over its
 /// neighbours, and the whole tile as one more. Where all of a pixel's own samples have missed a
 /// window, they have none.
 double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);
 
-/// Weighs further samples against first ones: sets shareOfMore and variance.
-void weighSamples(GatherTile& tile);
+/// Weighs the second stage of samples against the first one: sets secondStageWeight and variance.
+void weighStages(GatherTile& tile);
 
 } // namespace limn

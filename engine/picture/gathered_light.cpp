@@ -17,9 +17,9 @@ void GatheredLight::set(const GatherTile& tile) {
     for (std::uint32_t j = 0; j < tile.height; ++j)
         for (std::uint32_t i = 0; i < tile.width; ++i) {
             const std::uint32_t p = j * kGatherTile + i;
-            const GatherSamples &first = tile.first[p], &more = tile.more[p];
+            const GatherSamples &first = tile.firstStage[p], &second = tile.secondStage[p];
             GatheredPixel& pixel = pixels[rect.numberOf({tile.x + i, tile.y + j})];
-            pixel.weight = (first.weight + more.weight) / double(first.count + more.count);
+            pixel.weight = (first.weight + second.weight) / double(first.count + second.count);
             pixel.shown = tile.meanOf(p, Shown);
             for (const GatherPart part : {Emitted, Bounced}) {
                 pixel.difference[part] = tile.meanOf(p, part);

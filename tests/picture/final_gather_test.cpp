@@ -72,7 +72,7 @@ TEST(FinalGather, ShowsWhatRaysFindInPlaceOfTheField) {
     }
 }
 
-/// Each sample finds exactly pi times the radiance, so further samples have nothing to add, and
+/// Each sample finds exactly pi times the radiance, so a second stage has nothing to add, and
 /// nothing is shrunk.
 TEST(FinalGather, IsExactUnderAnOpenSky) {
     BelowAPlate s(glm::vec3(0.2f));

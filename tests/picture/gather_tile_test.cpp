@@ -27,14 +27,14 @@ GatherSamples samplesOf(std::uint32_t count, const Sample& sample) {
     return samples;
 }
 
-/// Means over some tiles whose further samples were aimed, so that their variance may be another.
+/// Means over some tiles whose second stage was guided, so that its variance may be another.
 struct Measured {
-    double shareOfMore = 0;
+    double secondStageWeight = 0;
     double variance = 0; ///< as the tiles know it
     double error = 0;    ///< squared
 };
-template <class First, class More>
-Measured measured(const First& first, const More& more) {
+template <class First, class Second>
+Measured measured(const First& first, const Second& second) {
     constexpr std::uint32_t kTiles = 32;
     Measured mean;
     for (std::uint32_t t = 0; t < kTiles; ++t) {
@@ -42,11 +42,11 @@ Measured measured(const First& first, const More& more) {
         tile.guide.add({0, 1, 0}, 1);
         tile.guide.finish(0.5f);
         for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
-            tile.first[p] = samplesOf(32, first);
-            tile.more[p] = samplesOf(128, more);
+            tile.firstStage[p] = samplesOf(32, first);
+            tile.secondStage[p] = samplesOf(128, second);
         }
-        weighSamples(tile);
-        mean.shareOfMore += tile.shareOfMore[Emitted][0] / kTiles;
+        weighStages(tile);
+        mean.secondStageWeight += tile.secondStageWeight[Emitted][0] / kTiles;
         for (std::uint32_t p = 0; p < kGatherPixels; ++p) {
             mean.variance += tile.variance[Emitted][p] / (kTiles * kGatherPixels);
             mean.error += std::pow(tile.meanOf(p, Emitted).x - 1, 2) / (kTiles * kGatherPixels);
@@ -63,28 +63,28 @@ float wellSpread(std::uint32_t sample) {
     return (float(sample % 16) + uniform()) / 8;
 }
 
-TEST(GatherTile, KnowsItsNoise) {
+TEST(GatherTile, KnowsItsVariance) {
     const Measured mean = measured(independent, independent);
-    EXPECT_NEAR(mean.shareOfMore, 0.8, 0.02);
+    EXPECT_NEAR(mean.secondStageWeight, 0.8, 0.02);
     const double expected = 1. / 3 / 160; // variance of one sample over their number
     EXPECT_NEAR(mean.variance, expected, 0.15 * expected);
     EXPECT_NEAR(mean.error, expected, 0.15 * expected);
 }
 
-TEST(GatherTile, CountsFurtherSamplesByTheirVariance) {
+TEST(GatherTile, CountsTheSecondStageByItsVariance) {
     const Measured mean =
         measured(independent, [](std::uint32_t) { return uniform() < 0.05f ? 20.f : 0.f; });
-    // 1/3 against 19: a further sample is worth a fifty-seventh of a first one.
-    EXPECT_NEAR(mean.shareOfMore, 128. / (128 + 57 * 32), 0.02);
+    // 1/3 against 19: a sample of the second stage is worth a fifty-seventh of one of the first.
+    EXPECT_NEAR(mean.secondStageWeight, 128. / (128 + 57 * 32), 0.02);
     EXPECT_NEAR(mean.error, mean.variance, 0.15 * mean.variance);
 }
 
 /// Few samples that are well spread are worth more than many that are not.
 TEST(GatherTile, KnowsWhichSamplesAreWellSpread) {
     const Measured mean = measured(wellSpread, independent);
-    EXPECT_LT(mean.shareOfMore, 0.1);
+    EXPECT_LT(mean.secondStageWeight, 0.1);
     EXPECT_NEAR(mean.error, mean.variance, 0.15 * mean.variance);
-    EXPECT_GT(measured(independent, wellSpread).shareOfMore, 0.99);
+    EXPECT_GT(measured(independent, wellSpread).secondStageWeight, 0.99);
 }
 
 } // namespace
