@@ -33,10 +33,10 @@ EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLigh
     };
     EmittedLightSample s;
     std::uint64_t rays = 0;
-    s.found[0] =
-        emitterLightAt(trace, sources.emitters, p, sampler.pair(0).x, sampler.pair(1), rays);
-    s.found[1] = skyLightAt(trace, sources.sky, p, sampler.pair(2), rays);
-    for (FoundLight& f : std::span(s.found).first(2))
+    s.samples[0] =
+        sampleEmitterLight(trace, sources.emitters, p, sampler.pair(0).x, sampler.pair(1), rays);
+    s.samples[1] = sampleSkyLight(trace, sources.sky, p, sampler.pair(2), rays);
+    for (IncidentLightSample& f : std::span(s.samples).first(2))
         if (f.irradiance != glm::vec3(0))
             f.irradiance *= balanceWeight(f.pdf, density(f.toLight));
 
@@ -51,7 +51,7 @@ EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLigh
     const float pdf = density(s.direction);
     s.weight = cosTheta / pdf;
     s.hit = trace.closestHit({rayOrigin(trace, p), s.direction});
-    FoundLight& f = s.found[2];
+    IncidentLightSample& f = s.samples[2];
     f = {.toLight = s.direction, .pdf = pdf};
     if (!s.hit) {
         const glm::vec3 radiance = skyRadiance(trace.scene().sky, s.direction);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/picture/light_guide.h"
-#include "engine/shading/found_light.h"
+#include "engine/shading/incident_light.h"
 #include "engine/shading/sampler.h"
 
 #include <array>
@@ -22,9 +22,10 @@ EmittedLightSources findEmittedLightSources(const TraceScene& trace);
 
 /// One sample of the light that arrives at a surface from these without a bounce.
 struct EmittedLightSample {
-    /// What a point on an emitter, a direction of the sky's image and the ray below found; each is
-    /// weighted against the others, and their sum is an unbiased estimate of the irradiance.
-    std::array<FoundLight, 3> found;
+    /// Samples by three strategies: of a point on an emitter, of a direction of the sky's image,
+    /// and of the ray below. Each is weighted by the balance heuristic, so that their sum is an
+    /// unbiased estimate of the irradiance.
+    std::array<IncidentLightSample, 3> samples;
 
     glm::vec3 direction{0};            ///< of a ray from the surface, unit
     float weight = 0;                  ///< cosine over the ray's density [sr]; 0: there is no ray

@@ -77,9 +77,9 @@ struct FinalGather::PartSink {
 
     static constexpr bool reflects(std::uint32_t /*instance*/) { return true; }
 
-    void rayBegins(const EmittedLightSample& found) {
-        if (rays && found.weight > 0)
-            ray = &rays->emplace_back(RayLight{found.direction, found.found[2].pdf, 0});
+    void rayBegins(const EmittedLightSample& sample) {
+        if (rays && sample.weight > 0)
+            ray = &rays->emplace_back(RayLight{sample.direction, sample.samples[2].pdf, 0});
     }
     void rayEnds() { ray = nullptr; }
     void add(glm::vec3 light, GatherPart part) {
@@ -97,7 +97,7 @@ struct FinalGather::PartSink {
                 sampleDirectLight(trace, p, numbers.pick, numbers.onLight, shadowRays).irradiance,
             Bounced);
     }
-    void gatheredEmission(const FoundLight& /*found*/, glm::vec3 light, GatherPart part,
+    void gatheredEmission(const IncidentLightSample& /*sample*/, glm::vec3 light, GatherPart part,
                           std::uint32_t /*via*/) {
         add(light, part);
     }

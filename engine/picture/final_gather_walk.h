@@ -36,7 +36,7 @@ void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::v
         }
         met = sampleEmittedLight(m_trace, m_sources, *met.point,
                                  {mixBits(own.seed, bounce), own.index});
-        for (const FoundLight& f : met.found)
+        for (const IncidentLightSample& f : met.samples)
             if (f.irradiance != glm::vec3(0))
                 sink.gatheredEmission(f, weight * f.irradiance, Bounced, via);
         weight *= met.weight;
@@ -65,18 +65,18 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGui
     const std::uint32_t rays = m_options.gatherRays;
     for (std::uint32_t k = 0; k < rays; ++k) {
         const Sampler own{pixel.gather.seed, s * rays + k};
-        const EmittedLightSample found = sampleEmittedLight(m_trace, m_sources, *p, own, guide);
-        const auto arrives = [&](const FoundLight& f) {
+        const EmittedLightSample light = sampleEmittedLight(m_trace, m_sources, *p, own, guide);
+        const auto arrives = [&](const IncidentLightSample& f) {
             if (f.irradiance != glm::vec3(0))
                 sink.gatheredEmission(f, weights[Emitted] / float(rays) * f.irradiance, Emitted,
                                       f.instance);
         };
-        arrives(found.found[0]);
-        arrives(found.found[1]);
-        sink.rayBegins(found);
-        arrives(found.found[2]);
-        if (found.weight > 0 && found.hit)
-            walkBounced(found, own, found.weight / float(rays) * weights[Bounced], sink);
+        arrives(light.samples[0]);
+        arrives(light.samples[1]);
+        sink.rayBegins(light);
+        arrives(light.samples[2]);
+        if (light.weight > 0 && light.hit)
+            walkBounced(light, own, light.weight / float(rays) * weights[Bounced], sink);
         sink.rayEnds();
     }
     return weight;

@@ -70,7 +70,7 @@ concept PixelSink = LightSink<Sink> &&
 template <class Sink>
 concept GatherSink = LightSink<Sink> &&
     requires(Sink& sink, const SurfacePoint& surface, const LightNumbers& numbers,
-             const EmittedLightSample& ray, const FoundLight& found, glm::vec3 light,
+             const EmittedLightSample& ray, const IncidentLightSample& sample, glm::vec3 light,
              GatherPart part, std::uint32_t via) {
     /// A ray from the pixel brings all light that is handed over between these two calls.
     sink.rayBegins(ray);
@@ -78,7 +78,7 @@ concept GatherSink = LightSink<Sink> &&
     /// Weight times direct irradiance at a point that a ray met, part Bounced.
     sink.gatheredDirectLight(surface, numbers, light, via);
     /// Light from the sky or an emissive surface.
-    sink.gatheredEmission(found, light, part, via);
+    sink.gatheredEmission(sample, light, part, via);
 };
 
 } // namespace limn

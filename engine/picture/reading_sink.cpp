@@ -56,10 +56,11 @@ void ReadingSink::gatheredDirectLight(const SurfacePoint& p, const LightNumbers&
     });
 }
 
-void ReadingSink::gatheredEmission(const FoundLight& found, glm::vec3 light, GatherPart part,
-                                   std::uint32_t via) {
+void ReadingSink::gatheredEmission(const IncidentLightSample& sample, glm::vec3 light,
+                                   GatherPart part, std::uint32_t via) {
     PixelParts::Gathered& gathered = part == Emitted ? parts.emitted : parts.bounced;
-    (found.instance == ~0U ? gathered.sky : gathered.bySurface[found.instance]) += m_factor * light;
+    (sample.instance == ~0U ? gathered.sky : gathered.bySurface[sample.instance]) +=
+        m_factor * light;
     if (part == Bounced)
         parts.bouncedVia[via] += m_factor * light;
 }

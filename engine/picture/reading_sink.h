@@ -74,7 +74,7 @@ public:
     static void rayEnds() {}
     void gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers, glm::vec3 weight,
                              std::uint32_t via);
-    void gatheredEmission(const FoundLight& found, glm::vec3 light, GatherPart part,
+    void gatheredEmission(const IncidentLightSample& sample, glm::vec3 light, GatherPart part,
                           std::uint32_t via);
 
 private:

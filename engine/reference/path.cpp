@@ -2,7 +2,7 @@
 #include "engine/reference/path.h"
 
 #include "engine/shading/direct_light.h"
-#include "engine/shading/found_light.h"
+#include "engine/shading/incident_light.h"
 
 #include <algorithm>
 #include <optional>
@@ -26,14 +26,14 @@ float misWeight(float pdf, float other) {
 }
 
 // Irradiance, weighted against the probability that a bounce finds the light.
-glm::vec3 diffuseShare(const SurfacePoint& p, const FoundLight& f) {
+glm::vec3 diffuseShare(const SurfacePoint& p, const IncidentLightSample& f) {
     if (f.irradiance == glm::vec3(0))
         return glm::vec3(0);
     return f.irradiance * misWeight(f.pdf, glm::dot(p.normal, f.toLight) / glm::pi<float>());
 }
 
 // Reflected radiance, weighted likewise.
-glm::vec3 glossyShare(const GlossyPoint& g, const FoundLight& f) {
+glm::vec3 glossyShare(const GlossyPoint& g, const IncidentLightSample& f) {
     if (f.irradiance == glm::vec3(0))
         return glm::vec3(0);
     const glm::vec3 n = g.surface.normal;
@@ -54,9 +54,10 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     for (std::uint32_t bounce = 0; bounce < c.maxBounces; ++bounce) {
         const std::uint32_t dimension = kFirstPathDimension + bounce * kDimensionsPerBounce;
         const glm::vec2 picks = sampler.pair(dimension);
-        E += T * diffuseShare(p, emitterLightAt(c.trace, c.emitters, p, picks.x,
-                                                sampler.pair(dimension + 1), rays));
-        E += T * diffuseShare(p, skyLightAt(c.trace, c.sky, p, sampler.pair(dimension + 4), rays));
+        E += T * diffuseShare(p, sampleEmitterLight(c.trace, c.emitters, p, picks.x,
+                                                    sampler.pair(dimension + 1), rays));
+        E += T *
+             diffuseShare(p, sampleSkyLight(c.trace, c.sky, p, sampler.pair(dimension + 4), rays));
 
         const glm::vec3 direction = sampleCosineHemisphere(p.normal, sampler.pair(dimension + 2));
         if (!(glm::dot(direction, p.geometricNormal) > 0))
@@ -125,9 +126,9 @@ glm::vec3 sampleReflectedRadiance(const PathContext& c, const GlossyPoint& g,
     const Sampler own{mixBits(sampler.seed, kLobeSeed), sampler.index};
     const Sampler looking{mixBits(own.seed, kLobeSeed), sampler.index};
     const SurfacePoint& p = g.surface;
-    glm::vec3 L = glossyShare(g, emitterLightAt(c.trace, c.emitters, p, looking.pair(0).x,
-                                                looking.pair(1), rays)) +
-                  glossyShare(g, skyLightAt(c.trace, c.sky, p, looking.pair(2), rays));
+    glm::vec3 L = glossyShare(g, sampleEmitterLight(c.trace, c.emitters, p, looking.pair(0).x,
+                                                    looking.pair(1), rays)) +
+                  glossyShare(g, sampleSkyLight(c.trace, c.sky, p, looking.pair(2), rays));
     const SpecularSample s = sampleSpecular(g.gloss, p.normal, g.toEye, own.pair(0));
     if (glm::dot(s.toLight, p.geometricNormal) > 0)
         L += s.weight * radianceAlong(c, p, s.toLight,

@@ -27,7 +27,8 @@ glm::dvec3 meanAt(const TraceScene& trace, const SurfacePoint& p, std::uint32_t 
     const EmittedLightSources sources = findEmittedLightSources(trace);
     glm::dvec3 sum(0);
     for (std::uint32_t k = 0; k < samples; ++k)
-        for (const FoundLight& f : sampleEmittedLight(trace, sources, p, {5, k}, guide).found)
+        for (const IncidentLightSample& f :
+             sampleEmittedLight(trace, sources, p, {5, k}, guide).samples)
             sum += glm::dvec3(f.irradiance);
     return sum / double(samples);
 }
@@ -80,8 +81,8 @@ TEST(EmittedLight, AGuideToTheHoleSavesNoise) {
         double sum = 0;
         for (std::uint32_t k = 0; k < 4096; ++k) {
             double value = 0;
-            for (const FoundLight& f :
-                 sampleEmittedLight(trace, sources, pointOnFloor(), {9, k}, guide).found) {
+            for (const IncidentLightSample& f :
+                 sampleEmittedLight(trace, sources, pointOnFloor(), {9, k}, guide).samples) {
                 value += double(f.irradiance.x);
                 if (learns && f.irradiance.x > 0)
                     learns->add(f.toLight, f.irradiance.x);
@@ -109,7 +110,7 @@ TEST(EmittedLight, OfAPanelIsItsFormFactorHoweverItIsFound) {
         EXPECT_NEAR(E.z, 6 * expected, 0.03 * expected) << half;
         const EmittedLightSample one =
             sampleEmittedLight(trace, findEmittedLightSources(trace), pointOnFloor(), {5, 0});
-        EXPECT_EQ(one.found[0].instance, 0U);
+        EXPECT_EQ(one.samples[0].instance, 0U);
     }
 }
 

@@ -249,8 +249,9 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
                                  std::uint32_t) {}
         void rayBegins(const EmittedLightSample&) {}
         void rayEnds() {}
-        void gatheredEmission(const FoundLight&, glm::vec3 found, GatherPart, std::uint32_t) {
-            value += glm::dvec3(found);
+        void gatheredEmission(const IncidentLightSample&, glm::vec3 light, GatherPart,
+                              std::uint32_t) {
+            value += glm::dvec3(light);
         }
     };
     BelowAPlate s(glm::vec3(0.4f), glm::vec3(1, 0, 0));

@@ -4,7 +4,7 @@
 #include "engine/reference/reference.h"
 
 #include "engine/shading/direct_light.h"
-#include "engine/shading/found_light.h"
+#include "engine/shading/incident_light.h"
 #include "engine/trace/direct_light.h"
 #include "tests/shading/light_formulas.h"
 #include "tests/trace/simple_scene.h"
@@ -288,7 +288,7 @@ TEST(ClosedForms, NothingComesFromBelowTheTrianglesHorizon) {
             const bool dark = leaning;
             const auto lit = [](const auto& sample) { return sample.irradiance.x > 0; };
             EXPECT_NE(lit(sampleDirectLightFrom(trace, p, light, {0.5f, 0.5f}, rays)), dark);
-            EXPECT_NE(lit(emitterLightAt(trace, emitters, p, 0.5f, {0.5f, 0.5f}, rays)), dark);
+            EXPECT_NE(lit(sampleEmitterLight(trace, emitters, p, 0.5f, {0.5f, 0.5f}, rays)), dark);
             if (kind != LightKind::Rectangle) { // of which directIrradiance() knows one normal
                 EXPECT_NE(directIrradiance(trace, p, rays).x > 0, dark);
             }
@@ -305,9 +305,9 @@ TEST(ClosedForms, NoSkyComesFromBelowTheTrianglesHorizon) {
     const SkyLight sky = findSkyLight(scene.sky);
     std::uint64_t rays = 0;
     SurfacePoint p{.geometricNormal = {1, 0, 0}, .normal = {1, 0, 0}};
-    EXPECT_GT(skyLightAt(trace, sky, p, {0.5f, 0.5f}, rays).irradiance.x, 0);
+    EXPECT_GT(sampleSkyLight(trace, sky, p, {0.5f, 0.5f}, rays).irradiance.x, 0);
     p.geometricNormal = {0, 1, 0};
-    EXPECT_EQ(skyLightAt(trace, sky, p, {0.5f, 0.5f}, rays).irradiance.x, 0);
+    EXPECT_EQ(sampleSkyLight(trace, sky, p, {0.5f, 0.5f}, rays).irradiance.x, 0);
 }
 
 double irradianceAt(const TraceScene& trace, const Receiver& at, std::uint32_t samples) {
@@ -381,7 +381,7 @@ TEST(ClosedForms, APixelOfAPanoramaGivesItsVectorIrradiance) {
                 EXPECT_NEAR(irradianceAt(trace, at, 1024), truth, 2e-3 * truth);
                 std::uint64_t rays = 0;
                 const glm::dvec3 found = meanOver(1024, [&](const Sampler& s) {
-                    return skyLightAt(trace, sky, at.surface(), s.pair(0), rays).irradiance;
+                    return sampleSkyLight(trace, sky, at.surface(), s.pair(0), rays).irradiance;
                 });
                 EXPECT_LT(glm::length(found - truth * glm::dvec3(1, 0.2, 0.1)), 2e-3 * truth);
             }
@@ -450,7 +450,8 @@ TEST(ClosedForms, EmissiveTrianglesGiveLambertsPolygonFromTheirFront) {
             std::uint64_t rays = 0;
             const SurfacePoint p = at.surface();
             const glm::dvec3 found = meanOver(1 << 14, [&](const Sampler& s) {
-                return emitterLightAt(trace, emitters, p, s.pair(0).x, s.pair(1), rays).irradiance;
+                return sampleEmitterLight(trace, emitters, p, s.pair(0).x, s.pair(1), rays)
+                    .irradiance;
             });
             EXPECT_NEAR(found.x, truth, 4e-3 * truth) << bothSides;
         }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "engine/shading/found_light.h"
+#include "engine/shading/incident_light.h"
 
 #include <glm/geometric.hpp>
 
 namespace limn {
 
-FoundLight emitterLightAt(const TraceScene& trace, const Emitters& emitters, const SurfacePoint& p,
-                          float pick, glm::vec2 u, std::uint64_t& rays) {
+IncidentLightSample sampleEmitterLight(const TraceScene& trace, const Emitters& emitters,
+                                       const SurfacePoint& p, float pick, glm::vec2 u,
+                                       std::uint64_t& rays) {
     if (emitters.empty())
         return {};
     const EmitterSample s = sampleEmitter(emitters, trace.scene(), p.position, pick, u);
@@ -25,8 +26,8 @@ FoundLight emitterLightAt(const TraceScene& trace, const Emitters& emitters, con
     return {s.radiance * (cosTheta / s.pdf), direction, s.pdf, s.instance};
 }
 
-FoundLight skyLightAt(const TraceScene& trace, const SkyLight& sky, const SurfacePoint& p,
-                      glm::vec2 u, std::uint64_t& rays) {
+IncidentLightSample sampleSkyLight(const TraceScene& trace, const SkyLight& sky,
+                                   const SurfacePoint& p, glm::vec2 u, std::uint64_t& rays) {
     if (sky.empty())
         return {};
     const SkySample s = sampleSky(sky, trace.scene().sky, u);
