@@ -103,7 +103,7 @@ ImageF drawn(const Measured& m, const Camera& camera, const Lighting& lighting,
 
 void addErrors(Json& row, const std::string& prefix, const Comparison& c) {
     row[prefix + "nrmse"] = c.nrmse;
-    row[prefix + "nrmse_without_worst_percent"] = c.nrmseMost;
+    row[prefix + "nrmse_without_worst_percent"] = c.nrmseTrimmed;
     row[prefix + "bias"] = c.bias;
 }
 

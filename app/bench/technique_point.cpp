@@ -57,7 +57,7 @@ void addErrors(const MeasuredScene& m, const ImageF& picture, const ImageF& lit,
     const Comparison all = *compareImages(picture, m.all), one = *compareImages(picture, m.one);
     const Comparison seen = *compareImages(lit, m.lit);
     row["nrmse"] = all.nrmse;
-    row["nrmse_without_worst_percent"] = all.nrmseMost;
+    row["nrmse_without_worst_percent"] = all.nrmseTrimmed;
     row["bias"] = all.bias;
     row["one_bounce_nrmse"] = one.nrmse;
     row["one_bounce_bias"] = one.bias;

@@ -80,7 +80,7 @@ void print(const Precomputed& bake, std::uint64_t file, std::uint64_t peak) {
 Json summaryOf(const Comparison& error) {
     return {{"nrmse", error.nrmse},
             {"nrmse_noise", error.nrmseNoise},
-            {"nrmse_without_worst_percent", error.nrmseMost},
+            {"nrmse_without_worst_percent", error.nrmseTrimmed},
             {"bias", error.bias}};
 }
 
@@ -99,7 +99,7 @@ void printStep(const MeasuredBake& made) {
         "--lightmap {:<7} --surfels {:<7} --links {:<4} --rays {:<4} {:7.2f} s, error {:.3f} "
         "({:.3f} without the worst 1 %), bias {:+.1f} %\n",
         s.lightmapCaches, s.surfels, s.links, s.rays, seconds, made.error.nrmse,
-        made.error.nrmseMost, 100 * made.error.bias);
+        made.error.nrmseTrimmed, 100 * made.error.bias);
     std::fflush(stdout);
 }
 

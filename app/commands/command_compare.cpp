@@ -22,7 +22,7 @@ struct CompareCommand {
 Json report(const Comparison& c, bool twoReferences) {
     Json json;
     json["nrmse"] = c.nrmse; // null: the reference is black
-    json["nrmse_without_worst_percent"] = c.nrmseMost;
+    json["nrmse_without_worst_percent"] = c.nrmseTrimmed;
     json["relmse"] = c.relmse;
     json["bias"] = c.bias;
     json["ssim"] = c.ssim;

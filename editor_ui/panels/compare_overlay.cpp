@@ -82,7 +82,7 @@ static std::string errorText(const Comparison& c) {
     return fmt::format(
         "nRMSE {:.3f} \u00b1 {:.3f} ({:.3f} without the worst 1 %), bias {:+.1f} \u00b1 {:.1f} %, "
         "FLIP {:.3f}",
-        c.nrmse, c.nrmseNoise, c.nrmseMost, 100 * c.bias, 100 * c.biasNoise, c.flip);
+        c.nrmse, c.nrmseNoise, c.nrmseTrimmed, 100 * c.bias, 100 * c.biasNoise, c.flip);
 }
 
 /// Name of what the right side shows. Until there is a reference, it shows the picture itself.

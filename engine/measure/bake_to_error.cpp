@@ -17,8 +17,8 @@ namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kFinestTexels = 1U << 22, kFinestSurfels = 1U << 20, kFinestLinks = 1024,
-                        kFinestRays = 4096;
+constexpr std::uint32_t kMaxTexels = 1U << 22, kMaxSurfels = 1U << 20, kMaxLinks = 1024,
+                        kMaxRays = 4096;
 constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< of the points
 constexpr std::uint32_t kPaths = 64;               ///< of a point, in each reference
 
@@ -117,12 +117,12 @@ std::string shortfall(const MeasuredBake& made, double error) {
 
 BakeSettings finerSettings(const BakeSettings& settings) {
     BakeSettings s = settings;
-    s.lightmapCaches = times(s.lightmapCaches, 2, kFinestTexels);
+    s.lightmapCaches = times(s.lightmapCaches, 2, kMaxTexels);
     if (s.lightmapCaches == settings.lightmapCaches)
         return settings;
-    s.surfels = times(s.surfels, std::exp2(0.75), kFinestSurfels);
-    s.links = times(s.links, std::exp2(0.25), kFinestLinks);
-    s.rays = times(s.rays, std::exp2(0.75), kFinestRays);
+    s.surfels = times(s.surfels, std::exp2(0.75), kMaxSurfels);
+    s.links = times(s.links, std::exp2(0.25), kMaxLinks);
+    s.rays = times(s.rays, std::exp2(0.75), kMaxRays);
     return s;
 }
 

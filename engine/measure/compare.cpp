@@ -22,8 +22,8 @@ namespace {
 
 constexpr double kRelMseFloor = 0.01;    ///< of mean(ref)^2
 constexpr double kRelMseDropped = 0.001; ///< share of the worst pixels
-constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseMost
-constexpr double kSmallestSquare = 1e-4; ///< squared relative error of the darkest colour
+constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseTrimmed
+constexpr double kMinSquare = 1e-4;      ///< squared relative error of the darkest colour
 constexpr float kHeatmapFull = 0.5f;     ///< relative error of the darkest colours
 constexpr float kHeatmapFloor = 0.05f;   ///< of mean(ref), keeps black pixels from ruling the map
 
@@ -80,8 +80,8 @@ double meanOfValid(const Plane& plane, const std::vector<bool>& valid, double no
     return count > 0 ? sum / double(count) : none;
 }
 
-/// Computes `nrmse` and `nrmseMost` from the pixels' squared errors, or estimates of them. Reorders
-/// `squares`.
+/// Computes `nrmse` and `nrmseTrimmed` from the pixels' squared errors, or estimates of them.
+/// Reorders `squares`.
 void rootMeanSquares(std::vector<double>& squares, double mean, Comparison& c) {
     if (squares.empty())
         return;
@@ -93,7 +93,7 @@ void rootMeanSquares(std::vector<double>& squares, double mean, Comparison& c) {
     };
     std::sort(squares.begin(), squares.end());
     c.nrmse = root(squares.size());
-    c.nrmseMost = root(squares.size() - squares.size() / kWorstOneOf);
+    c.nrmseTrimmed = root(squares.size() - squares.size() / kWorstOneOf);
 }
 
 /// Error of a pixel as Comparison::relmse has it: mean over channels. `d` is test - reference `r`.
@@ -270,8 +270,8 @@ Image squaredErrorHeatmap(const ImageF& test, const ImageF& reference) {
         if (valid[i]) {
             const glm::dvec3 r(reference.rgb[i]), d = glm::dvec3(test.rgb[i]) - r;
             const double error = relativeSquare(d, r, mean);
-            const double decades = std::log10(std::max(error, kSmallestSquare) / kSmallestSquare);
-            color = viridis(float(decades / -std::log10(kSmallestSquare)));
+            const double decades = std::log10(std::max(error, kMinSquare) / kMinSquare);
+            color = viridis(float(decades / -std::log10(kMinSquare)));
         }
         for (int k = 0; k < 3; ++k)
             map.rgba.push_back(std::uint8_t(std::lround(255 * color[k])));

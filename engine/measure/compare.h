@@ -14,7 +14,7 @@ namespace limn {
 /// assumes 67 pixels per degree.
 struct Comparison {
     double nrmse = 0; ///< rms(test - ref) / mean(ref), over all channels
-    double nrmseMost =
+    double nrmseTrimmed =
         0;             ///< the same without the worst 1 % of the pixels; mean(ref) is that of all
     double relmse = 0; ///< mean of (t-r)^2 / (r^2 + 0.01 mean(r)^2), worst 0.1 % of pixels dropped
     double bias = 0;   ///< mean(test) / mean(ref) - 1
@@ -33,9 +33,9 @@ Result<Comparison> compareImages(const ImageF& test, const ImageF& reference);
 
 /// Same against two references r1, r2 of independent noise (different seeds), whose noise does not
 /// count as an error of `test`: nrmse^2 = mean((t - r1)(t - r2)) / mean(ref)^2, or 0 if that is
-/// negative. nrmseMost sorts these products; where their noise exceeds the error, the worst 1 % are
-/// the noisiest ones and the figure is too low. All other metrics are against the mean of r1 and
-/// r2.
+/// negative. nrmseTrimmed sorts these products; where their noise exceeds the error, the worst 1 %
+/// are the noisiest ones and the figure is too low. All other metrics are against the mean of r1
+/// and r2.
 Result<Comparison> compareImages(const ImageF& test, const ImageF& reference,
                                  const ImageF& reference2);
 

@@ -12,7 +12,7 @@
 namespace limn {
 
 static constexpr double kNrmseThatMatters = 0.1, kBiasThatMatters = 0.02;
-static constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseMost
+static constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseTrimmed
 
 /// Renders four parts of `samples` samples each, with the seeds of that pass.
 static std::optional<std::array<ImageF, 4>> renderParts(const TraceScene& trace,
@@ -106,7 +106,7 @@ Result<Comparison> compareImages(const ImageF& test, const ReferenceSet& set) {
         for (std::size_t k = 0; k < left; ++k)
             sum += half[1 - chooser][order[k]] / 2;
     }
-    c->nrmseMost = std::sqrt(std::max(sum, 0.0) / double(left)) / std::abs(mean);
+    c->nrmseTrimmed = std::sqrt(std::max(sum, 0.0) / double(left)) / std::abs(mean);
     return c;
 }
 

@@ -37,8 +37,8 @@ bool refine(ReferenceSet& set, const TraceScene& trace, const ReferenceOptions& 
 /// of the picture; 0 for a black picture. Pixels that are NaN or Inf are left out.
 double noiseOf(const ReferenceSet& set);
 
-/// Compares with the set's two means. Here nrmseMost is free of bias by noise: pixels are sorted by
-/// the products of two parts, and the remaining ones are measured by those of the other two.
+/// Compares with the set's two means. Here nrmseTrimmed is free of bias by noise: pixels are sorted
+/// by the products of two parts, and the remaining ones are measured by those of the other two.
 /// Because noise affects the sorting too, the pixels left out need not be exactly the worst. Fails
 /// if sizes differ.
 Result<Comparison> compareImages(const ImageF& test, const ReferenceSet& set);

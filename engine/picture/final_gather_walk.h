@@ -10,13 +10,13 @@ namespace limn {
 
 /// Where a ray meets a surface at fewer texels' widths than these, the field is not read there but
 /// the ray goes on, because light that comes from so near varies too much for texels.
-inline constexpr float kFewestTexels = 4;
+inline constexpr float kMinTexels = 4;
 
 /// In a gap, where a ray meets near surfaces only, the field is read all the same when the product
-/// of the albedos after the first hit's is below kLeastReflected, or at the last of
-/// kMostGatherBounces.
-inline constexpr float kLeastReflected = 0.03f;
-inline constexpr std::uint32_t kMostGatherBounces = 64;
+/// of the albedos after the first hit's is below kMinReflected, or at the last of
+/// kMaxGatherBounces.
+inline constexpr float kMinReflected = 0.03f;
+inline constexpr std::uint32_t kMaxGatherBounces = 64;
 
 template <GatherSink Sink>
 void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::vec3 weight,
@@ -29,8 +29,8 @@ void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::v
         reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
         const Sampler light{mixBits(own.seed, kOnLightDimension + bounce), own.index};
         sink.gatheredDirectLight(*met.point, {light.pair(0).x, light.pair(1)}, weight, via);
-        if (reflected < kLeastReflected || bounce == kMostGatherBounces ||
-            !(met.hit.t < kFewestTexels * m_widths[met.hit.instance])) {
+        if (reflected < kMinReflected || bounce == kMaxGatherBounces ||
+            !(met.hit.t < kMinTexels * m_widths[met.hit.instance])) {
             sink.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
             return;
         }

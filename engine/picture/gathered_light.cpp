@@ -70,8 +70,8 @@ struct Deviations {
 
 ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, glm::uvec2 pixel) {
     const PixelRect window = windowAround(pixel, kGatherRadius, light.rect);
-    constexpr std::size_t kMost = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
-    std::array<GatheredMean, kMost> near;
+    constexpr std::size_t kMaxPixels = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
+    std::array<GatheredMean, kMaxPixels> near;
     ShrunkDifference shrunk;
     window.forEach([&](glm::uvec2 at) {
         shrunk.window.add(light.at(at), part);

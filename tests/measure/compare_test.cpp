@@ -146,10 +146,10 @@ TEST(Compare, TheWorstPercentIsLeftOut) {
         test.rgb[i * 97] = glm::vec3(1000, 2, 2);
     const Result<Comparison> c = compareImages(test, reference);
     ASSERT_TRUE(c);
-    EXPECT_NEAR(c->nrmseMost, 0.25, 1e-9);
+    EXPECT_NEAR(c->nrmseTrimmed, 0.25, 1e-9);
     EXPECT_NEAR(c->nrmse, std::sqrt(0.99 * 0.25 + 0.01 * 998 * 998 / 3) / 2, 1e-6);
     test.rgb[1] = glm::vec3(1000, 2, 2); // one more stays
-    EXPECT_NEAR(compareImages(test, reference)->nrmseMost,
+    EXPECT_NEAR(compareImages(test, reference)->nrmseTrimmed,
                 std::sqrt((4949 * 0.25 + 998.0 * 998 / 3) / 4950) / 2, 1e-6);
     EXPECT_EQ(c->referenceNoise, 0);
 }
@@ -171,7 +171,7 @@ TEST(Compare, TwoReferencesGiveTheErrorWithoutTheirNoise) {
     EXPECT_EQ(two->flip, mean->flip);
     const Result<Comparison> swapped = compareImages(p.test, p.second, p.first);
     EXPECT_EQ(two->nrmse, swapped->nrmse);
-    EXPECT_EQ(two->nrmseMost, swapped->nrmseMost);
+    EXPECT_EQ(two->nrmseTrimmed, swapped->nrmseTrimmed);
 }
 
 TEST(Compare, TwoReferencesOfRandomNoiseMeetAKnownError) {
@@ -231,7 +231,7 @@ TEST(Compare, NoiseWithoutAnErrorIsNone) {
         p.second.rgb[i] = 2.f - p.first.rgb[i];
     const Result<Comparison> c = compareImages(p.test, p.first, p.second);
     EXPECT_EQ(c->nrmse, 0);
-    EXPECT_EQ(c->nrmseMost, 0);
+    EXPECT_EQ(c->nrmseTrimmed, 0);
     EXPECT_EQ(c->bias, 0);
 }
 

@@ -185,7 +185,7 @@ CacheError compareCaches(const CacheReference& reference, const Caches& caches, 
     for (std::size_t i = 0; i < squared.size(); ++i) {
         sum += squared[i];
         if (i + 1 == most)
-            error.nrmseMost = std::sqrt(sum / (3 * double(most))) / scale;
+            error.nrmseTrimmed = std::sqrt(sum / (3 * double(most))) / scale;
     }
     error.nrmse = std::sqrt(sum / channels) / scale;
     error.bias = mean / meanReference - 1;

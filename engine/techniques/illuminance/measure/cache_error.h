@@ -34,9 +34,9 @@ glm::vec3 cacheIrradiance(const Caches& caches, int bands, const std::vector<glm
 
 /// Error of the caches' irradiance at their own normals.
 struct CacheError {
-    double nrmse = 0;     ///< rms(E - E_ref) / mean(E_ref), all channels
-    double nrmseMost = 0; ///< the same without the worst 1 % of the caches
-    double bias = 0;      ///< mean(E) / mean(E_ref) - 1
+    double nrmse = 0;        ///< rms(E - E_ref) / mean(E_ref), all channels
+    double nrmseTrimmed = 0; ///< the same without the worst 1 % of the caches
+    double bias = 0;         ///< mean(E) / mean(E_ref) - 1
 };
 
 /// `sh`: bands^2 coefficients per cache, of light that was reflected once.
