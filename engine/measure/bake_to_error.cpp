@@ -22,8 +22,8 @@ constexpr std::uint32_t kMaxTexels = 1U << 22, kMaxSurfels = 1U << 20, kMaxLinks
 constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< of the points
 constexpr std::uint32_t kPaths = 64;               ///< of a point, in each reference
 
-std::uint32_t times(std::uint32_t count, double factor, std::uint32_t most) {
-    return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(most))));
+std::uint32_t times(std::uint32_t count, double factor, std::uint32_t maximum) {
+    return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(maximum))));
 }
 
 /// Reference at the visible points: direct irradiance, and irradiance with all

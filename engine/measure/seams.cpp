@@ -20,7 +20,7 @@ struct SeamSums {
     double jump = 0, irradiance = 0, length = 0;
 
     /// Irradiance at fraction `s` along half-edge `e`, from its first corner.
-    glm::vec3 at(std::uint32_t instance, std::uint32_t e, float s, glm::vec3 n) const {
+    glm::vec3 irradianceAt(std::uint32_t instance, std::uint32_t e, float s, glm::vec3 n) const {
         glm::vec3 weights(0);
         weights[int(e % 3)] = 1 - s;
         weights[int((e + 1) % 3)] = s;
@@ -39,7 +39,8 @@ struct SeamSums {
         constexpr int kSamples = 4;
         for (int k = 0; k < kSamples; ++k) {
             const float s = (float(k) + 0.5f) / kSamples;
-            const glm::vec3 ea = at(instance, a, s, n), eb = at(instance, b, 1 - s, n);
+            const glm::vec3 ea = irradianceAt(instance, a, s, n),
+                            eb = irradianceAt(instance, b, 1 - s, n);
             const glm::vec3 apart = glm::abs(ea - eb), sum = ea + eb;
             jump += world / kSamples * double(apart.x + apart.y + apart.z) / 3;
             irradiance += world / kSamples * double(sum.x + sum.y + sum.z) / 6;

@@ -27,14 +27,14 @@ static glm::vec3 axisOf(const ReflectionLobe& lobe, const GlossyPoint& g) {
     return lobeAxis(lobe, g.surface.normal, glm::reflect(-g.toEye, g.surface.normal));
 }
 
-FieldLobe fieldLobe(const FieldPoint& at, const GlossyPoint& g, int bands, bool windowed) {
+FieldLobe fieldLobe(const FieldPoint& point, const GlossyPoint& g, int bands, bool windowed) {
     const ReflectionLobe lobe = lobeOf(g);
     FieldLobe found{.axis = axisOf(lobe, g),
                     .bands = bands,
                     .factors = windowed ? windowedFactors(lobe.factors, bands) : lobe.factors,
                     .weight = g.gloss.F0 * lobe.share.x + lobe.share.y};
-    const bool hemisphere =
-        at.instance < at.layout.instances.size() && !at.layout.instances[at.instance].uv.empty();
+    const bool hemisphere = point.instance < point.layout.instances.size() &&
+                            !point.layout.instances[point.instance].uv.empty();
     if (hemisphere)
         found.weight /=
             hemisphereSeen(found.factors, bands, glm::dot(found.axis, g.surface.geometricNormal));
@@ -56,7 +56,7 @@ MarchedReflection marchReflection(const MarchedMaps& maps, const TraceScene& tra
     // Half of the microfacets seen along the normal are tilted by less than atan(alpha).
     const float alpha = g.gloss.roughness * g.gloss.roughness;
     return {.end = ray.end,
-            .at = lookUp(maps, ray, origin, axis, 2 * std::atan(alpha)),
+            .lookup = lookUp(maps, ray, origin, axis, 2 * std::atan(alpha)),
             .weight = g.gloss.F0 * lobe.share.x + lobe.share.y};
 }
 

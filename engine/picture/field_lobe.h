@@ -24,17 +24,17 @@ struct FieldLobe {
 
 /// `bands`: those that the material reflects. `windowed`: the lobe fades out over them and hardly
 /// rings, else it is cut off.
-FieldLobe fieldLobe(const FieldPoint& at, const GlossyPoint& g, int bands, bool windowed);
+FieldLobe fieldLobe(const FieldPoint& point, const GlossyPoint& g, int bands, bool windowed);
 
 /// Whether reflections of each material of the scene are marched where a field has maps for that:
 /// those of glossy receivers (engine/scene/surface/receiver_bands.h).
 std::vector<bool> marchedReflections(const Scene& scene);
 
 /// Specular reflection of what a ray marched along the axis of the lobe meets: weight times
-/// marchedRadiance(at).
+/// marchedRadiance(lookup).
 struct MarchedReflection {
     MarchEnd end = MarchEnd::Unknown;
-    MarchedLookup at;
+    MarchedLookup lookup;
     glm::vec3 weight{0};
 };
 MarchedReflection marchReflection(const MarchedMaps& maps, const TraceScene& trace,

@@ -61,8 +61,8 @@ double FinalGather::meanLight() const {
             const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
             if (!p)
                 continue;
-            const FieldPoint at = fieldPoint(m_field, m_layout, m_trace.scene(), hit, *p);
-            sum += greyOf(weightOf(*p) * sampleIrradiance(at));
+            const FieldPoint point = fieldPoint(m_field, m_layout, m_trace.scene(), hit, *p);
+            sum += greyOf(weightOf(*p) * sampleIrradiance(point));
         }
     return sum / (kColumns * kRows);
 }
@@ -103,7 +103,7 @@ struct FinalGather::PartSink {
     }
 };
 
-GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
+GatherSamples FinalGather::take(glm::uvec2 pixel, std::uint32_t begin, std::uint32_t count,
                                 const LightGuide* guide, std::vector<RayLight>* learned) const {
     GatherSamples taken;
     taken.count = count;
@@ -111,7 +111,7 @@ GatherSamples FinalGather::take(glm::uvec2 at, std::uint32_t begin, std::uint32_
     whole.fill(glm::vec3(1));
     for (std::uint32_t s = 0; s < count; ++s) {
         PartSink sink{m_trace, learned};
-        taken.weight += walkSample(at, begin + s, guide, whole, sink);
+        taken.weight += walkSample(pixel, begin + s, guide, whole, sink);
         const bool half = s < count / 2;
         glm::vec3 all(0);
         for (std::uint32_t part = 0; part < kGatherParts; ++part) {

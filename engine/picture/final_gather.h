@@ -73,20 +73,20 @@ private:
     glm::vec3 weightOf(const SurfacePoint& p) const;
     double meanLight() const;
     GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
-    GatherSamples take(glm::uvec2 at, std::uint32_t begin, std::uint32_t count,
+    GatherSamples take(glm::uvec2 pixel, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, std::vector<RayLight>* learned) const;
     std::uint32_t secondStageCount(double variance) const;
     /// Walks sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of
     /// the second stage; null in the first one.
     template <GatherSink Sink>
-    glm::vec3 walkSample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
+    glm::vec3 walkSample(glm::uvec2 pixel, std::uint32_t s, const LightGuide* guide,
                          const PartWeights& partWeights, Sink& sink) const;
     /// Walks all samples of a pixel of the tile.
     template <GatherSink Sink>
     void walkPixel(const GatherTile& tile, glm::uvec2 pixel, const PartWeights& partWeights,
                    Sink& sink) const;
     template <GatherSink Sink>
-    void walkBounced(EmittedLightSample met, const Sampler& own, glm::vec3 weight,
+    void walkBounced(EmittedLightSample met, const Sampler& sampler, glm::vec3 weight,
                      Sink& sink) const;
 
     const TraceScene& m_trace;

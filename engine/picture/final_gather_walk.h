@@ -19,7 +19,7 @@ inline constexpr float kMinReflected = 0.03f;
 inline constexpr std::uint32_t kMaxGatherBounces = 64;
 
 template <GatherSink Sink>
-void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::vec3 weight,
+void FinalGather::walkBounced(EmittedLightSample met, const Sampler& sampler, glm::vec3 weight,
                               Sink& sink) const {
     const std::uint32_t via = met.hit.instance;
     float reflected = 1;
@@ -27,7 +27,7 @@ void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::v
         const glm::vec3 albedo = met.point->albedo;
         weight *= albedo / glm::pi<float>();
         reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
-        const Sampler light{mixBits(own.seed, kOnLightDimension + bounce), own.index};
+        const Sampler light{mixBits(sampler.seed, kOnLightDimension + bounce), sampler.index};
         sink.gatheredDirectLight(*met.point, {light.pair(0).x, light.pair(1)}, weight, via);
         if (reflected < kMinReflected || bounce == kMaxGatherBounces ||
             !(met.hit.t < kMinTexels * m_widths[met.hit.instance])) {
@@ -35,7 +35,7 @@ void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::v
             return;
         }
         met = sampleEmittedLight(m_trace, m_sources, *met.point,
-                                 {mixBits(own.seed, bounce), own.index});
+                                 {mixBits(sampler.seed, bounce), sampler.index});
         for (const IncidentLightSample& f : met.samples)
             if (f.irradiance != glm::vec3(0))
                 sink.gatheredEmission(f, weight * f.irradiance, Bounced, via);
@@ -44,10 +44,10 @@ void FinalGather::walkBounced(EmittedLightSample met, const Sampler& own, glm::v
 }
 
 template <GatherSink Sink>
-glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGuide* guide,
+glm::vec3 FinalGather::walkSample(glm::uvec2 pixel, std::uint32_t s, const LightGuide* guide,
                                   const PartWeights& partWeights, Sink& sink) const {
-    const PixelSample pixel(m_rays, m_options.seed, at.y * m_options.width + at.x, s);
-    const Hit hit = m_trace.closestHit(pixel.ray);
+    const PixelSample sample(m_rays, m_options.seed, pixel.y * m_options.width + pixel.x, s);
+    const Hit hit = m_trace.closestHit(sample.ray);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
     if (!p || !(m_options.view == View::Irradiance || sink.reflects(hit.instance)))
         return glm::vec3(0);
@@ -64,8 +64,8 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGui
     sink.fieldIrradiance(here, -weights[Bounced], Bounced);
     const std::uint32_t rays = m_options.gatherRays;
     for (std::uint32_t k = 0; k < rays; ++k) {
-        const Sampler own{pixel.gather.seed, s * rays + k};
-        const EmittedLightSample light = sampleEmittedLight(m_trace, m_sources, *p, own, guide);
+        const Sampler sampler{sample.gather.seed, s * rays + k};
+        const EmittedLightSample light = sampleEmittedLight(m_trace, m_sources, *p, sampler, guide);
         const auto arrives = [&](const IncidentLightSample& f) {
             if (f.irradiance != glm::vec3(0))
                 sink.gatheredEmission(f, weights[Emitted] / float(rays) * f.irradiance, Emitted,
@@ -76,7 +76,7 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 at, std::uint32_t s, const LightGui
         sink.rayBegins(light);
         arrives(light.samples[2]);
         if (light.weight > 0 && light.hit)
-            walkBounced(light, own, light.weight / float(rays) * weights[Bounced], sink);
+            walkBounced(light, sampler, light.weight / float(rays) * weights[Bounced], sink);
         sink.rayEnds();
     }
     return weight;
@@ -121,14 +121,14 @@ void FinalGather::walk(std::uint32_t x, std::uint32_t y, Sink& sink) const {
         shrunk[part] = shrinkDifference(light, part, {x, y});
     const std::uint32_t columns = (light.rect.end.x - begin.x + kGatherTile - 1) / kGatherTile;
     const glm::vec3 weight = light.at({x, y}).weight;
-    window.forEach([&](glm::uvec2 at) {
-        const bool isNear = near.contains(at), isItself = at == glm::uvec2(x, y);
+    window.forEach([&](glm::uvec2 pixel) {
+        const bool isNear = near.contains(pixel), isItself = pixel == glm::uvec2(x, y);
         PartWeights partWeights{};
         for (const GatherPart part : {Emitted, Bounced})
             partWeights[part] = shrunk[part].factorOf(isNear, isItself, weight);
         partWeights[Shown] = glm::vec3(isItself ? 1 : 0);
-        const glm::uvec2 tile = (at - begin) / kGatherTile;
-        walkPixel(tiles[tile.y * columns + tile.x], at, partWeights, sink);
+        const glm::uvec2 tile = (pixel - begin) / kGatherTile;
+        walkPixel(tiles[tile.y * columns + tile.x], pixel, partWeights, sink);
     });
 }
 

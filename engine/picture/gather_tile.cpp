@@ -36,17 +36,17 @@ double GatherSums::varianceByHalves(std::uint32_t count) const {
     return difference * difference / 4;
 }
 
-template <class Of>
+template <class Part>
 static double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j,
-                             const Of& of) {
+                             const Part& partOf) {
     double variance = 0;
     for (const GatherSamples& samples : tile.firstStage)
-        variance += of(samples).variance(samples.count) / (tile.width * tile.height);
+        variance += partOf(samples).variance(samples.count) / (tile.width * tile.height);
     int pixels = 1;
     for (std::uint32_t y = j - std::min(j, 1U); y <= std::min(j + 1, tile.height - 1); ++y)
         for (std::uint32_t x = i - std::min(i, 1U); x <= std::min(i + 1, tile.width - 1); ++x) {
             const GatherSamples& samples = tile.firstStage[y * kGatherTile + x];
-            variance += of(samples).variance(samples.count);
+            variance += partOf(samples).variance(samples.count);
             ++pixels;
         }
     return variance / pixels;

@@ -73,31 +73,33 @@ ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, g
     constexpr std::size_t kMaxPixels = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
     std::array<GatheredMean, kMaxPixels> near;
     ShrunkDifference shrunk;
-    window.forEach([&](glm::uvec2 at) {
-        shrunk.window.add(light.at(at), part);
-        GatheredMean& mean = near[window.numberOf(at)];
-        windowAround(at, kNearRadius, window).forEach([&](glm::uvec2 q) {
-            mean.add(light.at(q), part);
+    window.forEach([&](glm::uvec2 q) {
+        shrunk.window.add(light.at(q), part);
+        GatheredMean& mean = near[window.numberOf(q)];
+        windowAround(q, kNearRadius, window).forEach([&](glm::uvec2 r) {
+            mean.add(light.at(r), part);
         });
     });
     shrunk.near = near[window.numberOf(pixel)];
-    Deviations ofNear, ofPixel;
-    window.forEach([&](glm::uvec2 at) {
-        const GatheredPixel& p = light.at(at);
-        const GatheredMean& mean = near[window.numberOf(at)];
+    // Of neighbourhoods' means from the window's, and of pixels from their neighbourhoods' means.
+    Deviations nearDeviations, pixelDeviations;
+    window.forEach([&](glm::uvec2 q) {
+        const GatheredPixel& p = light.at(q);
+        const GatheredMean& mean = near[window.numberOf(q)];
         const double a = greyOf(mean.factorFor(p.weight)),
-                     b = greyOf(shrunk.window.factorFor(p.weight)), own = double(p.variance[part]);
-        ofNear.add(mean.in(p.weight) - shrunk.window.in(p.weight),
-                   (a - 2 * b) * a * mean.variance + b * b * shrunk.window.variance, p.weight,
-                   at == pixel);
-        ofPixel.add(p.difference[part] - mean.in(p.weight),
-                    (1 - 2 * a) * own + a * a * mean.variance, p.weight, at == pixel);
+                     b = greyOf(shrunk.window.factorFor(p.weight));
+        nearDeviations.add(mean.in(p.weight) - shrunk.window.in(p.weight),
+                           (a - 2 * b) * a * mean.variance + b * b * shrunk.window.variance,
+                           p.weight, q == pixel);
+        pixelDeviations.add(p.difference[part] - mean.in(p.weight),
+                            (1 - 2 * a) * double(p.variance[part]) + a * a * mean.variance,
+                            p.weight, q == pixel);
     });
-    Deviations ofWindow;
-    ofWindow.add(shrunk.window.sum, shrunk.window.variance, glm::vec3(1), true);
-    shrunk.windowFactor = ofWindow.shrinkage();
-    shrunk.nearFactor = ofNear.shrinkage();
-    shrunk.pixelFactor = ofPixel.shrinkage();
+    Deviations windowDeviation; // of the window's mean from 0
+    windowDeviation.add(shrunk.window.sum, shrunk.window.variance, glm::vec3(1), true);
+    shrunk.windowFactor = windowDeviation.shrinkage();
+    shrunk.nearFactor = nearDeviations.shrinkage();
+    shrunk.pixelFactor = pixelDeviations.shrinkage();
     return shrunk;
 }
 
@@ -116,12 +118,12 @@ glm::vec3 ShrunkDifference::factorOf(bool isNear, bool isItself, glm::vec3 weigh
 
 void addGathered(ImageF& image, const GatheredLight& light, const PixelRect& pixels) {
     const auto addRow = [&](std::uint32_t y) {
-        PixelRect{{pixels.begin.x, y}, {pixels.end.x, y + 1}}.forEach([&](glm::uvec2 at) {
-            const GatheredPixel& p = light.at(at);
+        PixelRect{{pixels.begin.x, y}, {pixels.end.x, y + 1}}.forEach([&](glm::uvec2 pixel) {
+            const GatheredPixel& p = light.at(pixel);
             glm::vec3 sum = p.shown;
             for (const GatherPart part : {Emitted, Bounced})
-                sum += shrinkDifference(light, part, at).lightIn(p, part);
-            image.rgb[std::size_t(at.y) * image.width + at.x] += sum;
+                sum += shrinkDifference(light, part, pixel).lightIn(p, part);
+            image.rgb[std::size_t(pixel.y) * image.width + pixel.x] += sum;
         });
     };
     parallelRanges(pixels.end.y - pixels.begin.y, 1, [&](std::size_t begin, std::size_t end) {

@@ -55,7 +55,7 @@ struct GatheredLight {
     PixelRect rect;
     std::vector<GatheredPixel> pixels; ///< one for each of rect
 
-    explicit GatheredLight(const PixelRect& of) : rect(of), pixels(of.size()) {}
+    explicit GatheredLight(const PixelRect& area) : rect(area), pixels(area.size()) {}
     const GatheredPixel& at(glm::uvec2 pixel) const { return pixels[rect.numberOf(pixel)]; }
     /// Takes the means of a tile, all of which is in rect.
     void set(const GatherTile& tile);

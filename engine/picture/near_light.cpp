@@ -19,16 +19,16 @@ NearLight nearLight(const TraceScene& trace, const IndirectField& field,
 std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
                                           const SurfacePoint& p, const Sampler& sampler) {
     std::vector<NearSurface> found;
-    const float most = near.rays > 0 ? near.reach[hit.instance] : 0;
-    if (!(most > 0))
+    const float meshReach = near.rays > 0 ? near.reach[hit.instance] : 0;
+    if (!(meshReach > 0))
         return found;
-    const float reach = nearReachAt(near.layout, most, hit.instance,
+    const float reach = nearReachAt(near.layout, meshReach, hit.instance,
                                     near.trace.scene().instances[hit.instance].mesh, hit.triangle,
                                     hit.u, hit.v, !hit.frontFace);
     const glm::vec3 origin = rayOrigin(near.trace, p);
     for (std::uint32_t k = 0; k < near.rays; ++k) {
-        const Sampler own{sampler.seed, sampler.index * near.rays + k};
-        const glm::vec3 direction = sampleCosineHemisphere(p.normal, own.pair(kDirection));
+        const Sampler raySampler{sampler.seed, sampler.index * near.rays + k};
+        const glm::vec3 direction = sampleCosineHemisphere(p.normal, raySampler.pair(kDirection));
         if (!(glm::dot(direction, p.geometricNormal) > 0))
             continue;
         const Hit met = near.trace.closestHit({origin, direction, 0, reach}, TraceMask::Static);
@@ -38,7 +38,7 @@ std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
         if (point && point->emission != glm::vec3(0))
             continue;
         const float weight = glm::pi<float>() / float(near.rays) * nearWeight(met.t, reach);
-        found.push_back({met, point, direction, weight, own});
+        found.push_back({met, point, direction, weight, raySampler});
     }
     return found;
 }

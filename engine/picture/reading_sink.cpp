@@ -45,7 +45,7 @@ void ReadingSink::fieldLobe(const FieldPoint& point, const FieldLobe& lobe) {
 }
 
 void ReadingSink::marched(const MarchedMaps& /*maps*/, const MarchedReflection& reflection) {
-    parts.reading.marched.push_back({reflection.at, m_factor * reflection.weight});
+    parts.reading.marched.push_back({reflection.lookup, m_factor * reflection.weight});
 }
 
 void ReadingSink::gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers,

@@ -52,7 +52,7 @@ struct ValueSink {
             ++counts->rays;
             counts->unknown += reflection.end == MarchEnd::Unknown ? 1 : 0;
         }
-        sum += reflection.weight * marchedRadiance(maps, reflection.at);
+        sum += reflection.weight * marchedRadiance(maps, reflection.lookup);
     }
 };
 

@@ -98,7 +98,7 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
 
 // Radiance that a glossy bounce finds; `pdf` is its density.
 static glm::vec3 radianceAlong(const PathContext& c, const SurfacePoint& p, glm::vec3 direction,
-                               float pdf, const Sampler& own, std::uint64_t& rays) {
+                               float pdf, const Sampler& sampler, std::uint64_t& rays) {
     ++rays;
     const Hit hit = c.trace.closestHit({rayOrigin(c.trace, p), direction});
     if (!hit) {
@@ -109,10 +109,10 @@ static glm::vec3 radianceAlong(const PathContext& c, const SurfacePoint& p, glm:
     if (!next)
         return glm::vec3(0);
     const glm::vec3 direct =
-        sampleDirectLight(c.trace, *next, own.pair(1).x, own.pair(kOnLightDimension), rays)
+        sampleDirectLight(c.trace, *next, sampler.pair(1).x, sampler.pair(kOnLightDimension), rays)
             .irradiance;
-    const glm::vec3 bounced =
-        sampleIndirectIrradiance({c.trace, c.emitters, c.sky, c.maxBounces - 1}, *next, own, rays);
+    const glm::vec3 bounced = sampleIndirectIrradiance(
+        {c.trace, c.emitters, c.sky, c.maxBounces - 1}, *next, sampler, rays);
     glm::vec3 radiance = next->albedo / glm::pi<float>() * (direct + bounced);
     if (next->emission != glm::vec3(0))
         radiance += next->emission * misWeight(pdf, emitterPdf(c.emitters, hit, p.position));
@@ -123,17 +123,17 @@ glm::vec3 sampleReflectedRadiance(const PathContext& c, const GlossyPoint& g,
                                   const Sampler& sampler, std::uint64_t& rays) {
     if (c.maxBounces == 0)
         return glm::vec3(0);
-    const Sampler own{mixBits(sampler.seed, kLobeSeed), sampler.index};
-    const Sampler looking{mixBits(own.seed, kLobeSeed), sampler.index};
+    const Sampler lobe{mixBits(sampler.seed, kLobeSeed), sampler.index};
+    const Sampler light{mixBits(lobe.seed, kLobeSeed), sampler.index};
     const SurfacePoint& p = g.surface;
-    glm::vec3 L = glossyShare(g, sampleEmitterLight(c.trace, c.emitters, p, looking.pair(0).x,
-                                                    looking.pair(1), rays)) +
-                  glossyShare(g, sampleSkyLight(c.trace, c.sky, p, looking.pair(2), rays));
-    const SpecularSample s = sampleSpecular(g.gloss, p.normal, g.toEye, own.pair(0));
+    glm::vec3 L = glossyShare(g, sampleEmitterLight(c.trace, c.emitters, p, light.pair(0).x,
+                                                    light.pair(1), rays)) +
+                  glossyShare(g, sampleSkyLight(c.trace, c.sky, p, light.pair(2), rays));
+    const SpecularSample s = sampleSpecular(g.gloss, p.normal, g.toEye, lobe.pair(0));
     if (glm::dot(s.toLight, p.geometricNormal) > 0)
         L += s.weight * radianceAlong(c, p, s.toLight,
                                       specularPdf(g.gloss.roughness, p.normal, g.toEye, s.toLight),
-                                      own, rays);
+                                      lobe, rays);
     return L;
 }
 

@@ -133,8 +133,8 @@ TEST(EmittedLight, IsThatOfPathsWhereNothingReflects) {
     for (std::uint32_t k = 0; k < kSamples; ++k)
         paths += glm::dvec3(sampleIndirectIrradiance(context, pointOnFloor(), {2, k}, rays));
     const LightGuide guide = guideTo({-1, 1, 1});
-    for (const LightGuide* by : {static_cast<const LightGuide*>(nullptr), &guide}) {
-        const glm::dvec3 E = meanAt(trace, pointOnFloor(), kSamples, by);
+    for (const LightGuide* used : {static_cast<const LightGuide*>(nullptr), &guide}) {
+        const glm::dvec3 E = meanAt(trace, pointOnFloor(), kSamples, used);
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(E[k], paths[k] / kSamples, 0.01 * E[k]);
     }

@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::uint32_t kWidth = 60, kHeight = 45;
 
-ConvergedLight light(const Scene& of, const Precomputed* known = nullptr) {
-    const auto scene = std::make_shared<const Scene>(of);
+ConvergedLight light(const Scene& unlit, const Precomputed* known = nullptr) {
+    const auto scene = std::make_shared<const Scene>(unlit);
     const auto trace = std::make_shared<const TraceScene>(*scene);
     const Technique& technique = *findTechnique(scene->technique.technique);
     Prepared prepared;

@@ -104,12 +104,12 @@ TEST(FieldRender, ViewsAddUp) {
         if (!onFloor && !onBlock)
             continue;
         ++(onFloor ? floor : block);
-        const glm::vec3 own = onFloor ? glm::vec3(0.3f, 0.2f, 0.1f) : glm::vec3(0);
+        const glm::vec3 emission = onFloor ? glm::vec3(0.3f, 0.2f, 0.1f) : glm::vec3(0);
         EXPECT_LT(glm::length(irradiance[i] - glm::pi<float>() * glm::vec3(1, 2, 3)), 1e-4f);
         EXPECT_LT(glm::length(indirect[i] - albedo[i] * glm::vec3(1, 2, 3)), 1e-4f);
         // Reflection of a dielectric only adds, and less than a tenth of what arrives.
         for (int c = 0; c < 3; ++c) {
-            const float glossy = lit[i][c] - direct[i][c] - indirect[i][c] - own[c];
+            const float glossy = lit[i][c] - direct[i][c] - indirect[i][c] - emission[c];
             EXPECT_GE(glossy, 0);
             EXPECT_LE(glossy, 0.1f * (direct[i][c] + indirect[i][c]) / albedo[i][c]);
         }

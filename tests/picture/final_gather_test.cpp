@@ -39,8 +39,8 @@ struct BelowAPlate {
         options.gatherRays = 1;
         options.emitted = std::make_shared<const IndirectField>(plates.field);
     }
-    ImageF drawn(const FieldRenderOptions& by) const {
-        return renderField(TraceScene(scene), plates.field, *plates.layout, by);
+    ImageF drawn(const FieldRenderOptions& how) const {
+        return renderField(TraceScene(scene), plates.field, *plates.layout, how);
     }
     ImageF truth() const {
         ReferenceOptions r;
@@ -51,8 +51,8 @@ struct BelowAPlate {
         r.samplesPerPixel = 4096;
         return renderReference(TraceScene(scene), r).image;
     }
-    double error(const FieldRenderOptions& by) const {
-        return compareImages(drawn(by), truth())->nrmse;
+    double error(const FieldRenderOptions& how) const {
+        return compareImages(drawn(how), truth())->nrmse;
     }
 };
 
@@ -241,8 +241,8 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndPieceByPiece) {
     struct Sum {
         glm::dvec3 value{0}; // of a million terms
         static bool reflects(std::uint32_t) { return true; }
-        void fieldIrradiance(const FieldPoint& at, glm::vec3 weight, GatherPart) {
-            value += glm::dvec3(weight * sampleIrradiance(at));
+        void fieldIrradiance(const FieldPoint& point, glm::vec3 weight, GatherPart) {
+            value += glm::dvec3(weight * sampleIrradiance(point));
         }
         // There is no light.
         void gatheredDirectLight(const SurfacePoint&, const LightNumbers&, glm::vec3,

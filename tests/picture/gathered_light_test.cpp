@@ -17,43 +17,43 @@ GatheredLight picture(double noise, const Weight& weight, const Irradiance& irra
     GatheredLight light({{0, 0}, {kWidth, kHeight}});
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
-    light.rect.forEach([&](glm::uvec2 at) {
-        GatheredPixel& p = light.pixels[light.rect.numberOf(at)];
-        p.weight = weight(at);
+    light.rect.forEach([&](glm::uvec2 pixel) {
+        GatheredPixel& p = light.pixels[light.rect.numberOf(pixel)];
+        p.weight = weight(pixel);
         const double error = normal(random) * noise;
-        p.difference[Bounced] = p.weight * (irradiance(at) + float(error));
+        p.difference[Bounced] = p.weight * (irradiance(pixel) + float(error));
         const double grey = double(p.weight.x + p.weight.y + p.weight.z) / 3;
         p.variance[Bounced] = float(noise * noise * grey * grey);
     });
     return light;
 }
 
-glm::vec3 white(glm::uvec2 /*at*/) {
+glm::vec3 white(glm::uvec2 /*pixel*/) {
     return glm::vec3(1);
 }
 
-/// Root of the mean squared error of the first colour in the pixels for which `of` says so.
-template <class Irradiance, class Of>
-double error(const GatheredLight& light, const Irradiance& irradiance, const Of& of) {
+/// Root of the mean squared error of the first colour in the pixels that are selected.
+template <class Irradiance, class Selects>
+double error(const GatheredLight& light, const Irradiance& irradiance, const Selects& selects) {
     ImageF image{kWidth, kHeight, std::vector<glm::vec3>(kWidth * kHeight)};
     addGathered(image, light, light.rect);
     double squared = 0, count = 0;
-    light.rect.forEach([&](glm::uvec2 at) {
-        if (!of(at))
+    light.rect.forEach([&](glm::uvec2 pixel) {
+        if (!selects(pixel))
             return;
-        const glm::vec3 right = irradiance(at) * light.at(at).weight;
-        squared += std::pow(double(image.rgb[light.rect.numberOf(at)].x - right.x), 2);
+        const glm::vec3 right = irradiance(pixel) * light.at(pixel).weight;
+        squared += std::pow(double(image.rgb[light.rect.numberOf(pixel)].x - right.x), 2);
         ++count;
     });
     return std::sqrt(squared / count);
 }
-bool all(glm::uvec2 /*at*/) {
+bool all(glm::uvec2 /*pixel*/) {
     return true;
 }
 
 TEST(GatheredLight, KeepsAllThatHasNoNoise) {
-    const auto steep = [](glm::uvec2 at) {
-        return glm::vec3(float(at.x * at.x), float(at.y), float((at.x ^ at.y) & 1));
+    const auto steep = [](glm::uvec2 pixel) {
+        return glm::vec3(float(pixel.x * pixel.x), float(pixel.y), float((pixel.x ^ pixel.y) & 1));
     };
     EXPECT_LT(error(picture(0, white, steep), steep, all), 1e-3);
 }
@@ -69,56 +69,57 @@ TEST(GatheredLight, KeepsTheMeanOfWhatIsEvenInNoise) {
 
 /// Where pixels cannot tell a spot from noise, the pixels near them can.
 TEST(GatheredLight, KeepsTheMeanOfWhatIsNear) {
-    const auto spots = [](glm::uvec2 at) {
-        return glm::vec3(at.x % 12 < 4 && at.y % 12 < 4 ? 4 : 0);
+    const auto spots = [](glm::uvec2 pixel) {
+        return glm::vec3(pixel.x % 12 < 4 && pixel.y % 12 < 4 ? 4 : 0);
     };
-    const auto inMiddle = [](glm::uvec2 at) {
-        return at.x % 12 > 0 && at.x % 12 < 3 && at.y % 12 > 0 && at.y % 12 < 3;
+    const auto inMiddle = [](glm::uvec2 pixel) {
+        return pixel.x % 12 > 0 && pixel.x % 12 < 3 && pixel.y % 12 > 0 && pixel.y % 12 < 3;
     };
     EXPECT_LT(error(picture(1.5, white, spots), spots, inMiddle), 0.75 * 1.5);
 }
 
 TEST(GatheredLight, KeepsEdges) {
-    const auto edge = [](glm::uvec2 at) { return glm::vec3(at.x < 20 ? 0 : 10); };
+    const auto edge = [](glm::uvec2 pixel) { return glm::vec3(pixel.x < 20 ? 0 : 10); };
     const GatheredLight light = picture(1, white, edge);
-    EXPECT_LT(error(light, edge, [](glm::uvec2 at) { return at.x == 19 || at.x == 20; }), 1.25);
+    EXPECT_LT(error(light, edge, [](glm::uvec2 pixel) { return pixel.x == 19 || pixel.x == 20; }),
+              1.25);
 }
 
 /// Irradiance is what surfaces share. Their albedo, and where there is none, stay sharp.
 TEST(GatheredLight, TakesTheMeanOfIrradiance) {
-    const auto squares = [](glm::uvec2 at) {
-        return (at.x / 3 + at.y / 3) % 2 > 0 ? glm::vec3(0.9f, 0.1f, 0.5f) : glm::vec3(0.05f);
+    const auto squares = [](glm::uvec2 pixel) {
+        return (pixel.x / 3 + pixel.y / 3) % 2 > 0 ? glm::vec3(0.9f, 0.1f, 0.5f) : glm::vec3(0.05f);
     };
     const auto even = [](glm::uvec2) { return glm::vec3(3); };
     const GatheredLight textured = picture(1, squares, even);
-    const auto dark = [](glm::uvec2 at) { return (at.x / 3 + at.y / 3) % 2 == 0; };
+    const auto dark = [](glm::uvec2 pixel) { return (pixel.x / 3 + pixel.y / 3) % 2 == 0; };
     EXPECT_LT(error(textured, even, dark), 0.3 * 0.05);
     EXPECT_LT(error(textured, even, all), 0.3 * 0.9);
 
-    const auto covered = [](glm::uvec2 at) { return glm::vec3(at.x < 20 ? 1 : 0); };
+    const auto covered = [](glm::uvec2 pixel) { return glm::vec3(pixel.x < 20 ? 1 : 0); };
     const GatheredLight half = picture(1, covered, even);
-    EXPECT_EQ(error(half, even, [](glm::uvec2 at) { return at.x >= 20; }), 0);
-    EXPECT_LT(error(half, even, [](glm::uvec2 at) { return at.x == 19; }), 0.5);
+    EXPECT_EQ(error(half, even, [](glm::uvec2 pixel) { return pixel.x >= 20; }), 0);
+    EXPECT_LT(error(half, even, [](glm::uvec2 pixel) { return pixel.x == 19; }), 0.5);
 }
 
 TEST(GatheredLight, IsTheSumOfPixelsTimesTheirFactors) {
-    const auto wavy = [](glm::uvec2 at) {
-        return 2.f + glm::vec3(std::sin(0.5f * float(at.x)), std::cos(float(at.y)), 0);
+    const auto wavy = [](glm::uvec2 pixel) {
+        return 2.f + glm::vec3(std::sin(0.5f * float(pixel.x)), std::cos(float(pixel.y)), 0);
     };
-    const auto weight = [](glm::uvec2 at) {
-        return 0.1f * glm::vec3(float(at.x % 3), float(at.y % 5), 3);
+    const auto weight = [](glm::uvec2 pixel) {
+        return 0.1f * glm::vec3(float(pixel.x % 3), float(pixel.y % 5), 3);
     };
     const GatheredLight light = picture(0.5, weight, wavy);
-    for (const glm::uvec2 at : {glm::uvec2(0, 0), glm::uvec2(20, 9), glm::uvec2(39, 29)}) {
-        const ShrunkDifference shrunk = shrinkDifference(light, Bounced, at);
+    for (const glm::uvec2 pixel : {glm::uvec2(0, 0), glm::uvec2(20, 9), glm::uvec2(39, 29)}) {
+        const ShrunkDifference shrunk = shrinkDifference(light, Bounced, pixel);
         glm::vec3 sum(0);
-        windowAround(at, kGatherRadius, light.rect).forEach([&](glm::uvec2 q) {
-            const bool isNear = std::max(std::abs(int(q.x) - int(at.x)),
-                                         std::abs(int(q.y) - int(at.y))) <= int(kNearRadius);
-            sum += shrunk.factorOf(isNear, q == at, light.at(at).weight) *
+        windowAround(pixel, kGatherRadius, light.rect).forEach([&](glm::uvec2 q) {
+            const bool isNear = std::max(std::abs(int(q.x) - int(pixel.x)),
+                                         std::abs(int(q.y) - int(pixel.y))) <= int(kNearRadius);
+            sum += shrunk.factorOf(isNear, q == pixel, light.at(pixel).weight) *
                    light.at(q).difference[Bounced];
         });
-        const glm::vec3 whole = shrunk.lightIn(light.at(at), Bounced);
+        const glm::vec3 whole = shrunk.lightIn(light.at(pixel), Bounced);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(sum[c], whole[c], 1e-5f);
     }

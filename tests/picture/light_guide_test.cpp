@@ -19,11 +19,11 @@ const glm::vec3 kSun = glm::normalize(glm::vec3(0.3f, 0.9f, 0.2f)),
 
 /// Rays that follow the cosine about +Y, which find radiance `of` a direction.
 template <class Radiance>
-std::vector<RayLight> raysOf(std::uint32_t seed, const Radiance& of) {
+std::vector<RayLight> raysOf(std::uint32_t seed, const Radiance& radiance) {
     std::vector<RayLight> rays;
     for (std::uint32_t k = 0; k < 8192; ++k) {
         const glm::vec3 d = sampleCosineHemisphere({0, 1, 0}, Sampler{seed, k}.pair(0));
-        rays.push_back({d, d.y / glm::pi<float>(), of(d)});
+        rays.push_back({d, d.y / glm::pi<float>(), radiance(d)});
     }
     return rays;
 }

@@ -49,11 +49,11 @@ TEST(NearReach, IsAFourthWhereTexelsAreFiner) {
     TwoPlates plates(plateAbove(1));
     plates.refineMiddle();
     const float reach = nearReaches(plates.builder.build(), *plates.layout)[0];
-    const auto at = [&](float u, float v) {
+    const auto reachAt = [&](float u, float v) {
         return nearReachAt(*plates.layout, reach, 0, 0, 0, u, v, false);
     };
-    EXPECT_NEAR(at(0.2f, 0.4f), TwoPlates::kReach / 4, 1e-5f); // 0.4 m left of the middle
-    EXPECT_NEAR(at(0.1f, 0.1f), TwoPlates::kReach, 1e-5f);
+    EXPECT_NEAR(reachAt(0.2f, 0.4f), TwoPlates::kReach / 4, 1e-5f); // 0.4 m left of the middle
+    EXPECT_NEAR(reachAt(0.1f, 0.1f), TwoPlates::kReach, 1e-5f);
 }
 
 TEST(NearReach, WeightsFadeToTheEnd) {

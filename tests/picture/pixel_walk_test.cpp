@@ -23,9 +23,9 @@ struct TermSink {
     bool reflects(std::uint32_t instance) const { return std::ranges::count(black, instance) == 0; }
     static void meets(std::uint32_t /*instance*/) {}
     template <class Body>
-    void scaled(glm::vec3 by, const Body& body) {
+    void scaled(glm::vec3 multiplier, const Body& body) {
         const glm::vec3 before = factor;
-        factor *= by;
+        factor *= multiplier;
         body();
         factor = before;
     }

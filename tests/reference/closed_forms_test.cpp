@@ -59,7 +59,8 @@ glm::dvec3 meanOver(std::uint32_t count, const Sample& sample) {
 }
 
 /// Expects `truth` times the light's colour of all that computes direct light at a point.
-void expectDirect(const TraceScene& trace, const Light& light, const Receiver& at, double truth) {
+void expectDirect(const TraceScene& trace, const Light& light, const Receiver& receiver,
+                  double truth) {
     const glm::dvec3 expected = truth * glm::dvec3(light.color);
     const auto expectNear = [&](glm::dvec3 value, double tolerance, const char* what) {
         for (int k = 0; k < 3; ++k)
@@ -70,31 +71,33 @@ void expectDirect(const TraceScene& trace, const Light& light, const Receiver& a
     const std::uint32_t samples = area ? 4096 : 1;
     const double tolerance = area ? 2e-3 : 1e-5;
     std::uint64_t rays = 0;
-    expectNear(glm::dvec3(directIrradiance(trace, at.surface(), rays)), 1e-5, "directIrradiance");
+    expectNear(glm::dvec3(directIrradiance(trace, receiver.surface(), rays)), 1e-5,
+               "directIrradiance");
     expectNear(meanOver(samples,
                         [&](const Sampler& s) {
-                            return sampleDirectLightFrom(trace, at.surface(), light, s.pair(0),
-                                                         rays)
+                            return sampleDirectLightFrom(trace, receiver.surface(), light,
+                                                         s.pair(0), rays)
                                 .irradiance;
                         }),
                tolerance, "sampleDirectLightFrom");
     expectNear(meanOver(samples,
                         [&](const Sampler& s) {
-                            return sampleDirectLight(trace, at.surface(), s.pair(1).x, s.pair(0),
-                                                     rays)
+                            return sampleDirectLight(trace, receiver.surface(), s.pair(1).x,
+                                                     s.pair(0), rays)
                                 .irradiance;
                         }),
                tolerance, "sampleDirectLight");
-    const LitPoint lit{trace.clearOf(at.position, at.normal), at.normal, {}};
+    const LitPoint lit{trace.clearOf(receiver.position, receiver.normal), receiver.normal, {}};
     // From beside the surface by the offset of shadow rays, some 1e-5 m.
     expectNear(glm::dvec3(shadowedLight(trace, light, lit, 16, rays)), 1e-4, "shadowedLight");
-    expectNear(glm::dvec3(referenceIrradiance(trace, at.position, at.normal, 1, 0, true, 1)), 1e-5,
-               "referenceIrradiance");
-    if (at.position.y > 0)
+    expectNear(
+        glm::dvec3(referenceIrradiance(trace, receiver.position, receiver.normal, 1, 0, true, 1)),
+        1e-5, "referenceIrradiance");
+    if (receiver.position.y > 0)
         return;
     ReferenceOptions o;
     o.view = View::Direct;
-    o.camera = {.eye = at.position + glm::vec3(0.01f, 0.2f, 0), .target = at.position};
+    o.camera = {.eye = receiver.position + glm::vec3(0.01f, 0.2f, 0), .target = receiver.position};
     o.camera.fovY = 1e-3f;
     o.width = o.height = area ? 4 : 1;
     o.samplesPerPixel = area ? 256 : 4;
@@ -108,10 +111,10 @@ void expectPunctual(const Light& light) {
     World w;
     w.scene.lights = {light};
     const TraceScene trace(w.build());
-    for (const Receiver& at : receivers())
-        expectDirect(
-            trace, light, at,
-            formulas::punctualIrradiance(light, glm::dvec3(at.position), glm::dvec3(at.normal)));
+    for (const Receiver& receiver : receivers())
+        expectDirect(trace, light, receiver,
+                     formulas::punctualIrradiance(light, glm::dvec3(receiver.position),
+                                                  glm::dvec3(receiver.normal)));
 }
 
 Light lamp(LightKind kind) {
@@ -166,12 +169,12 @@ TEST(ClosedForms, ARectangleGivesLambertsPolygon) {
             World w;
             w.scene.lights = {light};
             const TraceScene trace(w.build());
-            for (const Receiver& at : receivers()) {
-                const auto corners = formulas::cornersOf(light, glm::dvec3(at.position));
+            for (const Receiver& receiver : receivers()) {
+                const auto corners = formulas::cornersOf(light, glm::dvec3(receiver.position));
                 for (const glm::dvec3 c : corners)
-                    ASSERT_GT(glm::dot(c, glm::dvec3(at.normal)), 0);
-                expectDirect(trace, light, at,
-                             7 * formulas::polygonIrradiance(corners, glm::dvec3(at.normal)));
+                    ASSERT_GT(glm::dot(c, glm::dvec3(receiver.normal)), 0);
+                expectDirect(trace, light, receiver,
+                             7 * formulas::polygonIrradiance(corners, glm::dvec3(receiver.normal)));
             }
         }
 }
@@ -228,11 +231,11 @@ TEST(ClosedForms, OtherLightsAreBlackInTheShadowOfAScreen) {
         w.scene.lights = {light};
         const TraceScene trace(w.build());
         for (const float x : {-0.2f, 0.2f}) {
-            const Receiver at{{x, 0, 0.1f}, {0, 1, 0}};
-            const double open =
-                formulas::punctualIrradiance(light, glm::dvec3(at.position), glm::dvec3(at.normal));
+            const Receiver receiver{{x, 0, 0.1f}, {0, 1, 0}};
+            const double open = formulas::punctualIrradiance(light, glm::dvec3(receiver.position),
+                                                             glm::dvec3(receiver.normal));
             ASSERT_GT(open, 1);
-            expectDirect(trace, light, at, x < 0 ? open : 0);
+            expectDirect(trace, light, receiver, x < 0 ? open : 0);
         }
     }
 }
@@ -247,8 +250,8 @@ TEST(ClosedForms, ManyLightsAddUp) {
     w.scene.lights[3].color = {0, 1, 3};
     const Scene scene = w.build();
     const TraceScene trace(scene);
-    for (const Receiver& at : receivers()) {
-        const glm::dvec3 p(at.position), n(at.normal);
+    for (const Receiver& receiver : receivers()) {
+        const glm::dvec3 p(receiver.position), n(receiver.normal);
         glm::dvec3 truth(0);
         for (const std::size_t i : {1, 2, 3}) {
             const Light& l = scene.lights[i];
@@ -257,10 +260,12 @@ TEST(ClosedForms, ManyLightsAddUp) {
                              : formulas::punctualIrradiance(l, p, n));
         }
         std::uint64_t rays = 0;
-        EXPECT_LT(glm::length(glm::dvec3(directIrradiance(trace, at.surface(), rays)) - truth),
-                  1e-5 * glm::length(truth));
+        EXPECT_LT(
+            glm::length(glm::dvec3(directIrradiance(trace, receiver.surface(), rays)) - truth),
+            1e-5 * glm::length(truth));
         const glm::dvec3 sampled = meanOver(4096, [&](const Sampler& s) {
-            return sampleDirectLight(trace, at.surface(), s.pair(1).x, s.pair(0), rays).irradiance;
+            return sampleDirectLight(trace, receiver.surface(), s.pair(1).x, s.pair(0), rays)
+                .irradiance;
         });
         EXPECT_LT(glm::length(sampled - truth), 5e-3 * glm::length(truth));
     }
@@ -310,8 +315,9 @@ TEST(ClosedForms, NoSkyComesFromBelowTheTrianglesHorizon) {
     EXPECT_EQ(sampleSkyLight(trace, sky, p, {0.5f, 0.5f}, rays).irradiance.x, 0);
 }
 
-double irradianceAt(const TraceScene& trace, const Receiver& at, std::uint32_t samples) {
-    return double(referenceIrradiance(trace, at.position, at.normal, samples, 1, false, 1).x);
+double irradianceAt(const TraceScene& trace, const Receiver& receiver, std::uint32_t samples) {
+    return double(
+        referenceIrradiance(trace, receiver.position, receiver.normal, samples, 1, false, 1).x);
 }
 
 // The sky alone, of which a plane sees one half.
@@ -319,8 +325,8 @@ TEST(ClosedForms, AConstantSkyGivesPiTimesItsRadianceFromAllSides) {
     Scene scene;
     scene.sky.radiance = {2, 3, 4};
     const TraceScene trace(scene);
-    for (const Receiver& at : receivers())
-        EXPECT_NEAR(irradianceAt(trace, at, 16), 2 * kPi, 1e-5);
+    for (const Receiver& receiver : receivers())
+        EXPECT_NEAR(irradianceAt(trace, receiver, 16), 2 * kPi, 1e-5);
 }
 
 // Radiance is h + (z - h) y above the horizon and h + (g - h) |y| below it. The integral of
@@ -334,12 +340,14 @@ TEST(ClosedForms, AGradientGivesItsIntegralUpwardsSidewaysAndDownwards) {
                  .ground = glm::vec3(2.5f)};
     const TraceScene trace(scene);
     const double h = 1, z = 4, g = 2.5;
-    const auto at = [&](glm::vec3 n) { return irradianceAt(trace, {glm::vec3(0), n}, 4096); };
-    EXPECT_NEAR(at({0, 1, 0}), kPi * h + 2 * kPi / 3 * (z - h), 2e-3);
-    EXPECT_NEAR(at({0, -1, 0}), kPi * h + 2 * kPi / 3 * (g - h), 2e-3);
+    const auto irradiance = [&](glm::vec3 n) {
+        return irradianceAt(trace, {glm::vec3(0), n}, 4096);
+    };
+    EXPECT_NEAR(irradiance({0, 1, 0}), kPi * h + 2 * kPi / 3 * (z - h), 2e-3);
+    EXPECT_NEAR(irradiance({0, -1, 0}), kPi * h + 2 * kPi / 3 * (g - h), 2e-3);
     const double sideways = kPi * h + 2.0 / 3 * (z - h) + 2.0 / 3 * (g - h);
     for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1)})
-        EXPECT_NEAR(at(n), sideways, 4e-3);
+        EXPECT_NEAR(irradiance(n), sideways, 4e-3);
 }
 
 /// Vector irradiance of a pixel of unit radiance in a panorama, turned by `rotation`: the integral
@@ -376,12 +384,13 @@ TEST(ClosedForms, APixelOfAPanoramaGivesItsVectorIrradiance) {
                              side = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 1, 0.2)));
             for (const glm::dvec3 n :
                  {axis, glm::normalize(axis + side), glm::normalize(axis - side)}) {
-                const Receiver at{glm::vec3(0), glm::vec3(n)};
+                const Receiver receiver{glm::vec3(0), glm::vec3(n)};
                 const double truth = 3 * 5 * glm::dot(V, n);
-                EXPECT_NEAR(irradianceAt(trace, at, 1024), truth, 2e-3 * truth);
+                EXPECT_NEAR(irradianceAt(trace, receiver, 1024), truth, 2e-3 * truth);
                 std::uint64_t rays = 0;
                 const glm::dvec3 found = meanOver(1024, [&](const Sampler& s) {
-                    return sampleSkyLight(trace, sky, at.surface(), s.pair(0), rays).irradiance;
+                    return sampleSkyLight(trace, sky, receiver.surface(), s.pair(0), rays)
+                        .irradiance;
                 });
                 EXPECT_LT(glm::length(found - truth * glm::dvec3(1, 0.2, 0.1)), 2e-3 * truth);
             }
@@ -425,10 +434,10 @@ struct Shards {
             relative.emplace_back(glm::vec3(places[i] * glm::vec4(c, 1)) - p);
         return relative;
     }
-    double truthAt(const Receiver& at) const {
-        const glm::dvec3 n(at.normal);
-        return 2 * formulas::polygonIrradiance(from(0, at.position), n) +
-               5 * formulas::polygonIrradiance(from(1, at.position), n);
+    double truthAt(const Receiver& receiver) const {
+        const glm::dvec3 n(receiver.normal);
+        return 2 * formulas::polygonIrradiance(from(0, receiver.position), n) +
+               5 * formulas::polygonIrradiance(from(1, receiver.position), n);
     }
 };
 
@@ -439,16 +448,16 @@ TEST(ClosedForms, EmissiveTrianglesGiveLambertsPolygonFromTheirFront) {
         const Emitters emitters = findEmitters(trace);
         ASSERT_EQ(emitters.triangles.size(), 2U);
         // Their fronts face down: points below are lit, those above by two-sided ones alone.
-        for (const auto& [at, front] :
+        for (const auto& [receiver, front] :
              {std::pair(Receiver{{0.1f, 0, 0.1f}, {0, 1, 0}}, true),
               std::pair(Receiver{{-0.5f, -0.3f, 0}, glm::normalize(glm::vec3(0.2f, 1, 0.1f))},
                         true),
               std::pair(Receiver{{0, 3, 0}, {0, -1, 0}}, false),
               std::pair(Receiver{{-0.4f, 2.5f, 0.3f}, {0, -1, 0}}, false)}) {
-            const double truth = front || bothSides ? shards.truthAt(at) : 0;
-            EXPECT_NEAR(irradianceAt(trace, at, 1 << 14), truth, 4e-3 * truth) << bothSides;
+            const double truth = front || bothSides ? shards.truthAt(receiver) : 0;
+            EXPECT_NEAR(irradianceAt(trace, receiver, 1 << 14), truth, 4e-3 * truth) << bothSides;
             std::uint64_t rays = 0;
-            const SurfacePoint p = at.surface();
+            const SurfacePoint p = receiver.surface();
             const glm::dvec3 found = meanOver(1 << 14, [&](const Sampler& s) {
                 return sampleEmitterLight(trace, emitters, p, s.pair(0).x, s.pair(1), rays)
                     .irradiance;

@@ -42,14 +42,15 @@ struct Room {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
-                const auto at = [&](int x, int y) {
+                const auto cornerAt = [&](int x, int y) {
                     glm::dvec3 p = side == 1 ? upper : lower;
                     p[u] = lower[u] + (upper[u] - lower[u]) * x / n;
                     p[v] = lower[v] + (upper[v] - lower[v]) * y / n;
                     return p;
                 };
                 Patch p;
-                p.corner = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+                p.corner = {cornerAt(i, j), cornerAt(i + 1, j), cornerAt(i + 1, j + 1),
+                            cornerAt(i, j + 1)};
                 if (side == 1)
                     std::swap(p.corner[1], p.corner[3]);
                 p.centre = (p.corner[0] + p.corner[2]) * 0.5;

@@ -328,11 +328,11 @@ TEST(Reference, LitIsDirectPlusIndirectPlusOwnEmissionPlusReflection) {
         const bool block = albedo[i] == glm::vec3(0.6f);
         if (!floor && !block)
             continue; // a pixel of both
-        const glm::vec3 own = floor ? glm::vec3(0.3f, 0.2f, 0.1f) : glm::vec3(0);
+        const glm::vec3 emission = floor ? glm::vec3(0.3f, 0.2f, 0.1f) : glm::vec3(0);
         // Of the same samples in every view. Reflection of a dielectric only adds, and less than a
         // tenth of what arrives.
         for (int c = 0; c < 3; ++c) {
-            const float glossy = lit[i][c] - direct[i][c] - indirect[i][c] - own[c];
+            const float glossy = lit[i][c] - direct[i][c] - indirect[i][c] - emission[c];
             EXPECT_GT(glossy, 0);
             EXPECT_LT(glossy, 0.1f * (direct[i][c] + indirect[i][c]) / albedo[i][c]);
         }
@@ -347,12 +347,12 @@ TEST(Reference, AMaskedLeafShadesWhereItsTexelsAreOpaque) {
     b.add(quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}));
     b.scene.lights = {sun({0, -1, 0}, 7)};
     const TraceScene trace(b.build());
-    const auto at = [&](float x) {
+    const auto irradiance = [&](float x) {
         return referenceIrradiance(trace, {x, 0, 0.3f}, {0, 1, 0}, 1, 1, true, 1).x;
     };
-    EXPECT_EQ(at(-0.5f), 0);
-    EXPECT_FLOAT_EQ(at(0.5f), 7);
-    EXPECT_FLOAT_EQ(at(1.5f), 7);
+    EXPECT_EQ(irradiance(-0.5f), 0);
+    EXPECT_FLOAT_EQ(irradiance(0.5f), 7);
+    EXPECT_FLOAT_EQ(irradiance(1.5f), 7);
 }
 
 TEST(Reference, TheBackOfAOneSidedSurfaceIsBlackAndBlocks) {

@@ -77,7 +77,7 @@ TEST(ProbeReflections, AFurnaceIsReflectedAsItIs) {
         lit.march();
         ASSERT_TRUE(lit.maps());
         const int count = reflect(lit, {3, 2, 3}, [&](const MarchedReflection& r) {
-            EXPECT_LT(glm::distance(marchedRadiance(*lit.maps(), r.at), L), 1e-4f) << roughness;
+            EXPECT_LT(glm::distance(marchedRadiance(*lit.maps(), r.lookup), L), 1e-4f) << roughness;
         });
         EXPECT_GT(count, 10);
     }
@@ -139,7 +139,7 @@ TEST(ProbeReflections, ExplainWhereTheirLightComesFrom) {
     lit.march();
     FieldReading reading;
     const int count = reflect(lit, {3, 2, 3}, [&](const MarchedReflection& r) {
-        reading.marched.push_back({r.at, r.weight});
+        reading.marched.push_back({r.lookup, r.weight});
     });
     ASSERT_GT(count, 10);
     const glm::vec3 is = valueOf(reading, *lit.lighting->field());
