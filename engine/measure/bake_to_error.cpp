@@ -19,15 +19,15 @@ namespace {
 
 constexpr std::uint32_t kMaxTexels = 1U << 22, kMaxSurfels = 1U << 20, kMaxLinks = 1024,
                         kMaxRays = 4096;
-constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< of the points
-constexpr std::uint32_t kPaths = 64;               ///< of a point, in each reference
+constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< numbers of points across and down
+constexpr std::uint32_t kPaths = 64;               ///< number for a point, in each reference
 
 std::uint32_t times(std::uint32_t count, double factor, std::uint32_t maximum) {
     return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(maximum))));
 }
 
-/// Reference at the visible points: direct irradiance, and irradiance with all
-/// bounces, estimated twice by independent paths. Images of one row.
+/// Reference at the visible points: direct irradiance, and irradiance with all bounces, estimated
+/// twice by independent paths. The images have one row.
 struct Truth {
     std::vector<SeenPoint> points;
     ImageF direct, first, second;

@@ -24,8 +24,8 @@ std::vector<SeenPoint> findSeenPoints(const TraceScene& trace, const Camera& cam
                                       std::uint32_t width, std::uint32_t height,
                                       std::uint32_t seed);
 
-/// Path-traced irradiance of each point, without direct light [W m^-2]: the mean of
-/// `paths` paths. Returns std::nullopt when cancelled.
+/// Path-traced irradiance of each point, without direct light [W m^-2]: the mean of `paths`
+/// paths. Returns std::nullopt when cancelled.
 std::optional<std::vector<glm::vec3>> traceIrradiance(const PathContext& context,
                                                       const std::vector<SeenPoint>& points,
                                                       std::uint32_t paths, std::uint32_t seed,

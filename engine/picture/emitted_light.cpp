@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// The balance heuristic.
+/// The balance heuristic: the weight of a strategy of density `pdf` against one other.
 static float balanceWeight(float pdf, float other) {
     return pdf / (pdf + other);
 }
@@ -16,20 +16,20 @@ static float balanceWeight(float pdf, float other) {
 EmittedLightSources findEmittedLightSources(const TraceScene& trace) {
     EmittedLightSources sources{findEmitters(trace), findSkyLight(trace.scene().sky), false};
     const auto shines = [](glm::vec3 radiance) { return channelSum(radiance) > 0; };
-    sources.shine = !sources.emitters.empty() ||
-                    std::ranges::any_of(skyCellRadiance(trace.scene().sky), shines);
+    sources.any = !sources.emitters.empty() ||
+                  std::ranges::any_of(skyCellRadiance(trace.scene().sky), shines);
     return sources;
 }
 
 EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLightSources& sources,
                                       const SurfacePoint& p, const Sampler& sampler,
                                       const LightGuide* guide) {
-    const float aimed = guide ? guide->share() : 0;
-    // Of the ray below, for each direction.
+    const float guided = guide ? guide->probability() : 0;
+    // The density of the ray below in a direction.
     const auto density = [&](glm::vec3 d) {
         const float byCosine =
-            (1 - aimed) * std::max(glm::dot(p.normal, d), 0.f) / glm::pi<float>();
-        return aimed > 0 ? byCosine + aimed * guide->pdf(d) : byCosine;
+            (1 - guided) * std::max(glm::dot(p.normal, d), 0.f) / glm::pi<float>();
+        return guided > 0 ? byCosine + guided * guide->pdf(d) : byCosine;
     };
     EmittedLightSample s;
     std::uint64_t rays = 0;
@@ -40,11 +40,11 @@ EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLigh
         if (f.irradiance != glm::vec3(0))
             f.irradiance *= balanceWeight(f.pdf, density(f.toLight));
 
-    // Both ways of sampling share the numbers, so that each has well-spread ones.
+    // Guide and cosine share one stratified pair of numbers, so that both have stratified ones.
     const glm::vec2 u = sampler.pair(3);
-    s.direction = u.x < aimed
-                      ? guide->sample({u.x / aimed, u.y})
-                      : sampleCosineHemisphere(p.normal, {(u.x - aimed) / (1 - aimed), u.y});
+    s.direction = u.x < guided
+                      ? guide->sample({u.x / guided, u.y})
+                      : sampleCosineHemisphere(p.normal, {(u.x - guided) / (1 - guided), u.y});
     const float cosTheta = glm::dot(p.normal, s.direction);
     if (!(cosTheta > 0) || !(glm::dot(p.geometricNormal, s.direction) > 0))
         return s;

@@ -15,8 +15,8 @@ namespace limn {
 /// What emits light without being one of Scene::lights: emissive surfaces and the sky.
 struct EmittedLightSources {
     Emitters emitters;
-    SkyLight sky;       ///< of its image
-    bool shine = false; ///< whether there is any
+    SkyLight sky;     ///< importance sampling of the sky's image
+    bool any = false; ///< whether any of them emits light
 };
 EmittedLightSources findEmittedLightSources(const TraceScene& trace);
 
@@ -27,15 +27,16 @@ struct EmittedLightSample {
     /// unbiased estimate of the irradiance.
     std::array<IncidentLightSample, 3> samples;
 
-    glm::vec3 direction{0};            ///< of a ray from the surface, unit
+    glm::vec3 direction{0};            ///< direction of a ray from the surface, unit
     float weight = 0;                  ///< cosine over the ray's density [sr]; 0: there is no ray
-    Hit hit;                           ///< of the ray
-    std::optional<SurfacePoint> point; ///< there; none also where the hit is black
+    Hit hit;                           ///< what the ray hits
+    std::optional<SurfacePoint> point; ///< surface point there; none where the hit is black
 };
 
-/// Uses `sampler`'s pairs 0 to 3. `guide`: aims some of the rays, if there is one; they follow the
-/// cosine otherwise. Combined as in Veach, Guibas. Optimally Combining Sampling Techniques for
-/// Monte Carlo Rendering. 1995
+/// Samples the light that is emitted to point `p`, with `sampler`'s pairs 0 to 3. The ray's
+/// direction has a density in proportion to the cosine; if there is a `guide`, it samples a part of
+/// the directions instead. The strategies are combined by multiple importance sampling.
+/// Veach, Guibas. Optimally Combining Sampling Techniques for Monte Carlo Rendering. 1995
 EmittedLightSample sampleEmittedLight(const TraceScene& trace, const EmittedLightSources& sources,
                                       const SurfacePoint& p, const Sampler& sampler,
                                       const LightGuide* guide = nullptr);

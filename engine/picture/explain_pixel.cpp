@@ -13,7 +13,7 @@ namespace limn {
 
 namespace {
 
-/// With which a picture of the question's pixel is drawn.
+/// The options with which renderField() draws the picture of the question's pixel.
 FieldRenderOptions pictureOptions(const ConvergedLight& lit, const PixelQuestion& q) {
     FieldRenderOptions options;
     options.view = q.light == PixelLight::Radiance ? View::Lit : View::Irradiance;
@@ -29,13 +29,13 @@ FieldRenderOptions pictureOptions(const ConvergedLight& lit, const PixelQuestion
     return options;
 }
 
-/// Adds rows below one of their sum, if there are any.
+/// Adds a row for the sum of `group` and the group's rows below it, if there are any.
 void addGroup(std::vector<LightRow>& rows, const char* label, const std::vector<LightRow>& group) {
     if (!group.empty())
         addRows(rows, group, addRow(rows, {.label = label, .value = totalOf(group)}));
 }
 
-/// The light of each of Scene::lights.
+/// Rows of the direct light of each of Scene::lights.
 std::vector<LightRow> lightRows(const Scene& scene, const std::vector<glm::vec3>& byLight) {
     std::vector<LightRow> rows;
     for (std::uint32_t l = 0; l < byLight.size(); ++l)
@@ -47,7 +47,7 @@ std::vector<LightRow> lightRows(const Scene& scene, const std::vector<glm::vec3>
     return rows;
 }
 
-/// The rows that both tables begin with.
+/// The rows that both tables begin with: light of what the pixel sees itself.
 std::vector<LightRow> seenRows(const Scene& scene, const PixelParts& parts) {
     std::vector<LightRow> rows;
     if (parts.sky != glm::vec3(0))
@@ -58,7 +58,7 @@ std::vector<LightRow> seenRows(const Scene& scene, const PixelParts& parts) {
     return rows;
 }
 
-/// Light by way of each of Scene::instances.
+/// Rows of the light that each of Scene::instances sends.
 std::vector<LightRow> surfaceRows(const Scene& scene, const std::vector<glm::vec3>& bySurface) {
     std::vector<LightRow> rows;
     for (std::uint32_t i = 0; i < bySurface.size(); ++i)
@@ -70,7 +70,7 @@ std::vector<LightRow> surfaceRows(const Scene& scene, const std::vector<glm::vec
     return rows;
 }
 
-/// Gathered light by where it comes from.
+/// Rows of gathered light by light, surface or sky.
 std::vector<LightRow> gatheredRows(const Scene& scene, const PixelParts::Gathered& gathered) {
     std::vector<LightRow> rows = lightRows(scene, gathered.byLight);
     addRows(rows, surfaceRows(scene, gathered.bySurface), LightRow::kNone);

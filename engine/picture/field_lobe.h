@@ -10,11 +10,13 @@
 
 namespace limn {
 
-/// The lookup of a field at the surface that was hit. The arguments must outlive it.
+/// The point at which a field is looked up for the surface that was hit. The arguments must outlive
+/// it.
 FieldPoint fieldPoint(const IndirectField& field, const LightmapLayout& layout, const Scene& scene,
                       const Hit& hit, const SurfacePoint& p);
 
-/// Specular reflection of a field's light at a point: weight * sampleLobe(axis, bands, factors).
+/// A lobe that approximates specular reflection at a point: the reflected radiance of a field is
+/// weight * sampleLobe(axis, bands, factors).
 struct FieldLobe {
     glm::vec3 axis{0}; ///< unit
     int bands = 0;
@@ -22,16 +24,16 @@ struct FieldLobe {
     glm::vec3 weight{0};
 };
 
-/// `bands`: those that the material reflects. `windowed`: the lobe fades out over them and hardly
-/// rings, else it is cut off.
+/// The lobe of a glossy point. `bands`: number of bands that the material reflects. `windowed`: the
+/// lobe's bands fade out, so that it hardly rings; else they are cut off.
 FieldLobe fieldLobe(const FieldPoint& point, const GlossyPoint& g, int bands, bool windowed);
 
 /// Whether reflections of each material of the scene are marched where a field has maps for that:
 /// those of glossy receivers (engine/scene/surface/receiver_bands.h).
 std::vector<bool> marchedReflections(const Scene& scene);
 
-/// Specular reflection of what a ray marched along the axis of the lobe meets: weight times
-/// marchedRadiance(lookup).
+/// The radiance that a ray marched along the axis of the lobe meets: its specular reflection is
+/// weight times marchedRadiance(lookup).
 struct MarchedReflection {
     MarchEnd end = MarchEnd::Unknown;
     MarchedLookup lookup;

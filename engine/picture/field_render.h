@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// Number of reflections that were marched, and of those that no probe knows.
+/// Numbers of reflections that were marched, and of those that no probe knows.
 struct MarchedCounts {
     std::atomic<std::uint64_t> rays = 0, unknown = 0;
 };
@@ -25,16 +25,16 @@ struct FieldRenderOptions {
     std::uint32_t samplesPerPixel =
         kScreenSamples.perPixel; ///< box filter; Owen-scrambled Sobol points
     std::uint32_t seed = 1;
-    /// Rays of each sample that look for near surfaces (near_light.h), unless the picture gathers;
-    /// 0: light is the field's.
+    /// Number of rays of each sample that look for near surfaces (near_light.h), unless the picture
+    /// gathers; 0: light is the field's.
     std::uint32_t nearRays = 0;
     /// The part of the field's light that arrives from the sky and emissive surfaces without a
     /// bounce (Lighting::emittedField()). With it, `gatherRays` rays of each sample gather what is
     /// better than the field's light (final_gather.h); null or 0: light is the field's.
     std::shared_ptr<const IndirectField> emitted;
     std::uint32_t gatherRays = 0;
-    MarchedCounts* marched = nullptr; ///< adds to it; null: nothing is counted
-    // For comparisons:
+    MarchedCounts* marched = nullptr; ///< counts are added to it; null: nothing is counted
+    // The following two serve comparisons.
     bool windowedLobes = true; ///< else lobes are cut off after the field's bands, and ring
     bool allBands = false;     ///< reflections use all of the field's bands, needed or not
 };
@@ -43,8 +43,8 @@ struct FieldRenderOptions {
 /// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
 /// the two differ by the field's error only. View::Normals is n / 2 + 1/2. Without a field (no
 /// lightmap, no grid) there is no indirect light. Glossy receivers show marched reflections where
-/// the field has maps for that. `layout` belongs to the field. The result is
-/// identical for any number of threads; empty when cancelled.
+/// the field has maps for that. `layout` belongs to the field. The result is identical for any
+/// number of threads; empty when cancelled.
 ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const LightmapLayout& layout, const FieldRenderOptions& options,
                    const Progress& progress = {});

@@ -37,20 +37,20 @@ FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
     : m_trace(trace), m_field(field), m_layout(layout), m_options(options),
       m_sources(asksForIt(options) ? findEmittedLightSources(trace) : EmittedLightSources{}),
       m_any(asksForIt(options) &&
-            (m_sources.shine || std::ranges::any_of(trace.scene().lights, shines))),
+            (m_sources.any || std::ranges::any_of(trace.scene().lights, shines))),
       m_widths(m_any ? texelWidths(trace.scene(), layout) : std::vector<float>()),
       m_rays(options.camera, options.width, options.height) {
     if (m_any)
         m_meanLight = meanLight();
 }
 
-/// Of irradiance, in what the view shows.
+/// Weight of irradiance in what the view shows.
 glm::vec3 FinalGather::weightOf(const SurfacePoint& p) const {
     return m_options.view == View::Irradiance ? glm::vec3(1) : p.albedo / glm::pi<float>();
 }
 
-/// Mean over the colours and over some points of the picture, where the background counts as dark:
-/// surfaces that fill a small part of a picture may well cost more for each of their pixels.
+/// Mean of the field's light over the colours and over some points of the picture. The background
+/// counts as dark, so surfaces that fill a small part of a picture get more samples a pixel.
 double FinalGather::meanLight() const {
     constexpr std::uint32_t kColumns = 32, kRows = 18;
     const glm::vec2 cell = m_rays.size / glm::vec2(kColumns, kRows);
@@ -67,8 +67,8 @@ double FinalGather::meanLight() const {
     return sum / (kColumns * kRows);
 }
 
-/// Adds up the light of each part: draws. One light is sampled for all. Unless `rays` is null, adds
-/// to it each ray and the light it brings.
+/// A sink that adds up the light of each part, which draws the picture. Of all lights it samples
+/// one. Unless `rays` is null, it adds to it each ray and the light that the ray brings.
 struct FinalGather::PartSink {
     const TraceScene& trace;
     std::vector<RayLight>* rays = nullptr;
@@ -133,14 +133,14 @@ std::uint32_t FinalGather::secondStageCount(double variance) const {
     return second * m_options.gatherRays < kMinRays ? 0 : second;
 }
 
-/// The tile whose upper left pixel is (x, y), with all of its samples.
+/// Samples the tile whose upper left pixel is (x, y), in both stages.
 GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
     GatherTile tile{.x = x,
                     .y = y,
                     .width = std::min(kGatherTile, m_options.width - x),
                     .height = std::min(kGatherTile, m_options.height - y)};
     const std::uint32_t count = m_options.samplesPerPixel;
-    std::array<std::vector<RayLight>, 2> learned; // by every other pixel
+    std::array<std::vector<RayLight>, 2> learned; // each by every other pixel
     const auto forEachPixel = [&](const auto& body) {
         for (std::uint32_t j = 0; j < tile.height; ++j)
             for (std::uint32_t i = 0; i < tile.width; ++i)

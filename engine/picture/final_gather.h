@@ -21,10 +21,10 @@ namespace limn {
 /// far as that is better. The field's light is a control variate: samples estimate the difference.
 /// Reichert. A Two-Pass Radiosity Method Driven by Lights and Viewer Position. 1992
 ///
-/// Light that the sky and emissive surfaces emit is sampled. Bounced light is the
-/// direct light of what rays meet and the field's light there: texels blur it one bounce away, not
-/// where it is seen. Where a ray is shorter than some of these texels' widths, it goes on from
-/// there. So light that comes from near surfaces needs no rays of its own (near_light.h).
+/// Emitted light of the sky and of surfaces is sampled. Bounced light is estimated by rays: it is
+/// the direct light and the field's light where they end. Thus texels blur light one bounce away,
+/// not where it is seen. A ray that is shorter than some of these texels' widths is continued by a
+/// path. So light that comes from near surfaces needs no rays of its own (near_light.h).
 ///
 /// Samples are taken in two stages. In the first, pixels have as many samples as the picture. In
 /// the second, they have samples in proportion to the standard deviation of the first ones, which
@@ -36,23 +36,23 @@ namespace limn {
 /// difference, and the mean of those around it, times shrinkage factors (shrinkDifference()).
 class FinalGather {
 public:
-    /// Of pictures that are drawn with these arguments, which outlive the object.
+    /// Prepares for pictures that are drawn with these arguments, which outlive the object.
     FinalGather(const TraceScene& trace, const IndirectField& field, const LightmapLayout& layout,
                 const FieldRenderOptions& options);
 
-    /// Whether the options ask for it, the view shows bounced light, and there is any. Pictures of
-    /// one sample a pixel are left alone, because nothing tells how noisy it is.
+    /// Whether the options ask for gathering, the view shows bounced light, and there is any light.
+    /// Pictures of one sample a pixel are not gathered, because one sample has no variance.
     bool any() const { return m_any; }
 
     /// Adds the bounced light of diffuse surfaces to a picture of the options' size that has none
     /// yet. Returns false when cancelled. Precondition: any().
     bool addTo(ImageF& image, const Progress& progress = {}) const;
 
-    /// The same in steps: gathers rows of tiles, [first, last), of the whole picture, whose light
-    /// addGathered() adds.
+    /// Does the same in steps: gathers rows of tiles, [first, last), of the whole picture, whose
+    /// light addGathered() adds.
     bool gatherRows(GatheredLight& light, std::uint32_t first, std::uint32_t last,
                     const Progress& progress = {}) const;
-    /// Number of rows of kGatherTile pixels.
+    /// Number of rows of tiles, each kGatherTile pixels high.
     std::uint32_t tileRows() const { return (m_options.height + kGatherTile - 1) / kGatherTile; }
     PixelRect picture() const { return {{0, 0}, {m_options.width, m_options.height}}; }
 
@@ -76,8 +76,8 @@ private:
     GatherSamples take(glm::uvec2 pixel, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, std::vector<RayLight>* learned) const;
     std::uint32_t secondStageCount(double variance) const;
-    /// Walks sample s of a pixel, and returns its factor of irradiance. `guide` aims the rays of
-    /// the second stage; null in the first one.
+    /// Walks sample s of a pixel, and returns its weightOf(). `guide` samples directions of the
+    /// second stage; it is null in the first one.
     template <GatherSink Sink>
     glm::vec3 walkSample(glm::uvec2 pixel, std::uint32_t s, const LightGuide* guide,
                          const PartWeights& partWeights, Sink& sink) const;
@@ -97,7 +97,7 @@ private:
     bool m_any;
     std::vector<float> m_widths; ///< twice the nearReaches() [m]
     PixelRays m_rays;
-    double m_meanLight = 0; ///< of the field's light in the picture
+    double m_meanLight = 0; ///< mean of the field's light in the picture
 };
 
 } // namespace limn

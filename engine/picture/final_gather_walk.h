@@ -8,12 +8,12 @@
 
 namespace limn {
 
-/// Where a ray meets a surface at fewer texels' widths than these, the field is not read there but
-/// the ray goes on, because light that comes from so near varies too much for texels.
+/// Minimum distance of a surface at which the field is read, in widths of its texels. Where a ray
+/// meets a nearer one, a path continues it, because light from so near varies too much for texels.
 inline constexpr float kMinTexels = 4;
 
-/// In a gap, where a ray meets near surfaces only, the field is read all the same when the product
-/// of the albedos after the first hit's is below kMinReflected, or at the last of
+/// Limits of such a path, as in a gap between surfaces: the field is read all the same where the
+/// product of the albedos after the first hit's is below kMinReflected, and at the last of
 /// kMaxGatherBounces.
 inline constexpr float kMinReflected = 0.03f;
 inline constexpr std::uint32_t kMaxGatherBounces = 64;
@@ -57,7 +57,7 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 pixel, std::uint32_t s, const Light
         weights[part] = partWeights[part] * weight;
     const FieldPoint here = pointOf(m_field, hit, *p),
                      emittedHere = pointOf(emittedField(), hit, *p);
-    if (partWeights[Shown] != glm::vec3(0)) // as it is for the pixel itself alone
+    if (partWeights[Shown] != glm::vec3(0)) // of the pixel itself alone
         sink.fieldIrradiance(here, weights[Shown], Shown);
     sink.fieldIrradiance(emittedHere, -weights[Emitted], Emitted);
     sink.fieldIrradiance(emittedHere, weights[Bounced], Bounced);

@@ -81,7 +81,7 @@ static double stratification(const std::array<GatherSamples, kGatherPixels>& sam
 /// their variances. The guide makes it more where the part's light comes from few directions, and
 /// less where it comes from all.
 static double secondStageEfficiency(const GatherTile& tile, GatherPart part) {
-    if (part == Shown || !(tile.guide.share() > 0)) // both are sampled alike
+    if (part == Shown || !(tile.guide.probability() > 0)) // both stages are sampled alike
         return 1;
     double firstVariance = 0, secondVariance = 0;
     for (std::uint32_t p = 0; p < kGatherPixels; ++p)

@@ -10,7 +10,7 @@
 
 namespace limn {
 
-/// Width of the tiles of a picture whose pixels learn from each other [pixels].
+/// Width of the tiles of a picture [pixels]. The pixels of a tile share a guide.
 inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kGatherTile;
 
 /// Parts of the light that a picture gets. Two are differences between gathered light and the
@@ -20,26 +20,27 @@ inline constexpr std::uint32_t kGatherTile = 8, kGatherPixels = kGatherTile * kG
 enum GatherPart : std::uint32_t { Emitted, Bounced, Shown };
 inline constexpr std::uint32_t kGatherParts = 3, kDifferences = 2;
 
-/// Mean of the colours, of which variances are taken.
+/// The grey of light is the mean of its colours. Variances are those of greys.
 double greyOf(glm::vec3 light);
 
-/// Sums over samples of a pixel, of one part of the light.
+/// Sums of one part of the light over samples of a pixel.
 struct GatherSums {
     glm::dvec3 sum{0};
-    double squared = 0;   ///< of the squares of greys
-    double firstHalf = 0; ///< of the greys of the first half of the samples
+    double squared = 0;   ///< sum of the squares of greys
+    double firstHalf = 0; ///< sum of the greys of the first half of the samples
 
     void add(glm::vec3 value, bool inFirstHalf);
     double grey() const { return (sum.x + sum.y + sum.z) / 3; }
-    double variance(std::uint32_t count) const; ///< of a sample
-    /// Of the mean, from the difference of both halves, which is smaller where samples are
-    /// stratified.
+    /// Variance of one sample.
+    double variance(std::uint32_t count) const;
+    /// Variance of the mean, from the difference of both halves. It is smaller than variance() /
+    /// count where samples are stratified.
     double varianceByHalves(std::uint32_t count) const;
 };
 struct GatherSamples {
     std::array<GatherSums, kGatherParts> parts;
-    GatherSums all;       ///< of all parts together
-    glm::dvec3 weight{0}; ///< of the factors by which the picture shows irradiance
+    GatherSums all;       ///< sums of all parts together
+    glm::dvec3 weight{0}; ///< sum of the weights by which the picture shows irradiance
     std::uint32_t count = 0;
 };
 /// The samples of a tile's pixels; pixel (i, j) has number j * kGatherTile + i. Those beyond the
@@ -59,8 +60,8 @@ struct GatherTile {
 };
 
 /// The variance of a first-stage sample of pixel (i, j), of all parts together: the mean over its
-/// neighbours, and the whole tile as one more. Where all of a pixel's own samples have missed a
-/// window, they have none.
+/// neighbours, and the whole tile as one more. The samples of one pixel do not suffice: where all
+/// of them have missed a window, they have no variance.
 double varianceAround(const GatherTile& tile, std::uint32_t i, std::uint32_t j);
 
 /// Weighs the second stage of samples against the first one: sets secondStageWeight and variance.

@@ -45,8 +45,8 @@ namespace {
 
 /// Squared deviations over the pixels of a window, and what part of them is expected of variance.
 struct Deviations {
-    double squared = 0, variance = 0, weights = 0; ///< of greys
-    double pixelWeight = 0, pixelVariance = 0;     ///< of the pixel in question
+    double squared = 0, variance = 0, weights = 0; ///< sums over pixels, of greys
+    double pixelWeight = 0, pixelVariance = 0;     ///< those of the pixel in question
 
     void add(glm::vec3 deviation, double expected, glm::vec3 weight, bool isPixel) {
         const double grey = greyOf(deviation), w = greyOf(weight) * greyOf(weight);
@@ -81,8 +81,8 @@ ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, g
         });
     });
     shrunk.near = near[window.numberOf(pixel)];
-    // Of neighbourhoods' means from the window's, and of pixels from their neighbourhoods' means.
-    Deviations nearDeviations, pixelDeviations;
+    Deviations nearDeviations;  // of neighbourhoods' means from the window's mean
+    Deviations pixelDeviations; // of pixels from their neighbourhoods' means
     window.forEach([&](glm::uvec2 q) {
         const GatheredPixel& p = light.at(q);
         const GatheredMean& mean = near[window.numberOf(q)];

@@ -17,14 +17,14 @@ namespace limn {
 /// Means over the samples of a pixel. Light is in the unit of the picture, irradiance or radiance.
 struct GatheredPixel {
     glm::vec3 weight{0}; ///< what the picture shows for unit irradiance; 0 in the background
-    glm::vec3 shown{0};  ///< the field's light
+    glm::vec3 shown{0};  ///< light of the field
     /// Gathered light less the field's light. The field is a control variate: the picture shows
     /// its light and adds the difference that samples find.
     std::array<glm::vec3, kDifferences> difference{};
-    std::array<float, kDifferences> variance{}; ///< of the difference's grey
+    std::array<float, kDifferences> variance{}; ///< variance of the difference's grey
 };
 
-/// Some pixels of a picture.
+/// A rectangle of pixels of a picture.
 struct PixelRect {
     glm::uvec2 begin{0}, end{0}; ///< end is exclusive
 
@@ -44,13 +44,14 @@ struct PixelRect {
     }
 };
 
-/// Radii of the window whose mean a pixel shares in, and of its neighbourhood within that [pixels].
+/// Radii of the window whose mean ShrunkDifference takes, and of the neighbourhood within that
+/// [pixels].
 inline constexpr std::uint32_t kGatherRadius = 3, kNearRadius = 1;
 
 /// The square of pixels up to `radius` away from a pixel of `rect`, clipped to `rect`.
 PixelRect windowAround(glm::uvec2 pixel, std::uint32_t radius, const PixelRect& rect);
 
-/// What has been gathered for a part of a picture.
+/// Gathered light of a part of a picture.
 struct GatheredLight {
     PixelRect rect;
     std::vector<GatheredPixel> pixels; ///< one for each of rect
@@ -61,15 +62,15 @@ struct GatheredLight {
     void set(const GatherTile& tile);
 };
 
-/// Sums over some pixels, and with these the light of any pixel that had their mean irradiance.
+/// Sums over some pixels. With these it predicts the light of a pixel of the same mean irradiance.
 struct GatheredMean {
-    glm::vec3 sum{0}, weights{0}; ///< of the difference, and of GatheredPixel::weight
-    double variance = 0;          ///< of the sum's grey
+    glm::vec3 sum{0}, weights{0}; ///< sums of the difference and of GatheredPixel::weight
+    double variance = 0;          ///< variance of the sum's grey
 
     void add(const GatheredPixel& pixel, GatherPart part);
     /// The light of a pixel of this weight.
     glm::vec3 in(glm::vec3 weight) const { return factorFor(weight) * sum; }
-    /// in(weight) is the sum times this.
+    /// Factor by which in(weight) multiplies the sum.
     glm::vec3 factorFor(glm::vec3 weight) const;
 };
 

@@ -18,8 +18,8 @@ namespace limn {
 
 /// Random numbers of one sample of direct light, for sampleDirectLight().
 struct LightNumbers {
-    float pick = 0;       ///< of the light, in [0, 1)
-    glm::vec2 onLight{0}; ///< of the point on it, in [0, 1)^2
+    float pick = 0;       ///< selects the light, in [0, 1)
+    glm::vec2 onLight{0}; ///< selects the point on it, in [0, 1)^2
 };
 
 inline glm::vec3 irradianceOf(const DirectSample& sample) {
@@ -29,9 +29,9 @@ inline glm::vec3 irradianceOf(const DirectSample& sample) {
 // The light of a pixel is a sum of terms, each of which is linear in the light of lights, emissive
 // surfaces, the sky or a field. A walk finds the terms (pixel_walk.h, final_gather_walk.h) and
 // hands each of them to a sink. A ValueSink adds them up, which draws the picture; a ReadingSink
-// keeps apart where they come from, which explains it.
+// splits them by where their light comes from, which explains it.
 
-/// Terms of direct light and of a field, and what surfaces do with them.
+/// What both kinds of walk need of a sink.
 template <class Sink>
 concept LightSink = requires(Sink& sink, const FieldPoint& point, glm::vec3 weight, GatherPart part,
                              std::uint32_t instance) {
@@ -41,7 +41,7 @@ concept LightSink = requires(Sink& sink, const FieldPoint& point, glm::vec3 weig
     sink.fieldIrradiance(point, weight, part);
 };
 
-/// What walkPixel() needs.
+/// What walkPixel() needs of a sink.
 template <class Sink>
 concept PixelSink = LightSink<Sink> &&
     requires(Sink& sink, const SurfacePoint& surface, const FieldPoint& point,
@@ -66,7 +66,8 @@ concept PixelSink = LightSink<Sink> &&
     sink.marched(maps, reflection);
 };
 
-/// What FinalGather::walk() needs. `via`: the instance that a ray from the pixel met first.
+/// What FinalGather::walk() needs of a sink. `via`: the instance that a ray from the pixel met
+/// first.
 template <class Sink>
 concept GatherSink = LightSink<Sink> &&
     requires(Sink& sink, const SurfacePoint& surface, const LightNumbers& numbers,

@@ -16,13 +16,13 @@
 
 namespace limn {
 
-/// Input of the functions below; made by nearLight(). `layout` belongs to the field.
+/// Input of the functions below, made by nearLight(). `layout` belongs to the field.
 struct NearLight {
     const TraceScene& trace;
     const IndirectField& field;
     const LightmapLayout& layout;
     std::vector<float> reach; ///< nearReaches(); empty if there are no rays
-    std::uint32_t rays = 0;   ///< for each estimate; 0: no correction
+    std::uint32_t rays = 0;   ///< number for each estimate; 0: no correction
 };
 NearLight nearLight(const TraceScene& trace, const IndirectField& field,
                     const LightmapLayout& layout, std::uint32_t rays);
@@ -31,34 +31,33 @@ NearLight nearLight(const TraceScene& trace, const IndirectField& field,
 struct NearSurface {
     Hit hit;
     std::optional<SurfacePoint> point; ///< none: the black back of a one-sided surface
-    glm::vec3 direction{0};            ///< of the ray, unit
-    float weight = 0; ///< of its radiance less the field's, in the irradiance to add [sr]
+    glm::vec3 direction{0};            ///< direction of the ray, unit
+    float weight = 0; ///< weight of its radiance less the field's in the irradiance to add [sr]
     Sampler sampler;  ///< for its direct light: pair(kNearPick), pair(kNearOnLight)
 };
 inline constexpr std::uint32_t kNearPick = 1, kNearOnLight = 2;
 
-/// The surfaces that near.rays rays from point `p`, found by `hit`, meet: static ones with a
-/// lightmap, within reach. Emissive ones change nothing, because lightmaps have finer texels near
+/// Finds the surfaces that near.rays rays from point `p`, found by `hit`, meet: static ones with a
+/// lightmap, within reach. Emissive ones are left out, because lightmaps have finer texels near
 /// them.
 std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
                                           const SurfacePoint& p, const Sampler& sampler);
 
-/// Walks an unbiased estimate of the irradiance [W m^-2] to add to the field's at point `p`: of
-/// each near surface its own light, less what the field says arrives from its direction. Its own
-/// light is direct light with traced shadows and the field there. The estimate may be negative;
-/// added to the field's irradiance, its mean is so only as far as the field's harmonics ring. There
-/// is none where nothing is near.
+/// Walks an unbiased estimate of the irradiance [W m^-2] to add to the field's at point `p`: the
+/// light that each near surface sends, less what the field says arrives from its direction. The
+/// surface sends direct light with traced shadows and the field's light there. The estimate may be
+/// negative; its mean, added to the field's irradiance, is so only as far as the field's harmonics
+/// ring. It is 0 where no surface is near.
 ///
-/// Irradiance is parted into near and far as in: Arikan, Forsyth, O'Brien. Fast and Detailed
-/// Approximate Global Illumination by Irradiance Decomposition. 2005. There, distant light is
-/// sampled without what is near; here the field has both, so it is a control variate of
-/// what is near.
+/// Arikan, Forsyth, O'Brien. Fast and Detailed Approximate Global Illumination by Irradiance
+/// Decomposition. 2005. They separate irradiance into near and distant light and sample the latter
+/// alone; here the field has both and is a control variate of near light.
 template <PixelSink Sink>
 void walkNearLight(const NearLight& near, const Hit& hit, const SurfacePoint& p,
                    const Sampler& sampler, Sink& sink) {
     const Scene& scene = near.trace.scene();
     const FieldPoint receiver = fieldPoint(near.field, near.layout, scene, hit, p);
-    const auto ownLight = [&](const NearSurface& s) {
+    const auto sentLight = [&](const NearSurface& s) {
         const LightNumbers numbers{s.sampler.pair(kNearPick).x, s.sampler.pair(kNearOnLight)};
         sink.nearDirectLight(*s.point, numbers, s.hit.instance);
         sink.fieldIrradiance(fieldPoint(near.field, near.layout, scene, s.hit, *s.point),
@@ -67,12 +66,12 @@ void walkNearLight(const NearLight& near, const Hit& hit, const SurfacePoint& p,
     for (const NearSurface& s : findNearSurfaces(near, hit, p, sampler))
         sink.scaled(glm::vec3(s.weight), [&] {
             if (s.point && sink.reflects(s.hit.instance))
-                sink.scaled(s.point->albedo / glm::pi<float>(), [&] { ownLight(s); });
+                sink.scaled(s.point->albedo / glm::pi<float>(), [&] { sentLight(s); });
             sink.fieldRadiance(receiver, s.direction, glm::vec3(-1));
         });
 }
 
-/// The value of that estimate.
+/// The value of the estimate that walkNearLight() walks.
 glm::vec3 nearCorrection(const NearLight& near, const Hit& hit, const SurfacePoint& p,
                          const Sampler& sampler);
 

@@ -16,10 +16,10 @@ struct PixelSample {
     Sampler near;       ///< for walkNearLight()
     Sampler gather;     ///< for FinalGather
 
-    /// They set those rays apart from others.
+    /// These seeds make the numbers of those rays independent of others.
     static constexpr std::uint32_t kNearSeed = 0x6e656172, kGatherSeed = 0x67617468;
 
-    /// `pixel`: y * width + x.
+    /// Makes sample s of the pixel whose number is y * width + x.
     PixelSample(const PixelRays& rays, std::uint32_t seed, std::uint32_t pixel, std::uint32_t s) {
         const Sampler sampler{mixBits(seed, pixel), s};
         const auto width = std::uint32_t(rays.size.x);

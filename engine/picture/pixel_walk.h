@@ -16,7 +16,7 @@
 
 namespace limn {
 
-/// What the terms of a pixel's sum add up to. Diffuse radiance is what the surfaces reflect
+/// The quantity that the terms of a pixel add up to. Diffuse radiance is what the surfaces reflect
 /// diffusely to the eye.
 enum class PixelSum : std::uint8_t {
     Radiance,          ///< that reaches the eye [W m^-2 sr^-1]
@@ -26,14 +26,14 @@ enum class PixelSum : std::uint8_t {
     Irradiance         ///< at the surfaces, of both [W m^-2]
 };
 
-/// A picture's pixels and the light that they show. All that it refers to outlives it.
+/// The input of walks over a picture's pixels. All that it refers to outlives it.
 struct PixelWalk {
     const TraceScene& trace;
     const IndirectField& field;
     const LightmapLayout& layout;
     PixelSum sum = PixelSum::Radiance;
     bool windowedLobes = true;
-    std::vector<int> bands;    ///< that each material reflects
+    std::vector<int> bands;    ///< number that each material reflects
     std::vector<bool> marches; ///< whether its reflections are marched
     NearLight near;
     bool gathers = false; ///< the field's diffuse light is left to FinalGather
@@ -71,6 +71,7 @@ void walkReflection(const PixelWalk& w, const Hit& hit, const GlossyPoint& g, Si
     sink.fieldLobe(point, fieldLobe(point, g, w.bands[material], w.windowedLobes));
 }
 
+/// Walks the radiance that a point sends to the eye.
 template <PixelSink Sink>
 void walkRadiance(const PixelWalk& w, const PixelSample& sample, const Hit& hit, SurfacePoint p,
                   Sink& sink) {

@@ -10,30 +10,30 @@
 
 namespace limn {
 
-/// What a pixel shows, by where the light comes from.
+/// The light of a pixel, split by where it comes from.
 struct PixelParts {
-    glm::vec3 sky{0};               ///< seen itself
-    glm::vec3 emission{0};          ///< of the surfaces that are seen
+    glm::vec3 sky{0};               ///< radiance of the sky, seen itself
+    glm::vec3 emission{0};          ///< emission of the surfaces that are seen
     std::vector<glm::vec3> byLight; ///< direct light of each of Scene::lights
-    /// Direct light of each of them by way of near surfaces, which the field is too coarse for.
+    /// Direct light of each of them that near surfaces reflect, which the field is too coarse for.
     std::vector<glm::vec3> nearByLight;
-    std::vector<glm::vec3> nearBySurface; ///< the same by way of each of Scene::instances
-    /// Light that gathering found: emitted by the sky and each of Scene::instances, and what
-    /// else is not the field's, by where it comes from and by the instance that sends it here.
+    std::vector<glm::vec3> nearBySurface; ///< the same by each of Scene::instances that reflects it
+    /// Gathered light by the sky, by each of Scene::instances that emits it, and by light.
     struct Gathered {
         glm::vec3 sky{0};
         std::vector<glm::vec3> bySurface, byLight;
     };
-    Gathered emitted, bounced;
-    std::vector<glm::vec3> bouncedVia;
-    FieldReading reading;            ///< of the field: all other light
-    FieldReading emittedReading;     ///< of the emitted light of the field
-    std::vector<std::uint32_t> seen; ///< instances that the pixel shows, each once
+    Gathered emitted, bounced;         ///< light without and with bounces
+    std::vector<glm::vec3> bouncedVia; ///< `bounced` by the instance that sends it here
+    FieldReading reading;              ///< reading of the field: all other light
+    FieldReading emittedReading;       ///< reading of the emitted light of the field
+    std::vector<std::uint32_t> seen;   ///< instances that the pixel shows, each once
 
     explicit PixelParts(const Scene& scene);
 };
 
-/// Keeps apart the terms of walkPixel() and FinalGather::walk(): explains. Every light is sampled.
+/// A sink that splits the terms of walkPixel() and FinalGather::walk() by where their light comes
+/// from, which explains a pixel. It samples every light.
 class ReadingSink {
 public:
     PixelParts parts;
@@ -90,7 +90,7 @@ private:
 
     const ConvergedLight& m_lit;
     const std::vector<std::uint32_t>& m_black;
-    glm::vec3 m_factor{1}; ///< of the terms
+    glm::vec3 m_factor{1}; ///< product of the factors of scaled()
 };
 
 } // namespace limn

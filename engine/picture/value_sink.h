@@ -8,10 +8,11 @@
 
 namespace limn {
 
-/// Adds up the terms of walkPixel(): draws. One light is sampled for all.
+/// A sink that adds up the terms of walkPixel(), which draws a picture. Of all lights it samples
+/// one.
 struct ValueSink {
     const TraceScene& trace;
-    MarchedCounts* counts = nullptr; ///< adds to it; null: nothing is counted
+    MarchedCounts* counts = nullptr; ///< counts are added to it; null: nothing is counted
     glm::vec3 sum{0};
 
     static constexpr bool reflects(std::uint32_t /*instance*/) { return true; }

@@ -17,23 +17,23 @@ namespace {
 constexpr std::uint32_t kRouletteBounce = 3; ///< shorter paths are never cut
 constexpr std::uint32_t kDimensionsPerBounce = 5;
 constexpr std::uint32_t kLobeSeed =
-    0x6c6f6265; // parts a reflection's samples from the others of a pixel
+    0x6c6f6265; // separates a reflection's random numbers from the others of a pixel
 
-// Power heuristic, exponent 2. Veach. Robust Monte Carlo Methods for Light Transport. 1997
+/// The power heuristic with exponent 2. Veach. Robust Monte Carlo Methods for Light Transport. 1997
 float misWeight(float pdf, float other) {
     const float ratio = other / pdf;
     return 1 / (1 + ratio * ratio);
 }
 
-// Irradiance, weighted against the probability that a bounce finds the light.
-glm::vec3 diffuseShare(const SurfacePoint& p, const IncidentLightSample& f) {
+/// Irradiance of a light sample, weighted against the density with which a bounce finds the light.
+glm::vec3 weightedIrradiance(const SurfacePoint& p, const IncidentLightSample& f) {
     if (f.irradiance == glm::vec3(0))
         return glm::vec3(0);
     return f.irradiance * misWeight(f.pdf, glm::dot(p.normal, f.toLight) / glm::pi<float>());
 }
 
-// Reflected radiance, weighted likewise.
-glm::vec3 glossyShare(const GlossyPoint& g, const IncidentLightSample& f) {
+/// Reflected radiance of a light sample, weighted likewise.
+glm::vec3 weightedReflection(const GlossyPoint& g, const IncidentLightSample& f) {
     if (f.irradiance == glm::vec3(0))
         return glm::vec3(0);
     const glm::vec3 n = g.surface.normal;
@@ -54,14 +54,14 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     for (std::uint32_t bounce = 0; bounce < c.maxBounces; ++bounce) {
         const std::uint32_t dimension = kFirstPathDimension + bounce * kDimensionsPerBounce;
         const glm::vec2 picks = sampler.pair(dimension);
-        E += T * diffuseShare(p, sampleEmitterLight(c.trace, c.emitters, p, picks.x,
-                                                    sampler.pair(dimension + 1), rays));
-        E += T *
-             diffuseShare(p, sampleSkyLight(c.trace, c.sky, p, sampler.pair(dimension + 4), rays));
+        E += T * weightedIrradiance(p, sampleEmitterLight(c.trace, c.emitters, p, picks.x,
+                                                          sampler.pair(dimension + 1), rays));
+        E += T * weightedIrradiance(
+                     p, sampleSkyLight(c.trace, c.sky, p, sampler.pair(dimension + 4), rays));
 
         const glm::vec3 direction = sampleCosineHemisphere(p.normal, sampler.pair(dimension + 2));
         if (!(glm::dot(direction, p.geometricNormal) > 0))
-            break; // under the surface's own horizon
+            break; // below the triangle's horizon
         ++rays;
         const Hit hit = c.trace.closestHit({rayOrigin(c.trace, p), direction});
         if (!hit) {
@@ -83,7 +83,8 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
         const float survival = std::max({T.x, T.y, T.z}) / before;
         if (!(survival > 0))
             break;
-        if (bounce >= kRouletteBounce) { // absorbed as by the surface itself: T stays as it was
+        if (bounce >=
+            kRouletteBounce) { // Russian roulette in proportion to what the surface absorbs
             if (!(sampler.pair(dimension + 3).x < survival))
                 break;
             T /= survival;
@@ -96,7 +97,7 @@ glm::vec3 sampleIndirectIrradiance(const PathContext& c, const SurfacePoint& fir
     return E;
 }
 
-// Radiance that a glossy bounce finds; `pdf` is its density.
+/// Radiance that a glossy bounce finds; `pdf` is the density of its direction.
 static glm::vec3 radianceAlong(const PathContext& c, const SurfacePoint& p, glm::vec3 direction,
                                float pdf, const Sampler& sampler, std::uint64_t& rays) {
     ++rays;
@@ -126,9 +127,9 @@ glm::vec3 sampleReflectedRadiance(const PathContext& c, const GlossyPoint& g,
     const Sampler lobe{mixBits(sampler.seed, kLobeSeed), sampler.index};
     const Sampler light{mixBits(lobe.seed, kLobeSeed), sampler.index};
     const SurfacePoint& p = g.surface;
-    glm::vec3 L = glossyShare(g, sampleEmitterLight(c.trace, c.emitters, p, light.pair(0).x,
-                                                    light.pair(1), rays)) +
-                  glossyShare(g, sampleSkyLight(c.trace, c.sky, p, light.pair(2), rays));
+    glm::vec3 L = weightedReflection(g, sampleEmitterLight(c.trace, c.emitters, p, light.pair(0).x,
+                                                           light.pair(1), rays)) +
+                  weightedReflection(g, sampleSkyLight(c.trace, c.sky, p, light.pair(2), rays));
     const SpecularSample s = sampleSpecular(g.gloss, p.normal, g.toEye, lobe.pair(0));
     if (glm::dot(s.toLight, p.geometricNormal) > 0)
         L += s.weight * radianceAlong(c, p, s.toLight,

@@ -10,8 +10,8 @@
 
 namespace limn {
 
-/// Maximum number of segments of a path. Paths end by Russian roulette as light is absorbed,
-/// without bias; this limit ends those on which next to nothing is absorbed and nothing escapes:
+/// Maximum number of segments of a path. Russian roulette ends paths as light is absorbed, without
+/// bias; this limit ends those on which next to nothing is absorbed and nothing escapes:
 /// 0.999^10000 = 5e-5.
 inline constexpr std::uint32_t kMaxBounces = 10000;
 

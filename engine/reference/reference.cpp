@@ -22,7 +22,7 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kTile = 256;   ///< pixels
-constexpr std::uint32_t kMaxPass = 16; ///< samples per pixel between two looks at all pixels
+constexpr std::uint32_t kMaxPass = 16; ///< samples per pixel in one pass over all pixels
 constexpr std::size_t kSampleBlock = 1024;
 
 /// Sums of the two halves of a pixel's samples. The halves are scrambled independently, so their
@@ -58,7 +58,7 @@ glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Samp
     return p->emission + g.reflect(direct.irradiance, direct.toLight) + indirect + glossy;
 }
 
-// Adds samples [begin, end) of one pixel.
+/// Adds samples [begin, end) of one pixel.
 void addSamples(const PathContext& c, const ReferenceOptions& o, const PixelRays& pixelRays,
                 std::uint32_t pixel, std::uint32_t begin, std::uint32_t end, PixelSum& sum,
                 std::uint64_t& rays) {
@@ -71,7 +71,8 @@ void addSamples(const PathContext& c, const ReferenceOptions& o, const PixelRays
     }
 }
 
-// Var(mean) of n samples from their halves' means a, b: (a - b)^2 n_a n_b / n^2.
+/// Sets image and noise. Var(mean) of n samples from their halves' means a, b: (a - b)^2 n_a n_b /
+/// n^2.
 void resolve(const std::vector<PixelSum>& sums, const std::vector<std::uint32_t>& tileSamples,
              ReferenceResult& result) {
     double variance = 0, total = 0;

@@ -24,7 +24,7 @@ struct ReferenceOptions {
 struct ReferenceResult {
     ImageF image; ///< linear
     /// Standard error of the pixel means: rms over pixels and channels / mean of the image, from
-    /// two independently scrambled halves of the samples. Infinite below 2 samples.
+    /// two independently scrambled halves of the samples. It is infinite below 2 samples.
     double noise = 0;
     std::uint32_t samplesPerPixel = 0; ///< number computed; fewer than requested when cancelled
     std::uint64_t rays = 0;
@@ -42,7 +42,7 @@ struct ReferenceResult {
 ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions& options,
                                 const Progress& progress = {});
 
-/// Irradiance [W m^-2] at one surface point, without direct lights (`indirect` of View) unless
+/// Irradiance [W m^-2] at one surface point, without direct light (`indirect` of View) unless
 /// `includeDirect`. Thread-safe; its samples are also distributed over threads.
 glm::vec3 referenceIrradiance(const TraceScene& trace, glm::vec3 position, glm::vec3 normal,
                               std::uint32_t samples, std::uint32_t maxBounces, bool includeDirect,

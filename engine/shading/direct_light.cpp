@@ -43,14 +43,14 @@ bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample&
     const glm::vec3 light = p.position + s.toLight * s.distance;
     const glm::vec3 way = light - ray.origin;
     const float distance = glm::length(way);
-    ray.tFar = distance - trace.epsilonAt(light); // a lamp on a wall is not in the wall's shadow
+    ray.tFar = distance - trace.epsilonAt(light); // a light on a wall is not in the wall's shadow
     if (!(ray.tFar > 0))
         return false;
     ray.direction = way / distance;
     return trace.occluded(ray);
 }
 
-// Samples one point of the rectangle, uniform in solid angle.
+/// Samples one point of a rectangle, uniform in solid angle.
 DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
                              glm::vec2 uv) {
     const LightRectangle rectangle = lightRectangle(light);
@@ -60,14 +60,14 @@ DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, con
     if (!(glm::dot(p.geometricNormal, way) > 0) || !(glm::dot(rectangle.normal, way) < 0))
         return {};
     const glm::vec3 toLight = glm::normalize(way);
-    const float share = float(sphere.solidAngle()) * glm::dot(p.normal, toLight);
-    if (!(share > 0) ||
+    const float projected = float(sphere.solidAngle()) * glm::dot(p.normal, toLight);
+    if (!(projected > 0) ||
         trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal)))
         return {};
-    return {light.color * light.strength * share, toLight};
+    return {light.color * light.strength * projected, toLight};
 }
 
-// `l` is that light's, not 0.
+/// Samples a light whose unshadowed irradiance `l` is not 0.
 DirectSample sampleShadowed(const TraceScene& trace, const SurfacePoint& p, const Light& light,
                             const Unshadowed& l, glm::vec2 onLight, std::uint64_t& rays) {
     ++rays;
@@ -170,7 +170,7 @@ DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, f
             break;
     }
     DirectSample s = sampleShadowed(trace, p, *light, chosen, onLight, rays);
-    s.irradiance *= total / channelSum(chosen.irradiance); // 1 / chance
+    s.irradiance *= total / channelSum(chosen.irradiance); // 1 / probability
     return s;
 }
 

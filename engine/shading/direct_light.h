@@ -15,9 +15,10 @@ inline constexpr std::uint32_t kRectanglePoints = 64;
 /// three are hard. Adds the number of shadow rays to `rays`.
 glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::uint64_t& rays);
 
-/// Adds the same lights' radiance [W m^-2 sr^-1] as spherical harmonics to `c`, bands^2 of them, as
-/// in sh.h: the sum over directions of light times Y_i. Only light from above the surface counts.
-/// Irradiance evaluated from them is that of light limited to these bands. Bands in [1, kMaxBands].
+/// Adds the radiance of the same lights [W m^-2 sr^-1] as spherical harmonics to `c`, bands^2 of
+/// them, as in sh.h: the sum over directions of light times Y_i. Only light from above the surface
+/// counts. Irradiance evaluated from them is that of light limited to these bands. Bands in [1,
+/// kMaxBands].
 void addDirectHarmonics(const TraceScene& trace, const SurfacePoint& p, int bands, glm::vec3* c,
                         std::uint64_t& rays);
 
@@ -28,12 +29,13 @@ struct DirectSample {
 };
 
 /// Unbiased estimate of what one light adds to directIrradiance(), with one shadow ray: exact but
-/// for rectangles. `onLight` in [0, 1)^2 is the ray's end on a rectangle, uniform in area.
+/// for rectangles. `onLight` in [0, 1)^2 selects the ray's end on a rectangle, uniform in solid
+/// angle.
 DirectSample sampleDirectLightFrom(const TraceScene& trace, const SurfacePoint& p,
                                    const Light& light, glm::vec2 onLight, std::uint64_t& rays);
 
 /// Unbiased estimate of directIrradiance() with one shadow ray. `pick` in [0, 1) selects a light in
-/// proportion to its unshadowed contribution. `onLight` as above.
+/// proportion to its unshadowed contribution. `onLight` is that of sampleDirectLightFrom().
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
                                glm::vec2 onLight, std::uint64_t& rays);
 

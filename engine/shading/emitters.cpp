@@ -12,13 +12,13 @@ namespace limn {
 
 namespace {
 
-// Maps the unit square to uniform barycentrics by folding it at its diagonal.
+/// Maps the unit square to uniform barycentrics by folding it at its diagonal.
 glm::vec2 foldToTriangle(glm::vec2 u) {
     return u.x + u.y > 1 ? glm::vec2(1 - u.x, 1 - u.y) : u;
 }
 
-// Mean emission of a textured emitter on a lattice of points. If it misses a bright spot, only the
-// sampling probability is less suitable: rays that hit the spot by chance still carry its light.
+/// Mean emission of a textured emitter on a lattice of points. If it misses a bright spot, only the
+/// sampling probability is less suitable: rays that hit the spot by chance still carry its light.
 double meanEmission(const Scene& scene, const Instance& instance, std::uint32_t triangle) {
     const Material& material = scene.materialOf(instance);
     const bool varies = material.emissiveTexture.image >= 0 || isCutout(material);
@@ -85,18 +85,18 @@ Emitters findEmitters(const TraceScene& trace) {
     return emitters;
 }
 
-static double chance(const Emitters& emitters, std::size_t i) {
+static double probability(const Emitters& emitters, std::size_t i) {
     return emitters.cdf[i] - (i > 0 ? emitters.cdf[i - 1] : 0);
 }
 
-// Converts area density to solid angle at `from`; 0 if seen edge-on.
+/// Density of a point of emitter i in solid angle at `from` [sr^-1]; 0 if seen edge-on.
 static float solidAnglePdf(const Emitters& emitters, std::size_t i, glm::vec3 point,
                            glm::vec3 from) {
     const EmissiveTriangle& e = emitters.triangles[i];
     const glm::vec3 way = point - from;
     const float d2 = glm::dot(way, way);
     const float cosTheta = std::abs(glm::dot(e.normal, way)) / std::sqrt(d2);
-    return cosTheta > 0 ? float(chance(emitters, i)) / e.area * d2 / cosTheta : 0;
+    return cosTheta > 0 ? float(probability(emitters, i)) / e.area * d2 / cosTheta : 0;
 }
 
 EmitterSample sampleEmitter(const Emitters& emitters, const Scene& scene, glm::vec3 from,

@@ -34,8 +34,8 @@ struct EmitterSample {
     glm::vec3 position{0};
     glm::vec3 normal{0};        ///< unit, on the visible side
     glm::vec3 radiance{0};      ///< [nits]; 0 behind a one-sided emitter or in a mask's hole
-    float pdf = 0;              ///< [sr^-1] as seen from the surface
-    std::uint32_t instance = 0; ///< that emits
+    float pdf = 0;              ///< density as seen from the surface [sr^-1]
+    std::uint32_t instance = 0; ///< instance that emits
 };
 EmitterSample sampleEmitter(const Emitters& emitters, const Scene& scene, glm::vec3 from,
                             float pick, glm::vec2 u);

@@ -26,10 +26,10 @@ inline constexpr std::uint32_t kOnLightDimension = 1u << 16;
 /// is a pure function of (seed, index, dimension), so nothing depends on threads or order.
 /// Burley. Practical Hash-based Owen Scrambling. 2020; the hash is Vegdahl's.
 struct Sampler {
-    std::uint32_t seed = 0;  ///< of the pixel
-    std::uint32_t index = 0; ///< of the sample
+    std::uint32_t seed = 0;  ///< differs from pixel to pixel
+    std::uint32_t index = 0; ///< number of the sample
 
-    /// Uniform in [0, 1)^2.
+    /// A point that is uniform in [0, 1)^2.
     glm::vec2 pair(std::uint32_t dimension) const;
 };
 
@@ -41,7 +41,7 @@ inline std::uint32_t reverseBits(std::uint32_t x) {
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-// Flips each bit depending on the bits below it only: Owen's scramble of a bit-reversed number.
+/// Flips each bit depending on the bits below it only: Owen's scramble of a bit-reversed number.
 inline std::uint32_t scrambleReversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -51,7 +51,7 @@ inline std::uint32_t scrambleReversed(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-// Second Sobol dimension, bit-reversed: Pascal's triangle mod 2, as sums over supersets of bits.
+/// Second Sobol dimension, bit-reversed: Pascal's triangle mod 2, as sums over supersets of bits.
 inline std::uint32_t sobolReversed(std::uint32_t x) {
     x ^= (x >> 1) & 0x55555555u;
     x ^= (x >> 2) & 0x33333333u;

@@ -20,7 +20,7 @@ SkyLight findSkyLight(const Sky& sky) {
     const ImageF& image = sky.panorama->pixels;
     light.rows.resize(image.height);
     light.columns.resize(image.rgb.size());
-    double sum = 0; // over pixels, of brightness times the solid angle
+    double sum = 0; // of brightness times solid angle, over pixels
     for (std::uint32_t row = 0; row < image.height; ++row) {
         const double height =
             std::cos(kPi * row / image.height) - std::cos(kPi * (row + 1) / image.height);
@@ -56,7 +56,7 @@ SkySample sampleSky(const SkyLight& light, const Sky& sky, glm::vec2 u) {
     const auto [row, down] = invert(light.rows.begin(), light.rows.end(), double(u.x));
     const auto first = light.columns.begin() + std::ptrdiff_t(row * image.width);
     const auto [column, right] = invert(first, first + std::ptrdiff_t(image.width), double(u.y));
-    // Uniform in height across the pixel, and so in solid angle.
+    // A point that is uniform in height across the pixel is uniform in solid angle.
     const double upper = std::cos(kPi * double(row) / image.height),
                  lower = std::cos(kPi * double(row + 1) / image.height);
     const double y = upper + down * (lower - upper), r = std::sqrt(std::max(1 - y * y, 0.0));

@@ -9,9 +9,9 @@
 
 namespace limn {
 
-/// Probabilities of directions in proportion to the radiance (mean of R, G, B) of the sky's image.
-/// Empty for other kinds, whose radiance varies too little for importance sampling, and for black
-/// images.
+/// A distribution of directions for importance sampling, in proportion to the radiance (mean of R,
+/// G, B) of the sky's image. It is empty for other kinds, whose radiance varies too little for
+/// importance sampling, and for black images.
 struct SkyLight {
     std::vector<double> rows;   ///< cdf over the rows, top first; ends at 1
     std::vector<float> columns; ///< per row: cdf over its pixels

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Above 0 where there is light of any color.
+/// Sum of the channels, which is above 0 where there is light of any color.
 inline float channelSum(glm::vec3 light) {
     return light.x + light.y + light.z;
 }

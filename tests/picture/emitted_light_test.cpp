@@ -140,17 +140,17 @@ TEST(EmittedLight, IsThatOfPathsWhereNothingReflects) {
     }
 }
 
-TEST(EmittedLightSources, ShineWhereTheSkyOrASurfaceDoes) {
+TEST(EmittedLightSources, AreFoundWhereTheSkyOrASurfaceEmits) {
     SceneBuilder b;
     b.addMaterial(lambert(glm::vec3(0.5f)));
     b.add(quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
     b.scene.lights.resize(1);
-    EXPECT_FALSE(findEmittedLightSources(TraceScene(b.build())).shine);
+    EXPECT_FALSE(findEmittedLightSources(TraceScene(b.build())).any);
     b.scene.sky.radiance = {0, 0, 1e-3f};
-    EXPECT_TRUE(findEmittedLightSources(TraceScene(b.build())).shine);
+    EXPECT_TRUE(findEmittedLightSources(TraceScene(b.build())).any);
     b.scene.sky = {};
     b.scene.materials[0].emission = {0, 1, 0};
-    EXPECT_TRUE(findEmittedLightSources(TraceScene(b.build())).shine);
+    EXPECT_TRUE(findEmittedLightSources(TraceScene(b.build())).any);
 }
 
 } // namespace

@@ -50,34 +50,34 @@ TEST(LightGuide, InversePdfAveragesToTheSolidAngleOfItsCells) {
     EXPECT_NEAR(solidAngle, 3 * 4 * kPi / 512, 0.02 * solidAngle);
     EXPECT_NEAR(first, 3 / 4.5, 0.01);
     EXPECT_EQ(guide.pdf({0, -1, 0}), 0);
-    EXPECT_EQ(guide.share(), 0.5f);
+    EXPECT_EQ(guide.probability(), 0.5f);
 }
 
 TEST(LearnGuide, AimsAtWhatBothHalvesHaveFound) {
     const LightGuide guide = learnGuide(raysOf(1, patchAt(kSun)), raysOf(2, patchAt(kSun)));
-    EXPECT_EQ(guide.share(), 0.75f);
+    EXPECT_EQ(guide.probability(), 0.75f);
     EXPECT_GT(guide.pdf(kSun), 10 * guide.pdf(kOtherSun));
 }
 
 /// Pixels that are close to a patch of light see it in different directions.
 TEST(LearnGuide, DoesNotAimWhereHalvesDisagree) {
-    EXPECT_EQ(learnGuide(raysOf(1, patchAt(kSun)), raysOf(2, patchAt(kOtherSun))).share(), 0);
+    EXPECT_EQ(learnGuide(raysOf(1, patchAt(kSun)), raysOf(2, patchAt(kOtherSun))).probability(), 0);
 }
 
 TEST(LearnGuide, DoesNotAimAtWhatFewRaysHaveFound) {
     std::uint32_t ray = 0;
     const auto rare = [&](glm::vec3) { return ray++ % 2048 == 0 ? 1000.f : 0.5f; };
     const std::vector<RayLight> half = raysOf(1, rare), otherHalf = raysOf(2, rare);
-    EXPECT_EQ(learnGuide(half, otherHalf).share(), 0);
+    EXPECT_EQ(learnGuide(half, otherHalf).probability(), 0);
 }
 
 /// Rays that follow the cosine then have no noise.
 TEST(LearnGuide, DoesNotAimWhereLightIsEven) {
     const auto even = [](glm::vec3) { return 2.f; };
-    EXPECT_EQ(learnGuide(raysOf(1, even), raysOf(2, even)).share(), 0);
+    EXPECT_EQ(learnGuide(raysOf(1, even), raysOf(2, even)).probability(), 0);
     const auto dark = [](glm::vec3) { return 0.f; };
-    EXPECT_EQ(learnGuide(raysOf(1, dark), raysOf(2, dark)).share(), 0);
-    EXPECT_EQ(learnGuide({}, {}).share(), 0);
+    EXPECT_EQ(learnGuide(raysOf(1, dark), raysOf(2, dark)).probability(), 0);
+    EXPECT_EQ(learnGuide({}, {}).probability(), 0);
 }
 
 } // namespace
