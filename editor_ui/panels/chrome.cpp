@@ -83,6 +83,7 @@ static void workspaceButtons(EditorState& state) {
         {"Inspect", "workspace.inspect", "Where the light of a pixel comes from"},
         {"Compare", "workspace.compare", "The path-traced reference beside the picture"}};
     ImGui::Dummy({ImGui::GetFontSize(), 0});
+    ImGui::PushID("workspace"); // the bar has a menu "Bake", too
     for (const Button& button : kButtons) {
         const Action& action = actionById(button.action);
         const bool current = action.checked(state);
@@ -96,6 +97,7 @@ static void workspaceButtons(EditorState& state) {
                                    button.tooltip)
                            .c_str());
     }
+    ImGui::PopID();
 }
 
 void menuBar(EditorState& state) {

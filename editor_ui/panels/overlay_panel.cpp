@@ -137,8 +137,10 @@ void overlayCombo(EditorState& state, float width) {
                        "What a technique computed, drawn over the picture", width))
         return;
     const auto entry = [&](const OverlayKind& text, const OverlayKind* kind) {
+        ImGui::PushID(text.name); // labels need not be unique among techniques
         if (ImGui::Selectable(text.label, shown == kind))
             shown = kind;
+        ImGui::PopID();
         wrappedTooltip(text.tooltip);
     };
     entry(kNoOverlay, nullptr);

@@ -5,7 +5,7 @@
 #include "editor_ui/view/picking.h"
 #include "engine/techniques/illuminance/baked_illuminance.h"
 #include "engine/techniques/technique_table.h"
-#include "tests/editor_ui/headless.h"
+#include "tests/editor_ui/baked_editor.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -15,12 +15,6 @@
 
 namespace limn::overlay_panel_test {
 namespace {
-
-std::shared_ptr<const Precomputed> smallBake(const TraceScene& trace) {
-    const auto made = precomputingTechnique({}).precomputation->prepare(trace, {}, {});
-    EXPECT_TRUE(made) << (made ? "" : made.error().message);
-    return made ? *made : nullptr;
-}
 
 /// The overlay of that name.
 const OverlayKind* kindNamed(const std::string& name) {
@@ -34,27 +28,6 @@ const OverlayKind* kindNamed(const std::string& name) {
 const Caches& cachesOf(const OverlayState& overlay) {
     return static_cast<const BakedIlluminance&>(*overlay.source).bake()->caches;
 }
-
-/// fullEditor() with a bake of a moment, looking at its two triangles.
-struct BakedEditor {
-    EditorState state = fullEditor();
-    std::shared_ptr<Scene> scene;
-
-    BakedEditor() {
-        scene = std::make_shared<Scene>(flatten(state.document, state.assets));
-        scene->bake.surfels = 100;
-        scene->bake.links = 8;
-        scene->bake.rays = 32;
-        scene->bake.lightmapCaches = 60;
-        scene->bake.grid = {2, 2, 2};
-        rebake();
-    }
-    void rebake() {
-        const auto trace = std::make_shared<const TraceScene>(*scene);
-        state.trace = trace;
-        setOverlaySource(state.overlay, smallBake(*trace), scene);
-    }
-};
 
 TEST(OverlayPanel, EveryOverlayIsAnActionUnderItsName) {
     EditorState state = emptyEditor();
