@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,12 @@ TEST(OverlayPanel, EveryOverlayIsAnActionUnderItsName) {
     }
     EXPECT_EQ(found, kinds.size());
     EXPECT_TRUE(actionById("overlay.surfel_normals").run) << "ids have no hyphens";
+}
+
+TEST(OverlayPanel, NoTwoOverlaysHaveTheSameLabel) {
+    std::set<std::string> labels{kNoOverlay.label};
+    for (const OverlayKind* kind : overlayKinds())
+        EXPECT_TRUE(labels.insert(kind->label).second) << kind->label;
 }
 
 TEST(OverlayPanel, EveryOverlayIsDrawnWithAndWithoutABakeAndForEveryCache) {

@@ -15,7 +15,7 @@ namespace limn {
 /// Overlays of sparse probes. Receivers are picked.
 inline constexpr std::array<OverlayKind, 6> kSparseOverlays = {
     {{.name = "sparse-probes",
-      .label = "Probes",
+      .label = "Sparse probes",
       .tooltip = "Where probes stand: balls that show the light which reaches the probe from each "
                  "side",
       .showsLight = true},
