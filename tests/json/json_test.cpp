@@ -40,7 +40,10 @@ TEST(Json, KeepsTheWholeRangeOfIntegers) {
 }
 
 TEST(Json, WritesWhatIsNotFiniteAsNull) {
-    EXPECT_EQ((Json{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}).dump(), "[null,null]");
+    EXPECT_EQ(
+        (Json{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
+            .dump(),
+        "[null,null]");
 }
 
 TEST(Json, ReplacesBytesThatAreNotUtf8) {

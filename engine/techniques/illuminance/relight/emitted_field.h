@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
-#include "engine/techniques/illuminance/bake/bake.h"
+#include "engine/techniques/illuminance/format/bake.h"
 
 #include <memory>
 
