@@ -3,13 +3,13 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/packing.h"
+#include "engine/techniques/sparse_probes/low_rank.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <glm/common.hpp>
 
 namespace limn {
@@ -68,8 +68,6 @@ private:
     float m_normalScale = 0;
 };
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// The compressed matrix of one cluster.
 struct Factors {
     std::vector<std::uint16_t> probe, left, right;
@@ -89,56 +87,41 @@ std::vector<std::uint16_t> probesOf(const Transport& t, std::span<const std::uin
     return probes;
 }
 
-Matrix matrixOf(const Transport& t, std::span<const std::uint32_t> ids,
-                std::span<const std::uint16_t> probes, std::size_t coefficients) {
-    Matrix m = Matrix::Zero(Eigen::Index(ids.size()), Eigen::Index(probes.size() * coefficients));
+/// The cluster's part of the transport: a row for each receiver, and columns for the coefficients
+/// of each probe.
+std::vector<double> matrixOf(const Transport& t, std::span<const std::uint32_t> ids,
+                             std::span<const std::uint16_t> probes, std::size_t coefficients) {
+    const std::size_t columns = probes.size() * coefficients;
+    std::vector<double> m(ids.size() * columns);
     for (std::size_t row = 0; row < ids.size(); ++row)
         for (std::uint32_t k = 0; k < kProbesPerReceiver; ++k) {
             const std::size_t from = std::size_t(ids[row]) * kProbesPerReceiver + k;
             if (t.probe[from] == kNoProbe)
                 continue;
-            const auto at = std::ranges::lower_bound(probes, t.probe[from]) - probes.begin();
+            const auto probe =
+                std::size_t(std::ranges::lower_bound(probes, t.probe[from]) - probes.begin());
             for (std::size_t c = 0; c < coefficients; ++c)
-                m(Eigen::Index(row), at * Eigen::Index(coefficients) + Eigen::Index(c)) =
+                m[row * columns + probe * coefficients + c] =
                     double(halfToFloat(t.coefficients[from * coefficients + c]));
         }
     return m;
 }
 
-/// Smallest rank of which at most `error` of the norm is lost. `squares`: squared singular values,
-/// ascending.
-std::uint32_t rankFor(const Eigen::VectorXd& squares, double error) {
-    const double allowed = error * error * squares.cwiseMax(0).sum();
-    double lost = 0;
-    Eigen::Index kept = squares.size();
-    while (kept > 0) {
-        lost += std::max(squares[squares.size() - kept], 0.);
-        if (lost > allowed)
-            break;
-        --kept;
-    }
-    return std::uint32_t(kept);
-}
-
-std::vector<std::uint16_t> halfsOf(const Matrix& m) {
-    std::vector<std::uint16_t> halfs(std::size_t(m.size()));
-    std::transform(m.data(), m.data() + m.size(), halfs.begin(),
-                   [](double v) { return floatToHalf(float(v)); });
+std::vector<std::uint16_t> halfsOf(const std::vector<double>& numbers) {
+    std::vector<std::uint16_t> halfs(numbers.size());
+    std::ranges::transform(numbers, halfs.begin(), [](double v) { return floatToHalf(float(v)); });
     return halfs;
 }
 
-/// The left singular vectors are eigenvectors of T times its transpose, whose side is at most
-/// kMaxClusterReceivers.
+/// A cluster has at most kMaxClusterReceivers rows.
 Factors factorise(const Transport& t, std::span<const std::uint32_t> ids, std::size_t coefficients,
                   float error) {
     Factors out{.probe = probesOf(t, ids)};
-    const Matrix m = matrixOf(t, ids, out.probe, coefficients);
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(m * m.transpose());
-    out.rank = rankFor(solver.eigenvalues(), double(error));
-    const Matrix left = solver.eigenvectors().rightCols(Eigen::Index(out.rank));
-    const Matrix right = left.transpose() * m;
-    out.left = halfsOf(left);
-    out.right = halfsOf(right);
+    const LowRank product =
+        lowRank(matrixOf(t, ids, out.probe, coefficients), ids.size(), double(error));
+    out.rank = std::uint32_t(product.rank);
+    out.left = halfsOf(product.left);
+    out.right = halfsOf(product.right);
     return out;
 }
 

@@ -27,6 +27,15 @@ constexpr int vectorsOf(int bands) {
     return (bands * bands + kLanes - 1) / kLanes;
 }
 
+/// The next smaller number of vectors with colour for which a kernel is compiled; 0: there is none.
+/// The time of more than four bands is that of reading their halfs, so that three kernels for each
+/// are enough: for colour in two bands, in four, and in all.
+constexpr int fewerColoured(int bands, int coloured) {
+    if (bands <= 4)
+        return coloured - 1;
+    return coloured > vectorsOf(4) ? vectorsOf(4) : coloured > vectorsOf(2) ? vectorsOf(2) : 0;
+}
+
 /// Adds some links of one cache to its sums. `halfs` has `stored` halfs for each link, of which the
 /// first vectorsOf(Bands) vectors are read. The sums are red of all coefficients, or luma where
 /// there is no colour, and green and blue of the first `Coloured` vectors of them.
@@ -73,10 +82,9 @@ void lightBands(const Caches& caches, LinkEnds ends, const glm::vec4* radiosity,
                 LinkHalfs all, std::uint32_t begin, std::uint32_t end, glm::vec3* sh) {
     // Where fewer bands of chrominance fill the same number of vectors, colour costs nothing until
     // the end.
-    if constexpr (Coloured > 1)
-        if (vectorsOf(chroma) < Coloured)
-            return lightBands<Bands, Coloured - 1>(caches, ends, radiosity, chroma, all, begin, end,
-                                                   sh);
+    if constexpr (constexpr int fewer = fewerColoured(Bands, Coloured); fewer > 0)
+        if (vectorsOf(chroma) <= fewer)
+            return lightBands<Bands, fewer>(caches, ends, radiosity, chroma, all, begin, end, sh);
     constexpr std::size_t kCount = Bands * Bands;
     constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     constexpr std::size_t kSums = vectorsOf(Bands) * kLanes, kColoured = Coloured * kLanes;
