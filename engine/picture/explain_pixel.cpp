@@ -79,9 +79,9 @@ std::vector<LightRow> gatheredRows(const Scene& scene, const PixelParts::Gathere
     return rows;
 }
 
-constexpr const char* kNearLabel = "Direct light on what is near";
+constexpr const char* kNearLabel = "Direct light that near surfaces reflect";
 constexpr const char* kEmittedLabel = "Emitted light from sky and surfaces";
-constexpr const char* kBouncedLabel = "Gathered from what rays met";
+constexpr const char* kBouncedLabel = "Gathered bounced light";
 
 PixelParts readPixel(const ConvergedLight& lit, const PixelQuestion& question,
                      const ExplainOptions& options) {

@@ -11,7 +11,7 @@ struct PackedSurface {
     float metallic, roughness;
     vec2 lightmapUv;
     vec3 albedo; // diffuse reflectance
-    float nearReach; // m; within it, what is near is exchanged for the field's light. 0: nowhere
+    float nearReach; // m; within it, light of near surfaces replaces the field's. 0: nowhere
 };
 
 // Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014

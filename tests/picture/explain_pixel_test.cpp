@@ -352,7 +352,8 @@ TEST(ExplainPixel, SumsToThePictureWithLightFromNearSurfaces) {
         expectSame(totalOf(e.tables.bySender), shown[p.index()], 0.01, mean, "by sender");
         expectRowsSum(e.tables.byOrigin, mean);
         expectRowsSum(e.tables.bySender, mean);
-        near += rowOf(e.tables.byOrigin, LightRowKind::Light, 0, "Direct light on what is near")
+        near += rowOf(e.tables.byOrigin, LightRowKind::Light, 0,
+                      "Direct light that near surfaces reflect")
                     ? 1U
                     : 0U;
     }
@@ -405,10 +406,10 @@ TEST(ExplainPixel, SumsToThePictureThatIsGathered) {
                              "Emitted light from sky and surfaces")
                            ? 1U
                            : 0U;
-            bounced += rowOf(arrives.tables.byOrigin, LightRowKind::Light, 0,
-                             "Gathered from what rays met")
-                           ? 1U
-                           : 0U;
+            bounced +=
+                rowOf(arrives.tables.byOrigin, LightRowKind::Light, 0, "Gathered bounced light")
+                    ? 1U
+                    : 0U;
         }
         EXPECT_GT(emitted, 10U);
         EXPECT_GT(bounced, 10U);
