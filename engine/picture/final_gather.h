@@ -29,8 +29,8 @@ namespace limn {
 /// Samples are taken in two stages. In the first, pixels have as many samples as the picture. In
 /// the second, they have samples in proportion to the standard deviation of the first ones, which
 /// reduces variance most for a given number (Neyman. On the Two Different Aspects of the
-/// Representative Method. 1934). A guide aims the second stage's rays at the light that the pixels
-/// of the same tile have found.
+/// Representative Method. 1934). A guide samples directions of the second stage in proportion to
+/// the light that the pixels of the same tile have found there.
 ///
 /// Where the field is about right, the difference is noise alone. So each pixel shows its
 /// difference, and the mean of those around it, times shrinkage factors (shrinkDifference()).

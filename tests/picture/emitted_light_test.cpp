@@ -93,7 +93,7 @@ TEST(EmittedLight, AGuideToTheHoleSavesNoise) {
     };
     const double before = squares(nullptr, &learned);
     learned.finish(0.75f);
-    // Three of four rays are aimed at the cells around the zenith, of which the hole fills .3. Of
+    // Three of four rays are guided to the cells around the zenith, of which the hole fills .3. Of
     // the others, which follow the cosine, .07 pass the hole.
     EXPECT_LT(squares(&learned, nullptr), 0.35 * before);
 }

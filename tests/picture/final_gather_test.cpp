@@ -128,13 +128,13 @@ double errorBelowStripes(float radiance) {
 // Of a pixel, whose 16 random samples are 0 or pi.
 constexpr double kErrorOfSamples = glm::pi<double>() / 8;
 
-/// The light of a field that is right is worth more than that of noisy samples.
+/// Where the field is right, its light has less error than noisy samples.
 TEST(FinalGather, LeavesAFieldThatIsRightAlone) {
     EXPECT_LT(errorBelowStripes(0.5f), 0.2 * kErrorOfSamples);
 }
 
-/// The mean of many pixels has so little noise that it mends what no pixel could.
-TEST(FinalGather, MendsWhatIsWrongByLessThanTheNoise) {
+/// The mean of many pixels has so little variance that it corrects what no pixel alone could.
+TEST(FinalGather, CorrectsErrorsThatAreBelowTheNoise) {
     for (const double wrong : {-0.08, 0.08}) {
         const double before = std::abs(wrong) * glm::pi<double>();
         EXPECT_LT(before, kErrorOfSamples);

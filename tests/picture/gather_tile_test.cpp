@@ -59,7 +59,7 @@ float independent(std::uint32_t /*sample*/) {
     return 2 * uniform();
 }
 /// One in each sixteenth of the range, in either half of 32 samples.
-float wellSpread(std::uint32_t sample) {
+float stratified(std::uint32_t sample) {
     return (float(sample % 16) + uniform()) / 8;
 }
 
@@ -79,12 +79,12 @@ TEST(GatherTile, CountsTheSecondStageByItsVariance) {
     EXPECT_NEAR(mean.error, mean.variance, 0.15 * mean.variance);
 }
 
-/// Few samples that are well spread are worth more than many that are not.
-TEST(GatherTile, KnowsWhichSamplesAreWellSpread) {
-    const Measured mean = measured(wellSpread, independent);
+/// Few stratified samples have less variance than many independent ones.
+TEST(GatherTile, KnowsWhichSamplesAreStratified) {
+    const Measured mean = measured(stratified, independent);
     EXPECT_LT(mean.secondStageWeight, 0.1);
     EXPECT_NEAR(mean.error, mean.variance, 0.15 * mean.variance);
-    EXPECT_GT(measured(independent, wellSpread).secondStageWeight, 0.99);
+    EXPECT_GT(measured(independent, stratified).secondStageWeight, 0.99);
 }
 
 } // namespace
