@@ -8,7 +8,11 @@
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/small_session.h"
 
+#include <chrono>
 #include <cmath>
+#include <memory>
+#include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -104,13 +108,28 @@ TEST(ReferenceJob, ForgetsThePictureOfAnotherViewOrOtherLightAlone) {
     EXPECT_FALSE(job.progress().running);
 }
 
-TEST(ReferenceJob, EndsAtOnceInTheMiddleOfAPass) {
-    ReferenceJob job([] {});
-    ReferenceOrder order = orderFor(smallScene(), 1e-9);
-    order.width = 640, order.height = 480;
-    job.set(order);
-    std::this_thread::sleep_for(std::chrono::milliseconds(400));
-} // the destructor does not wait for hours
+/// Seconds that the destructor takes.
+double secondsToEnd(std::unique_ptr<ReferenceJob> job) {
+    const auto start = std::chrono::steady_clock::now();
+    job.reset();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(ReferenceJob, EndsInTheMiddleOfAPass) {
+    auto job = std::make_unique<ReferenceJob>([] {});
+    ReferenceOrder order = orderFor(smallScene(), 1e9); // one pass, if it is not ended
+    order.width = 1600, order.height = 1200;
+    job->set(order);
+    ReferenceProgress begun;
+    for (int i = 0; i < 12000 && begun.fraction == 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        begun = job->progress();
+    }
+    ASSERT_FALSE(begun.set);
+    ASSERT_GT(begun.fraction, 0);
+    const double rest = begun.seconds * (1 - begun.fraction) / begun.fraction;
+    EXPECT_LT(secondsToEnd(std::move(job)), 0.25 * rest);
+}
 
 struct ComparisonTest : testing::Test {
     ReferenceOrder order = orderFor(smallScene(), 1);
