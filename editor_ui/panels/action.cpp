@@ -225,14 +225,15 @@ bool canSavePictures(const EditorState& s) {
 void savePictures(EditorState& s) {
     openFileBrowser(s, FileBrowser::Purpose::SavePictures);
 }
-/// The action that shows an overlay; null: none. Its id is "overlay." and the overlay's name, with
-/// underscores.
-Action overlayAction(const OverlayKind* kind) {
-    const OverlayKind& text = kind ? *kind : kNoOverlay;
-    std::string id = std::string("overlay.") + text.name;
+/// "overlay." and the overlay's name, with underscores; null: none.
+std::string overlayId(const OverlayKind* kind) {
+    std::string id = std::string("overlay.") + (kind ? *kind : kNoOverlay).name;
     std::ranges::replace(id, '-', '_');
-    return {.id = std::move(id),
-            .label = text.label,
+    return id;
+}
+Action makeOverlayAction(const OverlayKind* kind) {
+    return {.id = overlayId(kind),
+            .label = (kind ? *kind : kNoOverlay).label,
             .menu = Menu::Overlay,
             .enabled = always,
             .run = [kind](EditorState& s) { s.overlay.options.kind = kind; },
@@ -360,17 +361,17 @@ std::vector<Action> fixedActions() {
     {"edit.paste", "Paste", Menu::Edit, ctrl('V'), kNoKey, false, canPaste, pasteClipboard},
     {"edit.rename", "Rename", Menu::Edit, plain(key::kF2), kNoKey, false, canRename, startRename},
     {"edit.delete", "Delete", Menu::Edit, plain(key::kDelete), kNoKey, false, hasDeletable, deleteSelection},
-    {"edit.hide", "Hide or show", Menu::Edit, plain('H'), kNoKey, true, hasSelection, toggleHidden},
-    {"edit.show_all", "Show all", Menu::Edit, alt('H'), kNoKey, false, always, showAll},
-    {"edit.isolate", "Isolate, or show the others", Menu::Edit, plain(key::kSlash), kNoKey, false, canIsolate, toggleIsolated, isIsolated},
-    {"edit.group", "Group", Menu::Edit, ctrl('G'), kNoKey, true, hasNode, groupSelection},
-    {"edit.ungroup", "Ungroup", Menu::Edit, ctrlShift('G'), kNoKey, false, canUngroup, ungroupSelection},
-    {"edit.unparent", "Put at the root", Menu::Edit, kNoKey, kNoKey, false, hasNode, putAtRoot},
+    {"grab.move", "Move with the mouse", Menu::Transform, plain('G'), kNoKey, true, hasDeletable, grab<Tool::Move>},
+    {"grab.rotate", "Rotate with the mouse", Menu::Transform, kNoKey, kNoKey, false, hasDeletable, grab<Tool::Rotate>},
+    {"grab.scale", "Scale with the mouse", Menu::Transform, plain('S'), kNoKey, false, hasDeletable, grab<Tool::Scale>},
+    {"edit.drop", "Drop to the surface below", Menu::Transform, plain(key::kEnd), kNoKey, false, hasDeletable, dropSelection},
+    {"edit.hide", "Hide or show", Menu::Visibility, plain('H'), kNoKey, false, hasSelection, toggleHidden},
+    {"edit.show_all", "Show all", Menu::Visibility, alt('H'), kNoKey, false, always, showAll},
+    {"edit.isolate", "Isolate, or show the others", Menu::Visibility, plain(key::kSlash), kNoKey, false, canIsolate, toggleIsolated, isIsolated},
+    {"edit.group", "Group", Menu::Hierarchy, ctrl('G'), kNoKey, false, hasNode, groupSelection},
+    {"edit.ungroup", "Ungroup", Menu::Hierarchy, ctrlShift('G'), kNoKey, false, canUngroup, ungroupSelection},
+    {"edit.unparent", "Put at the root", Menu::Hierarchy, kNoKey, kNoKey, false, hasNode, putAtRoot},
     {"edit.dynamic", "Static or dynamic", Menu::Edit, kNoKey, kNoKey, false, hasNode, toggleDynamic, isDynamic},
-    {"grab.move", "Move with the mouse", Menu::Edit, plain('G'), kNoKey, true, hasDeletable, grab<Tool::Move>},
-    {"grab.rotate", "Rotate with the mouse", Menu::Edit, kNoKey, kNoKey, false, hasDeletable, grab<Tool::Rotate>},
-    {"grab.scale", "Scale with the mouse", Menu::Edit, plain('S'), kNoKey, false, hasDeletable, grab<Tool::Scale>},
-    {"edit.drop", "Drop to the surface below", Menu::Edit, plain(key::kEnd), kNoKey, false, hasDeletable, dropSelection},
     {"edit.select_all", "Select all", Menu::Edit, ctrl('A'), kNoKey, true, always, selectAll},
     {"edit.select_none", "Select nothing", Menu::Edit, plain(key::kEscape), kNoKey, false, hasSelection, selectNone},
     {"edit.palette", "All actions\u2026", Menu::Edit, ctrl('P'), kNoKey, true, always, openPalette},
@@ -385,44 +386,33 @@ std::vector<Action> fixedActions() {
     {"add.cylinder", "Cylinder", Menu::Add, kNoKey, kNoKey, false, always, place<Shape::Cylinder>, places<Shape::Cylinder>},
     {"add.scene", "Objects of a file\u2026", Menu::Add, kNoKey, kNoKey, false, notLoading, addSceneFile},
     {"add.place", "Place it before the camera", Menu::Add, plain(key::kEnter), plain(key::kPadEnter), true, placing, placeIt},
-    {"view.lit", "Lit", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Lit>, isChosen<&ViewState::view, View::Lit>},
-    {"view.direct", "Direct only", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Direct>, isChosen<&ViewState::view, View::Direct>},
-    {"view.indirect", "Indirect only", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Indirect>, isChosen<&ViewState::view, View::Indirect>},
-    {"view.irradiance", "Irradiance", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Irradiance>, isChosen<&ViewState::view, View::Irradiance>},
-    {"view.albedo", "Albedo", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Albedo>, isChosen<&ViewState::view, View::Albedo>},
-    {"view.normals", "Normals", Menu::View, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Normals>, isChosen<&ViewState::view, View::Normals>},
-    {"view.wireframe", "Wireframe", Menu::View, kNoKey, kNoKey, true, always, toggleInspection<Inspection::Wireframe>, isChosen<&ViewState::inspection, Inspection::Wireframe>},
-    {"view.invalid", "Invalid pixels (NaN, Inf)", Menu::View, kNoKey, kNoKey, false, always, toggleInspection<Inspection::InvalidPixels>, isChosen<&ViewState::inspection, Inspection::InvalidPixels>},
-    {"compare.reference", "Path-traced reference beside it", Menu::View, shift('R'), kNoKey, true, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
-    {"compare.technique", "Another technique beside it", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Technique>, compares<Compare::Technique>},
-    {"compare.difference", "Difference to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
-    {"compare.flip", "Perceived difference (FLIP) to the reference", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::Flip>, compares<Compare::Flip>},
-    {"compare.relmse", "Squared relative error (relMSE)", Menu::View, kNoKey, kNoKey, false, always, toggleCompare<Compare::SquaredError>, compares<Compare::SquaredError>},
-    {"compare.save", "Save both pictures\u2026", Menu::View, kNoKey, kNoKey, false, canSavePictures, savePictures},
-    {"view.focus", "Focus selection", Menu::View, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
-    {"view.camera", "Scene camera", Menu::View, plain(key::kPad0), kNoKey, false, hasCamera, sceneCamera},
-    {"view.front", "From the front", Menu::View, plain(key::kPad1), kNoKey, true, always, lookFromSide<Side::Front>},
-    {"view.back", "From the back", Menu::View, ctrl(key::kPad1), kNoKey, false, always, lookFromSide<Side::Back>},
-    {"view.right", "From the right", Menu::View, plain(key::kPad3), kNoKey, false, always, lookFromSide<Side::Right>},
-    {"view.left", "From the left", Menu::View, ctrl(key::kPad3), kNoKey, false, always, lookFromSide<Side::Left>},
-    {"view.top", "From the top", Menu::View, plain(key::kPad7), kNoKey, false, always, lookFromSide<Side::Top>},
-    {"view.bottom", "From below", Menu::View, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
-    {"tool.select", "Select", Menu::View, plain('Q'), kNoKey, true, always, choose<&ViewState::tool, Tool::Select>, isChosen<&ViewState::tool, Tool::Select>},
-    {"tool.move", "Move", Menu::View, plain('W'), kNoKey, false, always, choose<&ViewState::tool, Tool::Move>, isChosen<&ViewState::tool, Tool::Move>},
-    {"tool.rotate", "Rotate", Menu::View, plain('E'), kNoKey, false, always, choose<&ViewState::tool, Tool::Rotate>, isChosen<&ViewState::tool, Tool::Rotate>},
-    {"tool.scale", "Scale", Menu::View, plain('R'), kNoKey, false, always, choose<&ViewState::tool, Tool::Scale>, isChosen<&ViewState::tool, Tool::Scale>},
-    {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
-    {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
-    {"view.auto_exposure", "Automatic exposure", Menu::View, kNoKey, kNoKey, true, always, toggleAutoExposure, exposesByItself},
-    {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
-    {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
-    {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
-    {"view.bottom_panel", "Bottom panel", Menu::View, kNoKey, kNoKey, false, always, toggleBottom, bottomIsOpen},
-    {"workspace.light", "Light workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Light>, isIn<Workspace::Light>},
-    {"workspace.bake", "Bake workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Bake>, isIn<Workspace::Bake>},
-    {"workspace.inspect", "Inspect workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Inspect>, isIn<Workspace::Inspect>},
-    {"workspace.compare", "Compare workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Compare>, isIn<Workspace::Compare>},
-    {"workspace.reset", "Reset this workspace", Menu::Workspace, kNoKey, kNoKey, true, always, resetWorkspace},
+    {"view.lit", "Lit", Menu::Picture, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Lit>, isChosen<&ViewState::view, View::Lit>},
+    {"view.direct", "Direct only", Menu::Picture, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Direct>, isChosen<&ViewState::view, View::Direct>},
+    {"view.indirect", "Indirect only", Menu::Picture, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Indirect>, isChosen<&ViewState::view, View::Indirect>},
+    {"view.irradiance", "Irradiance", Menu::Picture, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Irradiance>, isChosen<&ViewState::view, View::Irradiance>},
+    {"view.albedo", "Albedo", Menu::Picture, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Albedo>, isChosen<&ViewState::view, View::Albedo>},
+    {"view.normals", "Normals", Menu::Picture, kNoKey, kNoKey, false, always, choose<&ViewState::view, View::Normals>, isChosen<&ViewState::view, View::Normals>},
+    {"view.wireframe", "Wireframe", Menu::Picture, kNoKey, kNoKey, true, always, toggleInspection<Inspection::Wireframe>, isChosen<&ViewState::inspection, Inspection::Wireframe>},
+    {"view.invalid", "Invalid pixels (NaN, Inf)", Menu::Picture, kNoKey, kNoKey, false, always, toggleInspection<Inspection::InvalidPixels>, isChosen<&ViewState::inspection, Inspection::InvalidPixels>},
+    {"view.auto_exposure", "Automatic exposure", Menu::Picture, kNoKey, kNoKey, true, always, toggleAutoExposure, exposesByItself},
+    {"compare.reference", "Path-traced reference beside it", Menu::Compare, shift('R'), kNoKey, false, always, toggleCompare<Compare::Reference>, compares<Compare::Reference>},
+    {"compare.technique", "Another technique beside it", Menu::Compare, kNoKey, kNoKey, false, always, toggleCompare<Compare::Technique>, compares<Compare::Technique>},
+    {"compare.difference", "Difference to the reference", Menu::Compare, kNoKey, kNoKey, true, always, toggleCompare<Compare::Difference>, compares<Compare::Difference>},
+    {"compare.flip", "Perceived difference (FLIP) to the reference", Menu::Compare, kNoKey, kNoKey, false, always, toggleCompare<Compare::Flip>, compares<Compare::Flip>},
+    {"compare.relmse", "Squared relative error (relMSE)", Menu::Compare, kNoKey, kNoKey, false, always, toggleCompare<Compare::SquaredError>, compares<Compare::SquaredError>},
+    {"compare.save", "Save both pictures\u2026", Menu::Compare, kNoKey, kNoKey, true, canSavePictures, savePictures},
+    {"view.focus", "Focus selection", Menu::Camera, plain('F'), plain(key::kPadDecimal), true, always, focusSelection},
+    {"view.camera", "Scene camera", Menu::Camera, plain(key::kPad0), kNoKey, false, hasCamera, sceneCamera},
+    {"view.front", "From the front", Menu::Camera, plain(key::kPad1), kNoKey, true, always, lookFromSide<Side::Front>},
+    {"view.back", "From the back", Menu::Camera, ctrl(key::kPad1), kNoKey, false, always, lookFromSide<Side::Back>},
+    {"view.right", "From the right", Menu::Camera, plain(key::kPad3), kNoKey, false, always, lookFromSide<Side::Right>},
+    {"view.left", "From the left", Menu::Camera, ctrl(key::kPad3), kNoKey, false, always, lookFromSide<Side::Left>},
+    {"view.top", "From the top", Menu::Camera, plain(key::kPad7), kNoKey, false, always, lookFromSide<Side::Top>},
+    {"view.bottom", "From below", Menu::Camera, ctrl(key::kPad7), kNoKey, false, always, lookFromSide<Side::Bottom>},
+    {"tool.select", "Select", Menu::Tool, plain('Q'), kNoKey, false, always, choose<&ViewState::tool, Tool::Select>, isChosen<&ViewState::tool, Tool::Select>},
+    {"tool.move", "Move", Menu::Tool, plain('W'), kNoKey, false, always, choose<&ViewState::tool, Tool::Move>, isChosen<&ViewState::tool, Tool::Move>},
+    {"tool.rotate", "Rotate", Menu::Tool, plain('E'), kNoKey, false, always, choose<&ViewState::tool, Tool::Rotate>, isChosen<&ViewState::tool, Tool::Rotate>},
+    {"tool.scale", "Scale", Menu::Tool, plain('R'), kNoKey, false, always, choose<&ViewState::tool, Tool::Scale>, isChosen<&ViewState::tool, Tool::Scale>},
     {"gizmo.middle", "Gizmo in the middle of the selection", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Middle>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Middle>},
     {"gizmo.origins", "Gizmo at the objects' origins", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Origins>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Origins>},
     {"gizmo.click", "Gizmo where the object was clicked", Menu::Gizmo, kNoKey, kNoKey, false, always, choose<&ViewState::gizmoPlace, GizmoPlace::Click>, isChosen<&ViewState::gizmoPlace, GizmoPlace::Click>},
@@ -431,6 +421,17 @@ std::vector<Action> fixedActions() {
     {"gizmo.view", "Axes of the view", Menu::Gizmo, kNoKey, kNoKey, false, always, chooseGizmo<&GizmoSettings::space, GizmoSpace::View>, isGizmo<&GizmoSettings::space, GizmoSpace::View>},
     {"gizmo.blender_keys", "R rotates at once, as in Blender", Menu::Gizmo, kNoKey, kNoKey, true, always, toggleGizmo<&GizmoSettings::blenderKeys>, isGizmo<&GizmoSettings::blenderKeys, true>},
     {"gizmo.snap", "Snap without Ctrl", Menu::Gizmo, kNoKey, kNoKey, true, always, toggleGizmo<&GizmoSettings::snap>, isGizmo<&GizmoSettings::snap, true>},
+    {"workspace.light", "Light workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Light>, isIn<Workspace::Light>},
+    {"workspace.bake", "Bake workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Bake>, isIn<Workspace::Bake>},
+    {"workspace.inspect", "Inspect workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Inspect>, isIn<Workspace::Inspect>},
+    {"workspace.compare", "Compare workspace", Menu::Workspace, kNoKey, kNoKey, false, always, goTo<Workspace::Compare>, isIn<Workspace::Compare>},
+    {"workspace.reset", "Reset this workspace", Menu::Workspace, kNoKey, kNoKey, true, always, resetWorkspace},
+    {"view.lights", "Light icons", Menu::View, kNoKey, kNoKey, true, always, toggleLights, lightsShown},
+    {"view.explain", "Explain the light of a pixel", Menu::View, kNoKey, kNoKey, false, always, explainLight},
+    {"view.play", "Play animations", Menu::View, plain(key::kSpace), kNoKey, true, hasAnimation, togglePlay, plays},
+    {"view.rewind", "Rewind animations", Menu::View, kNoKey, kNoKey, false, hasAnimation, rewindAnimations},
+    {"view.bottom_panel", "Bottom panel", Menu::View, kNoKey, kNoKey, true, always, toggleBottom, bottomIsOpen},
+    {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.error", "Bake until the error holds", Menu::Bake, kNoKey, kNoKey, false, canBake, bakeToErrorAction},
     {"bake.selection", "Bake the selection only", Menu::Bake, kNoKey, kNoKey, false, canBakeSelection, bakeSelection},
@@ -442,13 +443,13 @@ std::vector<Action> fixedActions() {
 }
 // clang-format on
 
-/// Every action; those of overlays come before those of the bake.
+/// Every action; those of overlays come before those of comparisons.
 std::vector<Action> makeActions() {
-    std::vector<Action> all = fixedActions(), overlays = {overlayAction(nullptr)};
+    std::vector<Action> all = fixedActions(), overlays = {makeOverlayAction(nullptr)};
     for (const OverlayKind* kind : overlayKinds())
-        overlays.push_back(overlayAction(kind));
-    const auto bake = std::ranges::find(all, Menu::Bake, &Action::menu);
-    all.insert(bake, std::make_move_iterator(overlays.begin()),
+        overlays.push_back(makeOverlayAction(kind));
+    const auto compare = std::ranges::find(all, Menu::Compare, &Action::menu);
+    all.insert(compare, std::make_move_iterator(overlays.begin()),
                std::make_move_iterator(overlays.end()));
     return all;
 }
@@ -464,6 +465,10 @@ const Action& actionById(const char* id) {
     const auto found = std::ranges::find(actions(), id, &Action::id);
     assert(found != actions().end());
     return *found;
+}
+
+const Action& overlayAction(const OverlayKind* kind) {
+    return actionById(overlayId(kind).c_str());
 }
 
 void runAction(EditorState& state, const Action& action) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "editor_ui/panels/keys.h"
+#include "editor_ui/panels/menu.h"
 
 #include <functional>
 #include <span>
@@ -10,10 +11,7 @@
 namespace limn {
 
 struct EditorState;
-
-/// Menus that list actions, in the order of the menu bar; Gizmo, Workspace and Overlay are parts of
-/// View.
-enum class Menu { File, Edit, Add, View, Gizmo, Workspace, Overlay, Bake, Help };
+struct OverlayKind;
 
 /// One thing the user can do. Menus, shortcuts and the palette read the same table.
 struct Action {
@@ -22,7 +20,7 @@ struct Action {
     Menu menu;
     Shortcut shortcut;
     Shortcut alternative; ///< a second key for the same thing
-    bool separator;       ///< a line above it in its menu
+    bool separator;       ///< a line above it; of the first of a submenu: above the submenu
     bool (*enabled)(const EditorState&);
     std::function<void(EditorState&)> run;
     std::function<bool(const EditorState&)> checked = {}; ///< of a toggle or a choice; else empty
@@ -32,6 +30,9 @@ std::span<const Action> actions();
 
 /// The action with this id; asserts that there is one.
 const Action& actionById(const char* id);
+
+/// The action that shows an overlay; null: none.
+const Action& overlayAction(const OverlayKind* kind);
 
 /// Ends the gesture, then runs the action if it is enabled.
 void runAction(EditorState& state, const Action& action);

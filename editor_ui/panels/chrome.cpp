@@ -7,8 +7,8 @@
 #include "editor_ui/panels/exposure_field.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/icon.h"
+#include "editor_ui/panels/menu.h"
 #include "editor_ui/panels/overlay_panel.h"
-#include "editor_ui/panels/snap_steps.h"
 #include "editor_ui/panels/technique_combo.h"
 #include "editor_ui/panels/theme.h"
 
@@ -22,49 +22,6 @@
 #include <fmt/format.h>
 
 namespace limn {
-
-static void actionItem(EditorState& state, const Action& action) {
-    const std::string label = actionLabel(state, action);
-    const std::string keys = shortcutText(shortcutOf(state, action));
-    const bool checked = action.checked && action.checked(state);
-    if (ImGui::MenuItem((label + "###" + action.id).c_str(), keys.c_str(), checked,
-                        action.enabled(state)))
-        runAction(state, action);
-}
-
-static void recentMenu(EditorState& state) {
-    if (!ImGui::BeginMenu("Recent", !state.recent.empty()))
-        return;
-    for (const std::string& path : std::vector<std::string>(state.recent)) {
-        const std::string name = std::filesystem::path(path).filename().string();
-        if (ImGui::MenuItem((name + "##" + path).c_str()))
-            state.requests.push_back({Request::Kind::Open, path});
-        wrappedTooltip(path.c_str());
-    }
-    ImGui::EndMenu();
-}
-
-static void menu(EditorState& state, const char* label, Menu which) {
-    if (!ImGui::BeginMenu(label))
-        return;
-    for (const Action& action : actions()) {
-        if (action.menu != which)
-            continue;
-        if (action.separator)
-            ImGui::Separator();
-        actionItem(state, action);
-        if (which == Menu::File && std::string_view(action.id) == "file.open")
-            recentMenu(state);
-    }
-    if (which == Menu::Gizmo)
-        snapSteps(state.view.gizmo);
-    if (which == Menu::View) {
-        menu(state, "Gizmo", Menu::Gizmo);
-        menu(state, "Workspace", Menu::Workspace);
-        menu(state, "Overlay", Menu::Overlay);
-    }
-    ImGui::EndMenu();
-}
 
 static std::string documentTitle(const EditorState& state) {
     std::string name = std::filesystem::path(documentPath(state)).filename().string();
@@ -103,12 +60,7 @@ static void workspaceButtons(EditorState& state) {
 void menuBar(EditorState& state) {
     if (!ImGui::BeginMainMenuBar())
         return;
-    menu(state, "File", Menu::File);
-    menu(state, "Edit", Menu::Edit);
-    menu(state, "Add", Menu::Add);
-    menu(state, "View", Menu::View);
-    menu(state, "Bake", Menu::Bake);
-    menu(state, "Help", Menu::Help);
+    menus(state);
     workspaceButtons(state);
     const std::string title = documentTitle(state);
     const float room = ImGui::GetContentRegionAvail().x;

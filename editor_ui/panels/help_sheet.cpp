@@ -5,13 +5,13 @@
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/key_map.h"
+#include "editor_ui/panels/menu.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace limn {
 
@@ -32,11 +32,6 @@ constexpr Habit kMouse[] = {
     {"Drag by a number", "Digits, then Enter: metres, degrees or a factor"},
     {"Drag a copy", "Alt on a handle of the gizmo"},
     {"Type into a slider", "Ctrl and click, or double-click"}};
-
-const std::pair<const char*, std::vector<Menu>> kGroups[] = {
-    {"File", {Menu::File}}, {"Edit", {Menu::Edit}},
-    {"Add", {Menu::Add}},   {"View", {Menu::View, Menu::Gizmo, Menu::Workspace, Menu::Overlay}},
-    {"Bake", {Menu::Bake}}, {"Help", {Menu::Help}}};
 
 void row(const char* what, const std::string& how) {
     ImGui::TableNextRow();
@@ -84,10 +79,12 @@ void rows(EditorState& state) {
     heading("Mouse");
     for (const Habit& habit : kMouse)
         row(habit.what, habit.how);
-    for (const auto& [title, menus] : kGroups) {
-        heading(title);
+    for (const MenuPlace& place : menuPlaces()) {
+        if (place.parent)
+            continue;
+        heading(place.label);
         for (const Action& action : actions())
-            if (std::ranges::find(menus, action.menu) != menus.end())
+            if (topMenu(action.menu) == place.menu)
                 keyRow(state, action);
     }
 }
