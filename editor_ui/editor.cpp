@@ -179,6 +179,19 @@ static void panels(EditorState& state, float menuHeight) {
     splitters(state.layout, layout, p);
 }
 
+/// The topmost popup as an index into ImGui's stack of open ones; of a menu with its submenus the
+/// menu in the bar, for the mouse over its row would open a submenu again at once.
+static int topmostPopup() {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    const auto isMenu = [&](int i) {
+        return open[i].Window && (open[i].Window->Flags & ImGuiWindowFlags_ChildMenu);
+    };
+    int top = open.Size - 1;
+    while (top > 0 && isMenu(top) && isMenu(top - 1))
+        --top;
+    return top;
+}
+
 /// Esc ends what is nearest to the user: a drag, which it takes back, else the topmost menu or
 /// popup, else the placing of a light. Returns false if there is none of these.
 static bool escape(EditorState& state) {
@@ -187,9 +200,8 @@ static bool escape(EditorState& state) {
         cancelDrag(state);
         return true;
     }
-    const int popups = ImGui::GetCurrentContext()->OpenPopupStack.Size;
-    if (popups > 0)
-        ImGui::ClosePopupToLevel(popups - 1, true);
+    if (const int popup = topmostPopup(); popup >= 0)
+        ImGui::ClosePopupToLevel(popup, true);
     else if (!state.view.placing)
         return false;
     else

@@ -183,6 +183,22 @@ TEST(Menus, ListEveryActionOnce) {
     EXPECT_EQ(rows, actions().size() + (count - kMenus) + user.state.recent.size() + kSteps);
 }
 
+TEST(Menus, CloseWithTheirSubmenusByOneEscape) {
+    MenuUser user(1280, 1024);
+    std::size_t submenus = 0;
+    const std::size_t edit = 1;
+    open(user, edit, {});
+    const std::size_t rows = user.boxesIn(openMenus()[0].Window->Name).size();
+    for (std::size_t row = 0; row < rows; ++row) {
+        open(user, edit, {row});
+        submenus += openMenus().Size == 2;
+        user.ui.tap(key::kEscape);
+        user.frames();
+        EXPECT_TRUE(openMenus().empty()) << row;
+    }
+    EXPECT_GT(submenus, 0u);
+}
+
 TEST(Menus, AreListedInTheirOrder) {
     std::size_t index = 0;
     for (const MenuPlace& place : menuPlaces())
