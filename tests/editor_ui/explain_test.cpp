@@ -30,7 +30,7 @@ struct Explaining : testing::Test {
         Document document = smallDocument();
         for (auto& [id, object] : document.objects)
             if (auto* light = std::get_if<Light>(&object))
-                light->name = std::string(300, 'L') + "amp";
+                light->name.assign(300, 'L');
         ASSERT_TRUE(saveProject(project, document));
         session.open(project);
         ASSERT_TRUE(runUntil(session, [&] {
