@@ -228,6 +228,10 @@ std::vector<EditorState> withEveryPanel(const EditorState& crowded) {
     add([](EditorState& s) { s.confirm = Request{Request::Kind::Quit, {}}; });
     add([](EditorState& s) { s.recovery = RecoveryOffer{"a.limn", 0}; });
     add([](EditorState& s) { s.bake.running = true; });
+    add([](EditorState& s) {
+        s.errors.points.clear();
+        s.layout.tab = BottomTab::Error;
+    });
     add([](EditorState& s) { s.loading = "atrium"; });
     add([](EditorState& s) {
         openExportDialog(s);
