@@ -30,7 +30,7 @@ enum class Stage : std::uint32_t {
     SparseCompression,
     LampTexels,
     LightPoints,
-    SkySights
+    SkyHits
 };
 
 /// Key of a content; `inputs` is the hash of everything that it is computed from.

@@ -6,7 +6,7 @@
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/mesh/triangle_geometry.h"
-#include "engine/techniques/illuminance/bake/cut/cut_worth.h"
+#include "engine/techniques/illuminance/bake/cut/refinement_priority.h"
 #include "engine/techniques/illuminance/bake/cut/training_light.h"
 #include "engine/techniques/illuminance/bake/rays/gather.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
@@ -106,18 +106,20 @@ std::uint64_t workingBytes(const BakeSettings& s, const BakePrediction& p, const
     const double before = atlas + points + kPerSurfel * surfels;
     const bool detail = s.cut == CutCriterion::Detail;
     // A room with windows came to 11, a courtyard to 7; others have none.
-    constexpr double kSkySights = 12;
+    constexpr double kSkyHits = 12;
     const double hits = caches * s.rays * sizeof(RawHit),
-                 aimed = caches * (e.aimed * sizeof(AimedSample) + kSkySights * sizeof(SkySight)),
+                 aimed = caches * (e.aimed * sizeof(AimedSample) + kSkyHits * sizeof(SkyHit)),
                  training = detail ? surfels * sizeof(float) *
                                          (2 * TrainingLight::kCount + TracedTraining::kCount)
                                    : 0,
-                 worth = detail ? caches * e.leaves * (sizeof(float) + sizeof(Representative)) : 0,
+                 priority =
+                     detail ? caches * e.leaves * (sizeof(float) + sizeof(Representative)) : 0,
                  links = double(p.bytes.links), packed = links + caches * sizeof(PackedLinks);
-    // The worth of refinements reuses the memory of the looks. A stage is stored as an archive that
-    // is then compressed into a string that grows by doubling; so is the bake, part by part.
+    // The priorities of refinements reuse the memory of the looks. A stage is stored as an archive
+    // that is then compressed into a string that grows by doubling; so is the bake, part by part.
     const double trace = before + looks + hits + (stored ? 4 : 1) * aimed,
-                 cut = before + hits + aimed + training + std::max(looks, worth) + packed + links,
+                 cut =
+                     before + hits + aimed + training + std::max(looks, priority) + packed + links,
                  written =
                      before + double(p.bytes.total()) + 2 * double(p.bytes.links + p.bytes.caches);
     return std::uint64_t(std::min(std::max({trace, cut, written}), 1e18));

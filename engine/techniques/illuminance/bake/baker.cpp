@@ -18,7 +18,7 @@
 #include "engine/techniques/illuminance/bake/links/build_links.h"
 #include "engine/techniques/illuminance/bake/links/surfel_gain.h"
 #include "engine/techniques/illuminance/bake/rays/light_points.h"
-#include "engine/techniques/illuminance/bake/rays/sky_sights.h"
+#include "engine/techniques/illuminance/bake/rays/sky_hits.h"
 #include "engine/techniques/illuminance/bake/rays/trace_record.h"
 #include "engine/techniques/illuminance/bake/rays/trace_stage.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
@@ -174,7 +174,7 @@ void lightPointsStage(BakeRun& run, const GatherHits& hits, const TraceReport& t
 }
 
 /// Looks for the sky through windows.
-void skySightsStage(BakeRun& run, GatherHits& hits, const TraceReport& traced) {
+void skyHitsStage(BakeRun& run, GatherHits& hits, const TraceReport& traced) {
     const std::size_t surfels = run.set.surfels.size();
     const Caches& caches = run.bake.caches;
     const SkyInput input{
@@ -184,10 +184,10 @@ void skySightsStage(BakeRun& run, GatherHits& hits, const TraceReport& traced) {
     // Which caches are neighbours depends on where their texels lie.
     const std::uint64_t inputs =
         hashValue(input.grid, hashValue(input.lightmap, hashVector(caches.texel, traced.key)));
-    const auto areSights = [&](const SkySights& s) {
+    const auto areHits = [&](const SkyHits& s) {
         for (std::size_t c = 0; c < caches.size(); ++c)
             for (std::uint32_t k = s.begin[c]; k < s.begin[c + 1]; ++k) {
-                const SkySight& sky = s.all[k];
+                const SkyHit& sky = s.all[k];
                 if (sky.sender < surfels || sky.sender >= surfels + kSkyCells ||
                     sky.point < run.points.begin[c] || sky.point >= run.points.begin[c + 1] ||
                     !(sky.transport >= 0 && sky.transport <= 4))
@@ -195,18 +195,18 @@ void skySightsStage(BakeRun& run, GatherHits& hits, const TraceReport& traced) {
             }
         return true;
     };
-    SkySights found = keptOrMade<SkySights>(
-        run.store, stageKey(Stage::SkySights, inputs), run.progress,
+    SkyHits found = keptOrMade<SkyHits>(
+        run.store, stageKey(Stage::SkyHits, inputs), run.progress,
         [&](auto& a, auto& s) {
             a("begin", s.begin, rule::offsets(caches.size(), s.all.size()));
-            a("all", s.all, rule::holds("out of range", [&](const auto&) { return areSights(s); }));
+            a("all", s.all, rule::holds("out of range", [&](const auto&) { return areHits(s); }));
         },
         [&] {
-            SkySights made = lookForSky(input, run.progress);
+            SkyHits made = findSkyHits(input, run.progress);
             run.rays += made.rays;
             return made;
         });
-    takeSkySights(std::move(found), surfels, hits);
+    takeSkyHits(std::move(found), surfels, hits);
 }
 
 /// Traces the training lights' shadow rays, again only near what moved.
@@ -322,7 +322,7 @@ Result<TraceReport> traceCaches(BakeRun& run, GatherHits& hits) {
     run.rays += traced->rays;
     lightPointsStage(run, hits, *traced);
     if (run.scene.bake.linker == Linker::Gather && !run.progress.cancelled())
-        skySightsStage(run, hits, *traced);
+        skyHitsStage(run, hits, *traced);
     if (run.progress.cancelled())
         return cancelled();
     run.clock.finish("trace");
@@ -334,18 +334,19 @@ Result<void> linkCaches(BakeRun& run, const GatherHits& hits, TraceReport& trace
     const BakeSettings& settings = run.scene.bake;
     Surfels& surfels = run.set.surfels;
     Bake& bake = run.bake;
-    const std::vector<float> seen = seenByCaches(surfels, hits, run.points, bake.caches, bake.tree);
+    const std::vector<float> importance =
+        leafImportance(surfels, hits, run.points, bake.caches, bake.tree);
     TrainingLight training; // read only by CutCriterion::Detail
     if (settings.cut == CutCriterion::Detail) {
         const TracedTraining light = trainingStage(run, traced);
         if (run.progress.cancelled())
             return cancelled();
         bake.tree = splitByRoom(bake.tree, surfels, findRooms(light));
-        weighBySight(seen, bake.tree);
-        training = trainingLight(run.scene, surfels, bake.tree, seen, light);
+        weighByImportance(importance, bake.tree);
+        training = trainingLight(run.scene, surfels, bake.tree, importance, light);
         run.rays += light.rays;
     } else {
-        weighBySight(seen, bake.tree);
+        weighByImportance(importance, bake.tree);
     }
     run.clock.finish("training");
     std::vector<double> linked;
@@ -354,7 +355,7 @@ Result<void> linkCaches(BakeRun& run, const GatherHits& hits, TraceReport& trace
                     run.progress, bake.caches, &linked))
         return cancelled();
     releaseFreedMemory();
-    weighByLinks(seen, linked, bake.tree);
+    weighByLinks(importance, linked, bake.tree);
     bake.counts.invalidCaches = fillInvalid(bake.caches, 1 / run.placed.atlas.texelsPerMetre);
     shade(run.scene, surfels);
     limitGain(bake.caches, int(settings.bands), surfels);

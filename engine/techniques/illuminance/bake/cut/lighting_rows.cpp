@@ -25,7 +25,7 @@ constexpr std::size_t kSums = 8; ///< that errors are summed in
 constexpr std::size_t kLightings = TrainingLight::kCount;
 static_assert(kLightings % kSums == 0 && kSums % kLanes == 0);
 
-void sumReceived(const float* radiosity, const std::uint32_t* node, const Sight* sight,
+void sumReceived(const float* radiosity, const std::uint32_t* node, const FormFactor* formFactor,
                  std::size_t count, float* out) {
     constexpr std::size_t kAhead = 4, kPerLine = 64 / sizeof(float);
     const Floats d;
@@ -37,7 +37,7 @@ void sumReceived(const float* radiosity, const std::uint32_t* node, const Sight*
             for (std::size_t t = 0; t < kLightings; t += kPerLine)
                 hwy::Prefetch(radiosity + node[i + kAhead] * kLightings + t);
         const float* row = radiosity + node[i] * kLightings;
-        const V share = hn::Set(d, sight[i].irradiance);
+        const V share = hn::Set(d, formFactor[i].irradiance);
         for (std::size_t k = 0; k < kLightings / kLanes; ++k)
             sums[k] = hn::Add(sums[k], hn::Mul(share, hn::LoadU(d, row + k * kLanes)));
     }
@@ -92,10 +92,10 @@ HWY_EXPORT(sumReceived);
 HWY_EXPORT(compareLinks);
 
 LightingRow receivedFrom(const TrainingLight& training, std::span<const std::uint32_t> node,
-                         std::span<const Sight> sight) {
+                         std::span<const FormFactor> formFactor) {
     LightingRow sum;
     HWY_DYNAMIC_DISPATCH(sumReceived)
-    (training.radiosity.data(), node.data(), sight.data(), node.size(), sum.data());
+    (training.radiosity.data(), node.data(), formFactor.data(), node.size(), sum.data());
     return sum;
 }
 

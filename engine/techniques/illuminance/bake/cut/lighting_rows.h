@@ -21,9 +21,9 @@ struct Received {
 };
 
 /// What senders bring to a cache in each lighting: the sum over `node` of the node's radiosity,
-/// times the irradiance of its `sight`. Both spans have the same length.
+/// times the irradiance of its `formFactor`. Both spans have the same length.
 LightingRow receivedFrom(const TrainingLight& training, std::span<const std::uint32_t> node,
-                         std::span<const Sight> sight);
+                         std::span<const FormFactor> formFactor);
 
 /// Number of nodes whose radiosity a link to two senders might read.
 inline constexpr std::size_t kLinkCandidates = 3;

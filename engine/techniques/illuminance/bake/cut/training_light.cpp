@@ -136,20 +136,20 @@ void lightSky(const ClusterTree& tree, TrainingLight& out) {
 /// prior for that, the error of the cut at 32 and 256 links was 0.096 and 0.0116 in Cornell with a
 /// lamp, 0.36 and 0.0134 in sunlit Sponza; with this scaling it is 0.072 and 0.0092, 0.28 and
 /// 0.0113.
-void normalise(const std::vector<float>& seen, TrainingLight& out) {
+void normalise(const std::vector<float>& importance, TrainingLight& out) {
     double squares[TrainingLight::kCount] = {}, total = 0;
-    for (std::size_t leaf = 0; leaf < seen.size(); ++leaf) {
+    for (std::size_t leaf = 0; leaf < importance.size(); ++leaf) {
         const float* row = out.row(std::uint32_t(leaf));
-        total += double(seen[leaf]);
+        total += double(importance[leaf]);
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
-            squares[t] += double(seen[leaf]) * double(row[t]) * double(row[t]);
+            squares[t] += double(importance[leaf]) * double(row[t]) * double(row[t]);
     }
     float scale[TrainingLight::kCount];
     for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
         scale[t] =
             squares[t] > 0 ? float(std::sqrt(total / squares[t])) * TrainingLight::strength(t) : 0;
     }
-    for (std::size_t leaf = 0; leaf < seen.size(); ++leaf) {
+    for (std::size_t leaf = 0; leaf < importance.size(); ++leaf) {
         float* row = out.radiosity.data() + leaf * TrainingLight::kCount;
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
             row[t] *= scale[t];
@@ -210,13 +210,13 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
 }
 
 TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,
-                            const std::vector<float>& seen, const TracedTraining& traced) {
+                            const std::vector<float>& importance, const TracedTraining& traced) {
     TrainingLight result;
     resizeLarge(result.radiosity, std::size_t(tree.size()) * TrainingLight::kCount);
     result.squaredWeights.assign(tree.size(), 1);
     lightSurfels(scene, surfels, traced, result);
     lightSky(tree, result);
-    normalise(seen, result);
+    normalise(importance, result);
     pull(tree, result);
     return result;
 }

@@ -66,9 +66,8 @@ struct EarlierTraining {
 TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                              const EarlierTraining* earlier, const Progress& progress);
 
-/// Computes the training light of all nodes. `seen`: how much of each leaf all caches together see,
-/// in irradiance (seenByCaches()).
+/// Computes the training light of all nodes. `importance`: leafImportance() of the tree.
 TrainingLight trainingLight(const Scene& scene, const Surfels& surfels, const ClusterTree& tree,
-                            const std::vector<float>& seen, const TracedTraining& traced);
+                            const std::vector<float>& importance, const TracedTraining& traced);
 
 } // namespace limn

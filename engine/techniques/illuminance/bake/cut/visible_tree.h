@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/illuminance/bake/rays/sight.h"
+#include "engine/techniques/illuminance/bake/rays/form_factor.h"
 #include "engine/techniques/illuminance/bake/senders/sender_order.h"
 
 #include <array>
@@ -18,12 +18,12 @@ public:
     /// `order` must outlive the object.
     explicit VisibleTree(const SenderOrder& order);
 
-    void add(std::uint32_t leaf, const Sight& s) {
+    void add(std::uint32_t leaf, const FormFactor& s) {
         const std::uint32_t rank = m_order.rank(leaf);
         std::uint32_t& entry = m_entry[rank];
         if (entry == kNone) {
             entry = std::uint32_t(m_added.size());
-            m_inSight[rank / 64] |= std::uint64_t(1) << rank % 64;
+            m_visible[rank / 64] |= std::uint64_t(1) << rank % 64;
             m_added.push_back(s);
         } else {
             m_added[entry] += s;
@@ -38,16 +38,16 @@ public:
     std::uint32_t child(std::uint32_t i, int side) const { return m_child[i - m_leaves][side]; }
 
     std::vector<std::uint32_t> node; ///< of the ClusterTree
-    std::vector<Sight> sight;
+    std::vector<FormFactor> formFactor;
 
 private:
     static constexpr std::uint32_t kNone = ~0U;
 
     const SenderOrder& m_order;
     std::uint32_t m_leaves = 0;
-    std::vector<std::uint32_t> m_entry;   ///< per rank, of m_added; kNone: not in sight
-    std::vector<std::uint64_t> m_inSight; ///< per rank, one bit
-    std::vector<Sight> m_added;
+    std::vector<std::uint32_t> m_entry;   ///< per rank, of m_added; kNone: not visible
+    std::vector<std::uint64_t> m_visible; ///< per rank, one bit
+    std::vector<FormFactor> m_added;
     std::vector<std::uint32_t> m_found; ///< ranks, from left to right
     std::vector<std::array<std::uint32_t, 2>> m_child;
     struct Open {

@@ -3,11 +3,11 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/sh.h"
-#include "engine/techniques/illuminance/bake/cut/cut_worth.h"
+#include "engine/techniques/illuminance/bake/cut/refinement_priority.h"
 #include "engine/techniques/illuminance/bake/cut/visible_tree.h"
 #include "engine/techniques/illuminance/bake/links/link_harmonics.h"
 #include "engine/techniques/illuminance/bake/rays/seen_hits.h"
-#include "engine/techniques/illuminance/bake/rays/sky_sights.h"
+#include "engine/techniques/illuminance/bake/rays/sky_hits.h"
 #include "engine/techniques/illuminance/bake/senders/cluster_tree.h"
 #include "engine/techniques/illuminance/format/link_storage.h"
 
@@ -26,12 +26,14 @@ namespace limn {
 
 namespace {
 
-Cone makeCone(std::uint32_t node, const Sight& s) {
+Cone makeCone(std::uint32_t node, const FormFactor& s) {
     const float length = glm::length(s.moment);
     // The mean cosine of a cone is 1 - u/2, so this cone has the sum's first two bands; but none is
-    // narrower than the solid angle seen: weight pi = 2 pi u.
-    const float u = std::clamp(2 * (1 - length / s.weight), std::min(s.weight / 2, 2.f), 2.f);
-    return {node, length > 0 ? s.moment / length : glm::vec3(0, 0, 1), u, s.weight, s.irradiance};
+    // narrower than the solid angle seen: pi solidAngle = 2 pi u.
+    const float u =
+        std::clamp(2 * (1 - length / s.solidAngle), std::min(s.solidAngle / 2, 2.f), 2.f);
+    return {node, length > 0 ? s.moment / length : glm::vec3(0, 0, 1), u, s.solidAngle,
+            s.irradiance};
 }
 
 /// Scales each link of a surface cache so that its sender brings, through the SH, exactly the
@@ -93,9 +95,10 @@ public:
 
     /// Builds the tree of what a cache sees. Returns false for a cache that sees nothing.
     bool look(const Caches& caches, std::uint32_t cache) {
-        forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float) {
-            m_seen.add(sender, sight);
-        });
+        forEachSample(caches, cache,
+                      [&](std::uint32_t sender, const FormFactor& formFactor, float) {
+                          m_seen.add(sender, formFactor);
+                      });
         m_seen.build();
         return m_seen.size() > 0;
     }
@@ -103,20 +106,20 @@ public:
     /// After look(): number of visible leaves.
     std::uint32_t leaves() const { return m_seen.leaves(); }
 
-    /// After look(): worth and representative of each inner node.
+    /// After look(): priority and representative of each inner node.
     const CutChoices& weigh() {
         if (in.settings.criterion == CutCriterion::SolidAngle)
-            m_worth.bySolidAngle(m_seen);
+            m_priority.bySolidAngle(m_seen);
         else
-            m_worth.byDetail(m_seen, in.training);
-        return m_worth.choices();
+            m_priority.byDetail(m_seen, in.training);
+        return m_priority.choices();
     }
 
-    /// After look(): applies the refinements worth more than `bound`, at most the best `maxLinks` -
-    /// 1 of them.
+    /// After look(): applies the refinements of a priority above `bound`, at most the best
+    /// `maxLinks` - 1 of them.
     PackedLinks link(const Caches& caches, std::uint32_t cache, const CutChoices& choices,
                      float bound, std::uint32_t maxLinks) {
-        chooseRefined(choices.worth, bound, maxLinks);
+        chooseRefined(choices.priority, bound, maxLinks);
         findRead(choices.representative);
         m_cones.clear();
         put(m_seen.size() - 1);
@@ -141,7 +144,7 @@ public:
             if (place == Place::AboveLinks && !m_refined[i])
                 place = m_read[i] == m_seen.node[i] ? Place::OfCluster : Place::Represented;
             if (place == Place::OfCluster || (place == Place::Represented && i < m_seen.leaves()))
-                visit(m_seen.node[i], m_seen.sight[i].irradiance);
+                visit(m_seen.node[i], m_seen.formFactor[i].irradiance);
             if (i >= m_seen.leaves())
                 for (const int side : {0, 1})
                     m_place[m_seen.child(i, side)] =
@@ -162,15 +165,16 @@ private:
         return {std::min(in.settings.bands, kIrradianceBands), m_normals, caches.normal[cache]};
     }
 
-    /// Calls visit(sender, Sight of the sample, u of the cone that it stands for) for rays, aimed
-    /// samples and sky sights.
+    /// Calls visit(sender, FormFactor of the sample, u of the cone that it stands for) for rays,
+    /// aimed samples and hits of the sky.
     template <class Visit>
     void forEachSample(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         forEachRay(caches, cache, visit);
-        forEachAimedSight(in.surfels, in.hits, in.points, caches, cache, visit);
-        forEachSkySight(
-            in.hits, in.points, caches, cache,
-            [&](std::uint32_t sender, const Sight& sight) { visit(sender, sight, 0.f); });
+        forEachAimedSample(in.surfels, in.hits, in.points, caches, cache, visit);
+        forEachSkyHit(in.hits, in.points, caches, cache,
+                      [&](std::uint32_t sender, const FormFactor& formFactor) {
+                          visit(sender, formFactor, 0.f);
+                      });
     }
 
     template <class Visit>
@@ -191,9 +195,9 @@ private:
         for (std::uint32_t r = 0, k = 0; r < count; ++r) {
             if (sender[r] < GatherHits::kFirstMark)
                 visit(sender[r],
-                      Sight{all * local[r].weight,
-                            sphere ? half * local[r].weight : all * local[r].moment.z,
-                            toWorld[k] * local[r].moment},
+                      FormFactor{all * local[r].weight,
+                                 sphere ? half * local[r].weight : all * local[r].moment.z,
+                                 toWorld[k] * local[r].moment},
                       0.f);
             k = k + 1 == rays.points ? 0 : k + 1;
         }
@@ -212,10 +216,11 @@ private:
         const auto stride = std::size_t(bands * bands);
         findLinksOfLeaves();
         m_harmonics.assign(m_cones.size() * stride, 0);
-        forEachSample(caches, cache, [&](std::uint32_t sender, const Sight& sight, float u) {
-            addHarmonics(bands, sight.moment / sight.weight, u, sight.weight,
-                         m_harmonics.data() + m_linkOf[sender] * stride);
-        });
+        forEachSample(
+            caches, cache, [&](std::uint32_t sender, const FormFactor& formFactor, float u) {
+                addHarmonics(bands, formFactor.moment / formFactor.solidAngle, u,
+                             formFactor.solidAngle, m_harmonics.data() + m_linkOf[sender] * stride);
+            });
         if (caches.kind[cache] == CacheKind::Hemisphere) {
             const IrradianceAxis axis = axisOf(caches, cache);
             for (std::size_t k = 0; k < m_cones.size(); ++k) {
@@ -249,11 +254,11 @@ private:
         }
     }
 
-    void chooseRefined(const std::vector<float>& worth, float bound, std::uint32_t maxLinks) {
+    void chooseRefined(const std::vector<float>& priority, float bound, std::uint32_t maxLinks) {
         m_order.clear();
-        for (std::uint32_t i = 0; i < worth.size(); ++i)
-            if (worth[i] > bound)
-                m_order.emplace_back(-worth[i], ~i); // among equals the parent, which comes last
+        for (std::uint32_t i = 0; i < priority.size(); ++i)
+            if (priority[i] > bound)
+                m_order.emplace_back(-priority[i], ~i); // among equals the parent, which comes last
         const std::size_t count = std::min<std::size_t>(m_order.size(), maxLinks - 1);
         if (count < m_order.size())
             std::nth_element(m_order.begin(), m_order.begin() + std::ptrdiff_t(count),
@@ -274,12 +279,12 @@ private:
 
     void put(std::uint32_t i) {
         if (!m_refined[i])
-            m_cones.push_back(makeCone(m_read[i], m_seen.sight[i]));
+            m_cones.push_back(makeCone(m_read[i], m_seen.formFactor[i]));
     }
 
     const LinkInput& in;
     VisibleTree m_seen;
-    CutWorth m_worth;
+    RefinementPriority m_priority;
     std::vector<std::pair<float, std::uint32_t>> m_order;
     std::vector<bool> m_refined;
     std::vector<std::uint32_t> m_read; ///< per node of m_seen, the ClusterTree's node to link
@@ -328,28 +333,28 @@ private:
     double m_scale = 1;
 };
 
-/// Histogram of the worth of all caches' refinements, in steps of less than 1 % of the worth: bins
+/// Histogram of the priorities of all refinements of all caches, in steps of less than 1 %: bins
 /// are the upper half of a positive float's bits.
-using WorthHistogram = std::vector<std::uint64_t>;
+using PriorityHistogram = std::vector<std::uint64_t>;
 
-std::uint32_t stepOf(float worth) {
-    if (!(worth > 0)) // of -0 and of NaN it would lie beyond the histogram
+std::uint32_t stepOf(float priority) {
+    if (!(priority > 0)) // of -0 and of NaN it would lie beyond the histogram
         return 0;
-    return std::bit_cast<std::uint32_t>(worth) >> 16;
+    return std::bit_cast<std::uint32_t>(priority) >> 16;
 }
 
-/// The worth above which there are at most `budget` refinements.
-float boundFor(const WorthHistogram& histogram, std::uint64_t budget) {
+/// The priority above which there are at most `budget` refinements.
+float boundFor(const PriorityHistogram& histogram, std::uint64_t budget) {
     std::uint64_t used = 0;
     auto step = std::uint32_t(histogram.size());
     while (step > 0 && used + histogram[step - 1] <= budget)
         used += histogram[--step];
-    // Just below the lowest step taken, so that all of it is worth more.
+    // Just below the lowest step taken, so that all of it lies above.
     return step == 0 ? -1 : std::nextafter(std::bit_cast<float>(step << 16), -1.f);
 }
 
-/// Fills `choices` per cache with CacheLinker::weigh(), the worth times the root of the cache's
-/// weight, since it is an error that is not squared, and finds the bound on the worth that gives
+/// Fills `choices` per cache with CacheLinker::weigh(), the priority times the root of the cache's
+/// weight, since it is an error that is not squared, and finds the bound on the priority that gives
 /// all caches together as many links as n_L each would. Returns std::nullopt when cancelled. What a
 /// cache saw is not stored: it would take 24 bytes a leaf, more than anything else in a bake, and
 /// looking again is as fast as reading it back.
@@ -358,19 +363,19 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
                                  const CutSettings& settings, const Progress& progress,
                                  std::vector<CutChoices>& choices) {
     constexpr std::size_t kSteps = 1 << 15;
-    tbb::enumerable_thread_specific<WorthHistogram> histograms(WorthHistogram(kSteps, 0));
+    tbb::enumerable_thread_specific<PriorityHistogram> histograms(PriorityHistogram(kSteps, 0));
     std::atomic<std::uint64_t> budget = 0;
     const bool done = parallelRanges(
         caches.size(), 8, progress, "budget", [&](std::size_t begin, std::size_t end) {
             CacheLinker& linker = linkers.local();
-            WorthHistogram& histogram = histograms.local();
+            PriorityHistogram& histogram = histograms.local();
             for (std::size_t c = begin; c < end; ++c) {
                 if (!linker.look(caches, std::uint32_t(c)))
                     continue;
                 budget += std::min(linker.leaves(), settings.links) - 1;
                 choices[c] = linker.weigh();
                 const float weight = std::sqrt(points.weightOf(c));
-                for (float& w : choices[c].worth) {
+                for (float& w : choices[c].priority) {
                     w *= weight;
                     ++histogram[stepOf(w)];
                 }
@@ -378,39 +383,39 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
         });
     if (!done)
         return {};
-    WorthHistogram sum(kSteps, 0);
-    for (const WorthHistogram& h : histograms)
+    PriorityHistogram sum(kSteps, 0);
+    for (const PriorityHistogram& h : histograms)
         std::transform(sum.begin(), sum.end(), h.begin(), sum.begin(), std::plus<>());
     return boundFor(sum, budget);
 }
 
 } // namespace
 
-std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
-                                const CachePoints& points, const Caches& caches,
-                                const ClusterTree& tree) {
-    const SumsOfSenders sums = sumOverCaches(
-        std::uint32_t(caches.size()), tree.leaves(),
-        [&](std::uint32_t begin, std::uint32_t end, std::span<double> seen) {
-            forEachSeenHit(hits, points, caches, begin, end,
-                           [&](std::uint32_t, std::uint32_t, std::uint32_t sender, double weight) {
-                               seen[sender] += weight;
-                           });
-            for (std::uint32_t c = begin; c < end; ++c) {
-                const auto weight = double(points.weightOf(c));
-                const auto add = [&](std::uint32_t sender, const Sight& sight, float = 0) {
-                    seen[sender] += weight * double(sight.irradiance);
-                };
-                forEachSkySight(hits, points, caches, c, add);
-                forEachAimedSight(surfels, hits, points, caches, c, add);
-            }
-        });
+std::vector<float> leafImportance(const Surfels& surfels, const GatherHits& hits,
+                                  const CachePoints& points, const Caches& caches,
+                                  const ClusterTree& tree) {
+    const SumsOfSenders sums =
+        sumOverCaches(std::uint32_t(caches.size()), tree.leaves(),
+                      [&](std::uint32_t begin, std::uint32_t end, std::span<double> importance) {
+                          forEachSeenHit(hits, points, caches, begin, end,
+                                         [&](std::uint32_t, std::uint32_t, std::uint32_t sender,
+                                             double weight) { importance[sender] += weight; });
+                          for (std::uint32_t c = begin; c < end; ++c) {
+                              const auto weight = double(points.weightOf(c));
+                              const auto add = [&](std::uint32_t sender,
+                                                   const FormFactor& formFactor, float = 0) {
+                                  importance[sender] += weight * double(formFactor.irradiance);
+                              };
+                              forEachSkyHit(hits, points, caches, c, add);
+                              forEachAimedSample(surfels, hits, points, caches, c, add);
+                          }
+                      });
     const std::span<const double> all = sums.before(SumsOfSenders::kParts);
     return {all.begin(), all.end()};
 }
 
-void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
-    std::vector<double> sum(seen.begin(), seen.end());
+void weighByImportance(const std::vector<float>& importance, ClusterTree& tree) {
+    std::vector<double> sum(importance.begin(), importance.end());
     sum.resize(tree.size());
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
         const double l = sum[tree.left[k]], r = sum[tree.right[k]];
@@ -420,11 +425,11 @@ void weighBySight(const std::vector<float>& seen, ClusterTree& tree) {
     }
 }
 
-void weighByLinks(const std::vector<float>& seen, const std::vector<double>& linked,
+void weighByLinks(const std::vector<float>& importance, const std::vector<double>& linked,
                   ClusterTree& tree) {
-    // Subtracting the links at a node or below it from what is seen of it leaves what links above
-    // it read.
-    std::vector<double> all(seen.begin(), seen.end()), below = linked;
+    // A node's importance less that of the links to it, or to nodes below it, is what links to
+    // nodes above it read.
+    std::vector<double> all(importance.begin(), importance.end()), below = linked;
     all.resize(tree.size());
     for (std::size_t k = 0; k < tree.left.size(); ++k) {
         const std::uint32_t l = tree.left[k], r = tree.right[k],

@@ -6,24 +6,24 @@
 
 namespace limn {
 
-/// Per leaf, how much of it all caches together see: the sum over the caches, by their
-/// CachePoints::weight, of the irradiance that a radiosity of 1 at the leaf brings.
-std::vector<float> seenByCaches(const Surfels& surfels, const GatherHits& hits,
-                                const CachePoints& points, const Caches& caches,
-                                const ClusterTree& tree);
+/// Importance of each leaf of the tree: the irradiance that a radiosity of 1 at the leaf
+/// contributes to all caches, as a sum weighted by CachePoints::weight.
+std::vector<float> leafImportance(const Surfels& surfels, const GatherHits& hits,
+                                  const CachePoints& points, const Caches& caches,
+                                  const ClusterTree& tree);
 
-/// Replaces the tree's area weights by how much of each sender is seen: a cluster's radiosity
-/// becomes the mean over what the caches see of it. The errors of all links to a cluster then sum
-/// to zero, whereas a mean by area is darkened by what no cache sees, such as the floor under
-/// furniture and the backs of walls. Nodes that no ray met keep their weights.
-void weighBySight(const std::vector<float>& seen, ClusterTree& tree);
+/// Replaces the tree's area weights by the importance of the senders: a cluster's radiosity becomes
+/// the mean over what the caches see of it. The errors of all links to a cluster then sum to zero,
+/// whereas a mean by area is darkened by what no cache sees, such as the floor under furniture and
+/// the backs of walls. Nodes of no importance keep their weights.
+void weighByImportance(const std::vector<float>& importance, ClusterTree& tree);
 
-/// Weighs the children of each cluster by what is seen of them by the caches that are linked to the
+/// Weighs the children of each cluster by their importance to the caches that are linked to the
 /// cluster or to a node above it. Caches close to variation within a cluster link its parts
-/// instead; counting them would make the mean that the others read too dark or too bright. `seen`:
-/// from seenByCaches(); `linked`: from buildLinks(). Clusters that no cache reads keep their
-/// weights.
-void weighByLinks(const std::vector<float>& seen, const std::vector<double>& linked,
+/// instead; counting them would make the mean that the others read too dark or too bright.
+/// `importance`: from leafImportance(); `linked`: from buildLinks(). Clusters that no cache reads
+/// keep their weights.
+void weighByLinks(const std::vector<float>& importance, const std::vector<double>& linked,
                   ClusterTree& tree);
 
 struct CutSettings {
@@ -40,9 +40,9 @@ struct CutSettings {
 ///
 /// SolidAngle, the paper's criterion: each cache refines its node of the largest visible solid
 /// angle, up to n_L links. Detail: of the refinements of all caches, those that lower the error of
-/// irradiance most per link are made (CutWorth::byDetail), with as many links in total as
+/// irradiance most per link are made (RefinementPriority::byDetail), with as many links in total as
 /// SolidAngle has. Hard caches get more of them, up to 16 n_L, and easy ones fewer. A link reads
-/// the cluster of what it stands for, or a representative below it (CutWorth::byDetail).
+/// the cluster of what it stands for, or a representative below it (RefinementPriority::byDetail).
 ///
 /// Rtp stores the cone of a node's rays: their sum of weights and mean direction. Sh stores the
 /// harmonics of the rays themselves, which are more accurate (`limn bench links`).

@@ -108,28 +108,28 @@ private:
     /// transport; each sample is scaled by the inverse of its probability, so the sum is unbiased.
     std::vector<AimedSample> chooseSamples(std::uint32_t cache, std::uint32_t rays,
                                            const std::vector<std::uint32_t>& open) const {
-        const std::uint32_t most = maxLampsAimed(rays);
+        const std::uint32_t maximum = maxLampsAimed(rays);
         std::vector<AimedSample> all;
         for (std::size_t i = 0; i < targets.size(); ++i)
             if (isFar(targets[i], open[0]))
                 all.push_back({targets[i], open[i % open.size()]});
-        if (linker == Linker::FormFactor || all.size() <= most)
+        if (linker == Linker::FormFactor || all.size() <= maximum)
             return all;
-        std::vector<double> worth;
+        std::vector<double> cumulative;
         double sum = 0;
         for (const AimedSample& sample : all)
-            worth.push_back(
+            cumulative.push_back(
                 sum += double(viewOf(set.surfels, points, caches.kind[cache], sample).transport));
         std::vector<AimedSample> chosen;
-        const double step = sum / most,
+        const double step = sum / maximum,
                      start = double(unitFloat(mixBits(points.seed[cache] + 1))) * step;
-        for (std::size_t i = 0, k = 0; k < most && i < all.size(); ++i) {
+        for (std::size_t i = 0, k = 0; k < maximum && i < all.size(); ++i) {
             std::uint32_t hits = 0;
-            for (; k < most && start + double(k) * step < worth[i]; ++k)
+            for (; k < maximum && start + double(k) * step < cumulative[i]; ++k)
                 ++hits;
-            const double own = worth[i] - (i > 0 ? worth[i - 1] : 0);
-            if (hits > 0 && own > 0)
-                chosen.push_back({all[i].sender, all[i].point, float(hits * step / own)});
+            const double share = cumulative[i] - (i > 0 ? cumulative[i - 1] : 0);
+            if (hits > 0 && share > 0)
+                chosen.push_back({all[i].sender, all[i].point, float(hits * step / share)});
         }
         return chosen;
     }

@@ -17,19 +17,19 @@ struct AimedSample {
     float scale = 1;      ///< senders that it stands for, itself included [1]
 };
 
-/// A direction in which a cache sees the sky.
-struct SkySight {
+/// A ray of a cache that met the sky.
+struct SkyHit {
     std::uint32_t sender; ///< a sky cell: leaf of the ClusterTree
     std::uint32_t point;  ///< of CachePoints
     Oct16 direction;
     float transport; ///< solid angle that it stands for / pi
 };
 
-/// Sky that caches see through openings, found by lookForSky(). all[begin[c] … begin[c + 1]) belong
-/// to cache c; a cache has none, or all that it sees of the sky.
-struct SkySights {
-    std::vector<std::uint32_t> begin; ///< empty: nobody looked
-    std::vector<SkySight> all;
+/// Sky that caches see through openings, found by findSkyHits(). all[begin[c] … begin[c + 1])
+/// belong to cache c; a cache has none, or all that its rays found.
+struct SkyHits {
+    std::vector<std::uint32_t> begin; ///< empty: not searched
+    std::vector<SkyHit> all;
     std::uint64_t rays = 0; ///< traced for this result
 };
 
@@ -39,7 +39,7 @@ struct SkySights {
 struct GatherHits {
     static constexpr std::uint32_t kBackFace =
         ~0U; ///< the back of a one-sided surface: carries nothing
-    /// A lamp or the sky: left to the cache's aimed samples or sky sights.
+    /// A lamp or the sky: left to the cache's aimed samples or SkyHits.
     static constexpr std::uint32_t kAimed = ~0U - 1;
     static constexpr std::uint32_t kLeftOut =
         ~0U - 2; ///< started in a wall: not a ray of this cache
@@ -48,7 +48,7 @@ struct GatherHits {
     std::vector<std::uint32_t> sender;
     std::vector<std::uint32_t> aimedBegin;
     std::vector<AimedSample> aimed;
-    SkySights sky;
+    SkyHits sky;
 
     /// What a cache's rays met.
     std::span<const std::uint32_t> sendersOf(std::uint32_t cache) const {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/core/parallel.h"
+#include "engine/techniques/illuminance/bake/rays/form_factor.h"
 #include "engine/techniques/illuminance/bake/rays/gather.h"
-#include "engine/techniques/illuminance/bake/rays/sight.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -68,18 +68,18 @@ void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Cac
     }
 }
 
-/// Calls visit(sender, Sight, u) for each of a cache's aimed samples. Its ray meets the middle of a
-/// sender and stands for a cone of the sender's solid angle: pi transport / scale = 2 pi u.
+/// Calls visit(sender, FormFactor, u) for each of a cache's aimed samples. Its ray meets the middle
+/// of a sender and stands for a cone of the sender's solid angle: pi transport / scale = 2 pi u.
 template <class Visit>
-void forEachAimedSight(const Surfels& surfels, const GatherHits& hits, const CachePoints& points,
-                       const Caches& caches, std::uint32_t cache, const Visit& visit) {
+void forEachAimedSample(const Surfels& surfels, const GatherHits& hits, const CachePoints& points,
+                        const Caches& caches, std::uint32_t cache, const Visit& visit) {
     const CacheKind kind = caches.kind[cache];
     for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k) {
         const AimedSample& sample = hits.aimed[k];
         const SenderView v = viewOf(surfels, points, kind, sample);
         visit(sample.sender,
-              Sight{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
-                    v.direction * v.transport},
+              FormFactor{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
+                         v.direction * v.transport},
               v.transport / (2 * sample.scale));
     }
 }

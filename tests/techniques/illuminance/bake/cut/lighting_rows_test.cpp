@@ -42,18 +42,19 @@ void forEachVectorUnit(const Body& body) {
 TEST(LightingRows, WhatIsReceivedIsTheSumOfWhatIsSeen) {
     Rows rows(50);
     std::vector<std::uint32_t> node;
-    std::vector<Sight> sight;
+    std::vector<FormFactor> formFactor;
     std::array<double, TrainingLight::kCount> expected{};
     for (std::uint32_t i = 0; i < 23; ++i) {
         node.push_back(i * 7 % 50);
-        sight.push_back({1, rows.number(), {}});
+        formFactor.push_back({1, rows.number(), {}});
         for (std::size_t t = 0; t < expected.size(); ++t)
-            expected[t] += double(sight.back().irradiance) * double(rows.training.row(node[i])[t]);
+            expected[t] +=
+                double(formFactor.back().irradiance) * double(rows.training.row(node[i])[t]);
     }
-    const LightingRow first = receivedFrom(rows.training, node, sight);
+    const LightingRow first = receivedFrom(rows.training, node, formFactor);
     for (std::size_t t = 0; t < expected.size(); ++t)
         EXPECT_NEAR(first[t], expected[t], 1e-5 * expected[t]);
-    forEachVectorUnit([&] { EXPECT_EQ(receivedFrom(rows.training, node, sight), first); });
+    forEachVectorUnit([&] { EXPECT_EQ(receivedFrom(rows.training, node, formFactor), first); });
     EXPECT_EQ(receivedFrom(rows.training, {}, {}), LightingRow{});
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/illuminance/bake/links/build_links.h"
 
-#include "engine/techniques/illuminance/bake/cut/cut_worth.h"
+#include "engine/techniques/illuminance/bake/cut/refinement_priority.h"
 #include "engine/techniques/illuminance/format/link_storage.h"
 #include "tests/techniques/illuminance/bake/traced_room.h"
 
@@ -28,9 +28,10 @@ struct Fixture : TracedRoom {
     TrainingLight training;
 
     Fixture() : TracedRoom(roomWithBlock()) {
-        const std::vector<float> seen = seenByCaches(set.surfels, hits, points, caches, tree);
-        weighBySight(seen, tree);
-        training = trainingLight(scene, set.surfels, tree, seen,
+        const std::vector<float> importance =
+            leafImportance(set.surfels, hits, points, caches, tree);
+        weighByImportance(importance, tree);
+        training = trainingLight(scene, set.surfels, tree, importance,
                                  traceTraining(trace, set.surfels, nullptr, {}));
     }
     Caches cut(CutCriterion criterion, std::uint32_t links) const {
@@ -95,7 +96,8 @@ TEST(VisibleTree, JoinsWhatIsSeenAtItsLowestCommonNodes) {
             const std::uint32_t inner = seen.node[n] - tree.leaves();
             EXPECT_TRUE(isBelow(tree, seen.node[l], tree.left[inner]));
             EXPECT_TRUE(isBelow(tree, seen.node[r], tree.right[inner]));
-            EXPECT_NEAR(seen.sight[n].weight, seen.sight[l].weight + seen.sight[r].weight, 1e-5);
+            EXPECT_NEAR(seen.formFactor[n].solidAngle,
+                        seen.formFactor[l].solidAngle + seen.formFactor[r].solidAngle, 1e-5);
         }
     }
 }
@@ -116,7 +118,7 @@ std::array<double, TrainingLight::kCount + 1> errorWeights(const VisibleTree& se
                                                            const TrainingLight& training) {
     std::array<double, TrainingLight::kCount + 1> E{}, weight;
     for (std::uint32_t n = 0; n < seen.leaves(); ++n) {
-        const double share = double(seen.sight[n].irradiance);
+        const double share = double(seen.formFactor[n].irradiance);
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
             E[t] +=
                 share * double(training.row(seen.node[n])[t]) / double(TrainingLight::strength(t));
@@ -135,7 +137,7 @@ struct Read {
 Read readOf(const VisibleTree& seen, const CutChoices& choices, std::uint32_t n,
             Representative by) {
     if (n < seen.leaves() || by == Representative::Own)
-        return {seen.node[n], double(seen.sight[n].irradiance)};
+        return {seen.node[n], double(seen.formFactor[n].irradiance)};
     const std::uint32_t child = seen.child(n, by == Representative::Right);
     return readOf(seen, choices, child,
                   child < seen.leaves() ? Representative::Own
@@ -155,12 +157,13 @@ Brought broughtBy(const VisibleTree& seen, const TrainingLight& training) {
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
             brought[n][t] =
                 n < seen.leaves()
-                    ? double(seen.sight[n].irradiance) * double(training.row(seen.node[n])[t])
+                    ? double(seen.formFactor[n].irradiance) * double(training.row(seen.node[n])[t])
                     : brought[seen.child(n, 0)][t] + brought[seen.child(n, 1)][t];
     return brought;
 }
 
-/// What CutWorth finds for a random cache, and errors of its links by the definition, in doubles.
+/// What RefinementPriority finds for a random cache, and errors of its links by the definition, in
+/// doubles.
 struct Weighed {
     const VisibleTree& seen;
     const TrainingLight& training;
@@ -172,8 +175,8 @@ struct Weighed {
     double errorOf(std::uint32_t n, std::uint32_t node) const {
         double sum = 0;
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
-            const double d =
-                brought[n][t] - double(seen.sight[n].irradiance) * double(training.row(node)[t]);
+            const double d = brought[n][t] -
+                             double(seen.formFactor[n].irradiance) * double(training.row(node)[t]);
             sum += weight[t] * d * d;
         }
         return sum / TrainingLight::kCount;
@@ -185,16 +188,16 @@ void forEachWeighed(unsigned seed, const Visit& visit) {
     const Fixture& f = fixture();
     const SenderOrder order(f.tree);
     VisibleTree seen(order);
-    CutWorth worth;
+    RefinementPriority priority;
     std::mt19937 rng(seed);
     for (int i = 0; i < 30; ++i) {
         look(rng, f.tree, 80, seen);
-        worth.byDetail(seen, f.training);
-        visit(Weighed{seen, f.training, worth.choices()});
+        priority.byDetail(seen, f.training);
+        visit(Weighed{seen, f.training, priority.choices()});
     }
 }
 
-TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
+TEST(RefinementPriority, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
     forEachWeighed(5, [](const Weighed& w) {
         const VisibleTree& seen = w.seen;
         std::vector<double> error, gain(seen.size());
@@ -204,28 +207,28 @@ TEST(CutWorth, EveryBoundGivesTheCutOfLeastErrorForItsLinks) {
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
             gain[n] = error[n] - error[l] - error[r] +
-                      0.03 * w.weight.back() * double(seen.sight[l].irradiance) *
-                          double(seen.sight[r].irradiance);
+                      0.03 * w.weight.back() * double(seen.formFactor[l].irradiance) *
+                          double(seen.formFactor[r].irradiance);
             all += std::abs(gain[n]);
         }
-        for (const float bound : w.choices.worth) {
+        for (const float bound : w.choices.priority) {
             double reached = 0;
             for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n)
-                if (w.choices.worth[n - seen.leaves()] > bound)
+                if (w.choices.priority[n - seen.leaves()] > bound)
                     reached += gain[n] - double(bound);
             EXPECT_NEAR(reached, bestCut(seen, gain, seen.size() - 1, double(bound)), 1e-5 * all);
         }
     });
 }
 
-TEST(CutWorth, ALinkReadsTheNodeOfLeastExpectedError) {
+TEST(RefinementPriority, ALinkReadsTheNodeOfLeastExpectedError) {
     int represented = 0;
     forEachWeighed(7, [&](const Weighed& w) {
         const VisibleTree& seen = w.seen;
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const auto expected = [&](Representative by) {
                 const Read read = readOf(seen, w.choices, n, by);
-                const auto share = double(seen.sight[n].irradiance);
+                const auto share = double(seen.formFactor[n].irradiance);
                 return w.errorOf(n, read.node) + w.weight.back() * 0.03 / 2 * share *
                                                      (share - 2 * read.seen) *
                                                      double(w.training.squaredWeights[read.node]);
@@ -241,7 +244,7 @@ TEST(CutWorth, ALinkReadsTheNodeOfLeastExpectedError) {
     EXPECT_GT(represented, 100); // of some two thousand
 }
 
-TEST(CutWorth, WhatIsUnseenAndDarkDoesNotDimWhatIsSeenAndBright) {
+TEST(RefinementPriority, WhatIsUnseenAndDarkDoesNotDimWhatIsSeenAndBright) {
     // Leaves 0 to 3, clusters 4 = (0, 1), 5 = (2, 3), 6 = all. The cache sees leaves 0 and 2, which
     // a lighting makes bright, and not the others, which are dark, as the sides of two columns.
     ClusterTree tree;
@@ -262,32 +265,32 @@ TEST(CutWorth, WhatIsUnseenAndDarkDoesNotDimWhatIsSeenAndBright) {
     seen.build();
     ASSERT_EQ(seen.size(), 3U);
     ASSERT_EQ(seen.node[2], 6U);
-    CutWorth worth;
-    worth.byDetail(seen, training);
-    EXPECT_EQ(readOf(seen, worth.choices(), 2).node, 0U); // the greater of two that are exact
+    RefinementPriority priority;
+    priority.byDetail(seen, training);
+    EXPECT_EQ(readOf(seen, priority.choices(), 2).node, 0U); // the greater of two that are exact
     for (std::size_t n = 0; n < 7; ++n) // with a lighting that nothing hides, all nodes are exact
         training.radiosity[n * TrainingLight::kCount] = 1;
-    worth.byDetail(seen, training);
-    EXPECT_EQ(readOf(seen, worth.choices(), 2).node, 6U); // the mean of most senders
-    worth.bySolidAngle(seen);
-    EXPECT_EQ(readOf(seen, worth.choices(), 2).node, 6U);
+    priority.byDetail(seen, training);
+    EXPECT_EQ(readOf(seen, priority.choices(), 2).node, 6U); // the mean of most senders
+    priority.bySolidAngle(seen);
+    EXPECT_EQ(readOf(seen, priority.choices(), 2).node, 6U);
 }
 
-TEST(CutWorth, NeverFallsTowardsTheRoot) {
+TEST(RefinementPriority, NeverFallsTowardsTheRoot) {
     const Fixture& f = fixture();
     const SenderOrder order(f.tree);
     VisibleTree seen(order);
-    CutWorth worth;
+    RefinementPriority priority;
     std::mt19937 rng(6);
     for (int i = 0; i < 50; ++i) {
         look(rng, f.tree, 200, seen);
         for (const bool detail : {false, true}) {
-            detail ? worth.byDetail(seen, f.training) : worth.bySolidAngle(seen);
+            detail ? priority.byDetail(seen, f.training) : priority.bySolidAngle(seen);
             for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n)
                 for (int side = 0; side < 2; ++side)
                     if (const std::uint32_t c = seen.child(n, side); c >= seen.leaves()) {
-                        EXPECT_GE(worth.choices().worth[n - seen.leaves()],
-                                  worth.choices().worth[c - seen.leaves()]);
+                        EXPECT_GE(priority.choices().priority[n - seen.leaves()],
+                                  priority.choices().priority[c - seen.leaves()]);
                     }
         }
     }
@@ -360,15 +363,16 @@ TEST(Cut, TransportSumsToTheSolidAngleOfAnEnclosure) {
 
 TEST(TrainingLight, HasAMeanSquareOfOneOverWhatIsSeen) {
     const Fixture& f = fixture();
-    const std::vector<float> seen = seenByCaches(f.set.surfels, f.hits, f.points, f.caches, f.tree);
+    const std::vector<float> importance =
+        leafImportance(f.set.surfels, f.hits, f.points, f.caches, f.tree);
     double total = 0;
     std::vector<double> mean(TrainingLight::kCount), square(TrainingLight::kCount);
     for (std::uint32_t leaf = 0; leaf < f.tree.leaves(); ++leaf) {
-        total += double(seen[leaf]);
+        total += double(importance[leaf]);
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
             const auto b = double(f.training.row(leaf)[t]);
-            mean[t] += double(seen[leaf]) * b;
-            square[t] += double(seen[leaf]) * b * b;
+            mean[t] += double(importance[leaf]) * b;
+            square[t] += double(importance[leaf]) * b * b;
         }
     }
     int lit = 0;
@@ -376,12 +380,12 @@ TEST(TrainingLight, HasAMeanSquareOfOneOverWhatIsSeen) {
         lit += mean[t] > 0;
         if (mean[t] > 0) {
             EXPECT_NEAR(square[t] / total, 1, 1e-3);
-            // The root's weights are those of sight, so its radiosity is the mean.
+            // The root's weights are the leaves' importance, so its radiosity is the mean.
             EXPECT_NEAR(f.training.row(f.tree.size() - 1)[t], mean[t] / total, 1e-2);
         }
     }
     double squares = 0; // of these weights
-    for (const float s : seen)
+    for (const float s : importance)
         squares += double(s) * double(s) / (total * total);
     EXPECT_NEAR(f.training.squaredWeights.back(), squares, 1e-3 * squares);
     EXPECT_GE(lit, 32); // a closed room: every lamp, no sun, no sky
@@ -396,26 +400,27 @@ TEST(WeighByLinks, CountsThoseAloneThatReadTheMean) {
     ASSERT_EQ(tree.leaves(), 3U);
     // One cache is linked to leaf 0, 2 of the 3 that are seen of it, one to all of the tree, one to
     // leaf 2 and the cluster of the others.
-    const std::vector<float> seen = {3, 4, 7};
+    const std::vector<float> importance = {3, 4, 7};
     const std::vector<double> linked = {2, 0, 5, 2, 5};
-    weighByLinks(seen, linked, tree);
+    weighByLinks(importance, linked, tree);
     EXPECT_FLOAT_EQ(tree.leftWeight[0], 1 / 5.f);
     EXPECT_FLOAT_EQ(tree.leftWeight[1], 3 / 5.f);
-    weighByLinks(seen, {3, 4, 7, 0, 0}, tree); // nobody reads a mean
+    weighByLinks(importance, {3, 4, 7, 0, 0}, tree); // nobody reads a mean
     EXPECT_FLOAT_EQ(tree.leftWeight[0], 1 / 5.f);
     EXPECT_FLOAT_EQ(tree.leftWeight[1], 3 / 5.f);
 }
 
 TEST(WeighByLinks, LinksKeepTheEnergyOfWhatTheyStandFor) {
     const Fixture& f = fixture();
-    const std::vector<float> seen = seenByCaches(f.set.surfels, f.hits, f.points, f.caches, f.tree);
+    const std::vector<float> importance =
+        leafImportance(f.set.surfels, f.hits, f.points, f.caches, f.tree);
     for (const std::uint32_t links : {8U, 16U, 32U}) {
         Caches caches = f.caches;
         std::vector<double> linked;
         buildLinks(f.set.surfels, f.tree, f.hits, f.points, f.training,
                    {CutCriterion::Detail, links, 3}, {}, caches, &linked);
         ClusterTree tree = f.tree;
-        weighByLinks(seen, linked, tree);
+        weighByLinks(importance, linked, tree);
         // Over all caches, bright towards one side.
         double before = 0, after = 0;
         for (int axis = 0; axis < 6; ++axis) {
@@ -424,7 +429,7 @@ TEST(WeighByLinks, LinksKeepTheEnergyOfWhatTheyStandFor) {
             for (std::uint32_t s = 0; s < f.tree.surfels; ++s) {
                 const float x = f.set.surfels.position[s][axis / 2];
                 was[s] = std::exp(axis % 2 ? -3.0 * double(x) : 3.0 * double(x) - 6);
-                exact += was[s] * double(seen[s]);
+                exact += was[s] * double(importance[s]);
             }
             is = was;
             double sumWas = 0, sumIs = 0;

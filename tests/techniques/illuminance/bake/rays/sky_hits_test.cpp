@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/light/rectangle_light.h"
 #include "engine/techniques/illuminance/bake/rays/seen_hits.h"
-#include "engine/techniques/illuminance/bake/rays/sky_sights.h"
+#include "engine/techniques/illuminance/bake/rays/sky_hits.h"
 #include "tests/techniques/illuminance/bake/traced_room.h"
 #include "tests/techniques/illuminance/bake/window_room.h"
 
@@ -13,7 +13,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace limn::sky_sights_test {
+namespace limn::sky_hits_test {
 namespace {
 
 using namespace simple;
@@ -28,10 +28,10 @@ bool isSky(const TracedRoom& room, std::uint32_t sender) {
     return sender >= room.set.surfels.size() && sender < GatherHits::kFirstMark;
 }
 
-SkySights sightsOf(const TracedRoom& room) {
-    return lookForSky({room.trace, room.set.surfels.size(), room.caches, room.points, room.hits,
-                       room.lightmap, TracedRoom::kGrid},
-                      {});
+SkyHits skyHitsOf(const TracedRoom& room) {
+    return findSkyHits({room.trace, room.set.surfels.size(), room.caches, room.points, room.hits,
+                        room.lightmap, TracedRoom::kGrid},
+                       {});
 }
 
 /// Irradiance from a sky of radiosity 1 on each of the room's lightmap caches.
@@ -43,11 +43,11 @@ std::vector<double> skyIrradiance(const TracedRoom& room) {
                            sum[c] += weight;
                    });
     for (std::uint32_t c = 0; c < sum.size(); ++c)
-        forEachSkySight(room.hits, room.points, room.caches, c,
-                        [&](std::uint32_t sender, const Sight& sight) {
-                            EXPECT_GE(sender, room.set.surfels.size());
-                            sum[c] += double(sight.irradiance);
-                        });
+        forEachSkyHit(room.hits, room.points, room.caches, c,
+                      [&](std::uint32_t sender, const FormFactor& formFactor) {
+                          EXPECT_GE(sender, room.set.surfels.size());
+                          sum[c] += double(formFactor.irradiance);
+                      });
     return sum;
 }
 
@@ -81,7 +81,7 @@ class Window : public testing::TestWithParam<float> {};
 TEST_P(Window, LightsTheRoomWithLessNoiseAndNoBias) {
     TracedRoom room(roomWithWindow(GetParam()), 8000);
     const SkyError chance = errorOf(room, GetParam());
-    takeSkySights(sightsOf(room), room.set.surfels.size(), room.hits);
+    takeSkyHits(skyHitsOf(room), room.set.surfels.size(), room.hits);
     const SkyError aimed = errorOf(room, GetParam());
     std::printf("by chance %.3f %+.3f, aimed %.3f %+.3f\n", chance.rms, chance.bias, aimed.rms,
                 aimed.bias);
@@ -92,24 +92,24 @@ TEST_P(Window, LightsTheRoomWithLessNoiseAndNoBias) {
 }
 INSTANTIATE_TEST_SUITE_P(Widths, Window, testing::Values(0.1f, 0.3f, 1.f));
 
-TEST(SkySights, CostNothingWhereNoSkyOrOnlySkyIsSeen) {
+TEST(SkyHits, CostNothingWhereNoSkyOrOnlySkyIsSeen) {
     SceneBuilder ground;
     ground.addMaterial(lambert(glm::vec3(0.5f)));
     ground.add(quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}));
     for (Scene scene : {roomWithWindow(0), ground.build()}) {
         TracedRoom room(std::move(scene));
         const std::vector<std::uint32_t> before = room.hits.sender;
-        const SkySights sights = sightsOf(room);
-        EXPECT_EQ(sights.rays, 0U);
-        EXPECT_TRUE(sights.all.empty());
-        takeSkySights(sights, room.set.surfels.size(), room.hits);
+        const SkyHits samples = skyHitsOf(room);
+        EXPECT_EQ(samples.rays, 0U);
+        EXPECT_TRUE(samples.all.empty());
+        takeSkyHits(samples, room.set.surfels.size(), room.hits);
         EXPECT_EQ(room.hits.sender, before);
     }
 }
 
-TEST(SkySights, ReplaceTheHitsOfTheirCaches) {
+TEST(SkyHits, ReplaceTheHitsOfTheirCaches) {
     TracedRoom room(roomWithWindow(0.3f));
-    takeSkySights(sightsOf(room), room.set.surfels.size(), room.hits);
+    takeSkyHits(skyHitsOf(room), room.set.surfels.size(), room.hits);
     std::uint32_t aimed = 0;
     for (std::uint32_t c = 0; c < room.caches.size(); ++c) {
         const bool has = room.hits.sky.begin[c] < room.hits.sky.begin[c + 1];
@@ -125,4 +125,4 @@ TEST(SkySights, ReplaceTheHitsOfTheirCaches) {
 }
 
 } // namespace
-} // namespace limn::sky_sights_test
+} // namespace limn::sky_hits_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/cut/cut_worth.h"
+#include "engine/techniques/illuminance/bake/cut/refinement_priority.h"
 
 #include <algorithm>
 #include <limits>
@@ -41,19 +41,19 @@ float priorError(float share, float seen, float squares) {
 
 } // namespace
 
-void CutWorth::bySolidAngle(const VisibleTree& seen) {
-    m_choices.worth.clear();
+void RefinementPriority::bySolidAngle(const VisibleTree& seen) {
+    m_choices.priority.clear();
     for (std::uint32_t i = seen.leaves(); i < seen.size(); ++i)
-        m_choices.worth.push_back(seen.sight[i].weight);
-    m_choices.representative.assign(m_choices.worth.size(), Representative::Own);
+        m_choices.priority.push_back(seen.formFactor[i].solidAngle);
+    m_choices.representative.assign(m_choices.priority.size(), Representative::Own);
 }
 
-void CutWorth::weighLightings(const VisibleTree& seen, const TrainingLight& training) {
+void RefinementPriority::weighLightings(const VisibleTree& seen, const TrainingLight& training) {
     const LightingRow E = receivedFrom(training, std::span(seen.node).first(seen.leaves()),
-                                       std::span(seen.sight).first(seen.leaves()));
+                                       std::span(seen.formFactor).first(seen.leaves()));
     float share = 0;
     for (std::uint32_t i = 0; i < seen.leaves(); ++i)
-        share += seen.sight[i].irradiance;
+        share += seen.formFactor[i].irradiance;
     m_weight.resize(kLightings + 1);
     for (std::uint32_t t = 0; t < kLightings; ++t) {
         const float usual = TrainingLight::strength(t), relative = E[t] / usual;
@@ -62,31 +62,31 @@ void CutWorth::weighLightings(const VisibleTree& seen, const TrainingLight& trai
     m_weight[kLightings] = 1 / (share * share + kDarkest * kDarkest);
 }
 
-void CutWorth::byDetail(const VisibleTree& seen, const TrainingLight& training) {
+void RefinementPriority::byDetail(const VisibleTree& seen, const TrainingLight& training) {
     weighLightings(seen, training);
     measureGains(seen, training);
     joinGroups(seen);
-    std::vector<float>& worth = m_choices.worth;
-    worth.resize(m_groups.size());
+    std::vector<float>& priority = m_choices.priority;
+    priority.resize(m_groups.size());
     for (std::size_t i = m_groups.size(); i-- > 0;) // a group comes before the one that took it in
-        worth[i] = m_groups[i].joined != kNone ? worth[m_groups[i].joined]
-                                               : std::max(m_groups[i].worth(), 0.f);
+        priority[i] = m_groups[i].joined != kNone ? priority[m_groups[i].joined]
+                                                  : std::max(m_groups[i].priority(), 0.f);
 }
 
-void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& training) {
+void RefinementPriority::measureGains(const VisibleTree& seen, const TrainingLight& training) {
     m_error.assign(seen.size(), 0);
     m_groups.assign(seen.size() - seen.leaves(), Group{});
     m_choices.representative.assign(m_groups.size(), Representative::Own);
     m_read.clear();
     for (std::uint32_t i = 0; i < seen.size(); ++i)
-        m_read.push_back({seen.node[i], seen.sight[i].irradiance});
+        m_read.push_back({seen.node[i], seen.formFactor[i].irradiance});
     // Inner nodes come in post-order, so what the right inner child brought lies on top of the
     // stack.
     std::size_t depth = 0;
     const auto received = [&](std::uint32_t node) -> Received {
         if (node >= seen.leaves())
             return {1, m_brought.data() + --depth * kLightings};
-        return {seen.sight[node].irradiance, training.row(seen.node[node])};
+        return {seen.formFactor[node].irradiance, training.row(seen.node[node])};
     };
     // The rows lie far apart in memory, so they are prefetched some nodes ahead.
     const auto fetch = [&](std::uint32_t node) {
@@ -106,7 +106,7 @@ void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& traini
         const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
         const Received right = received(r), left = received(l);
         LightingRow brought;
-        const auto errors = linkErrors(left, right, seen.sight[i].irradiance,
+        const auto errors = linkErrors(left, right, seen.formFactor[i].irradiance,
                                        {training.row(seen.node[i]), training.row(m_read[l].node),
                                         training.row(m_read[r].node)},
                                        m_weight.data(), brought.data());
@@ -114,17 +114,18 @@ void CutWorth::measureGains(const VisibleTree& seen, const TrainingLight& traini
         if (m_brought.size() < (depth + 1) * kLightings)
             m_brought.resize((depth + 1) * kLightings);
         std::ranges::copy(brought, m_brought.data() + depth++ * kLightings);
-        m_groups[i - seen.leaves()].gain =
-            m_error[i] - m_error[l] - m_error[r] +
-            kPrior * m_weight[kLightings] * seen.sight[l].irradiance * seen.sight[r].irradiance;
+        m_groups[i - seen.leaves()].gain = m_error[i] - m_error[l] - m_error[r] +
+                                           kPrior * m_weight[kLightings] *
+                                               seen.formFactor[l].irradiance *
+                                               seen.formFactor[r].irradiance;
     }
 }
 
 /// Fills m_error and m_read of inner node `i`. `errors`: of each Representative.
-void CutWorth::chooseRepresentative(const VisibleTree& seen, const TrainingLight& training,
-                                    std::uint32_t i,
-                                    const std::array<float, kLinkCandidates>& errors) {
-    const float share = seen.sight[i].irradiance;
+void RefinementPriority::chooseRepresentative(const VisibleTree& seen,
+                                              const TrainingLight& training, std::uint32_t i,
+                                              const std::array<float, kLinkCandidates>& errors) {
+    const float share = seen.formFactor[i].irradiance;
     float least = std::numeric_limits<float>::infinity();
     const auto consider = [&](Representative by, const Read& read) {
         const float error = errors[std::size_t(by)];
@@ -143,15 +144,15 @@ void CutWorth::chooseRepresentative(const VisibleTree& seen, const TrainingLight
     consider(Representative::Right, m_read[seen.child(i, 1)]);
 }
 
-/// A group takes in the best group below it for as long as that is worth more than itself.
-void CutWorth::joinGroups(const VisibleTree& seen) {
+/// A group takes in the best group below it for as long as that has a higher priority than itself.
+void RefinementPriority::joinGroups(const VisibleTree& seen) {
     for (std::uint32_t i = 0; i < m_groups.size(); ++i) {
         std::uint32_t below = kNone;
         for (int side = 0; side < 2; ++side)
             if (const std::uint32_t c = seen.child(i + seen.leaves(), side); c >= seen.leaves())
                 below = merge(below, c - seen.leaves());
         Group& group = m_groups[i];
-        while (below != kNone && m_groups[below].worth() >= group.worth()) {
+        while (below != kNone && m_groups[below].priority() >= group.priority()) {
             Group& best = m_groups[below];
             group.gain += best.gain;
             group.count += best.count;
@@ -162,16 +163,16 @@ void CutWorth::joinGroups(const VisibleTree& seen) {
     }
 }
 
-std::uint32_t CutWorth::rankOf(std::uint32_t heap) const {
+std::uint32_t RefinementPriority::rankOf(std::uint32_t heap) const {
     return heap == kNone ? 0 : m_groups[heap].rank;
 }
 
-/// Merges two leftist heaps with the greatest worth on top. Crane. Linear Lists and Priority Queues
-/// as Balanced Binary Trees. 1972
-std::uint32_t CutWorth::merge(std::uint32_t a, std::uint32_t b) {
+/// Merges two leftist heaps with the highest priority on top. Crane. Linear Lists and Priority
+/// Queues as Balanced Binary Trees. 1972
+std::uint32_t RefinementPriority::merge(std::uint32_t a, std::uint32_t b) {
     if (a == kNone || b == kNone)
         return a == kNone ? b : a;
-    if (std::pair(m_groups[b].worth(), b) > std::pair(m_groups[a].worth(), a))
+    if (std::pair(m_groups[b].priority(), b) > std::pair(m_groups[a].priority(), a))
         std::swap(a, b);
     const std::uint32_t right = merge(m_groups[a].right, b);
     Group& top = m_groups[a];

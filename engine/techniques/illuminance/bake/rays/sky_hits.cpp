@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/rays/sky_sights.h"
+#include "engine/techniques/illuminance/bake/rays/sky_hits.h"
 
 #include "engine/core/large_pages.h"
 #include "engine/core/parallel.h"
@@ -76,7 +76,7 @@ public:
               const std::vector<std::uint32_t>& skyRays)
         : in(input), m_neighbours(neighbours), m_skyRays(skyRays) {}
 
-    void find(std::uint32_t cache, std::vector<SkySight>& found);
+    void find(std::uint32_t cache, std::vector<SkyHit>& found);
     std::uint64_t traced() const { return m_traced; } ///< number of rays
 
 private:
@@ -136,7 +136,7 @@ glm::vec3 SkyFinder::aimed(std::uint32_t cache, std::uint32_t k, float solidAngl
                           glm::vec3(r * std::cos(angle), r * std::sin(angle), z));
 }
 
-void SkyFinder::find(std::uint32_t cache, std::vector<SkySight>& found) {
+void SkyFinder::find(std::uint32_t cache, std::vector<SkyHit>& found) {
     found.clear();
     findGuides(cache);
     const std::span<const std::uint32_t> senders = in.hits.sendersOf(cache);
@@ -183,34 +183,34 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkySight>& found) {
 
 } // namespace
 
-SkySights lookForSky(const SkyInput& in, const Progress& progress) {
+SkyHits findSkyHits(const SkyInput& in, const Progress& progress) {
     const Neighbours neighbours(in);
     const std::vector<std::uint32_t> skyRays = countSkyRays(in);
-    std::vector<std::vector<SkySight>> seen(in.caches.size());
+    std::vector<std::vector<SkyHit>> seen(in.caches.size());
     std::atomic<std::uint64_t> rays = 0;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     parallelRanges(seen.size(), 16, quiet, "trace", [&](std::size_t begin, std::size_t end) {
         SkyFinder finder(in, neighbours, skyRays);
-        std::vector<SkySight> found;
+        std::vector<SkyHit> found;
         for (std::size_t c = begin; c < end; ++c) {
             finder.find(std::uint32_t(c), found);
             seen[c] = found; // a copy has no spare capacity
         }
         rays += finder.traced();
     });
-    SkySights result;
+    SkyHits result;
     result.begin.push_back(0);
-    for (const std::vector<SkySight>& s : seen)
+    for (const std::vector<SkyHit>& s : seen)
         result.begin.push_back(result.begin.back() + std::uint32_t(s.size()));
     reserveLarge(result.all, result.begin.back());
-    for (const std::vector<SkySight>& s : seen)
+    for (const std::vector<SkyHit>& s : seen)
         result.all.insert(result.all.end(), s.begin(), s.end());
     result.rays = rays;
     return result;
 }
 
-void takeSkySights(SkySights sights, std::size_t surfels, GatherHits& hits) {
-    hits.sky = std::move(sights);
+void takeSkyHits(SkyHits samples, std::size_t surfels, GatherHits& hits) {
+    hits.sky = std::move(samples);
     for (std::size_t c = 0; c + 1 < hits.sky.begin.size(); ++c) {
         if (hits.sky.begin[c] == hits.sky.begin[c + 1])
             continue;
@@ -221,7 +221,7 @@ void takeSkySights(SkySights sights, std::size_t surfels, GatherHits& hits) {
     }
 }
 
-Sight sightOf(const SkySight& sky, const CachePoints& points, CacheKind kind) {
+FormFactor formFactorOf(const SkyHit& sky, const CachePoints& points, CacheKind kind) {
     const glm::vec3 d = unpackOct(sky.direction.x, sky.direction.y);
     const float cosTheta = std::max(glm::dot(d, points.normal[sky.point]), 0.f);
     return {sky.transport, sky.transport * irradianceShare(kind, cosTheta), sky.transport * d};

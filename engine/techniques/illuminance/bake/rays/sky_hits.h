@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/techniques/illuminance/bake/rays/form_factor.h"
 #include "engine/techniques/illuminance/bake/rays/gather.h"
-#include "engine/techniques/illuminance/bake/rays/sight.h"
 
 #include <cstdint>
 
@@ -35,22 +35,22 @@ struct SkyInput {
 /// balance heuristic.
 ///
 /// Meaningless when cancelled.
-SkySights lookForSky(const SkyInput& input, const Progress& progress);
+SkyHits findSkyHits(const SkyInput& input, const Progress& progress);
 
-/// Puts the sights into `hits`. Rays of their caches that met the sky become kAimed.
-void takeSkySights(SkySights sights, std::size_t surfels, GatherHits& hits);
+/// Puts the hits of the sky into `hits`. Rays of their caches that met the sky become kAimed.
+void takeSkyHits(SkyHits samples, std::size_t surfels, GatherHits& hits);
 
-/// What a cache of this kind sees by one of its sights.
-Sight sightOf(const SkySight& sky, const CachePoints& points, CacheKind kind);
+/// Form factor of a hit of a cache of this kind.
+FormFactor formFactorOf(const SkyHit& sky, const CachePoints& points, CacheKind kind);
 
-/// Calls visit(sender, Sight) for each of a cache's sky sights.
+/// Calls visit(sender, FormFactor) for each of a cache's hits of the sky.
 template <class Visit>
-void forEachSkySight(const GatherHits& hits, const CachePoints& points, const Caches& caches,
-                     std::uint32_t cache, const Visit& visit) {
+void forEachSkyHit(const GatherHits& hits, const CachePoints& points, const Caches& caches,
+                   std::uint32_t cache, const Visit& visit) {
     if (hits.sky.begin.empty())
         return;
     for (std::uint32_t k = hits.sky.begin[cache]; k < hits.sky.begin[cache + 1]; ++k)
-        visit(hits.sky.all[k].sender, sightOf(hits.sky.all[k], points, caches.kind[cache]));
+        visit(hits.sky.all[k].sender, formFactorOf(hits.sky.all[k], points, caches.kind[cache]));
 }
 
 } // namespace limn

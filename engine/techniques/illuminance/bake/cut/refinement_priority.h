@@ -15,16 +15,16 @@ namespace limn {
 /// node that the link to its left or right child would read.
 enum class Representative : std::uint8_t { Own, Left, Right };
 
-/// Result of CutWorth: one element for each inner node of a VisibleTree, in its order.
+/// Result of RefinementPriority: one element for each inner node of a VisibleTree, in its order.
 struct CutChoices {
-    std::vector<float> worth; ///< of refining the node; >= 0
+    std::vector<float> priority; ///< of refining the node; >= 0
     std::vector<Representative> representative;
 };
 
-/// Computes the worth of each refinement of a cache's cut; a refinement replaces a node's link by
-/// links to its two children. A worth never exceeds the parent's, so the refinements above any
-/// bound form a cut. The object reuses its working space from cache to cache.
-class CutWorth {
+/// Computes the priority of each refinement of a cache's cut; a refinement replaces a node's link
+/// by links to its two children. A priority never exceeds the parent's, so the refinements above
+/// any bound form a cut. The object reuses its working space from cache to cache.
+class RefinementPriority {
 public:
     /// The paper's criterion: the visible solid angle / pi of the node. Each node reads its own
     /// cluster. Jendersie, Kuri, Grosch.
@@ -32,15 +32,15 @@ public:
     /// Compression. 2016
     void bySolidAngle(const VisibleTree& seen);
 
-    /// The worth is the decrease of the squared error of irradiance per link spent, relative to the
-    /// irradiance of the cache in each training lighting: the mean over those lightings, plus a
+    /// The priority is the decrease of the squared error of irradiance per link spent, relative to
+    /// the irradiance of the cache in each training lighting: the mean over those lightings, plus a
     /// prior for what they do not show. The error of a link is the difference between what its
     /// senders truly bring and what their mean radiosity would; errors of different links count as
-    /// independent. A node whose own refinement gains little but enables better ones is worth the
-    /// mean gain of the best group of refinements that it heads. Every bound on the worth therefore
-    /// gives the cut of least error for its number of links, and the same bound for all caches
-    /// gives the least error for all their links. Chou, Lookabaugh, Gray. Optimal Pruning with
-    /// Applications to Tree-Structured Source Coding and Modeling. 1989
+    /// independent. A node whose own refinement gains little but enables better ones has the
+    /// mean gain of the best group of refinements that it heads. Every bound on the priority
+    /// therefore gives the cut of least error for its number of links, and the same bound for all
+    /// caches gives the least error for all their links. Chou, Lookabaugh, Gray. Optimal Pruning
+    /// with Applications to Tree-Structured Source Coding and Modeling. 1989
     ///
     /// A cluster holds senders that the cache does not see, such as the sunlit front of a column
     /// seen from behind. A link therefore reads a node below its cluster where that comes nearer to
@@ -61,7 +61,7 @@ private:
         std::uint32_t below = kNone;                         ///< heap of the groups that it enables
         std::uint32_t left = kNone, right = kNone, rank = 1; ///< as an element of a heap
 
-        float worth() const { return gain / float(count); }
+        float priority() const { return gain / float(count); }
     };
 
     void weighLightings(const VisibleTree& seen, const TrainingLight& training);
