@@ -86,26 +86,26 @@ PatchSides patchSidesStage(BakeRun& run) {
         run.store, key, run.progress,
         [&](auto& a, auto& s) {
             a("changed", s.changed, rule::noneOr(set.surfels.size()));
-            a.each("parts", s.parts, rule::noneOr(run.scene.instances.size()), [&](auto& of) {
-                const auto i = std::uint32_t(&of - s.parts.data());
-                a("parts", of,
+            a.each("parts", s.parts, rule::noneOr(run.scene.instances.size()), [&](auto& parts) {
+                const auto i = std::uint32_t(&parts - s.parts.data());
+                a("parts", parts,
                   rule::holds("not whole cells",
                               [](const auto& p) { return p.size() % SurfelOwners::kParts == 0; }),
                   rule::below(set.instanceBegin[i + 1] - set.instanceBegin[i]));
             });
-            a.each("owner", s.owner, rule::noneOr(run.scene.instances.size()), [&](auto& of) {
-                const auto i = std::uint32_t(&of - s.owner.data());
-                a("owner", of,
+            a.each("owner", s.owner, rule::noneOr(run.scene.instances.size()), [&](auto& cells) {
+                const auto i = std::uint32_t(&cells - s.owner.data());
+                a("owner", cells,
                   rule::holds("of another length",
-                              [&](const auto& cells) {
-                                  return cells.empty() || cells.size() == owners.cellsOf(i);
+                              [&](const auto& all) {
+                                  return all.empty() || all.size() == owners.cellsOf(i);
                               }),
-                  rule::each("of another instance", [&, i](std::size_t, std::uint32_t own) {
-                      return own & PatchSides::kSplit
+                  rule::each("of another instance", [&, i](std::size_t, std::uint32_t owner) {
+                      return owner & PatchSides::kSplit
                                  ? i < s.parts.size() &&
-                                       (own & ~PatchSides::kSplit) <
+                                       (owner & ~PatchSides::kSplit) <
                                            s.parts[i].size() / SurfelOwners::kParts
-                                 : own < set.instanceBegin[i + 1] - set.instanceBegin[i];
+                                 : owner < set.instanceBegin[i + 1] - set.instanceBegin[i];
                   }));
             });
         },
@@ -137,10 +137,10 @@ SeenPatches seenPatchesStage(BakeRun& run) {
               }));
             a("cache", s.cache, rule::count(n), rule::belowOr(caches.lightmapCount, ~0U));
             a("cacheWeight", s.cacheWeight, rule::count(n), rule::within(0, 1 + 1e-4));
-            a("own", s.own, rule::each("out of range", [&](std::size_t i, const OwnCache& own) {
-                  return i < texels - caches.lightmapCount && own.back <= 1 &&
-                         own.instance < scene.instances.size() &&
-                         arePointsOf(scene.meshOf(scene.instances[own.instance]), own);
+            a("own", s.own, rule::each("out of range", [&](std::size_t i, const OwnCache& cache) {
+                  return i < texels - caches.lightmapCount && cache.back <= 1 &&
+                         cache.instance < scene.instances.size() &&
+                         arePointsOf(scene.meshOf(scene.instances[cache.instance]), cache);
               }));
             a("ownCache", s.ownCache, rule::count(n), rule::belowOr(s.own.size(), ~0U));
         },
@@ -158,8 +158,8 @@ void lightPointsStage(BakeRun& run, const GatherHits& hits, const TraceReport& t
     LightPoints found = keptOrMade<LightPoints>(
         run.store, stageKey(Stage::LightPoints, traced.key), run.progress,
         [&surfels](auto& a, auto& l) {
-            a("at", l.at, rule::count(surfels.size() * kLightPoints), rule::inReach());
-            a("normal", l.normal, rule::count(l.at.size()), rule::unit());
+            a("position", l.position, rule::count(surfels.size() * kLightPoints), rule::inReach());
+            a("normal", l.normal, rule::count(l.position.size()), rule::unit());
         },
         [&] {
             const RayGatherer gatherer(run.trace, run.set, run.bake.caches, run.points, hits.rays,
@@ -169,7 +169,7 @@ void lightPointsStage(BakeRun& run, const GatherHits& hits, const TraceReport& t
             run.rays += made.rays;
             return made;
         });
-    surfels.lightPoints = std::move(found.at);
+    surfels.lightPoints = std::move(found.position);
     surfels.lightNormals = std::move(found.normal);
 }
 
@@ -218,7 +218,7 @@ TracedTraining trainingStage(const BakeRun& run, TraceReport& traced) {
         a("lamps", t.lamps, rule::count(TracedTraining::kLamps), rule::inReach());
         a("position", t.position, rule::count(surfels.size()), rule::inReach());
     };
-    const auto key = [](std::uint64_t of) { return stageKey(Stage::Training, of); };
+    const auto key = [](std::uint64_t trace) { return stageKey(Stage::Training, trace); };
     return keptOrMade<TracedTraining>(run.store, key(traced.key), run.progress, fields, [&] {
         std::optional<EarlierTraining> earlier;
         if (traced.moved)

@@ -45,7 +45,7 @@ void markBacks(std::uint32_t points, std::span<std::uint32_t> sender) {
         }
         for (std::size_t r = k; r < sender.size(); r += points)
             if (2 * backs > all)
-                sender[r] = GatherHits::kLeftOut;
+                sender[r] = GatherHits::kExcluded;
             else if ((sender[r] & kBack) != 0)
                 sender[r] = GatherHits::kBackFace;
     }
@@ -138,7 +138,7 @@ private:
     void sumRays(std::uint32_t i, CacheDeviations& result) {
         const std::uint32_t count = m_reference.rays;
         const std::uint32_t* sender = m_reference.sender.data() + std::size_t(i) * count;
-        const std::uint32_t kept = keptRays({sender, count});
+        const std::uint32_t kept = validRays({sender, count});
         const CacheRays rays = raysOf(m_reference.caches, m_reference.points, i, count);
         const float all = float(count) / (std::numbers::pi_v<float> * float(std::max(kept, 1U)));
         float y[kMaxCoefficients];

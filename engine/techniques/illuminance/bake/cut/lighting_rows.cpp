@@ -37,35 +37,35 @@ void sumReceived(const float* radiosity, const std::uint32_t* node, const FormFa
             for (std::size_t t = 0; t < kLightings; t += kPerLine)
                 hwy::Prefetch(radiosity + node[i + kAhead] * kLightings + t);
         const float* row = radiosity + node[i] * kLightings;
-        const V share = hn::Set(d, formFactor[i].irradiance);
+        const V factor = hn::Set(d, formFactor[i].irradiance);
         for (std::size_t k = 0; k < kLightings / kLanes; ++k)
-            sums[k] = hn::Add(sums[k], hn::Mul(share, hn::LoadU(d, row + k * kLanes)));
+            sums[k] = hn::Add(sums[k], hn::Mul(factor, hn::LoadU(d, row + k * kLanes)));
     }
     for (std::size_t k = 0; k < kLightings / kLanes; ++k)
         hn::StoreU(sums[k], d, out + k * kLanes);
 }
 
 std::array<float, kLinkCandidates>
-compareLinks(const Received& left, const Received& right, float share,
+compareLinks(const Received& left, const Received& right, float formFactor,
              const std::array<const float*, kLinkCandidates>& candidates, const float* weight,
-             float* brought) {
+             float* contribution) {
     constexpr std::size_t kVectors = kSums / kLanes;
     const Floats d;
-    const V leftShare = hn::Set(d, left.share), rightShare = hn::Set(d, right.share),
-            all = hn::Set(d, share);
+    const V leftFactor = hn::Set(d, left.formFactor), rightFactor = hn::Set(d, right.formFactor),
+            all = hn::Set(d, formFactor);
     V sums[kLinkCandidates][kVectors];
     for (auto& s : sums)
         for (V& v : s)
             v = hn::Zero(d);
     for (std::size_t t = 0; t < kLightings; t += kSums)
         for (std::size_t k = 0; k < kVectors; ++k) {
-            const std::size_t at = t + k * kLanes;
-            const V b = hn::Add(hn::Mul(leftShare, hn::LoadU(d, left.radiosity + at)),
-                                hn::Mul(rightShare, hn::LoadU(d, right.radiosity + at)));
-            const V w = hn::LoadU(d, weight + at);
-            hn::StoreU(b, d, brought + at);
+            const std::size_t first = t + k * kLanes;
+            const V b = hn::Add(hn::Mul(leftFactor, hn::LoadU(d, left.radiosity + first)),
+                                hn::Mul(rightFactor, hn::LoadU(d, right.radiosity + first)));
+            const V w = hn::LoadU(d, weight + first);
+            hn::StoreU(b, d, contribution + first);
             for (std::size_t c = 0; c < kLinkCandidates; ++c) {
-                const V off = hn::Sub(b, hn::Mul(all, hn::LoadU(d, candidates[c] + at)));
+                const V off = hn::Sub(b, hn::Mul(all, hn::LoadU(d, candidates[c] + first)));
                 sums[c][k] = hn::Add(sums[c][k], hn::Mul(hn::Mul(off, off), w));
             }
         }
@@ -100,10 +100,11 @@ LightingRow receivedFrom(const TrainingLight& training, std::span<const std::uin
 }
 
 std::array<float, kLinkCandidates>
-linkErrors(const Received& left, const Received& right, float share,
+linkErrors(const Received& left, const Received& right, float formFactor,
            const std::array<const float*, kLinkCandidates>& candidates, const float* weight,
-           float* brought) {
-    return HWY_DYNAMIC_DISPATCH(compareLinks)(left, right, share, candidates, weight, brought);
+           float* contribution) {
+    return HWY_DYNAMIC_DISPATCH(compareLinks)(left, right, formFactor, candidates, weight,
+                                              contribution);
 }
 
 } // namespace limn

@@ -22,21 +22,22 @@ constexpr std::uint32_t kLightings = TrainingLight::kCount;
 /// into a sealed room, as a share of the paper's: 1/12, 1/5.3, 1/3.1.
 constexpr float kPrior = 0.03f;
 
-/// Errors are weighted relative to the cache's own irradiance in each lighting, so that a dark room
-/// is as accurate in proportion as a bright one: a viewer inside it sees only the dark room. Below
-/// this share of the lighting's usual irradiance they are weighted relative to the share instead.
-/// With absolute weights, a room lit through the gap of a door came out 2.7 times too bright at 128
-/// links, because its links led to clusters that had surfels in both rooms.
+/// Errors are weighted relative to the cache's irradiance in each lighting, so that a dark room is
+/// as accurate in proportion as a bright one: a viewer inside it sees only the dark room. Below
+/// this fraction of the lighting's usual irradiance they are weighted relative to the fraction
+/// instead. With absolute weights, a room lit through the gap of a door came out 2.7 times too
+/// bright at 128 links, because its links led to clusters that had surfels in both rooms.
 constexpr float kDarkest = 0.01f;
 
-/// Expected squared error of a link by the prior, less what all links to the same senders share.
-/// The senders' radiosities B_k count as independent with variance kPrior / 2, so that the mean
-/// square of the difference of two is kPrior. The cache sees shares s_k of them, with the sum
-/// `share`; the link reads a mean whose weights have the sum of squares `squares`, of senders that
-/// bring `seen` of the share. If all these weights are equal, they are `squares`, too, and the
-/// variance of sum(s_k B_k) - share * mean is kPrior / 2 * sum(s_k^2) plus what is returned.
-float priorError(float share, float seen, float squares) {
-    return kPrior / 2 * share * (share - 2 * seen) * squares;
+/// Expected squared error of a link by the prior, less what all links to the same senders have in
+/// common. The senders' radiosities B_k count as independent with variance kPrior / 2, so that the
+/// mean square of the difference of two is kPrior. The cache sees the senders with form factors F_k
+/// of sum `formFactor`. The link reads a mean of senders whose form factors sum to `seen`; its
+/// weights have the sum of squares `squares`. If these weights are equal, `squares` is their value,
+/// too, and the variance of sum(F_k B_k) - formFactor * mean is kPrior / 2 * sum(F_k^2) plus what
+/// is returned.
+float priorError(float formFactor, float seen, float squares) {
+    return kPrior / 2 * formFactor * (formFactor - 2 * seen) * squares;
 }
 
 } // namespace
@@ -51,15 +52,15 @@ void RefinementPriority::bySolidAngle(const VisibleTree& seen) {
 void RefinementPriority::weighLightings(const VisibleTree& seen, const TrainingLight& training) {
     const LightingRow E = receivedFrom(training, std::span(seen.node).first(seen.leaves()),
                                        std::span(seen.formFactor).first(seen.leaves()));
-    float share = 0;
+    float formFactor = 0;
     for (std::uint32_t i = 0; i < seen.leaves(); ++i)
-        share += seen.formFactor[i].irradiance;
+        formFactor += seen.formFactor[i].irradiance;
     m_weight.resize(kLightings + 1);
     for (std::uint32_t t = 0; t < kLightings; ++t) {
         const float usual = TrainingLight::strength(t), relative = E[t] / usual;
         m_weight[t] = 1 / (relative * relative + kDarkest * kDarkest);
     }
-    m_weight[kLightings] = 1 / (share * share + kDarkest * kDarkest);
+    m_weight[kLightings] = 1 / (formFactor * formFactor + kDarkest * kDarkest);
 }
 
 void RefinementPriority::byDetail(const VisibleTree& seen, const TrainingLight& training) {
@@ -80,12 +81,12 @@ void RefinementPriority::measureGains(const VisibleTree& seen, const TrainingLig
     m_read.clear();
     for (std::uint32_t i = 0; i < seen.size(); ++i)
         m_read.push_back({seen.node[i], seen.formFactor[i].irradiance});
-    // Inner nodes come in post-order, so what the right inner child brought lies on top of the
+    // Inner nodes come in post-order, so the right inner child's contribution lies on top of the
     // stack.
     std::size_t depth = 0;
     const auto received = [&](std::uint32_t node) -> Received {
         if (node >= seen.leaves())
-            return {1, m_brought.data() + --depth * kLightings};
+            return {1, m_contribution.data() + --depth * kLightings};
         return {seen.formFactor[node].irradiance, training.row(seen.node[node])};
     };
     // The rows lie far apart in memory, so they are prefetched some nodes ahead.
@@ -105,15 +106,15 @@ void RefinementPriority::measureGains(const VisibleTree& seen, const TrainingLig
         }
         const std::uint32_t l = seen.child(i, 0), r = seen.child(i, 1);
         const Received right = received(r), left = received(l);
-        LightingRow brought;
+        LightingRow contribution;
         const auto errors = linkErrors(left, right, seen.formFactor[i].irradiance,
                                        {training.row(seen.node[i]), training.row(m_read[l].node),
                                         training.row(m_read[r].node)},
-                                       m_weight.data(), brought.data());
+                                       m_weight.data(), contribution.data());
         chooseRepresentative(seen, training, i, errors);
-        if (m_brought.size() < (depth + 1) * kLightings)
-            m_brought.resize((depth + 1) * kLightings);
-        std::ranges::copy(brought, m_brought.data() + depth++ * kLightings);
+        if (m_contribution.size() < (depth + 1) * kLightings)
+            m_contribution.resize((depth + 1) * kLightings);
+        std::ranges::copy(contribution, m_contribution.data() + depth++ * kLightings);
         m_groups[i - seen.leaves()].gain = m_error[i] - m_error[l] - m_error[r] +
                                            kPrior * m_weight[kLightings] *
                                                seen.formFactor[l].irradiance *
@@ -125,21 +126,21 @@ void RefinementPriority::measureGains(const VisibleTree& seen, const TrainingLig
 void RefinementPriority::chooseRepresentative(const VisibleTree& seen,
                                               const TrainingLight& training, std::uint32_t i,
                                               const std::array<float, kLinkCandidates>& errors) {
-    const float share = seen.formFactor[i].irradiance;
+    const float formFactor = seen.formFactor[i].irradiance;
     float least = std::numeric_limits<float>::infinity();
-    const auto consider = [&](Representative by, const Read& read) {
-        const float error = errors[std::size_t(by)];
+    const auto consider = [&](Representative choice, const Read& read) {
+        const float error = errors[std::size_t(choice)];
         const float expected =
-            error +
-            m_weight[kLightings] * priorError(share, read.seen, training.squaredWeights[read.node]);
+            error + m_weight[kLightings] *
+                        priorError(formFactor, read.seen, training.squaredWeights[read.node]);
         if (!(expected < least))
             return;
         least = expected;
         m_error[i] = error;
         m_read[i] = read;
-        m_choices.representative[i - seen.leaves()] = by;
+        m_choices.representative[i - seen.leaves()] = choice;
     };
-    consider(Representative::Own, {seen.node[i], share});
+    consider(Representative::Own, {seen.node[i], formFactor});
     consider(Representative::Left, m_read[seen.child(i, 0)]);
     consider(Representative::Right, m_read[seen.child(i, 1)]);
 }

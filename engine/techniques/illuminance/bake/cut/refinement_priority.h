@@ -35,9 +35,9 @@ public:
     /// The priority is the decrease of the squared error of irradiance per link spent, relative to
     /// the irradiance of the cache in each training lighting: the mean over those lightings, plus a
     /// prior for what they do not show. The error of a link is the difference between what its
-    /// senders truly bring and what their mean radiosity would; errors of different links count as
-    /// independent. A node whose own refinement gains little but enables better ones has the
-    /// mean gain of the best group of refinements that it heads. Every bound on the priority
+    /// senders truly contribute and what their mean radiosity would; errors of different links
+    /// count as independent. A node whose own refinement gains little but enables better ones has
+    /// the mean gain of the best group of refinements that it heads. Every bound on the priority
     /// therefore gives the cut of least error for its number of links, and the same bound for all
     /// caches gives the least error for all their links. Chou, Lookabaugh, Gray. Optimal Pruning
     /// with Applications to Tree-Structured Source Coding and Modeling. 1989
@@ -79,10 +79,11 @@ private:
     };
 
     CutChoices m_choices;
-    std::vector<float> m_weight;  ///< of squared errors, per lighting and, last, of the prior
-    std::vector<float> m_brought; ///< what senders of nodes truly bring in each lighting; a stack
-    std::vector<float> m_error;   ///< squared, of one link to the node
-    std::vector<Read> m_read;     ///< per node
+    std::vector<float> m_weight; ///< of squared errors, per lighting and, last, of the prior
+    std::vector<float>
+        m_contribution; ///< what senders of nodes truly contribute in each lighting; a stack
+    std::vector<float> m_error; ///< squared, of one link to the node
+    std::vector<Read> m_read;   ///< per node
     std::vector<Group> m_groups;
 };
 

@@ -44,12 +44,12 @@ std::array<std::uint32_t, kTracedLamps> joinLamps(const std::vector<std::uint32_
 /// its root, or kNone where there are no such leaves.
 template <class In>
 std::uint32_t span(const ClusterTree& tree, In in, ClusterTree& out) {
-    std::vector<std::uint32_t> at(tree.size(), kNone);
+    std::vector<std::uint32_t> root(tree.size(), kNone);
     for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf)
-        at[leaf] = in(leaf) ? leaf : kNone;
+        root[leaf] = in(leaf) ? leaf : kNone;
     for (std::uint32_t k = 0; k < tree.left.size(); ++k) {
-        const std::uint32_t l = at[tree.left[k]], r = at[tree.right[k]];
-        std::uint32_t& to = at[tree.leaves() + k];
+        const std::uint32_t l = root[tree.left[k]], r = root[tree.right[k]];
+        std::uint32_t& to = root[tree.leaves() + k];
         if (l == kNone || r == kNone) {
             to = l == kNone ? r : l;
             continue;
@@ -58,7 +58,7 @@ std::uint32_t span(const ClusterTree& tree, In in, ClusterTree& out) {
         out.left.push_back(l);
         out.right.push_back(r);
     }
-    return at.back();
+    return root.back();
 }
 
 } // namespace
@@ -71,9 +71,9 @@ std::vector<std::uint32_t> findRooms(const TracedTraining& traced) {
         std::array<float, kTracedLamps> light{};
         for (std::uint32_t k = 0; k < kTracedLamps; ++k)
             light[roomOf[k]] += traced.lamp(s, k);
-        const auto most = std::ranges::max_element(light);
-        if (*most > 0)
-            result[s] = std::uint32_t(most - light.begin());
+        const auto brightest = std::ranges::max_element(light);
+        if (*brightest > 0)
+            result[s] = std::uint32_t(brightest - light.begin());
     }
     std::array<std::uint32_t, kTracedLamps + 1> number;
     number.fill(kNone);

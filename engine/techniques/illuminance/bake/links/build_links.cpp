@@ -36,7 +36,7 @@ Cone makeCone(std::uint32_t node, const FormFactor& s) {
             s.irradiance};
 }
 
-/// Scales each link of a surface cache so that its sender brings, through the SH, exactly the
+/// Scales each link of a surface cache so that its sender contributes, through the SH, exactly the
 /// cosine-weighted irradiance of its rays to the surface at the cache's points, as a mean. Three
 /// bands of the clamped cosine are 6 % too strong for light along the normal, 8 % too weak at 60
 /// degrees and leave 9 % at 90, and a round cone is too tall for a cluster seen along the surface.
@@ -52,7 +52,7 @@ void matchIrradiance(int bands, const IrradianceAxis& axis, std::vector<Cone>& c
     }
 }
 
-glm::mat3 turnAboutZ(float turns) {
+glm::mat3 rotationAboutZ(float turns) {
     const float angle = 2 * std::numbers::pi_v<float> * turns;
     const float c = std::cos(angle), s = std::sin(angle);
     return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
@@ -65,7 +65,7 @@ struct LocalRay {
 };
 
 /// A cache's rays, without its own rotation about z and its surface's frame.
-std::vector<LocalRay> unturnedRays(std::uint32_t rays, CacheKind kind) {
+std::vector<LocalRay> unrotatedRays(std::uint32_t rays, CacheKind kind) {
     DirectionSet set = gatherDirections(rays, kind, 0);
     set.turn = 0;
     std::vector<LocalRay> result(rays);
@@ -85,7 +85,7 @@ struct LinkInput {
     const CutSettings& settings;
     SenderOrder order;
     std::vector<bool> sky;                    ///< skyNodes
-    std::vector<LocalRay> hemisphere, sphere; ///< unturned rays
+    std::vector<LocalRay> hemisphere, sphere; ///< unrotated rays
 };
 
 /// One thread's working space for linking caches.
@@ -155,11 +155,11 @@ public:
 private:
     enum class Place : std::uint8_t { AboveLinks, OfCluster, BelowCluster, Represented };
 
-    /// Of a surface cache, for the mean irradiance of its points that are not buried: where a texel
-    /// covers a fold or a column, they face different ways.
+    /// The axis of the mean irradiance at the valid points of a surface cache, which face different
+    /// ways where a texel covers a fold or a column.
     IrradianceAxis axisOf(const Caches& caches, std::uint32_t cache) {
         m_normals.clear();
-        forEachOpenPoint(in.points, cache, in.hits.sendersOf(cache), [&](std::uint32_t point) {
+        forEachValidPoint(in.points, cache, in.hits.sendersOf(cache), [&](std::uint32_t point) {
             m_normals.push_back(in.points.normal[point]);
         });
         return {std::min(in.settings.bands, kIrradianceBands), m_normals, caches.normal[cache]};
@@ -181,7 +181,7 @@ private:
     void forEachRay(const Caches& caches, std::uint32_t cache, const Visit& visit) const {
         const std::uint32_t count = in.hits.rays;
         const std::span<const std::uint32_t> sender = in.hits.sendersOf(cache);
-        const std::uint32_t kept = keptRays(sender);
+        const std::uint32_t kept = validRays(sender);
         if (kept == 0)
             return;
         const CacheRays rays = raysOf(caches, in.points, cache, count);
@@ -191,7 +191,7 @@ private:
         const LocalRay* local = (sphere ? in.sphere : in.hemisphere).data();
         std::array<glm::mat3, AtlasTexel::kMaxPoints> toWorld{};
         for (std::uint32_t k = 0; k < rays.points; ++k)
-            toWorld[k] = rays.toWorld[k] * turnAboutZ(rays.local.turn) * all;
+            toWorld[k] = rays.toWorld[k] * rotationAboutZ(rays.local.turn) * all;
         for (std::uint32_t r = 0, k = 0; r < count; ++r) {
             if (sender[r] < GatherHits::kFirstMark)
                 visit(sender[r],
@@ -224,9 +224,10 @@ private:
         if (caches.kind[cache] == CacheKind::Hemisphere) {
             const IrradianceAxis axis = axisOf(caches, cache);
             for (std::size_t k = 0; k < m_cones.size(); ++k) {
-                float* own = m_harmonics.data() + k * stride;
-                const float gain = axis.gainTo(m_cones[k].irradiance, own);
-                std::transform(own, own + stride, own, [&](float c) { return c * gain; });
+                float* coefficients = m_harmonics.data() + k * stride;
+                const float gain = axis.gainTo(m_cones[k].irradiance, coefficients);
+                std::transform(coefficients, coefficients + stride, coefficients,
+                               [&](float c) { return c * gain; });
             }
         }
         std::vector<std::uint32_t> nodes;
@@ -272,9 +273,9 @@ private:
     void findRead(const std::vector<Representative>& representative) {
         m_read = m_seen.node;
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
-            if (const Representative by = representative[i - m_seen.leaves()];
-                by != Representative::Own)
-                m_read[i] = m_read[m_seen.child(i, by == Representative::Right)];
+            if (const Representative choice = representative[i - m_seen.leaves()];
+                choice != Representative::Own)
+                m_read[i] = m_read[m_seen.child(i, choice == Representative::Right)];
     }
 
     void put(std::uint32_t i) {
@@ -456,8 +457,8 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
                           settings,
                           SenderOrder(tree),
                           skyNodes(tree),
-                          unturnedRays(hits.rays, CacheKind::Hemisphere),
-                          unturnedRays(hits.rays, CacheKind::Grid)};
+                          unrotatedRays(hits.rays, CacheKind::Hemisphere),
+                          unrotatedRays(hits.rays, CacheKind::Grid)};
     tbb::enumerable_thread_specific<CacheLinker> linkers([&] { return CacheLinker(input); });
     const bool shared = settings.criterion == CutCriterion::Detail;
     std::vector<CutChoices> choices(shared ? caches.size() : 0);

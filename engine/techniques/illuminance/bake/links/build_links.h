@@ -49,9 +49,9 @@ struct CutSettings {
 ///
 /// The links of a Hemisphere cache are scaled so that the SH of `bands` bands give the exact
 /// irradiance of its rays at the surface's own normals, as a mean over the cache's points, under
-/// any light. `linked`, if not null, receives per node of the tree what a radiosity of 1 brings
-/// through all links to it, summed; links to representatives count as links to the senders that
-/// they stand for.
+/// any light. `linked`, if not null, receives per node of the tree what a radiosity of 1
+/// contributes through all links to it, summed; links to representatives count as links to the
+/// senders that they stand for.
 bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHits& hits,
                 const CachePoints& points, const TrainingLight& training,
                 const CutSettings& settings, const Progress& progress, Caches& caches,

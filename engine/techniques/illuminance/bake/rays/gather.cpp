@@ -38,7 +38,7 @@ glm::vec3 startOf(const TraceScene& trace, const CachePoints& points, std::uint3
     return trace.clearOf(points.position[point], points.normal[point]);
 }
 
-struct Finisher {
+struct HitClassifier {
     const TraceScene& trace;
     const SurfelSet& set;
     const Caches& caches;
@@ -49,10 +49,10 @@ struct Finisher {
     bool aimedAlready;
     std::vector<bool> isTarget; ///< per sender; empty without targets
 
-    /// Marks hits on backs; in a buried cache all hits, since the others do not count, known or
-    /// not.
+    /// Marks hits on backs. All hits of a cache in a solid are marked, since the others, known or
+    /// not, do not count.
     static void markBacks(std::uint32_t rays, std::uint32_t* sender) {
-        if (isBuried(sender, rays))
+        if (isInSolid(sender, rays))
             std::fill_n(sender, rays, kBack);
         std::replace_if(
             sender, sender + rays, [](RawHit hit) { return (hit & kBack) != 0; },
@@ -60,7 +60,8 @@ struct Finisher {
     }
 
     /// Marks the rays of points most of whose rays met backs.
-    static void leaveOutBuried(std::uint32_t count, std::uint32_t rays, std::uint32_t* sender) {
+    static void excludePointsInSolids(std::uint32_t count, std::uint32_t rays,
+                                      std::uint32_t* sender) {
         for (std::uint32_t k = 0; k < count; ++k) {
             std::uint32_t all = 0, backs = 0;
             for (std::uint32_t r = k; r < rays; r += count) {
@@ -68,7 +69,7 @@ struct Finisher {
                 backs += sender[r] == GatherHits::kBackFace ? 1 : 0;
             }
             for (std::uint32_t r = k; 2 * backs > all && r < rays; r += count)
-                sender[r] = GatherHits::kLeftOut;
+                sender[r] = GatherHits::kExcluded;
         }
     }
 
@@ -81,9 +82,9 @@ struct Finisher {
             (linker == Linker::Gather &&
              std::uint32_t(std::count_if(sender, sender + rays, met)) * 8 >= rays))
             return 0;
-        std::vector<std::uint32_t> open; // points that are not buried
-        forEachOpenPoint(points, cache, {sender, rays},
-                         [&](std::uint32_t point) { open.push_back(point); });
+        std::vector<std::uint32_t> open; // points that are not in a solid
+        forEachValidPoint(points, cache, {sender, rays},
+                          [&](std::uint32_t point) { open.push_back(point); });
         if (open.empty())
             return 0;
         const auto replaced = [&](std::uint32_t s) { return met(s) && isFar(s, open[0]); };
@@ -197,7 +198,7 @@ std::uint32_t probeRay(std::uint32_t k, std::uint32_t rays) {
 
 } // namespace
 
-bool isBuried(const RawHit* hits, std::uint32_t rays) {
+bool isInSolid(const RawHit* hits, std::uint32_t rays) {
     if (rays < 2 * kProbes)
         return false;
     for (std::uint32_t k = 0; k < kProbes; ++k)
@@ -223,8 +224,8 @@ RayGatherer::Place RayGatherer::placeOf(const SurfaceHit& hit, glm::vec3 directi
 
 RawHit RayGatherer::resolve(const Place& place) const {
     if (place.instance == ~0U)
-        return std::uint32_t(m_set.surfels.size()) + place.at.cell;
-    const std::uint32_t surfel = m_owners.ofCell(place.instance, place.at, place.back);
+        return std::uint32_t(m_set.surfels.size()) + place.cell.cell;
+    const std::uint32_t surfel = m_owners.ofCell(place.instance, place.cell, place.back);
     return place.passed ? surfel | kBack : surfel;
 }
 
@@ -261,7 +262,7 @@ std::uint32_t RayGatherer::traceCache(std::uint32_t cache, RawHit* out) const {
 }
 
 std::uint32_t RayGatherer::traceRest(std::uint32_t cache, RawHit* hits) const {
-    if (isBuried(hits, m_rays))
+    if (isInSolid(hits, m_rays))
         return 0;
     std::vector<std::uint32_t> rest;
     rest.reserve(m_rays);
@@ -302,38 +303,40 @@ std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker,
     return linker == Linker::Gather ? std::min(targets, maxLampsAimed(rays)) : targets;
 }
 
-bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, Linker linker, const std::vector<float>& extents,
-                const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays) {
-    Finisher finisher{trace,   set,
-                      caches,  points,
-                      linker,  aimTargets(trace.scene(), set, linker),
-                      extents, !hits.aimedBegin.empty(),
-                      {}};
-    if (!finisher.targets.empty())
-        finisher.isTarget.resize(set.surfels.size() + kSkyCells);
-    for (const std::uint32_t s : finisher.targets)
-        finisher.isTarget[s] = true;
+bool classifyHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                  const CachePoints& points, Linker linker, const std::vector<float>& extents,
+                  const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays) {
+    HitClassifier classifier{trace,   set,
+                             caches,  points,
+                             linker,  aimTargets(trace.scene(), set, linker),
+                             extents, !hits.aimedBegin.empty(),
+                             {}};
+    if (!classifier.targets.empty())
+        classifier.isTarget.resize(set.surfels.size() + kSkyCells);
+    for (const std::uint32_t s : classifier.targets)
+        classifier.isTarget[s] = true;
     std::vector<std::vector<AimedSample>> aimed(caches.size());
     std::atomic<std::uint64_t> traced = 0;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
-    const std::size_t grain = std::clamp<std::size_t>(65536 / (finisher.targets.size() + 1), 1, 64);
-    const bool done = parallelRanges(
-        caches.size(), grain, linker == Linker::Gather ? quiet : progress, "trace",
-        [&](std::size_t begin, std::size_t end) {
-            std::vector<AimedSample> found;
-            for (std::size_t c = begin; c < end; ++c) {
-                const auto cache = std::uint32_t(c);
-                std::uint32_t* sender = hits.sender.data() + c * hits.rays;
-                found.clear();
-                finisher.markBacks(hits.rays, sender);
-                finisher.leaveOutBuried(points.begin[c + 1] - points.begin[c], hits.rays, sender);
-                traced += finisher.aimCache(cache, hits.rays, sender, found);
-                aimed[c] = found; // a copy has no spare capacity
-            }
-        });
+    const std::size_t grain =
+        std::clamp<std::size_t>(65536 / (classifier.targets.size() + 1), 1, 64);
+    const bool done =
+        parallelRanges(caches.size(), grain, linker == Linker::Gather ? quiet : progress, "trace",
+                       [&](std::size_t begin, std::size_t end) {
+                           std::vector<AimedSample> found;
+                           for (std::size_t c = begin; c < end; ++c) {
+                               const auto cache = std::uint32_t(c);
+                               std::uint32_t* sender = hits.sender.data() + c * hits.rays;
+                               found.clear();
+                               classifier.markBacks(hits.rays, sender);
+                               classifier.excludePointsInSolids(
+                                   points.begin[c + 1] - points.begin[c], hits.rays, sender);
+                               traced += classifier.aimCache(cache, hits.rays, sender, found);
+                               aimed[c] = found; // a copy has no spare capacity
+                           }
+                       });
     aimedRays += traced;
-    if (finisher.aimedAlready)
+    if (classifier.aimedAlready)
         return done;
     joinAimed(aimed, hits);
     return done;

@@ -26,19 +26,19 @@ struct SenderView {
 SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
                   const AimedSample& sample);
 
-/// Result of one ray before finishHits(): a leaf of the ClusterTree or, with kBack set, the surfel
-/// on the front of the one-sided surface whose back it met. Tracing yields only these 4 bytes per
-/// ray, so they can be stored and read again.
+/// Result of one ray before classifyHits(): a leaf of the ClusterTree or, with kBack set, the
+/// surfel on the front of the one-sided surface whose back it met. Tracing yields only these 4
+/// bytes per ray, so they can be stored and read again.
 using RawHit = std::uint32_t;
 inline constexpr RawHit kBack = 1U << 31;
-/// Not traced: the cache is buried.
+/// The ray was not traced, since its cache lies in a solid.
 inline constexpr RawHit kUntraced = ~0U;
 
 /// Number of probes, which are evenly spaced among a cache's rays. A cache whose probes all meet
 /// backs lies in a solid, and its other rays need not be traced. Not applied to caches with fewer
 /// than twice as many rays.
 inline constexpr std::uint32_t kProbes = 64;
-bool isBuried(const RawHit* hits, std::uint32_t rays);
+bool isInSolid(const RawHit* hits, std::uint32_t rays);
 
 /// Shoots the rays of caches at the static scene. A hit is credited to the surfel that owns the hit
 /// point, an escaped ray to its sky cell.
@@ -64,20 +64,21 @@ public:
         return resolve(placeOf(hit, direction));
     }
 
-    /// Traces all of a cache's rays, or only the probes of a buried one. Returns the number traced.
+    /// Traces all of a cache's rays, or only the probes of one in a solid. Returns the number
+    /// traced.
     std::uint32_t traceCache(std::uint32_t cache, RawHit* out) const;
 
-    /// Traces those rays of a cache that are kUntraced, unless it is buried. Returns the number
-    /// traced.
+    /// Traces those rays of a cache that are kUntraced, unless it lies in a solid. Returns the
+    /// number traced.
     std::uint32_t traceRest(std::uint32_t cache, RawHit* hits) const;
 
 private:
     /// What a ray met: a cell of an instance's SurfelOwners, or part of the sky.
     struct Place {
-        std::uint32_t instance; ///< ~0: the sky
-        SurfelOwners::Place at; ///< or the sky's cell
-        bool back;              ///< of a surface with two sides
-        bool passed;            ///< the back of a surface with one
+        std::uint32_t instance;   ///< ~0: the sky
+        SurfelOwners::Place cell; ///< or the sky's cell
+        bool back;                ///< of a surface with two sides
+        bool passed;              ///< the back of a surface with one
     };
     Place placeOf(const SurfaceHit& hit, glm::vec3 direction) const;
     RawHit resolve(const Place& place) const;
@@ -93,14 +94,14 @@ private:
 };
 
 /// Turns the raw hits in hits.sender into senders and marks; backs of one-sided surfaces carry
-/// nothing. Points of a cache most of whose rays meet backs are left out; a cache without remaining
+/// nothing. Points of a cache most of whose rays meet backs are excluded; a cache without remaining
 /// points is invalid.
 ///
 /// Linker::Gather: only a handful of rays would meet a small bright lamp, which causes blotches. A
 /// cache that meets the emissive surfels with fewer than an eighth of its rays therefore aims one
 /// ray at each of them or, where there are more than maxLampsAimed(), at a sample of them in
-/// proportion to what they would bring without occlusion. A ray at its middle does not tell how
-/// much of a surfel is in sight from nearer than kAimedFrom times its extent (`extents`,
+/// proportion to what they would contribute without occlusion. A ray at its middle does not tell
+/// how much of a surfel is in sight from nearer than kAimedFrom times its extent (`extents`,
 /// lampExtents()): such a surfel keeps its chance hits. Which materials emit only guides the
 /// sampling; rays meet all other senders.
 ///
@@ -109,9 +110,9 @@ private:
 ///
 /// Where hits.aimedBegin is already filled, nothing is traced and hits.aimed stays. Adds the number
 /// of aimed rays to `aimedRays`. Returns false when cancelled.
-bool finishHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                const CachePoints& points, Linker linker, const std::vector<float>& extents,
-                const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays);
+bool classifyHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
+                  const CachePoints& points, Linker linker, const std::vector<float>& extents,
+                  const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays);
 
 /// Distance from which caches may aim at an emissive surfel, in its extents: there the midpoint
 /// rule is off by about 1 / 16.

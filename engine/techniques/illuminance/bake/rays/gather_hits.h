@@ -41,9 +41,9 @@ struct GatherHits {
         ~0U; ///< the back of a one-sided surface: carries nothing
     /// A lamp or the sky: left to the cache's aimed samples or SkyHits.
     static constexpr std::uint32_t kAimed = ~0U - 1;
-    static constexpr std::uint32_t kLeftOut =
-        ~0U - 2; ///< started in a wall: not a ray of this cache
-    static constexpr std::uint32_t kFirstMark = kLeftOut;
+    static constexpr std::uint32_t kExcluded =
+        ~0U - 2; ///< the ray starts in a wall: it does not count
+    static constexpr std::uint32_t kFirstMark = kExcluded;
     std::uint32_t rays = 0;
     std::vector<std::uint32_t> sender;
     std::vector<std::uint32_t> aimedBegin;

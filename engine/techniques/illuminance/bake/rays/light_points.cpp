@@ -95,20 +95,21 @@ struct Finder {
     const RayGatherer& gatherer;
     std::uint64_t rays = 0;
 
-    LitPoint pointOf(const CacheRay& of, const LitPoint& place, std::uint32_t s);
+    LitPoint pointOf(const CacheRay& source, const LitPoint& place, std::uint32_t s);
     glm::vec3 raised(const LitPoint& point, std::uint32_t s, float height);
     bool isTogether(const LitPoint& point, const Middle& middle, std::uint32_t s);
     std::array<LitPoint, kLightPoints> find(const CandidateRays& chosen, std::uint32_t s);
 };
 
 /// Where the ray met the surfel's patch; the surfel's place where there is no ray.
-LitPoint Finder::pointOf(const CacheRay& of, const LitPoint& place, std::uint32_t s) {
+LitPoint Finder::pointOf(const CacheRay& source, const LitPoint& place, std::uint32_t s) {
     LitPoint point = place;
-    if (of.cache == ~0U)
+    if (source.cache == ~0U)
         return point;
     ++rays;
-    const Hit hit = trace.closestHit(gatherer.ray(gatherer.directions(of.cache), of.cache, of.ray),
-                                     TraceMask::Static);
+    const Hit hit =
+        trace.closestHit(gatherer.ray(gatherer.directions(source.cache), source.cache, source.ray),
+                         TraceMask::Static);
     if (!hit)
         return point;
     const Scene& scene = trace.scene();
@@ -153,7 +154,7 @@ std::array<LitPoint, kLightPoints> Finder::find(const CandidateRays& chosen, std
         middle.raised[k] = raised(place, s, kHeights[k]);
     std::array<LitPoint, kLightCandidates> found;
     std::ranges::transform(chosen, found.begin(),
-                           [&](const CacheRay& of) { return pointOf(of, place, s); });
+                           [&](const CacheRay& source) { return pointOf(source, place, s); });
     std::ranges::stable_sort(found, {}, &LitPoint::order);
     std::array<LitPoint, kLightPoints> result;
     for (std::uint32_t k = 0; k < kLightPoints; ++k) {
@@ -178,8 +179,8 @@ LightPoints findLightPoints(const TraceScene& trace, const Surfels& surfels,
                             const Progress& progress) {
     const std::vector<CandidateRays> chosen = chooseRays(hits, points, caches, surfels.size());
     LightPoints result;
-    result.at.resize(surfels.size() * kLightPoints);
-    result.normal.resize(result.at.size());
+    result.position.resize(surfels.size() * kLightPoints);
+    result.normal.resize(result.position.size());
     std::atomic<std::uint64_t> rays = 0;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     parallelRanges(surfels.size(), 64, quiet, "trace", [&](std::size_t begin, std::size_t end) {
@@ -187,7 +188,7 @@ LightPoints findLightPoints(const TraceScene& trace, const Surfels& surfels,
         for (auto s = std::uint32_t(begin); s < end; ++s) {
             const std::array<LitPoint, kLightPoints> found = finder.find(chosen[s], s);
             for (std::uint32_t k = 0; k < kLightPoints; ++k) {
-                result.at[s * kLightPoints + k] = found[k].position;
+                result.position[s * kLightPoints + k] = found[k].position;
                 result.normal[s * kLightPoints + k] = found[k].normal;
             }
         }

@@ -14,15 +14,15 @@ namespace limn {
 inline constexpr std::uint32_t kLightCandidates = 4 * kLightPoints;
 
 struct LightPoints {
-    std::vector<glm::vec3> at, normal; ///< Surfels::lightPoints and lightNormals
-    std::uint64_t rays = 0;            ///< number of rays traced
+    std::vector<glm::vec3> position, normal; ///< Surfels::lightPoints and lightNormals
+    std::uint64_t rays = 0;                  ///< number of rays traced
 };
 
 /// Finds where direct light falls on each surfel: at points that rays of caches met on its patch,
-/// chosen with probability in proportion to what they bring to the caches. The mean over them is an
-/// unbiased estimate of the direct light that the caches see on the patch. A mean over the patch's
-/// area is not what they see: half of them may look at the shaded strip under a moulding that
-/// covers a tenth of it. Points that a wall separates from the surfel's place do not count; a
+/// chosen with probability in proportion to what they contribute to the caches. The mean over them
+/// is an unbiased estimate of the direct light that the caches see on the patch. A mean over the
+/// patch's area is not what they see: half of them may look at the shaded strip under a moulding
+/// that covers a tenth of it. Points that a wall separates from the surfel's place do not count; a
 /// surfel without others has its place alone.
 ///
 /// kLightCandidates of the rays are chosen by systematic sampling and traced again, since

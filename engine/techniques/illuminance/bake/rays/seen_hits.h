@@ -20,24 +20,24 @@ inline float irradianceShare(CacheKind kind, float cosTheta) {
     return kind == CacheKind::Hemisphere ? cosTheta : 0.5f;
 }
 
-/// Number of a cache's rays that count: all but those left out. `senders`: what its rays met.
-inline std::uint32_t keptRays(std::span<const std::uint32_t> senders) {
+/// Number of a cache's valid rays: all but the excluded ones. `senders`: what its rays met.
+inline std::uint32_t validRays(std::span<const std::uint32_t> senders) {
     return std::uint32_t(senders.size()) -
-           std::uint32_t(std::ranges::count(senders, GatherHits::kLeftOut));
+           std::uint32_t(std::ranges::count(senders, GatherHits::kExcluded));
 }
 
 /// Calls visit(point) for each of a cache's points that has rays and does not lie in a wall.
 /// `senders`: what the cache's rays met.
 template <class Visit>
-void forEachOpenPoint(const CachePoints& points, std::uint32_t cache,
-                      std::span<const std::uint32_t> senders, const Visit& visit) {
+void forEachValidPoint(const CachePoints& points, std::uint32_t cache,
+                       std::span<const std::uint32_t> senders, const Visit& visit) {
     const std::uint32_t first = points.begin[cache], count = points.begin[cache + 1] - first;
     for (std::uint32_t k = 0; k < count && k < senders.size(); ++k)
-        if (senders[k] != GatherHits::kLeftOut) // ray k is the first of point k
+        if (senders[k] != GatherHits::kExcluded) // ray k is the first of point k
             visit(first + k);
 }
 
-/// Irradiance that each of a cache's `rays` rays brings from a sender of radiosity 1.
+/// Irradiance that each of a cache's `rays` rays contributes if its sender has a radiosity of 1.
 inline std::vector<float> rayIrradiances(std::uint32_t rays, CacheKind kind) {
     const DirectionSet set = gatherDirections(rays, kind, 0); // the rotation changes no height
     std::vector<float> result(rays);
@@ -48,23 +48,23 @@ inline std::vector<float> rayIrradiances(std::uint32_t rays, CacheKind kind) {
 }
 
 /// Calls visit(cache, ray, sender, weight) for every ray of the caches [begin, end) that met a
-/// sender, cache after cache. `weight`: the irradiance that a radiosity of 1 there brings to the
-/// cache by this ray, times CachePoints::weight. Rays that are left to aimed samples are not among
-/// them.
+/// sender, cache after cache. `weight`: the irradiance that a radiosity of 1 there contributes to
+/// the cache by this ray, times CachePoints::weight. Rays that are left to aimed samples are not
+/// among them.
 template <class Visit>
 void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Caches& caches,
                     std::uint32_t begin, std::uint32_t end, const Visit& visit) {
     const std::vector<float> hemisphere = rayIrradiances(hits.rays, CacheKind::Hemisphere),
                              sphere = rayIrradiances(hits.rays, CacheKind::Grid);
     for (std::uint32_t c = begin; c < end; ++c) {
-        const std::vector<float>& own =
+        const std::vector<float>& irradiance =
             caches.kind[c] == CacheKind::Hemisphere ? hemisphere : sphere;
         const std::span<const std::uint32_t> sender = hits.sendersOf(c);
         const double weight =
-            double(points.weightOf(c)) * double(hits.rays) / double(keptRays(sender));
+            double(points.weightOf(c)) * double(hits.rays) / double(validRays(sender));
         for (std::uint32_t r = 0; r < hits.rays; ++r)
             if (sender[r] < GatherHits::kFirstMark)
-                visit(c, r, sender[r], weight * double(own[r]));
+                visit(c, r, sender[r], weight * double(irradiance[r]));
     }
 }
 
@@ -106,15 +106,15 @@ SumsOfSenders sumOverCaches(std::uint32_t caches, std::uint32_t senders, const A
     constexpr std::uint32_t kParts = SumsOfSenders::kParts;
     SumsOfSenders result{senders, caches, {}};
     result.sum.assign(std::size_t(kParts + 1) * senders, 0);
-    const auto of = [&](std::uint32_t part) {
+    const auto sumsOf = [&](std::uint32_t part) {
         return std::span(result.sum).subspan(std::size_t(part) * senders, senders);
     };
     parallelRanges(kParts, 1, [&](std::size_t first, std::size_t last) {
         for (auto k = std::uint32_t(first); k < last; ++k)
-            add(result.begin(k), result.begin(k + 1), of(k + 1));
+            add(result.begin(k), result.begin(k + 1), sumsOf(k + 1));
     });
     for (std::uint32_t k = 1; k <= kParts; ++k)
-        std::ranges::transform(of(k - 1), of(k), of(k).begin(), std::plus<>());
+        std::ranges::transform(sumsOf(k - 1), sumsOf(k), sumsOf(k).begin(), std::plus<>());
     return result;
 }
 

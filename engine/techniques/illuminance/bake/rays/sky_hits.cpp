@@ -52,11 +52,11 @@ public:
             std::ptrdiff_t(texel ? m_ofTexel.size() : m_caches.size() - m_caches.lightmapCount);
         for (const std::ptrdiff_t step :
              texel ? std::span<const std::ptrdiff_t>(m_texelSteps) : m_cellSteps) {
-            const std::ptrdiff_t at = std::ptrdiff_t(m_caches.texel[cache]) + step;
-            if (at < 0 || at >= count)
+            const std::ptrdiff_t place = std::ptrdiff_t(m_caches.texel[cache]) + step;
+            if (place < 0 || place >= count)
                 continue;
-            const std::uint32_t other =
-                texel ? m_ofTexel[std::size_t(at)] : m_caches.lightmapCount + std::uint32_t(at);
+            const std::uint32_t other = texel ? m_ofTexel[std::size_t(place)]
+                                              : m_caches.lightmapCount + std::uint32_t(place);
             if (other != kNoCache)
                 visit(other);
         }
@@ -141,17 +141,17 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkyHit>& found) {
     findGuides(cache);
     const std::span<const std::uint32_t> senders = in.hits.sendersOf(cache);
     m_open.clear();
-    forEachOpenPoint(in.points, cache, senders,
-                     [&](std::uint32_t point) { m_open.push_back(point); });
+    forEachValidPoint(in.points, cache, senders,
+                      [&](std::uint32_t point) { m_open.push_back(point); });
     if (m_guides.empty() || m_open.empty())
         return;
     const CacheRays rays = raysOf(in.caches, in.points, cache, in.hits.rays);
     const bool hemisphere = in.caches.kind[cache] == CacheKind::Hemisphere;
-    const float ofRay = rays.local.wholeAngle() / float(in.hits.rays),
-                minCosine = 1 - ofRay / (2 * kPi);
+    const float solidAngle = rays.local.wholeAngle() / float(in.hits.rays),
+                minCosine = 1 - solidAngle / (2 * kPi);
     // Rays per solid angle are the cache's own that count, and those around each guide.
-    const float kept = float(keptRays(senders)) / float(in.hits.rays),
-                guided = float(kSkyRays) / (float(m_guides.size()) * ofRay);
+    const float kept = float(validRays(senders)) / float(in.hits.rays),
+                guided = float(kSkyRays) / (float(m_guides.size()) * solidAngle);
     const auto add = [&](std::uint32_t sender, std::uint32_t point, glm::vec3 d, float z) {
         const auto near = std::ranges::count_if(
             m_guides, [&](glm::vec3 guide) { return glm::dot(guide, d) >= minCosine; });
@@ -173,7 +173,7 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkyHit>& found) {
     };
     for (std::uint32_t k = 0; k < kSkyRays; ++k) {
         const std::uint32_t point = m_open[k % m_open.size()];
-        const glm::vec3 normal = in.points.normal[point], d = aimed(cache, k, ofRay);
+        const glm::vec3 normal = in.points.normal[point], d = aimed(cache, k, solidAngle);
         if (!hemisphere || glm::dot(d, normal) > 0)
             aims.add({in.trace.clearOf(in.points.position[point], normal), d}, {point, d}, open);
     }

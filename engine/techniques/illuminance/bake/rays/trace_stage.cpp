@@ -393,8 +393,8 @@ bool Tracing::finish() {
         gridDepths(in.set.surfels, in.caches, in.points, m_hits.sender, in.rays, in.gridReach);
     const bool fresh = m_hits.aimedBegin.empty();
     std::uint64_t aimed = 0;
-    if (!finishHits(in.trace, in.set, in.caches, in.points, in.linker,
-                    lampExtents(in.trace.scene(), in.set, in.owners), m_progress, m_hits, aimed))
+    if (!classifyHits(in.trace, in.set, in.caches, in.points, in.linker,
+                      lampExtents(in.trace.scene(), in.set, in.owners), m_progress, m_hits, aimed))
         return false;
     m_rays += aimed;
     if (aims && m_store && fresh) {
@@ -466,12 +466,12 @@ Result<TraceReport> traceHits(const TraceInput& in, const Progress& progress, St
     const std::uint64_t caches = in.caches.size(),
                         aimed = maxAimed(in.trace.scene(), in.set, in.linker, in.rays),
                         bytes = caches * (in.rays * sizeof(RawHit) + aimed * sizeof(AimedSample)),
-                        most = halfOfMemory();
-    if (bytes > most)
+                        maximum = halfOfMemory();
+    if (bytes > maximum)
         return fail(fmt::format(
             "bake settings: {} rays for each of {} caches need {:.1f} GiB, more than half of this "
             "machine's memory ({:.1f} GiB): lower rays, lightmap or grid",
-            in.rays, caches, double(bytes) / (1 << 30), double(most) / (1 << 30)));
+            in.rays, caches, double(bytes) / (1 << 30), double(maximum) / (1 << 30)));
     return Tracing(in, progress, store, hits).run();
 }
 

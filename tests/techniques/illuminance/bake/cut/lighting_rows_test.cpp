@@ -63,18 +63,18 @@ TEST(LightingRows, ErrorsAreWeightedMeanSquares) {
     const LightingRow l = rows.row(), r = rows.row(), weight = rows.row();
     const std::array<LightingRow, kLinkCandidates> read = {rows.row(), l, r};
     const Received left{0.3f, l.data()}, right{0.2f, r.data()};
-    const auto errorsOf = [&](LightingRow& brought) {
+    const auto errorsOf = [&](LightingRow& contribution) {
         return linkErrors(left, right, 0.5f, {read[0].data(), read[1].data(), read[2].data()},
-                          weight.data(), brought.data());
+                          weight.data(), contribution.data());
     };
-    LightingRow brought;
-    const auto errors = errorsOf(brought);
+    LightingRow contribution;
+    const auto errors = errorsOf(contribution);
     for (std::size_t c = 0; c < kLinkCandidates; ++c) {
         double sum = 0;
-        for (std::size_t t = 0; t < brought.size(); ++t) {
+        for (std::size_t t = 0; t < contribution.size(); ++t) {
             const double b = 0.3 * double(l[t]) + 0.2 * double(r[t]),
                          off = b - 0.5 * double(read[c][t]);
-            EXPECT_NEAR(brought[t], b, 1e-6);
+            EXPECT_NEAR(contribution[t], b, 1e-6);
             sum += off * off * double(weight[t]);
         }
         EXPECT_NEAR(errors[c], sum / TrainingLight::kCount, 1e-5 * errors[c]);
@@ -82,7 +82,7 @@ TEST(LightingRows, ErrorsAreWeightedMeanSquares) {
     forEachVectorUnit([&] {
         LightingRow again;
         EXPECT_EQ(errorsOf(again), errors);
-        EXPECT_EQ(again, brought);
+        EXPECT_EQ(again, contribution);
     });
 }
 
@@ -90,9 +90,9 @@ TEST(LightingRows, ALinkThatReadsWhatBothSendHasNoError) {
     Rows rows(0);
     const LightingRow same = rows.row(), weight = rows.row();
     const Received half{0.25f, same.data()};
-    LightingRow brought;
+    LightingRow contribution;
     const auto errors = linkErrors(half, half, 0.5f, {same.data(), same.data(), same.data()},
-                                   weight.data(), brought.data());
+                                   weight.data(), contribution.data());
     for (const float e : errors)
         EXPECT_EQ(e, 0);
 }

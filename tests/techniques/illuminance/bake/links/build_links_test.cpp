@@ -118,11 +118,11 @@ std::array<double, TrainingLight::kCount + 1> errorWeights(const VisibleTree& se
                                                            const TrainingLight& training) {
     std::array<double, TrainingLight::kCount + 1> E{}, weight;
     for (std::uint32_t n = 0; n < seen.leaves(); ++n) {
-        const double share = double(seen.formFactor[n].irradiance);
+        const double formFactor = double(seen.formFactor[n].irradiance);
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
-            E[t] +=
-                share * double(training.row(seen.node[n])[t]) / double(TrainingLight::strength(t));
-        E.back() += share;
+            E[t] += formFactor * double(training.row(seen.node[n])[t]) /
+                    double(TrainingLight::strength(t));
+        E.back() += formFactor;
     }
     for (std::size_t t = 0; t < E.size(); ++t)
         weight[t] = 1 / (E[t] * E[t] + 1e-4);
@@ -149,17 +149,17 @@ Read readOf(const VisibleTree& seen, const CutChoices& choices, std::uint32_t n)
                                     : choices.representative[n - seen.leaves()]);
 }
 
-/// What the senders below each node of `seen` bring in each lighting.
-using Brought = std::vector<std::array<double, TrainingLight::kCount>>;
-Brought broughtBy(const VisibleTree& seen, const TrainingLight& training) {
-    Brought brought(seen.size());
+/// What the senders below each node of `seen` contribute in each lighting.
+using Contributions = std::vector<std::array<double, TrainingLight::kCount>>;
+Contributions contributionsOf(const VisibleTree& seen, const TrainingLight& training) {
+    Contributions contribution(seen.size());
     for (std::uint32_t n = 0; n < seen.size(); ++n)
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t)
-            brought[n][t] =
+            contribution[n][t] =
                 n < seen.leaves()
                     ? double(seen.formFactor[n].irradiance) * double(training.row(seen.node[n])[t])
-                    : brought[seen.child(n, 0)][t] + brought[seen.child(n, 1)][t];
-    return brought;
+                    : contribution[seen.child(n, 0)][t] + contribution[seen.child(n, 1)][t];
+    return contribution;
 }
 
 /// What RefinementPriority finds for a random cache, and errors of its links by the definition, in
@@ -169,13 +169,13 @@ struct Weighed {
     const TrainingLight& training;
     const CutChoices& choices;
     std::array<double, TrainingLight::kCount + 1> weight = errorWeights(seen, training);
-    Brought brought = broughtBy(seen, training);
+    Contributions contribution = contributionsOf(seen, training);
 
     /// Weighted mean squared error of the link to node `n` of `seen` if it reads `node`.
     double errorOf(std::uint32_t n, std::uint32_t node) const {
         double sum = 0;
         for (std::uint32_t t = 0; t < TrainingLight::kCount; ++t) {
-            const double d = brought[n][t] -
+            const double d = contribution[n][t] -
                              double(seen.formFactor[n].irradiance) * double(training.row(node)[t]);
             sum += weight[t] * d * d;
         }
@@ -228,9 +228,9 @@ TEST(RefinementPriority, ALinkReadsTheNodeOfLeastExpectedError) {
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const auto expected = [&](Representative by) {
                 const Read read = readOf(seen, w.choices, n, by);
-                const auto share = double(seen.formFactor[n].irradiance);
-                return w.errorOf(n, read.node) + w.weight.back() * 0.03 / 2 * share *
-                                                     (share - 2 * read.seen) *
+                const auto formFactor = double(seen.formFactor[n].irradiance);
+                return w.errorOf(n, read.node) + w.weight.back() * 0.03 / 2 * formFactor *
+                                                     (formFactor - 2 * read.seen) *
                                                      double(w.training.squaredWeights[read.node]);
             };
             const double own = expected(Representative::Own), left = expected(Representative::Left),

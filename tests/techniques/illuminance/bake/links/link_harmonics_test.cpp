@@ -181,7 +181,7 @@ SeenByLink seenByLink(const Room& r, const Caches& caches, std::uint32_t c) {
     };
     const CacheRays rays = raysOf(caches, r.points, c, r.hits.rays);
     const std::uint32_t* sender = r.hits.sender.data() + std::size_t(c) * r.hits.rays;
-    const auto left = std::count(sender, sender + r.hits.rays, GatherHits::kLeftOut);
+    const auto left = std::count(sender, sender + r.hits.rays, GatherHits::kExcluded);
     const float all = float(r.hits.rays) / float(r.hits.rays - std::uint32_t(left));
     for (std::uint32_t k = 0; k < r.hits.rays; ++k)
         if (sender[k] < GatherHits::kFirstMark) {

@@ -96,14 +96,14 @@ PlacedCaches placed(const TraceScene& trace, std::uint32_t grid) {
 TEST(BuriedCaches, AreThoseWhoseEveryProbeMetABack) {
     constexpr std::uint32_t kRays = 200;
     std::vector<RawHit> hits(kRays, 7 | kBack);
-    EXPECT_TRUE(isBuried(hits.data(), kRays));
-    EXPECT_FALSE(isBuried(hits.data(), 2 * kProbes - 1)); // too few to leave any out
+    EXPECT_TRUE(isInSolid(hits.data(), kRays));
+    EXPECT_FALSE(isInSolid(hits.data(), 2 * kProbes - 1)); // too few to leave any out
     std::uint32_t probes = 0;
     for (RawHit& hit : hits) {
         hit = 7;
-        probes += isBuried(hits.data(), kRays) ? 0 : 1;
+        probes += isInSolid(hits.data(), kRays) ? 0 : 1;
         hit = kUntraced;
-        EXPECT_TRUE(isBuried(hits.data(), kRays));
+        EXPECT_TRUE(isInSolid(hits.data(), kRays));
         hit = 7 | kBack;
     }
     EXPECT_EQ(probes, kProbes);
@@ -127,7 +127,7 @@ TEST(BuriedCaches, CostProbesAlone) {
         const bool inside = c >= p.caches.lightmapCount &&
                             glm::all(glm::greaterThan(at, glm::vec3(1, 0.1f, 1))) &&
                             glm::all(glm::lessThan(at, glm::vec3(3, 2.1f, 3)));
-        EXPECT_EQ(hits.sender[c * 256] == GatherHits::kLeftOut, inside) << c;
+        EXPECT_EQ(hits.sender[c * 256] == GatherHits::kExcluded, inside) << c;
         leftOut += inside ? 1 : 0;
     }
     EXPECT_EQ(leftOut, 64U);
