@@ -202,7 +202,7 @@ TEST(Density, SurfelsFollowItAndOwnWhatLiesNearest) {
                     const auto distance = [&](std::uint32_t i) {
                         return glm::length(s.position[i] - p);
                     };
-                    const std::uint32_t own = owners.at(t, u, v, false);
+                    const std::uint32_t own = owners.surfelAt(t, u, v, false);
                     float least = distance(own);
                     for (std::uint32_t i = 0; i < s.size(); ++i)
                         least = std::min(least, distance(i));

@@ -18,7 +18,7 @@ namespace limn {
 /// Whether the mesh has the point's triangle and the barycentrics lie on it.
 bool isPointOf(const Mesh& mesh, const MeshPoint& point);
 
-/// Whether all points of an AtlasTexel or an OwnCache are valid on the mesh.
+/// Whether all points of an AtlasTexel or an SurfelCache are valid on the mesh.
 template <class Texel>
 bool arePointsOf(const Mesh& mesh, const Texel& texel) {
     if (texel.count == 0 || texel.count > texel.points.size())

@@ -146,7 +146,7 @@ static double lampShare(const Scene& scene) {
 
 std::uint64_t expectedCaches(const Scene& scene) {
     double texels = wantedTexels(scene) * (1 + lampShare(scene));
-    texels += texels / kCachesPerOwn;
+    texels += texels / kCachesPerSurfelCache;
     return std::uint64_t(std::min(texels, 1e15)) + expectedGrid(scene);
 }
 

@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// Approximate number of caches in a bake of the scene, with the maximum number of own caches. With
-/// texelsPerMetre the texels at the charts' borders are not counted. Cheap unless that is set; then
-/// it sums the areas of all triangles. Does not take minTexels() into account.
+/// Approximate number of caches in a bake of the scene, with the maximum number of surfel caches.
+/// With texelsPerMetre the texels at the charts' borders are not counted. Cheap unless that is set;
+/// then it sums the areas of all triangles. Does not take minTexels() into account.
 std::uint64_t expectedCaches(const Scene& scene);
 
 /// Approximate minimum number of lightmap texels that the scene's static objects need, however few

@@ -116,7 +116,7 @@ PatchSides patchSidesStage(BakeRun& run) {
         });
 }
 
-/// Finds the surfels' places and own caches from what the surface's caches see.
+/// Finds the surfels' places and surfel caches from what the surface's caches see.
 SeenPatches seenPatchesStage(BakeRun& run) {
     const SurfelSet& set = run.set;
     const Scene& scene = run.scene;
@@ -137,12 +137,14 @@ SeenPatches seenPatchesStage(BakeRun& run) {
               }));
             a("cache", s.cache, rule::count(n), rule::belowOr(caches.lightmapCount, ~0U));
             a("cacheWeight", s.cacheWeight, rule::count(n), rule::within(0, 1 + 1e-4));
-            a("own", s.own, rule::each("out of range", [&](std::size_t i, const OwnCache& cache) {
+            a("surfelCaches", s.surfelCaches,
+              rule::each("out of range", [&](std::size_t i, const SurfelCache& cache) {
                   return i < texels - caches.lightmapCount && cache.back <= 1 &&
                          cache.instance < scene.instances.size() &&
                          arePointsOf(scene.meshOf(scene.instances[cache.instance]), cache);
               }));
-            a("ownCache", s.ownCache, rule::count(n), rule::belowOr(s.own.size(), ~0U));
+            a("surfelCache", s.surfelCache, rule::count(n),
+              rule::belowOr(s.surfelCaches.size(), ~0U));
         },
         [&] {
             SeenPatches made = findSeenPatches(run.trace, set, *run.owners, atlas, caches,
@@ -303,7 +305,7 @@ Result<void> placeReceivers(BakeRun& run) {
     if (run.progress.cancelled())
         return cancelled();
     placeSeen(scene, seen, run.set);
-    addOwnCaches(scene, layout, seen, run.set.surfels, bake.caches, run.points);
+    addSurfelCaches(scene, layout, seen, run.set.surfels, bake.caches, run.points);
     addGridCaches(bake.gridSize, bake.gridBounds, bake.caches, run.points);
     run.clock.finish("caches");
     return {};

@@ -50,10 +50,10 @@ static_assert(sizeof(Link) == 12);
 /// directions around a point in the air.
 enum class CacheKind : std::uint8_t { Hemisphere, Grid };
 
-/// Points at which radiance is gathered: first lightmap texels, then own caches, which only surfels
-/// read and which lie in texels that no lookup needs, then grid cells.
+/// Points at which radiance is gathered: first lightmap texels, then surfel caches, which only
+/// surfels read and which lie in texels that no lookup needs, then grid cells.
 struct Caches {
-    std::uint32_t lightmapCount = 0; ///< own caches included
+    std::uint32_t lightmapCount = 0; ///< surfel caches included
     std::vector<CacheKind> kind;
     std::vector<glm::vec3> position;  ///< world
     std::vector<glm::vec3> normal;    ///< unit geometric normal of its side; 0 for Grid

@@ -52,7 +52,7 @@ ObjectCaches cachesOfObject(const Bake& bake, const Scene& scene, std::uint32_t 
     const TexelUse use = texelUse(bake.lightmap, scene);
     const std::uint32_t chart = use.chart[caches.texel[cache]];
     if (chart == ~0u)
-        return out; // an own cache, which only surfels read
+        return out; // a surfel cache, which only surfels read
     const std::vector<std::uint32_t> first = firstCharts(bake.lightmap, scene);
     const auto after = std::ranges::upper_bound(first, chart);
     out.instance = std::uint32_t(after - first.begin()) - 1;

@@ -149,7 +149,7 @@ static float gridSpacing(const Bake& bake) {
 
 struct TexelRadii {
     std::vector<float> radius;
-    std::uint32_t own = 0; ///< number of own caches, which only surfels read
+    std::uint32_t own = 0; ///< number of surfel caches, which only surfels read
 };
 
 // Half the side of the square of surface that each lightmap texel stands for [m]; half the mean of

@@ -218,7 +218,7 @@ RayGatherer::Place RayGatherer::placeOf(const SurfaceHit& hit, glm::vec3 directi
     const Scene& scene = m_trace.scene();
     const Instance& instance = scene.instances[hit.instance];
     const bool twoSided = isTwoSided(scene.materialOf(instance));
-    return {hit.instance, m_owners.of(instance.mesh).cellAt(hit.triangle, hit.u, hit.v),
+    return {hit.instance, m_owners.tableOf(instance.mesh).cellAt(hit.triangle, hit.u, hit.v),
             !hit.frontFace && twoSided, !hit.frontFace && !twoSided};
 }
 

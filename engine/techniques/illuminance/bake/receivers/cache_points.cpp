@@ -79,9 +79,10 @@ void connectSurfels(const SideLookup& lookups, const Scene& scene, const Lightma
         if (layout.instances[surfels.instance[s]].uv.empty())
             continue;
         const Instance& instance = scene.instances[surfels.instance[s]];
-        const MeshPoint at{surfels.triangle[s], surfels.barycentric[s]};
-        const bool back = glm::dot(worldPoint(scene, instance, at).normal, surfels.normal[s]) < 0;
-        const Bilinear lookup = bilinearAt(layout, lookups.uvOf(surfels.instance[s], at, back));
+        const MeshPoint point{surfels.triangle[s], surfels.barycentric[s]};
+        const bool back =
+            glm::dot(worldPoint(scene, instance, point).normal, surfels.normal[s]) < 0;
+        const Bilinear lookup = bilinearAt(layout, lookups.uvOf(surfels.instance[s], point, back));
         float sum = 0;
         for (int k = 0; k < 4; ++k) {
             const std::uint32_t cache = cacheOfTexel[lookup.texel[k]];

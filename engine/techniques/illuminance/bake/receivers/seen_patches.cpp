@@ -23,7 +23,7 @@ constexpr std::uint32_t kPicks = 16; ///< maximum number of places of a patch th
 constexpr float kUnlike = 0.1f;      ///< difference in sky share that makes caches wrong
 
 /// The point where a ray of a cache met a surfel's patch.
-struct Sighting {
+struct PatchHit {
     std::uint32_t surfel = ~0U; ///< ~0: it met none
     MeshPoint point{};
     bool near = false; ///< from a distance less than the patch's width
@@ -43,18 +43,18 @@ WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfe
     return p;
 }
 
-struct PatchSight {
+struct PatchHits {
     const TraceScene& trace;
     const SurfelSet& set;
     const OwnerTables& owners;
     const Caches& caches;
     const CachePoints& points;
     std::uint32_t rays;                    ///< number for each cache and each surfel
-    std::vector<Sighting> sightings = {};  ///< `rays` per cache
+    std::vector<PatchHit> hits = {};       ///< `rays` per cache
     std::vector<float> ofRay = {};         ///< rayIrradiances() of a lightmap cache
     std::vector<float> sky = {};           ///< share of the sky's irradiance that each cache has
     std::vector<std::uint32_t> begin = {}; ///< of surfel s: order[begin[s] … begin[s + 1])
-    std::vector<std::uint32_t> order = {}; ///< indices into `sightings`
+    std::vector<std::uint32_t> order = {}; ///< indices into `hits`
 
     bool look(const Progress& progress);
     void sort();
@@ -63,8 +63,8 @@ struct PatchSight {
     MeshPoint placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
 };
 
-bool PatchSight::look(const Progress& progress) {
-    resizeLarge(sightings, std::size_t(caches.lightmapCount) * rays);
+bool PatchHits::look(const Progress& progress) {
+    resizeLarge(hits, std::size_t(caches.lightmapCount) * rays);
     ofRay = rayIrradiances(rays, CacheKind::Hemisphere);
     sky.resize(caches.lightmapCount);
     const RayGatherer gatherer(trace, set, caches, points, rays, owners);
@@ -80,38 +80,38 @@ bool PatchSight::look(const Progress& progress) {
                     if (!hit)
                         sky[c] += ofRay[r];
                     else if (counts && !(met & kBack))
-                        sightings[c * rays + r] = {met,
-                                                   {hit.triangle, {hit.u, hit.v}},
-                                                   hit.t * hit.t < set.surfels.area[met]};
+                        hits[c * rays + r] = {met,
+                                              {hit.triangle, {hit.u, hit.v}},
+                                              hit.t * hit.t < set.surfels.area[met]};
                 }
             }
         });
 }
 
-/// Sorts the sightings that count by surfel, then by cache.
-void PatchSight::sort() {
+/// Sorts the hits that count by surfel, then by cache.
+void PatchHits::sort() {
     const std::size_t count = set.surfels.size();
     std::vector<bool> seenFromAfar(count);
-    for (const Sighting& s : sightings)
+    for (const PatchHit& s : hits)
         if (s.surfel != ~0U && !s.near)
             seenFromAfar[s.surfel] = true;
-    const auto counts = [&](const Sighting& s) {
+    const auto counts = [&](const PatchHit& s) {
         return s.surfel != ~0U && (!s.near || !seenFromAfar[s.surfel]);
     };
     begin.assign(count + 1, 0);
-    for (const Sighting& s : sightings)
+    for (const PatchHit& s : hits)
         if (counts(s))
             ++begin[s.surfel + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     order.resize(begin.back());
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < sightings.size(); ++i)
-        if (counts(sightings[i]))
-            order[next[sightings[i].surfel]++] = i;
+    for (std::uint32_t i = 0; i < hits.size(); ++i)
+        if (counts(hits[i]))
+            order[next[hits[i].surfel]++] = i;
 }
 
-/// Picks at most kPicks of a surfel's sightings, spread evenly over the caches.
-std::vector<std::uint32_t> PatchSight::picks(std::uint32_t surfel) const {
+/// Picks at most kPicks of a surfel's hits, spread evenly over the caches.
+std::vector<std::uint32_t> PatchHits::picks(std::uint32_t surfel) const {
     const std::uint32_t all = begin[surfel + 1] - begin[surfel], count = std::min(all, kPicks);
     std::vector<std::uint32_t> result(count);
     for (std::uint32_t k = 0; k < count; ++k)
@@ -122,7 +122,7 @@ std::vector<std::uint32_t> PatchSight::picks(std::uint32_t surfel) const {
 
 /// Whether at least half of a few of the caches that see the surfel's patch also see the surfel's
 /// own position.
-bool PatchSight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
+bool PatchHits::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const {
     constexpr std::size_t kAsked = 4;
     const glm::vec3 place = trace.clearOf(set.surfels.position[surfel], set.surfels.normal[surfel]);
     std::size_t asked = 0, hidden = 0;
@@ -139,18 +139,18 @@ bool PatchSight::isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& 
 
 /// The place of a surfel: its own, or the picked point closest to the others. Distances are
 /// measured as in the search for owners (NearestPoint).
-MeshPoint PatchSight::placeFor(std::uint32_t surfel,
-                               const std::vector<std::uint32_t>& picked) const {
+MeshPoint PatchHits::placeFor(std::uint32_t surfel,
+                              const std::vector<std::uint32_t>& picked) const {
     const Surfels& s = set.surfels;
-    const MeshPoint own{s.triangle[surfel], s.barycentric[surfel]};
+    const MeshPoint place{s.triangle[surfel], s.barycentric[surfel]};
     if (picked.size() < 2)
-        return own;
-    std::vector<WorldPoint> at;
+        return place;
+    std::vector<WorldPoint> points;
     for (const std::uint32_t i : picked)
-        at.push_back(placeOf(trace.scene(), set, surfel, sightings[i].point));
+        points.push_back(placeOf(trace.scene(), set, surfel, hits[i].point));
     const auto sumTo = [&](glm::vec3 p, glm::vec3 n) {
         float sum = 0;
-        for (const WorldPoint& o : at)
+        for (const WorldPoint& o : points)
             sum += std::sqrt(std::max(glm::dot(o.position - p, o.position - p) +
                                           16 * s.area[surfel] * (1 - glm::dot(o.normal, n)),
                                       0.f));
@@ -159,25 +159,26 @@ MeshPoint PatchSight::placeFor(std::uint32_t surfel,
     const float n = float(picked.size());
     float least = isSeen(surfel, picked) ? sumTo(s.position[surfel], s.normal[surfel]) / n
                                          : std::numeric_limits<float>::max();
-    MeshPoint best = own;
+    MeshPoint best = place;
     for (std::size_t k = 0; k < picked.size(); ++k)
-        if (const float mean = sumTo(at[k].position, at[k].normal) / (n - 1); mean < least) {
+        if (const float mean = sumTo(points[k].position, points[k].normal) / (n - 1);
+            mean < least) {
             least = mean;
-            best = sightings[picked[k]].point;
+            best = hits[picked[k]].point;
         }
     return best;
 }
 
 /// Share of the sky's irradiance that a surfel has.
-float skyAt(const PatchSight& sight, const Surfels& moved, std::uint32_t s) {
+float skyAt(const PatchHits& patchHits, const Surfels& moved, std::uint32_t s) {
     const DirectionSet directions =
-        gatherDirections(sight.rays, CacheKind::Hemisphere, mixBits(s + 1));
+        gatherDirections(patchHits.rays, CacheKind::Hemisphere, mixBits(s + 1));
     const glm::mat3 toWorld = basisAround(moved.normal[s]);
-    const glm::vec3 from = sight.trace.clearOf(moved.position[s], moved.normal[s]);
+    const glm::vec3 from = patchHits.trace.clearOf(moved.position[s], moved.normal[s]);
     float open = 0;
-    for (std::uint32_t r = 0; r < sight.rays; ++r)
-        if (!sight.trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
-            open += sight.ofRay[r];
+    for (std::uint32_t r = 0; r < patchHits.rays; ++r)
+        if (!patchHits.trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
+            open += patchHits.ofRay[r];
     return open;
 }
 
@@ -195,25 +196,25 @@ std::vector<std::uint32_t> freeTexels(const LightmapLayout& layout, const Caches
 
 /// Error of the caches of a surfel: the share of the sky that the surfel sees minus the share that
 /// they see, times the number of rays that see the surfel.
-float wrongness(const PatchSight& sight, const Surfels& moved, std::uint32_t s) {
+float cacheError(const PatchHits& patchHits, const Surfels& moved, std::uint32_t s) {
     float read = 0, sum = 0;
     for (int k = 0; k < 4; ++k)
         if (moved.cacheWeight[s][k] > 0) {
-            read += moved.cacheWeight[s][k] * sight.sky[moved.cache[s][k]];
+            read += moved.cacheWeight[s][k] * patchHits.sky[moved.cache[s][k]];
             sum += moved.cacheWeight[s][k];
         }
-    const std::uint32_t seen = sight.begin[s + 1] - sight.begin[s];
+    const std::uint32_t seen = patchHits.begin[s + 1] - patchHits.begin[s];
     if (seen == 0 || !(sum > 0))
         return 0;
-    const float own = skyAt(sight, moved, s);
-    return std::abs(own - read) < kUnlike ? 0 : (own - read) * float(seen);
+    const float visible = skyAt(patchHits, moved, s);
+    return std::abs(visible - read) < kUnlike ? 0 : (visible - read) * float(seen);
 }
 
-/// A group of surfels that are close together, face alike, and whose caches are wrong in the same
+/// A group of surfels that are close together, face alike, and whose caches are off in the same
 /// way.
-struct WrongGroup {
+struct ErrorGroup {
     std::uint64_t key = 0;
-    double wrong = 0; ///< sum of the absolute errors, > 0
+    double error = 0; ///< sum of the absolute errors, > 0
     std::vector<std::uint32_t> surfels;
 };
 
@@ -231,60 +232,60 @@ std::uint64_t groupKey(const Surfels& s, std::uint32_t surfel, bool brighter) {
            unsigned(2 * axis + int(n[axis] < 0));
 }
 
-/// The `most` worst groups, sorted by key.
-std::vector<WrongGroup> worstGroups(const Surfels& moved, const std::vector<float>& wrong,
-                                    std::size_t most) {
-    std::vector<WrongGroup> groups;
-    std::unordered_map<std::uint64_t, std::size_t> at;
-    for (std::uint32_t s = 0; s < wrong.size(); ++s) {
-        if (wrong[s] == 0)
+/// At most `maximum` groups, those of the largest errors, sorted by key.
+std::vector<ErrorGroup> largestGroups(const Surfels& moved, const std::vector<float>& errors,
+                                      std::size_t maximum) {
+    std::vector<ErrorGroup> groups;
+    std::unordered_map<std::uint64_t, std::size_t> indexOf;
+    for (std::uint32_t s = 0; s < errors.size(); ++s) {
+        if (errors[s] == 0)
             continue;
-        const std::uint64_t key = groupKey(moved, s, wrong[s] > 0);
-        const auto [entry, isNew] = at.emplace(key, groups.size());
+        const std::uint64_t key = groupKey(moved, s, errors[s] > 0);
+        const auto [entry, isNew] = indexOf.emplace(key, groups.size());
         if (isNew)
             groups.push_back({.key = key});
-        WrongGroup& group = groups[entry->second];
-        group.wrong += double(std::abs(wrong[s]));
+        ErrorGroup& group = groups[entry->second];
+        group.error += double(std::abs(errors[s]));
         group.surfels.push_back(s);
     }
-    std::ranges::sort(groups, [](const WrongGroup& a, const WrongGroup& b) {
-        return a.wrong != b.wrong ? a.wrong > b.wrong : a.key < b.key;
+    std::ranges::sort(groups, [](const ErrorGroup& a, const ErrorGroup& b) {
+        return a.error != b.error ? a.error > b.error : a.key < b.key;
     });
-    groups.resize(std::min(groups.size(), most));
-    std::ranges::sort(groups, {}, &WrongGroup::key);
+    groups.resize(std::min(groups.size(), maximum));
+    std::ranges::sort(groups, {}, &ErrorGroup::key);
     return groups;
 }
 
-/// Own cache over seen points of the surfels' patches that face as the first surfel does: those
-/// visible from the surfel's place a little above the surface, hence on its side of a wall, or any
-/// where none is.
-OwnCache ownCache(const PatchSight& sight, const Surfels& moved,
-                  const std::vector<std::uint32_t>& surfels) {
+/// Makes a surfel cache over seen points of the surfels' patches that face as the first surfel
+/// does: those visible from the surfel's place a little above the surface, hence on its side of a
+/// wall, or any where none is.
+SurfelCache makeSurfelCache(const PatchHits& patchHits, const Surfels& moved,
+                            const std::vector<std::uint32_t>& surfels) {
     constexpr float kAlike = 0.9f, kAbove = 0.05f; // [patches' width]
-    const Scene& scene = sight.trace.scene();
+    const Scene& scene = patchHits.trace.scene();
     const std::uint32_t first = surfels.front();
-    OwnCache own{moved.instance[first], isBack(sight.set, first, scene) ? 1U : 0U, 0, {}};
+    SurfelCache cache{moved.instance[first], isBack(patchHits.set, first, scene) ? 1U : 0U, 0, {}};
     const auto add = [&](std::uint32_t s, const MeshPoint& point, bool inSight) {
-        const WorldPoint p = placeOf(scene, sight.set, s, point);
+        const WorldPoint p = placeOf(scene, patchHits.set, s, point);
         const float above = kAbove * std::sqrt(moved.area[s]);
-        if (own.count < AtlasTexel::kMaxPoints &&
+        if (cache.count < AtlasTexel::kMaxPoints &&
             glm::dot(p.normal, moved.normal[first]) > kAlike &&
-            !(inSight &&
-              sight.trace.blocked(p.position + above * p.normal,
-                                  moved.position[s] + above * moved.normal[s], TraceMask::Static)))
-            own.points[own.count++] = point;
+            !(inSight && patchHits.trace.blocked(p.position + above * p.normal,
+                                                 moved.position[s] + above * moved.normal[s],
+                                                 TraceMask::Static)))
+            cache.points[cache.count++] = point;
     };
     std::vector<std::vector<std::uint32_t>> picked;
     for (const std::uint32_t s : surfels)
-        picked.push_back(sight.picks(s));
+        picked.push_back(patchHits.picks(s));
     for (const bool inSight : {true, false})
-        for (std::size_t k = 0; k < kPicks && (inSight || own.count == 0); ++k) // in turn
+        for (std::size_t k = 0; k < kPicks && (inSight || cache.count == 0); ++k) // in turn
             for (std::size_t i = 0; i < surfels.size(); ++i)
                 if (k < picked[i].size())
-                    add(surfels[i], sight.sightings[picked[i][k]].point, inSight);
-    if (own.count == 0)
-        own.points[own.count++] = {moved.triangle[first], moved.barycentric[first]};
-    return own;
+                    add(surfels[i], patchHits.hits[picked[i][k]].point, inSight);
+    if (cache.count == 0)
+        cache.points[cache.count++] = {moved.triangle[first], moved.barycentric[first]};
+    return cache;
 }
 
 } // namespace
@@ -294,15 +295,16 @@ SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
                             const CachePoints& points, std::uint32_t rays,
                             const Progress& progress) {
     SeenPatches result;
-    PatchSight sight{trace, set, owners, caches, points, rays};
-    if (!sight.look(progress))
+    PatchHits patchHits{trace, set, owners, caches, points, rays};
+    if (!patchHits.look(progress))
         return result;
-    sight.sort();
+    patchHits.sort();
     const std::size_t count = set.surfels.size();
     result.place.resize(count);
     parallelRanges(count, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t s = first; s < last; ++s)
-            result.place[s] = sight.placeFor(std::uint32_t(s), sight.picks(std::uint32_t(s)));
+            result.place[s] =
+                patchHits.placeFor(std::uint32_t(s), patchHits.picks(std::uint32_t(s)));
     });
     SurfelSet moved = set;
     moveSurfels(trace.scene(), result.place, moved);
@@ -310,23 +312,23 @@ SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
     connectSurfels(lookup, trace.scene(), atlas.layout, caches, moved.surfels);
     result.cache = moved.surfels.cache;
     result.cacheWeight = moved.surfels.cacheWeight;
-    std::vector<float> wrong(count);
+    std::vector<float> errors(count);
     parallelRanges(count, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t s = first; s < last; ++s)
-            wrong[s] = wrongness(sight, moved.surfels, std::uint32_t(s));
+            errors[s] = cacheError(patchHits, moved.surfels, std::uint32_t(s));
     });
-    result.ownCache.assign(count, ~0U);
-    for (const WrongGroup& group :
-         worstGroups(moved.surfels, wrong,
-                     std::min(std::size_t(caches.lightmapCount / kCachesPerOwn),
-                              freeTexels(atlas.layout, caches).size()))) {
+    result.surfelCache.assign(count, ~0U);
+    for (const ErrorGroup& group :
+         largestGroups(moved.surfels, errors,
+                       std::min(std::size_t(caches.lightmapCount / kCachesPerSurfelCache),
+                                freeTexels(atlas.layout, caches).size()))) {
         for (const std::uint32_t s : group.surfels)
-            result.ownCache[s] = std::uint32_t(result.own.size());
-        result.own.push_back(ownCache(sight, moved.surfels, group.surfels));
+            result.surfelCache[s] = std::uint32_t(result.surfelCaches.size());
+        result.surfelCaches.push_back(makeSurfelCache(patchHits, moved.surfels, group.surfels));
     }
     result.rays = std::uint64_t(caches.lightmapCount) * rays + lookup.rays();
     for (std::size_t s = 0; s < count; ++s)
-        result.rays += sight.begin[s] < sight.begin[s + 1] ? rays : 0;
+        result.rays += patchHits.begin[s] < patchHits.begin[s + 1] ? rays : 0;
     return result;
 }
 
@@ -341,26 +343,27 @@ void moveSurfels(const Scene& scene, const std::vector<MeshPoint>& place, Surfel
     for (std::uint32_t i = 0; i < s.size(); ++i) {
         if (s.triangle[i] == place[i].triangle && s.barycentric[i] == place[i].barycentric)
             continue;
-        const WorldPoint at = placeOf(scene, set, i, place[i]);
-        s.position[i] = at.position;
-        s.normal[i] = at.normal;
+        const WorldPoint point = placeOf(scene, set, i, place[i]);
+        s.position[i] = point.position;
+        s.normal[i] = point.normal;
         s.triangle[i] = place[i].triangle;
         s.barycentric[i] = place[i].barycentric;
     }
 }
 
-void addOwnCaches(const Scene& scene, const LightmapLayout& layout, const SeenPatches& seen,
-                  Surfels& surfels, Caches& caches, CachePoints& points) {
+void addSurfelCaches(const Scene& scene, const LightmapLayout& layout, const SeenPatches& seen,
+                     Surfels& surfels, Caches& caches, CachePoints& points) {
     const std::vector<std::uint32_t> texels = freeTexels(layout, caches);
     const std::uint32_t first = caches.lightmapCount;
-    for (std::size_t i = 0; i < seen.own.size(); ++i) {
-        const OwnCache& own = seen.own[i];
-        addSurfaceCache(scene, {texels[i], own.instance, own.back, 0, own.count, own.points},
+    for (std::size_t i = 0; i < seen.surfelCaches.size(); ++i) {
+        const SurfelCache& cache = seen.surfelCaches[i];
+        addSurfaceCache(scene,
+                        {texels[i], cache.instance, cache.back, 0, cache.count, cache.points},
                         caches, points);
     }
     for (std::size_t s = 0; s < surfels.size(); ++s)
-        if (seen.ownCache[s] != ~0U) {
-            surfels.cache[s] = glm::uvec4(first + seen.ownCache[s], ~0U, ~0U, ~0U);
+        if (seen.surfelCache[s] != ~0U) {
+            surfels.cache[s] = glm::uvec4(first + seen.surfelCache[s], ~0U, ~0U, ~0U);
             surfels.cacheWeight[s] = glm::vec4(1, 0, 0, 0);
         }
 }

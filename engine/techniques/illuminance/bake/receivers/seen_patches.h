@@ -12,12 +12,13 @@
 
 namespace limn {
 
-/// Number of lightmap caches for each own cache: there is at most one own cache per this many.
-inline constexpr std::uint32_t kCachesPerOwn = 20;
+/// Number of lightmap caches for each surfel cache: there is at most one surfel cache per this
+/// many.
+inline constexpr std::uint32_t kCachesPerSurfelCache = 20;
 
-/// An own cache: only a few surfels read it, and it gathers over the part of their patches that
+/// A cache that only a few surfels read. It gathers over the part of their patches that
 /// caches see.
-struct OwnCache {
+struct SurfelCache {
     std::uint32_t instance = 0, back = 0; ///< as AtlasTexel
     std::uint32_t count = 0;              ///< number of points, [1, AtlasTexel::kMaxPoints]
     std::array<MeshPoint, AtlasTexel::kMaxPoints> points{};
@@ -27,12 +28,12 @@ struct OwnCache {
 /// wall, on other sides of a bar, out of doors.
 struct SeenPatches {
     std::vector<MeshPoint> place; ///< per surfel: its place on its patch
-    /// Per surfel, Surfels::cache and cacheWeight before own caches are added.
+    /// Per surfel, Surfels::cache and cacheWeight before surfel caches are added.
     std::vector<glm::uvec4> cache;
     std::vector<glm::vec4> cacheWeight;
-    std::vector<OwnCache> own;
-    std::vector<std::uint32_t> ownCache; ///< per surfel: index into `own`; ~0: none
-    std::uint64_t rays = 0;              ///< rays traced for this result
+    std::vector<SurfelCache> surfelCaches;
+    std::vector<std::uint32_t> surfelCache; ///< per surfel: index into `surfelCaches`; ~0: none
+    std::uint64_t rays = 0;                 ///< rays traced for this result
 };
 
 /// Finds where surfels are seen by shooting `rays` rays from every lightmap cache; with 0 rays
@@ -47,10 +48,10 @@ struct SeenPatches {
 /// that of the seen part.
 ///
 /// A surfel whose lightmap caches see a share of the sky that differs from its own by a tenth or
-/// more reads an own cache, which it shares with such surfels beside it. Own caches go where the
-/// difference times the number of rays is largest: at most one per kCachesPerOwn lightmap caches,
-/// and no more than the atlas has texels that no lookup needs. `caches`: the lightmap's. The result
-/// is meaningless when cancelled.
+/// more reads a surfel cache, which it shares with such surfels beside it. Surfel caches go where
+/// the difference times the number of rays is largest: at most one per kCachesPerSurfelCache
+/// lightmap caches, and no more than the atlas has texels that no lookup needs. `caches`: the
+/// lightmap's. The result is meaningless when cancelled.
 SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
                             const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
                             const CachePoints& points, std::uint32_t rays,
@@ -63,8 +64,8 @@ void placeSeen(const Scene& scene, const SeenPatches& seen, SurfelSet& set);
 /// Moves surfels to `place`. Surfels that stay keep every bit.
 void moveSurfels(const Scene& scene, const std::vector<MeshPoint>& place, SurfelSet& set);
 
-/// Appends the own caches, in texels that no lookup needs, and makes their surfels read them.
-void addOwnCaches(const Scene& scene, const LightmapLayout& layout, const SeenPatches& seen,
-                  Surfels& surfels, Caches& caches, CachePoints& points);
+/// Appends the surfel caches, in texels that no lookup needs, and makes their surfels read them.
+void addSurfelCaches(const Scene& scene, const LightmapLayout& layout, const SeenPatches& seen,
+                     Surfels& surfels, Caches& caches, CachePoints& points);
 
 } // namespace limn

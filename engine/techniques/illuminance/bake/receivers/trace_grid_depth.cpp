@@ -48,11 +48,11 @@ struct DepthMaker {
     }
 
     void cell(std::uint32_t cache, std::uint16_t* out) const {
-        const RawHit* own = hits.data() + std::size_t(cache) * rays;
+        const RawHit* cacheHits = hits.data() + std::size_t(cache) * rays;
         std::uint32_t backs = 0;
         for (std::uint32_t r = 0; r < rays; ++r)
-            backs += (own[r] & kBack) ? 1 : 0; // kUntraced has the bit too
-        if (2 * backs > rays) {                // in a solid, by the same rule as for its light
+            backs += (cacheHits[r] & kBack) ? 1 : 0; // kUntraced has the bit too
+        if (2 * backs > rays) { // in a solid, by the same rule as for its light
             std::fill_n(out, kGridDepthTexels, std::uint16_t(0xffff));
             return;
         }
@@ -77,7 +77,7 @@ struct DepthMaker {
                 for (std::uint32_t r = 0; r < rays; ++r)
                     offer(i, r);
             const float inverse =
-                inverseDepth(from, way[nearest[i]], own[nearest[i]], gridDepthPoint(i));
+                inverseDepth(from, way[nearest[i]], cacheHits[nearest[i]], gridDepthPoint(i));
             out[i] = std::uint16_t(
                 std::lround(std::clamp(inverse * reach / kGridDepthScale, 0.f, 1.f) * 65535));
         }

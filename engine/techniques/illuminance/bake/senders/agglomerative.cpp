@@ -22,8 +22,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// A cluster in the metric's coordinates. 1 - m_a . m_b = |m_a - m_b|^2 / 2 + (1 - |m_a|^2) / 2 +
 /// (1 - |m_b|^2) / 2, free of cancellation where normals agree.
 struct Cluster {
-    std::array<float, 6> at; ///< metricCoordinates
-    float spread;            ///< C_n (1 - |m|^2) / 2, >= 0
+    std::array<float, 6> coordinates; ///< metricCoordinates
+    float spread;                     ///< C_n (1 - |m|^2) / 2, >= 0
     float area;
 };
 
@@ -33,8 +33,9 @@ Cluster merged(const Cluster& a, const Cluster& b, float normalWeight) {
     const float w = b.area / c.area;
     float m2 = 0;
     for (std::size_t k = 0; k < 6; ++k) {
-        c.at[k] = a.at[k] + (b.at[k] - a.at[k]) * w; // exact where both are equal
-        m2 += k < 3 ? 0 : c.at[k] * c.at[k];
+        c.coordinates[k] = a.coordinates[k] +
+                           (b.coordinates[k] - a.coordinates[k]) * w; // exact where both are equal
+        m2 += k < 3 ? 0 : c.coordinates[k] * c.coordinates[k];
     }
     c.spread = std::max(normalWeight / 2 - m2, 0.f);
     return c;
@@ -53,8 +54,8 @@ struct Box {
     }
     void add(const Cluster& c, std::uint32_t number) {
         for (std::size_t k = 0; k < 6; ++k) {
-            lower[k] = std::min(lower[k], c.at[k]);
-            upper[k] = std::max(upper[k], c.at[k]);
+            lower[k] = std::min(lower[k], c.coordinates[k]);
+            upper[k] = std::max(upper[k], c.coordinates[k]);
         }
         minSpread = std::min(minSpread, c.spread);
         minArea = std::min(minArea, c.area);
@@ -77,7 +78,7 @@ struct Box {
 float distance(const Cluster& a, const Cluster& b, float balanceWeight) {
     float d = 0;
     for (std::size_t k = 0; k < 6; ++k) {
-        const float e = a.at[k] - b.at[k];
+        const float e = a.coordinates[k] - b.coordinates[k];
         d += e * e;
     }
     d += a.spread + b.spread;
@@ -87,7 +88,8 @@ float distance(const Cluster& a, const Cluster& b, float balanceWeight) {
 float bound(const Cluster& a, const Box& b, float balanceWeight) {
     float d = 0;
     for (std::size_t k = 0; k < 6; ++k) {
-        const float e = std::max(std::max(b.lower[k] - a.at[k], a.at[k] - b.upper[k]), 0.f);
+        const float e =
+            std::max(std::max(b.lower[k] - a.coordinates[k], a.coordinates[k] - b.upper[k]), 0.f);
         d += e * e;
     }
     d += a.spread + b.minSpread;
@@ -171,7 +173,7 @@ void ClusterIndex::split(std::size_t node, std::uint32_t begin, std::uint32_t en
     medianSplit<7>(std::span(m_slots).subspan(begin, end - begin),
                    [&](std::uint32_t i, std::size_t k) {
                        const Cluster& c = m_clusters[i];
-                       return k < 6 ? c.at[k] : octave * float(std::ilogb(c.area));
+                       return k < 6 ? c.coordinates[k] : octave * float(std::ilogb(c.area));
                    });
     const std::uint32_t middle = begin + (end - begin) / 2;
     split(2 * node + 1, begin, middle);

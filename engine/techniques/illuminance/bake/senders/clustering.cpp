@@ -43,10 +43,10 @@ private:
 std::array<float, 6> metricCoordinates(const ClusterItem& item, const ClusterMetric& metric) {
     const glm::vec3 x = item.position / metric.extent,
                     m = item.normal * std::sqrt(metric.normalWeight / 2);
-    std::array<float, 6> at = {x.x, x.y, x.z, m.x, m.y, m.z};
-    for (float& v : at)
+    std::array<float, 6> scaled = {x.x, x.y, x.z, m.x, m.y, m.z};
+    for (float& v : scaled)
         v = std::isfinite(v) ? std::clamp(v, -1e9f, 1e9f) : 0;
-    return at;
+    return scaled;
 }
 
 MergeTree clusterByMedian(std::span<const ClusterItem> items, const ClusterMetric& metric) {

@@ -16,7 +16,7 @@
 
 namespace limn {
 
-const SurfelOwners& OwnerTables::of(std::uint32_t mesh) const {
+const SurfelOwners& OwnerTables::tableOf(std::uint32_t mesh) const {
     Lazy& lazy = m_tables[mesh];
     std::call_once(lazy.once, [&] {
         // Isolated: a thread that waits for its helpers must not begin another cache and come back
@@ -44,7 +44,7 @@ static void forOwnedCells(const Scene& scene, const OwnerTables& owners, std::ui
     const std::uint32_t sides = isTwoSided(scene.materialOf(placed)) ? 2 : 1;
     for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
         const auto area = double(triangleWorldArea(scene, placed, t));
-        owners.of(placed.mesh).forCellsOf(t, [&](const SurfelOwners::Cell& c) {
+        owners.tableOf(placed.mesh).forCellsOf(t, [&](const SurfelOwners::Cell& c) {
             for (std::uint32_t back = 0; back < sides; ++back) {
                 const std::uint32_t parts =
                     owners.isSplit(instance, c.index, back != 0) ? SurfelOwners::kParts : 1;
@@ -105,7 +105,7 @@ std::vector<float> lampExtents(const Scene& scene, const SurfelSet& set,
         struct Moments {
             double area = 0, squared = 0;
         };
-        std::vector<Moments> of(set.instanceBegin[instance + 1] - first);
+        std::vector<Moments> moments(set.instanceBegin[instance + 1] - first);
         forOwnedCells(scene, owners, instance,
                       [&](std::uint32_t surfel, std::uint32_t t, glm::vec2 uv, double area) {
                           const glm::vec3 away =
@@ -114,14 +114,14 @@ std::vector<float> lampExtents(const Scene& scene, const SurfelSet& set,
                               set.surfels.position[surfel];
                           const double whole = double(triangleWorldArea(scene, placed, t));
                           const double share = whole > 0 ? area / whole : 0;
-                          Moments& m = of[surfel - first];
+                          Moments& m = moments[surfel - first];
                           m.area += area;
                           m.squared += area * (double(glm::dot(away, away)) +
                                                share * secondMoment(scene, placed, t));
                       });
-        for (std::size_t s = 0; s < of.size(); ++s)
-            if (of[s].area > 0)
-                result[first + s] = float(std::sqrt(of[s].squared / of[s].area));
+        for (std::size_t s = 0; s < moments.size(); ++s)
+            if (moments[s].area > 0)
+                result[first + s] = float(std::sqrt(moments[s].squared / moments[s].area));
     });
     return result;
 }

@@ -37,21 +37,21 @@ public:
     const PatchSides& sides() const { return m_sides; }
 
     /// Table of a mesh. Thread-safe. Precondition: the mesh has surfels.
-    const SurfelOwners& of(std::uint32_t mesh) const;
+    const SurfelOwners& tableOf(std::uint32_t mesh) const;
 
     /// Length of PatchSides::owner for an instance with surfels.
     std::uint64_t cellsOf(std::uint32_t instance) const {
         const Instance& i = m_scene.instances[instance];
-        return std::uint64_t(of(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
+        return std::uint64_t(tableOf(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
     }
 
     /// The surfel of the scene that stands for a place in the table of an instance's mesh.
     std::uint32_t ofCell(std::uint32_t instance, SurfelOwners::Place place, bool back) const {
         const std::uint32_t first = m_set.instanceBegin[instance],
-                            own = entry(instance, place.cell, back);
-        if (!(own & PatchSides::kSplit))
-            return first + own;
-        const std::size_t cell = own & ~PatchSides::kSplit;
+                            owned = entry(instance, place.cell, back);
+        if (!(owned & PatchSides::kSplit))
+            return first + owned;
+        const std::size_t cell = owned & ~PatchSides::kSplit;
         return first + m_sides.parts[instance][cell * SurfelOwners::kParts + place.part];
     }
 
@@ -61,16 +61,16 @@ public:
     }
 
     /// The surfel of the scene that stands for a point; `back` only on two-sided instances.
-    std::uint32_t at(std::uint32_t instance, std::uint32_t triangle, float u, float v,
-                     bool back) const {
-        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+    std::uint32_t surfelAt(std::uint32_t instance, std::uint32_t triangle, float u, float v,
+                           bool back) const {
+        const SurfelOwners& owners = tableOf(m_scene.instances[instance].mesh);
         return ofCell(instance, owners.cellAt(triangle, u, v), back);
     }
 
 private:
     /// As PatchSides::owner.
     std::uint32_t entry(std::uint32_t instance, std::uint32_t cell, bool back) const {
-        const SurfelOwners& owners = of(m_scene.instances[instance].mesh);
+        const SurfelOwners& owners = tableOf(m_scene.instances[instance].mesh);
         if (m_sides.owner.empty() || m_sides.owner[instance].empty())
             return owners.front(cell) + (back ? owners.frontCount() : 0);
         return m_sides.owner[instance][cell + (back ? owners.cells() : 0)];

@@ -158,10 +158,10 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
             owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
                 const auto size = float(std::sqrt(cell.share / 2)); // smaller where it is cut
                 const std::uint32_t near = owners.front(cell.index),
-                                    own = patches.ownerOf({t, cell.middle * 0.999f}, size, near,
-                                                          side == 1);
-                result[side * owners.cells() + cell.index] = own;
-                if (own != first + near)
+                                    surfel = patches.ownerOf({t, cell.middle * 0.999f}, size, near,
+                                                             side == 1);
+                result[side * owners.cells() + cell.index] = surfel;
+                if (surfel != first + near)
                     differs = true;
             });
         }
@@ -178,18 +178,18 @@ bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owne
                   std::uint32_t triangle, const SurfelOwners::Cell& cell, bool back,
                   PairsTogether& pairs) {
     const SurfelOwners& owners = patches.owners;
-    const std::uint32_t side = back ? owners.cells() : 0, own = owner[side + cell.index];
+    const std::uint32_t side = back ? owners.cells() : 0, surfel = owner[side + cell.index];
     const Surfels& s = patches.set.surfels;
     const std::uint32_t first = patches.set.instanceBegin[patches.instance];
     for (const glm::vec2 step :
          {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
-        const glm::vec2 at = cell.middle + cell.side * step;
-        if (!(at.x > 0 && at.y > 0 && at.x + at.y < 1))
+        const glm::vec2 uv = cell.middle + cell.side * step;
+        if (!(uv.x > 0 && uv.y > 0 && uv.x + uv.y < 1))
             continue;
-        const std::uint32_t beside = owner[side + owners.cellAt(triangle, at.x, at.y).cell];
-        if (beside == own)
+        const std::uint32_t beside = owner[side + owners.cellAt(triangle, uv.x, uv.y).cell];
+        if (beside == surfel)
             continue;
-        const auto [pair, isNew] = pairs.try_emplace(std::minmax(own, beside));
+        const auto [pair, isNew] = pairs.try_emplace(std::minmax(surfel, beside));
         if (isNew)
             pair->second =
                 patches.together({patches.raised[pair->first.first], false},
@@ -215,15 +215,15 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
     std::map<std::uint32_t, Parts> found; // by index into `owner`
     std::mutex mutex;
     const auto split = [&](std::uint32_t t, const SurfelOwners::Cell& cell, bool back) {
-        const std::uint32_t at = cell.index + (back ? owners.cells() : 0), own = owner[at];
+        const std::uint32_t entry = cell.index + (back ? owners.cells() : 0), surfel = owner[entry];
         const auto ownerAt = [&](glm::vec2 offset) { // [cells] from the middle
             const glm::vec2 uv = cell.middle + offset * cell.side;
-            return uv.x + uv.y < 1 ? patches.ownerOfPart({t, uv}, own, back) : own;
+            return uv.x + uv.y < 1 ? patches.ownerOfPart({t, uv}, surfel, back) : surfel;
         };
         bool crossed = false;
         for (const float x : {-kToCorner, kToCorner})
             for (const float y : {-kToCorner, kToCorner})
-                crossed = crossed || ownerAt({x, y}) != own;
+                crossed = crossed || ownerAt({x, y}) != surfel;
         if (!crossed)
             return;
         Parts parts;
@@ -231,7 +231,7 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
             parts[k] = ownerAt(
                 (glm::vec2(float(k % kAcross), float(k / kAcross)) + 0.5f) / float(kAcross) - 0.5f);
         const std::lock_guard lock(mutex);
-        found.emplace(at, parts);
+        found.emplace(entry, parts);
     };
     owners.forTriangles(scene.meshOf(instance), progress, [&](std::uint32_t t) {
         PairsTogether pairs;
@@ -261,14 +261,14 @@ void noteChanges(const SurfelOwners& owners, const MeshSurfels& surfels, std::ui
         if (parted[c] == before)
             continue;
         const bool split = parted[c] & PatchSides::kSplit;
-        const std::span<const std::uint32_t> own =
+        const std::span<const std::uint32_t> owned =
             split ? parts.subspan(std::size_t(parted[c] & ~PatchSides::kSplit) * kParts, kParts)
                   : std::span(&parted[c], 1);
         std::uint64_t hash = hashValue(c, 1);
-        for (const std::uint32_t s : own)
+        for (const std::uint32_t s : owned)
             hash = hashValue(s, hash);
         changed[first + before] = hashValue(hash, changed[first + before]);
-        for (const std::uint32_t s : own)
+        for (const std::uint32_t s : owned)
             changed[first + s] = hashValue(hash, changed[first + s]);
     }
 }
@@ -289,7 +289,7 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
             if (set.instanceBegin[i] == set.instanceBegin[i + 1] || surfels.frontCount < 2)
                 continue;
             const NearestPoint nearest = nearestFront(surfels);
-            Patches patches{trace, set, owners.of(mesh), i, nearest, rays};
+            Patches patches{trace, set, owners.tableOf(mesh), i, nearest, rays};
             patches.raiseSurfels();
             result.owner[i] = partedOwners(patches, progress);
             result.parts[i] = splitCells(patches, progress, result.owner[i]);
@@ -300,7 +300,7 @@ PatchSides findPatchSides(const TraceScene& trace, const SurfelSet& set, const O
             continue;
         const std::uint32_t mesh = scene.instances[i].mesh;
         result.changed.resize(set.surfels.size());
-        noteChanges(owners.of(mesh), set.meshes[mesh], set.instanceBegin[i], result.owner[i],
+        noteChanges(owners.tableOf(mesh), set.meshes[mesh], set.instanceBegin[i], result.owner[i],
                     result.parts[i], result.changed);
     }
     result.rays = rays;

@@ -104,9 +104,9 @@ void relax(const Mesh& mesh, float spacing, const MeshDensity& density,
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const MeshPoint& p = points[i];
             position[i] = trianglePoint(mesh, p.triangle, p.barycentric);
-            const auto own =
+            const auto lower =
                 std::ranges::lower_bound(densities, density.at(p.triangle, p.barycentric));
-            alike[std::size_t(own - densities.begin())].push_back(i);
+            alike[std::size_t(lower - densities.begin())].push_back(i);
         }
         for (std::size_t d = 0; d < densities.size(); ++d) {
             if (alike[d].empty())

@@ -22,8 +22,8 @@ NearestPoint nearestFront(const MeshSurfels& surfels) {
 bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
     bool within = true;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
-        forCells(m_density.side(t), [&](glm::uvec2 at) {
-            const Block& block = m_blocks[blockOf(t, at)];
+        forCells(m_density.side(t), [&](glm::uvec2 cell) {
+            const Block& block = m_blocks[blockOf(t, cell)];
             const std::uint64_t n = block.resolution, end = block.begin + n * n;
             within = within && n > 0 && n < (1U << 16) && end <= m_owner.size();
         });
@@ -35,7 +35,7 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     // it at most.
     constexpr float kCellsPerSpacing = 3, kMaxCells = 1024;
     const MeshDensity& density = surfels.density;
-    const double worth = summedWorth(mesh, density) / surfels.frontCount; // of a surfel
+    const double weight = summedWeight(mesh, density) / surfels.frontCount; // of a surfel
     m_density = {density.level, density.begin, {}};
     m_blocks.resize(density.uniform() ? mesh.triangleCount() : density.density.size());
     // Needle-shaped triangles have long sides and almost no area. Their cells must not outnumber
@@ -44,22 +44,22 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
     double inAll = 0;
     const auto forBlocks = [&](const auto& visit) {
         for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
-            forCells(density.side(t), [&](glm::uvec2 at) { visit(t, at); });
+            forCells(density.side(t), [&](glm::uvec2 cell) { visit(t, cell); });
     };
-    forBlocks([&](std::uint32_t t, glm::uvec2 at) {
+    forBlocks([&](std::uint32_t t, glm::uvec2 cell) {
         const auto [a, b, c] = mesh.triangle(t);
         const float longest = std::max(glm::length(mesh.positions[b] - mesh.positions[a]),
                                        glm::length(mesh.positions[c] - mesh.positions[a])),
-                    area = float(worth / double(density.density[density.cell(t, at)])),
+                    area = float(weight / double(density.density[density.cell(t, cell)])),
                     spacing = std::sqrt(std::max(area, 1e-30f)) * float(density.side(t));
         const float n =
             std::clamp(std::ceil(longest / spacing * kCellsPerSpacing - 0.5f), 1.f, kMaxCells);
-        m_blocks[blockOf(t, at)].resolution = std::uint32_t(n);
+        m_blocks[blockOf(t, cell)].resolution = std::uint32_t(n);
         inAll += double(n) * double(n);
     });
     std::uint32_t cells = 0;
-    forBlocks([&](std::uint32_t t, glm::uvec2 at) {
-        Block& block = m_blocks[blockOf(t, at)];
+    forBlocks([&](std::uint32_t t, glm::uvec2 cell) {
+        Block& block = m_blocks[blockOf(t, cell)];
         if (inAll > maxInAll)
             block.resolution =
                 std::uint32_t(std::max(1.0, block.resolution * std::sqrt(maxInAll / inAll)));

@@ -27,7 +27,7 @@ public:
 
     /// Index into the MeshSurfels. Precondition: the mesh has surfels; `back` only on two-sided
     /// ones.
-    std::uint32_t at(std::uint32_t triangle, float u, float v, bool back) const {
+    std::uint32_t surfelAt(std::uint32_t triangle, float u, float v, bool back) const {
         return m_owner[cellAt(triangle, u, v).cell] + (back ? m_frontCount : 0);
     }
 
@@ -37,15 +37,16 @@ public:
     };
     /// The place in the table at barycentrics (u, v) of a triangle.
     Place cellAt(std::uint32_t triangle, float u, float v) const {
-        const glm::uvec2 at = m_density.cellAt(triangle, {u, v});
+        const glm::uvec2 densityCell = m_density.cellAt(triangle, {u, v});
         const auto side = float(m_density.side(triangle));
-        const Block& block = m_blocks[blockOf(triangle, at)];
+        const Block& block = m_blocks[blockOf(triangle, densityCell)];
         const std::uint32_t n = block.resolution;
         const auto step = [](float x, std::uint32_t steps) { // rounding may leave [0, 1)
             return std::min(std::uint32_t(std::max(x * float(steps), 0.f)), steps - 1);
         };
-        const glm::vec2 in = glm::vec2(u, v) * side - glm::vec2(at);
-        const std::uint32_t i = step(in.x, n), j = std::min(step(in.y, n), last(at, side, n, i));
+        const glm::vec2 in = glm::vec2(u, v) * side - glm::vec2(densityCell);
+        const std::uint32_t i = step(in.x, n),
+                            j = std::min(step(in.y, n), last(densityCell, side, n, i));
         return {block.begin + j * n + i, step(in.y * float(n) - float(j), kAcross) * kAcross +
                                              step(in.x * float(n) - float(i), kAcross)};
     }
@@ -64,17 +65,18 @@ public:
     template <class Visit>
     void forCellsOf(std::uint32_t triangle, const Visit& visit) const {
         const std::uint32_t side = m_density.side(triangle);
-        forCells(side, [&](glm::uvec2 at) {
-            const Block& block = m_blocks[blockOf(triangle, at)];
+        forCells(side, [&](glm::uvec2 densityCell) {
+            const Block& block = m_blocks[blockOf(triangle, densityCell)];
             const std::uint32_t n = block.resolution;
             const double square = 2 / (double(side) * side * n * n);
             const auto width = float(std::sqrt(square / 2));
             for (std::uint32_t j = 0; j < n; ++j)
-                for (std::uint32_t i = 0; i < n && j <= last(at, float(side), n, i); ++i) {
+                for (std::uint32_t i = 0; i < n && j <= last(densityCell, float(side), n, i); ++i) {
                     const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
-                    const bool cut = at.x + at.y + 1 == side && i + j + 1 == n;
-                    visit(Cell{block.begin + j * n + i, (glm::vec2(at) + middle) / float(side),
-                               width, cut ? square / 2 : square});
+                    const bool cut = densityCell.x + densityCell.y + 1 == side && i + j + 1 == n;
+                    visit(Cell{block.begin + j * n + i,
+                               (glm::vec2(densityCell) + middle) / float(side), width,
+                               cut ? square / 2 : square});
                 }
         });
     }
@@ -103,12 +105,13 @@ private:
         std::uint32_t resolution; ///< cells along u and v
     };
 
-    std::uint32_t blockOf(std::uint32_t triangle, glm::uvec2 at) const {
-        return m_density.uniform() ? triangle : m_density.cell(triangle, at);
+    std::uint32_t blockOf(std::uint32_t triangle, glm::uvec2 densityCell) const {
+        return m_density.uniform() ? triangle : m_density.cell(triangle, densityCell);
     }
     /// The last cell of column i that meets the triangle.
-    static std::uint32_t last(glm::uvec2 at, float side, std::uint32_t n, std::uint32_t i) {
-        return float(at.x + at.y + 1) < side ? n - 1 : n - 1 - i;
+    static std::uint32_t last(glm::uvec2 densityCell, float side, std::uint32_t n,
+                              std::uint32_t i) {
+        return float(densityCell.x + densityCell.y + 1) < side ? n - 1 : n - 1 - i;
     }
     /// Whether the blocks that are read lie within m_owner.
     bool blocksLieWithin(const Mesh& mesh) const;

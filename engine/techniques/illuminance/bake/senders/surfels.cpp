@@ -92,18 +92,19 @@ std::vector<std::uint32_t> minSurfels(const Scene& scene, const std::vector<doub
 }
 
 /// Weight of a cell: its area times its density.
-double worthOf(const Mesh& mesh, const MeshDensity& density, std::uint32_t triangle,
-               glm::uvec2 at) {
-    return triangleArea(mesh, triangle) * density.share(triangle, at) *
-           double(density.density[density.cell(triangle, at)]);
+double cellWeight(const Mesh& mesh, const MeshDensity& density, std::uint32_t triangle,
+                  glm::uvec2 cell) {
+    return triangleArea(mesh, triangle) * density.share(triangle, cell) *
+           double(density.density[density.cell(triangle, cell)]);
 }
 
 } // namespace
 
-double summedWorth(const Mesh& mesh, const MeshDensity& density) {
+double summedWeight(const Mesh& mesh, const MeshDensity& density) {
     double sum = 0;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
-        forCells(density.side(t), [&](glm::uvec2 at) { sum += worthOf(mesh, density, t, at); });
+        forCells(density.side(t),
+                 [&](glm::uvec2 cell) { sum += cellWeight(mesh, density, t, cell); });
     return sum;
 }
 
@@ -121,7 +122,7 @@ std::vector<double> meanDensities(const Scene& scene, std::span<const MeshDensit
     std::vector<double> mean(scene.assets->meshes.size(), 1);
     for (std::size_t m = 0; m < density.size(); ++m)
         if (const double area = summedArea(scene.assets->meshes[m]); area > 0)
-            mean[m] = summedWorth(scene.assets->meshes[m], density[m]) / area;
+            mean[m] = summedWeight(scene.assets->meshes[m], density[m]) / area;
     return mean;
 }
 
@@ -190,25 +191,25 @@ private:
 };
 
 /// Maps a point of the unit square to cell `at`; returns barycentrics of the triangle.
-glm::vec2 sampleCell(std::uint32_t side, glm::uvec2 at, glm::vec2 square) {
-    if (at.x + at.y + 1 == side)
+glm::vec2 sampleCell(std::uint32_t side, glm::uvec2 cell, glm::vec2 square) {
+    if (cell.x + cell.y + 1 == side)
         square = sampleTriangle(square);
-    return (glm::vec2(at) + square) / float(side);
+    return (glm::vec2(cell) + square) / float(side);
 }
 
 /// Point i lies in the cell at (i + 1/2)/count of the summed worth, `total`.
-std::vector<MeshPoint> pointsByWorth(const Mesh& mesh, std::uint32_t count,
-                                     const MeshDensity& density, double total,
-                                     SurfelPlacement placement) {
+std::vector<MeshPoint> pointsByWeight(const Mesh& mesh, std::uint32_t count,
+                                      const MeshDensity& density, double total,
+                                      SurfelPlacement placement) {
     std::vector<MeshPoint> points;
     Xorshift random;
     double passed = 0;
     const auto lastTriangle = std::uint32_t(mesh.triangleCount() - 1);
     for (std::uint32_t t = 0; t <= lastTriangle; ++t) {
         const std::uint32_t side = density.side(t);
-        forCells(side, [&](glm::uvec2 at) {
-            passed += worthOf(mesh, density, t, at);
-            const bool last = t == lastTriangle && at.y + 1 == side;
+        forCells(side, [&](glm::uvec2 cell) {
+            passed += cellWeight(mesh, density, t, cell);
+            const bool last = t == lastTriangle && cell.y + 1 == side;
             while (points.size() < count &&
                    (last || double(points.size()) + 0.5 <= passed / total * count)) {
                 const auto i = std::uint32_t(points.size());
@@ -217,7 +218,7 @@ std::vector<MeshPoint> pointsByWorth(const Mesh& mesh, std::uint32_t count,
                     square.x = random.next();
                     square.y = random.next();
                 }
-                points.push_back({t, sampleCell(side, at, square)});
+                points.push_back({t, sampleCell(side, cell, square)});
             }
         });
     }
@@ -274,10 +275,10 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
     MeshSurfels result;
     result.frontCount = count;
     result.area = float(total / count);
-    const double worth = summedWorth(mesh, density);
-    std::vector<MeshPoint> points = pointsByWorth(mesh, count, density, worth, placement);
+    const double weight = summedWeight(mesh, density);
+    std::vector<MeshPoint> points = pointsByWeight(mesh, count, density, weight, placement);
     if (placement == SurfelPlacement::Relaxed)
-        relax(mesh, hexagonalSpacing(float(worth / count)), density, points, progress);
+        relax(mesh, hexagonalSpacing(float(weight / count)), density, points, progress);
     if (!density.uniform())
         result.areas = areasOf(points, density, total);
     result.density = std::move(density);

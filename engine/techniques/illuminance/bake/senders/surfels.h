@@ -28,7 +28,7 @@ struct MeshSurfels {
 };
 
 /// A mesh's area times its density, summed over the density's cells [object space].
-double summedWorth(const Mesh& mesh, const MeshDensity& density);
+double summedWeight(const Mesh& mesh, const MeshDensity& density);
 
 /// Places `count` >= 1 points in proportion to area times density. Point i starts in the cell at (i
 /// + 1/2)/count of the mesh's sum of those, so that the share of small triangles carries over to

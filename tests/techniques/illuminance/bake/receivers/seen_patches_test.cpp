@@ -93,7 +93,7 @@ TEST(SeenPatches, APatchHalfBehindAPlateStandsWhereTheRoomSeesIt) {
         const Hit hit = p.trace.closestHit({from, {0, 1, 0}});
         ASSERT_EQ(hit.instance, 0U);
         const glm::vec3 place =
-            p.set.surfels.position[p.owners.at(0, hit.triangle, hit.u, hit.v, false)];
+            p.set.surfels.position[p.owners.surfelAt(0, hit.triangle, hit.u, hit.v, false)];
         ++asked;
         behind += std::max(std::abs(place.x), std::abs(place.z)) < 1;
     }
@@ -137,20 +137,20 @@ TEST(SeenPatches, CachesOfTheirOwnTakeTexelsThatNoLookupNeeds) {
     scene.bake.lightmapCaches = 1000; // so coarse that lookups at the wall read beyond it
     Prepared p(scene);
     const std::uint32_t texels = p.caches.lightmapCount;
-    const std::size_t own = p.seen.own.size();
+    const std::size_t own = p.seen.surfelCaches.size();
     ASSERT_GT(own, 0U);
     EXPECT_LE(own, texels / 20);
     placeSeen(p.trace.scene(), p.seen, p.set);
     Surfels& s = p.set.surfels;
     const Surfels before = s;
-    addOwnCaches(p.trace.scene(), p.atlas.layout, p.seen, s, p.caches, p.points);
+    addSurfelCaches(p.trace.scene(), p.atlas.layout, p.seen, s, p.caches, p.points);
     ASSERT_EQ(p.caches.lightmapCount, texels + own);
     const std::set<std::uint32_t> taken(p.caches.texel.begin(), p.caches.texel.end());
     EXPECT_EQ(taken.size(), texels + own) << "each a texel of its own";
     EXPECT_LT(*taken.rbegin(), p.atlas.layout.width * p.atlas.layout.height);
     std::set<std::uint32_t> read;
     for (std::uint32_t i = 0; i < s.size(); ++i) {
-        if (p.seen.ownCache[i] == ~0U) {
+        if (p.seen.surfelCache[i] == ~0U) {
             EXPECT_EQ(s.cache[i], before.cache[i]);
             continue;
         }

@@ -30,7 +30,7 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
     std::vector<float> side; // cells along a triangle's sides: of n, n (n + 1) / 2 meet it
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
         float cells = 0;
-        owners.of(0).forCellsOf(t, [&](const SurfelOwners::Cell&) { ++cells; });
+        owners.tableOf(0).forCellsOf(t, [&](const SurfelOwners::Cell&) { ++cells; });
         side.push_back(std::floor(std::sqrt(2 * cells)));
     }
     for (int i = 0; i < 20000; ++i) {
@@ -40,7 +40,7 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
                     cells = std::max(kWall - x, x - kWall - wall) * side[t] / 8;
         if (cells < from)
             continue;
-        const std::uint32_t owner = owners.at(0, t, uv.x, uv.y, false);
+        const std::uint32_t owner = owners.surfelAt(0, t, uv.x, uv.y, false);
         EXPECT_EQ(set.surfels.instance[owner], 0U);
         beyond += (set.surfels.position[owner].x < kWall) != (x < kWall);
     }
@@ -129,7 +129,7 @@ Strangers acrossPlateEdge(const Scene& scene, const SurfelSet& set, const OwnerT
     Strangers result;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
         float cells = 0;
-        owners.of(0).forCellsOf(t, [&](const SurfelOwners::Cell&) { ++cells; });
+        owners.tableOf(0).forCellsOf(t, [&](const SurfelOwners::Cell&) { ++cells; });
         const float cell = 8 / std::floor(std::sqrt(2 * cells));
         for (int i = 0; i < 20000; ++i) {
             const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
@@ -137,7 +137,7 @@ Strangers acrossPlateEdge(const Scene& scene, const SurfelSet& set, const OwnerT
             if (p.y < 2.999f)
                 break;
             const float outside = outsidePlate(p);
-            const std::uint32_t owner = owners.at(0, t, uv.x, uv.y, false);
+            const std::uint32_t owner = owners.surfelAt(0, t, uv.x, uv.y, false);
             if ((outsidePlate(set.surfels.position[owner]) > 0) == (outside > 0))
                 continue;
             result.open += outside > 0;
@@ -169,15 +169,15 @@ TEST(PatchSides, SayWhichSurfelsTheyChange) {
     const OwnerTables owners(scene, set);
     const PatchSides sides = findPatchSides(trace, set, owners, {});
     ASSERT_EQ(sides.changed.size(), set.surfels.size());
-    ASSERT_EQ(sides.owner[0].size(), owners.of(0).cells());
+    ASSERT_EQ(sides.owner[0].size(), owners.tableOf(0).cells());
     OwnerTables parted(scene, set);
     parted.part(sides);
     std::vector<bool> changed(set.surfels.size());
-    for (std::uint32_t c = 0; c < owners.of(0).cells(); ++c)
+    for (std::uint32_t c = 0; c < owners.tableOf(0).cells(); ++c)
         for (std::uint32_t part = 0; part < SurfelOwners::kParts; ++part) {
             const std::uint32_t own = parted.ofCell(0, {c, part}, false);
-            if (own != owners.of(0).front(c))
-                changed[own] = changed[owners.of(0).front(c)] = true;
+            if (own != owners.tableOf(0).front(c))
+                changed[own] = changed[owners.tableOf(0).front(c)] = true;
         }
     for (std::uint32_t s = 0; s < set.instanceBegin[1]; ++s)
         EXPECT_EQ(sides.changed[s] != 0, changed[s]) << s;

@@ -234,7 +234,7 @@ TEST(Placement, MeshesWithoutAreaGetNoSurfelsAndCauseNoHarm) {
     EXPECT_EQ(set.surfels.size(), 1000U);
     const MeshSurfels none = placeSurfels(flatShaded(line, 0), 300, true, SurfelPlacement::Relaxed);
     const SurfelOwners owners(flatShaded(line, 0), none);
-    EXPECT_LT(owners.at(0, 0.3f, 0.3f, false), 300U);
+    EXPECT_LT(owners.surfelAt(0, 0.3f, 0.3f, false), 300U);
 }
 
 TEST(Placement, SheetsOnTopOfOneAnotherStayFastAndFinite) {
@@ -263,7 +263,7 @@ TEST(SurfelOwners, NeedlesTakeNoMoreThanTheirShare) {
     const MeshSurfels s = placeSurfels(mesh, 100, false, SurfelPlacement::Relaxed);
     const SurfelOwners owners(mesh, s);
     for (std::uint32_t t = 0; t < 20000; t += 1000)
-        EXPECT_LT(owners.at(t, 0.5f, 0.4f, false), 100U);
+        EXPECT_LT(owners.surfelAt(t, 0.5f, 0.4f, false), 100U);
 }
 
 } // namespace

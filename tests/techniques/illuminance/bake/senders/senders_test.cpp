@@ -184,8 +184,8 @@ TEST(SurfelOwners, GiveANearbySurfelOfTheSameFace) {
         const auto [a, b, c] = mesh.triangle(t);
         const glm::vec3 p = mesh.positions[a] * (1 - uv.x - uv.y) + mesh.positions[b] * uv.x +
                             mesh.positions[c] * uv.y;
-        const std::uint32_t front = owners.at(t, uv.x, uv.y, false),
-                            back = owners.at(t, uv.x, uv.y, true);
+        const std::uint32_t front = owners.surfelAt(t, uv.x, uv.y, false),
+                            back = owners.surfelAt(t, uv.x, uv.y, true);
         EXPECT_LT(glm::length(surfels.position[front] - p), 4 * std::sqrt(surfels.area));
         EXPECT_GT(glm::dot(surfels.normal[front], mesh.normals[a]), 0.9f);
         EXPECT_LT(glm::dot(surfels.normal[back], mesh.normals[a]), -0.9f);
